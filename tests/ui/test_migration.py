@@ -23,7 +23,7 @@ def followed() -> list[str]:
 
 @pytest.fixture
 def window(qtbot: QtBot, followed: list[str]) -> MigrationWindow:
-    made = MigrationWindow(open_file(PRESS).file, PRESS, followed.append)
+    made = MigrationWindow(lambda: open_file(PRESS).file, PRESS, followed.append)
     qtbot.addWidget(made)
     made.target.set_answer("to", "linuxcnc")
     made.migrate()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import pytest
@@ -25,7 +25,14 @@ def applied() -> list[dict[Address, Value]]:
 
 @pytest.fixture
 def window(qtbot: QtBot, applied: list[dict[Address, Value]]) -> Iterator[ProgramWindow]:
-    made = ProgramWindow(open_file(ROUTER / "ROUTER.amp").file, lambda values: applied.append(dict(values)))
+    file = open_file(ROUTER / "ROUTER.amp").file
+
+    def apply(values: Mapping[Address, Value]) -> bool:
+        applied.append(dict(values))
+        file.take(values)
+        return True
+
+    made = ProgramWindow(file.copy, apply)
     qtbot.addWidget(made)
     yield made
     Task.end_all()
@@ -63,6 +70,9 @@ def test_a_program_shows_its_time_what_limits_it_and_another_value(
     assert applied == [
         {("speeds.rapid", ""): Value(150.0, "in/min"), ("speeds.min_corner", ""): Value(6.0, "in/min")}
     ]
+    before = window.outcome
+    qtbot.waitUntil(lambda: window.outcome is not before, timeout=10 * WAIT_MS)  # under the file of now
+    assert window.outcome.plan.time < before.plan.time
 
 
 def test_what_cannot_be_read_is_a_sentence(window: ProgramWindow, tmp_path: Path) -> None:

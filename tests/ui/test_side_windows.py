@@ -22,6 +22,7 @@ COMMANDS = {
     "view.settings": "SettingsDialog",
     "view.motion": "MotionView",
     "file.compare": "MergeWindow",
+    "file.migrate": "MigrationWindow",
     "control.check": "CheckWindow",
     "control.tune": "TuningWindow",
     "project.compare": "MachinesDialog",

@@ -10,7 +10,7 @@ from PySide6.QtCore import QUrl
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QFileDialog, QMessageBox
 
-from amp_studio.files import check_output, real_path
+from amp_studio.files import ParameterFile, check_output, real_path
 from amp_studio.ui.base.questions import show_message
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import tr
@@ -74,8 +74,15 @@ def show_about(window: StudioWindow) -> None:
 
 
 def migrate(window: StudioWindow) -> None:
-    """Show what becomes of the file in front at another control, on a copy of it."""
+    """Show what becomes of the file in front at another control."""
     from amp_studio.ui.migration.window import MigrationWindow
 
     workspace = window.workspace_in_front
-    MigrationWindow(workspace.file.copy(), workspace.path, window.follow, window).show()
+    if (opened := window.beside.again(MigrationWindow, workspace)) is not None:
+        opened.migrate()
+        return
+
+    def read() -> ParameterFile:
+        return workspace.file.copy()
+
+    window.beside.show(MigrationWindow(read, workspace.path, window.follow, window), workspace)

@@ -161,11 +161,17 @@ def open_program(window: StudioWindow) -> None:
     from amp_studio.ui.motion.program_window import ProgramWindow
 
     workspace = page.workspace
+    if (opened := window.beside.again(ProgramWindow, workspace)) is not None:
+        opened.run_again()
+        return
+
+    def read() -> ParameterFile:
+        return workspace.file.copy()
 
     def apply(values: Mapping[Address, Value]) -> bool:
         return workspace.edit(tr("Take from the program"), values)
 
-    ProgramWindow(workspace.file.copy(), apply, window).show()
+    window.beside.show(ProgramWindow(read, apply, window), workspace)
 
 
 def _motion_view(file: ParameterFile) -> type[MotionView]:

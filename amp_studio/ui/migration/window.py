@@ -52,18 +52,19 @@ class MigrationWindow(QDialog):
 
     def __init__(
         self,
-        file: ParameterFile,
+        read: Callable[[], ParameterFile],
         source: Path,
         show_parameter: Callable[[str], object],
         parent: QWidget | None = None,
     ) -> None:
-        """``file`` is a copy that nobody else changes, ``source`` its path."""
+        """``read`` returns a copy of the file as it is now, ``source`` is its path."""
         super().__init__(parent)
-        self._file, self._source = file, source
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self._read, self._file, self._source = read, read(), source
         self.migration: Migration | None = None
         self.setWindowTitle(tr("Migrate to Another Control"))
         self.setModal(False)
-        known = [t for t in targets() if t != file.schema.family.family]
+        known = [t for t in targets() if t != self._file.schema.family.family]
         target = Field(
             _TO,
             tr("&New control"),
@@ -140,10 +141,11 @@ class MigrationWindow(QDialog):
         return {key: str(text) for key, text in given.items() if text}
 
     def migrate(self) -> None:
-        """Show the machine at the other control with the answers of now;
+        """Show the file of now at the other control with the answers of now;
         a fault is shown, and what was there before stays.
         """
         self._timer.stop()
+        self._file = self._read()
         target = self.target.answer(_TO)
         known = {q.id for q in self.migration.written.asked} if self.migration else set[str]()
         asked = {key: text for key, text in self.answers().items() if key in known}

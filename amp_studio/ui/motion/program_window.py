@@ -52,7 +52,7 @@ from amp_studio.ui.forms.segment import Segment
 
 MOST_LINES = 5000
 """Lines of a program that are listed; the rest is computed too."""
-Apply = Callable[[Mapping[Address, Value]], object]
+Apply = Callable[[Mapping[Address, Value]], bool]
 
 
 class StoppedError(AmpStudioError):
@@ -62,10 +62,15 @@ class StoppedError(AmpStudioError):
 class ProgramWindow(QDialog):
     """One file; a program is run in a thread, on a copy of the file."""
 
-    def __init__(self, file: ParameterFile, apply: Apply, parent: QWidget | None = None) -> None:
-        """``file`` is a copy that nobody else changes; ``apply`` takes the values of a try into the file."""
+    def __init__(
+        self, read: Callable[[], ParameterFile], apply: Apply, parent: QWidget | None = None
+    ) -> None:
+        """``read`` returns the file as it is now, in a copy that nobody else changes; ``apply`` takes the
+        values of a try into the file.
+        """
         super().__init__(parent)
-        self._file, self._apply = file, apply
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self._read, self._file, self._apply = read, read(), apply
         self._job: ProgramJob | None = None
         self._name = ""
         self.outcome: ProgramRun | None = None
@@ -169,13 +174,18 @@ class ProgramWindow(QDialog):
             self._read_block(str(self.form.answers()["block"]))
         elif key == "change":
             self._try(str(self.form.answers()["change"]))
-        elif self._job is not None:
-            self.start(replace(self._job, zero=None), self._name)
+        else:
+            self.run_again()
+
+    def run_again(self) -> None:
+        """Run the program once more, under the file of now."""
+        if self._job is not None:
+            self.start(self._job, self._name)
 
     def _read_block(self, text: str) -> None:
         """Show the words of a block."""
         try:
-            block = BlockReader(self._file).read(text)
+            block = BlockReader(self._read()).read(text)
         except ProgramBlockError as error:
             self._say(str(error))
             return
@@ -212,7 +222,8 @@ class ProgramWindow(QDialog):
             self._say(str(error))
 
     def start(self, job: ProgramJob, name: str) -> None:
-        """Run a program."""
+        """Run a program under the file of now."""
+        self._file = self._read()
         try:
             text = str(self.form.answers()["zero"]).strip()
             zero = typed_places(text, self._file) if text else None
@@ -316,7 +327,8 @@ class ProgramWindow(QDialog):
         self._say("; ".join(tried.not_allowed))
 
     def _apply_tried(self) -> None:
-        self._apply(self._tried)
+        if self._apply(self._tried):
+            self.run_again()
 
     # -- the window ----------------------------------------------------------------
 
