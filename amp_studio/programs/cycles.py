@@ -5,9 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from .words import ProgramBlockError
+from amp_studio.files import ParameterFile
+from amp_studio.schema import ProgramPath
+
+from .codes import ControlCodes
+from .modal import ModalState
+from .moves import PathMoves
+from .toolpath import LINE, MOST_ROWS, PLANES, RAPID
+from .word_numbers import BlockNumbers
+from .words import ProgramBlockError, TypedWord
 
 MOST_PECKS = 10_000
+MOST_REPEATS = 10_000
 
 
 @dataclass
@@ -105,3 +114,83 @@ def _length(found: float | str) -> float:
     if isinstance(found, str):
         raise ProgramBlockError(f"A cycle cannot be worked out: {found}")
     return found
+
+
+class CycleRuns:
+    """Runs the cycle that is active at each position."""
+
+    def __init__(
+        self,
+        file: ParameterFile,
+        path: ProgramPath,
+        codes: ControlCodes,
+        moves: PathMoves,
+        retract: float | None,
+    ) -> None:
+        """``retract``: mm of a chip-breaking cycle, where its page is not printed."""
+        self._file, self._path, self._codes, self._moves = file, path, codes, moves
+        self._retract, self._words = retract, CycleWords()
+
+    def run(self, words: BlockNumbers, modal: ModalState) -> None:
+        known = self._codes.known[TypedWord(modal.cycle[0], modal.cycle[1:], "").code]
+        plane = tuple(self._moves.at.axis("XYZ"[n]) for n in PLANES[modal.plane])
+        third = plane[2]
+        repeats = int(words.roles.get("repeats", 1.0))
+        if not 1 <= repeats <= MOST_REPEATS:
+            raise ProgramBlockError(f"L{repeats}: a cycle is repeated 1 to {MOST_REPEATS} times")
+        stored = self._words
+        if third in words.axes:
+            stored.depth = words.axes[third]
+        for role in ("level", "peck", "dwell"):
+            if role in words.roles:
+                setattr(stored, role, words.roles[role])
+        if stored.depth is None or stored.level is None:
+            raise ProgramBlockError(
+                f"{modal.cycle} needs the depth and R, in its block or before it", "no-depth"
+            )
+        initial = self._moves.at.programmed[third]
+        level = stored.level if modal.is_absolute else initial + stored.level
+        depth = stored.depth if modal.is_absolute else level + stored.depth
+        if not depth < level:
+            raise ProgramBlockError(f"{modal.cycle}: the depth {depth:g} is not below R, {level:g}")
+        moves = tuple(
+            cycle_moves(
+                known.facts.steps,
+                initial,
+                level,
+                depth,
+                stored,
+                self._length_of(self._path.peck_clearance, None, "D of the cycle"),
+                self._length_of(self._path.retract, self._retract, "retract distance of the cycle"),
+                to_initial=modal.to_initial,
+            )
+        )
+        for _ in range(repeats):
+            target = list(self._moves.at.programmed)
+            for place, value in words.axes.items():
+                if place != third:
+                    target[place] = value if modal.is_absolute else target[place] + value
+            self._moves.go(target, RAPID, modal.corner, modal)
+            for move in moves:
+                if move.seconds is not None:
+                    self._moves.dwell(move.seconds)
+                    continue
+                target = list(self._moves.at.programmed)
+                if move.shift is not None:
+                    target[self._moves.at.axis("X")] += move.shift
+                if move.to is not None:
+                    target[third] = move.to
+                self._moves.go(target, RAPID if move.is_rapid else LINE, modal.corner, modal)
+            if len(self._moves.rows.kind) > MOST_ROWS:
+                raise ProgramBlockError(f"The program has more than {MOST_ROWS} moves")
+
+    def _length_of(self, parameter: str | None, given: float | None, what: str) -> float | str:
+        """Return a length of a cycle, or why there is none."""
+        if given is not None:
+            return given
+        if parameter is None:
+            return f"the {what} is printed nowhere: give it"
+        value = self._file.evaluation.canonical((parameter, ""))
+        if isinstance(value, float | int):
+            return float(value)
+        return f"{self._file.schema.parameters[parameter].name} is not set"

@@ -15,6 +15,7 @@ CUTTING, SLOW, EXACT = range(3)
 """At the end of a row the control goes on, slows down in corners, or waits until it is in position."""
 PLANES = ((0, 1, 2), (2, 0, 1), (1, 2, 0))
 """Plane XY, ZX, YZ: places of its two axes and of the third one among X, Y, Z."""
+MOST_ROWS = 4_000_000
 Floats = npt.NDArray[np.float64]
 Bytes = npt.NDArray[np.uint8]
 

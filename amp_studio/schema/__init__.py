@@ -86,6 +86,7 @@ if TYPE_CHECKING:
         ParameterId,
         ParameterState,
         ProgramCode,
+        ProgramPath,
         RampKind,
         RampRoles,
         Range,

@@ -76,7 +76,16 @@ from .pictures import (
     ZoneRole,
 )
 from .plausible import Plausible, Usual
-from .program import ArcTolerance, CodeGroup, Letter, MacroCall, ProgramCode, ProgramWords, WordUse
+from .program import (
+    ArcTolerance,
+    CodeGroup,
+    Letter,
+    MacroCall,
+    ProgramCode,
+    ProgramPath,
+    ProgramWords,
+    WordUse,
+)
 from .record import Instances, Key, Model, Page, ParameterId, Scope, Unit
 from .rule import Assignment, BuilderRule, Fix, Rule, Rules, Severity, Suppression
 from .synonyms import Synonyms
@@ -137,6 +146,7 @@ __all__ = [
     "PictureRoles",
     "Plausible",
     "ProgramCode",
+    "ProgramPath",
     "ProgramWords",
     "Quantity",
     "RampKind",

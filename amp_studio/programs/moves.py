@@ -1,0 +1,136 @@
+"""Moves of a program: straight lines, arcs and dwells as rows of its path, with the feed that is active."""
+
+from __future__ import annotations
+
+import math
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import ProgramPath
+
+from .arcs import Arc, arc_by_center, arc_by_radius
+from .coordinates import ProgramCoordinates
+from .modal import ModalState
+from .toolpath import ARC, DWELL, EXACT, LINE, PLANES, RowsWriter
+from .word_numbers import BlockNumbers
+from .words import ProgramBlockError as BlockError
+
+
+class PathMoves:
+    """Writes the rows; lengths in mm or deg."""
+
+    def __init__(self, file: ParameterFile, path: ProgramPath, at: ProgramCoordinates) -> None:
+        self._file, self._path, self.at = file, path, at
+        self.rows = RowsWriter(tuple(at.letters))
+        self.line = 0
+        """Of the program, from 1."""
+        self._feed, self._speed = 0.0, 0.0
+        self._centers = "incremental_positive"
+        if path.centers is not None:
+            self._centers = str(file.evaluation.canonical((path.centers, "")) or "absolute")
+
+    def keep(self, roles: dict[str, float]) -> None:
+        """Take the words that stay active: feed and speed of the spindle."""
+        feed = roles.get("feed")
+        if roles.get("move-time", 0.0) > 0.0:
+            feed = 60.0 / roles["move-time"]  # as moves a minute, in which other controls count it
+        if feed is not None:
+            if feed <= 0.0:
+                raise BlockError(f"F{feed:g} is no feed: it must be above 0", "no-feed")
+            self._feed = feed
+        self._speed = roles.get("spindle", self._speed)
+
+    def read_centers(self, mode: str) -> None:
+        """Read centers of arcs in another way: as the choice of the file has it."""
+        self._centers = mode
+
+    def go(self, target: list[float], kind: int, corner: int, modal: ModalState) -> None:
+        """Go in a straight line to a programmed point."""
+        end = self.at.to_machine(target)
+        self.at.programmed = target
+        if end == self.at.position:
+            return
+        feed = 0.0
+        if kind == LINE:
+            way = math.dist(end, self.at.position) if modal.is_inverse else 0.0
+            feed = self._feed_of(way, modal)
+        self.rows.add(end, kind, self.line, feed, corner, modal.free)
+        self.at.position = end
+
+    def _feed_of(self, way: float, modal: ModalState) -> float:
+        """Return the programmed feed in u/s."""
+        if modal.is_inverse:
+            if not self._feed:
+                raise BlockError("A block of G93 has no F", "no-feed")
+            feed = self._feed
+            self._feed = 0.0
+            return way * feed / 60.0
+        if not self._feed and self._path.feed:
+            value = self._file.evaluation.canonical((self._path.feed, ""))
+            if isinstance(value, float | int) and value > 0.0:
+                self._feed = float(value)
+        if not self._feed:
+            raise BlockError("No feed is programmed, and the file has none", "no-feed")
+        if modal.is_per_turn:
+            if not self._speed:
+                raise BlockError("A feed for a turn of the spindle, and no S before it", "no-spindle")
+            return self._feed * self._speed / 60.0
+        return self._feed / 60.0
+
+    def arc(
+        self, words: BlockNumbers, target: list[float], corner: int, modal: ModalState, *, clockwise: bool
+    ) -> None:
+        """Go along an arc of the plane to a programmed point."""
+        first, second, _ = (self.at.axis("XYZ"[n]) for n in PLANES[modal.plane])
+        scale = self.at.scale_of(first, second)
+        begin, end = self.at.position, self.at.to_machine(target)
+        ends = begin[first], begin[second], end[first], end[second]
+        if "radius" in words.roles:
+            if not self._path.arcs_by_radius:
+                raise BlockError("No page prints arcs by R for this control")
+            arc = arc_by_radius(*ends, words.roles["radius"] * scale, clockwise=clockwise)
+        else:
+            if not self._path.arcs_by_radius and "level" in words.roles:
+                raise BlockError("No page prints arcs by R for this control: give the center")
+            arc = self._arc_by_center(words, ends, first, second, clockwise=clockwise)
+        along = math.hypot(
+            arc.radius * arc.sweep, *(end[n] - begin[n] for n in range(len(end)) if n not in (first, second))
+        )
+        self.at.programmed = target
+        feed = self._feed_of(along, modal)
+        center = (arc.first, arc.second, arc.sweep)
+        self.rows.add(end, ARC, self.line, feed, corner, modal.free, center, modal.plane)
+        self.at.position = end
+
+    def _arc_by_center(
+        self,
+        words: BlockNumbers,
+        ends: tuple[float, float, float, float],
+        first: int,
+        second: int,
+        *,
+        clockwise: bool,
+    ) -> Arc:
+        if not {first, second} & set(words.centers):
+            raise BlockError("An arc without its center in the plane", "no-center")
+        if set(words.centers) - {first, second}:
+            raise BlockError("The center of an arc is outside of its plane", "unused-words")
+        given = [words.centers.get(place, 0.0) for place in (first, second)]
+        if self._centers == "absolute":
+            point = list(self.at.programmed)
+            for place, value in words.centers.items():
+                point[place] = value
+            machine = self.at.to_machine(point)
+            center = machine[first], machine[second]
+        else:
+            sign = -1.0 if self._centers == "incremental_negative" else 1.0
+            point = list(self.at.programmed)
+            point[first] += sign * given[0]
+            point[second] += sign * given[1]
+            machine = self.at.to_machine(point)
+            center = machine[first], machine[second]
+        return arc_by_center(*ends, *center, self._path.arc_tolerance, clockwise=clockwise)
+
+    def dwell(self, seconds: float) -> None:
+        if seconds < 0.0:
+            raise BlockError("A dwell cannot be negative", "out-of-range")
+        self.rows.add(self.at.position, DWELL, self.line, 0.0, EXACT, 1, seconds=seconds)

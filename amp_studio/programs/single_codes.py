@@ -1,0 +1,106 @@
+"""Codes that take the words of their block for themselves: dwells, reference points, coordinates, maps."""
+
+from __future__ import annotations
+
+import math
+
+from amp_studio.schema import ProgramPath
+
+from .codes import ControlCodes
+from .modal import BlockCodes, ModalState
+from .moves import PathMoves
+from .toolpath import EXACT, RAPID
+from .word_numbers import INCH, BlockNumbers
+from .words import ProgramBlockError as BlockError
+
+_CENTERS = ("incremental_negative", "incremental_positive", "absolute")
+
+
+class SingleCodes:
+    """Does them."""
+
+    def __init__(self, path: ProgramPath, codes: ControlCodes, moves: PathMoves) -> None:
+        self._path, self._moves, self._at = path, moves, moves.at
+        self._systems = [code for code in codes.known.values() if code.facts.does == "work-system"]
+        self._middle: list[float | None] = [None] * len(self._at.position)
+        """The points on the way to a reference point."""
+
+    def do(self, codes: BlockCodes, words: BlockNumbers) -> None:
+        """Do the one of a block."""
+        does, modal = codes.once, codes.modal
+        if does == "dwell":
+            if "dwell" not in words.roles:
+                raise BlockError("A dwell without its time", "no-number")
+            self._moves.dwell(words.roles["dwell"])
+        elif does in ("reference", "reference-check", "reference-other", "reference-return"):
+            self._reference(does, words, modal)
+        elif does == "set-position":
+            self._at.set_here(words.axes)
+        elif does == "local-shift":
+            self._at.set_local(words.axes)
+        elif does == "set-data":
+            self._set_data(words)
+        elif does == "centers":
+            number = int(words.roles.get("centers", -1.0))
+            if not 0 <= number < len(_CENTERS):
+                raise BlockError("G200 takes F0, F1 or F2")
+            self._moves.read_centers(_CENTERS[number])
+        elif does == "scale":
+            self._scale(words, modal)
+        elif does == "turn":
+            self._turn(words, modal)
+        else:
+            raise BlockError(f"{codes.codes[0].code} is not simulated: {codes.codes[0].facts.meaning}")
+
+    def _turn(self, words: BlockNumbers, modal: ModalState) -> None:
+        if modal.plane != 0:
+            raise BlockError("A turn is printed with other axes than those of this plane: not simulated")
+        a, b = self._at.axis("X"), self._at.axis("Y")
+        here = self._at.programmed
+        around = words.axes.get(a, here[a]), words.axes.get(b, here[b])
+        self._at.turn(around, math.radians(words.roles.get("turn", 0.0)))
+
+    def _scale(self, words: BlockNumbers, modal: ModalState) -> None:
+        around = [words.axes.get(n, here) for n, here in enumerate(self._at.programmed)]
+        factor = words.roles.get("scale", 1.0)
+        unit = INCH if modal.is_inch else 1.0  # a factor has no unit, but I, J and K are read as lengths
+        factors = [words.centers[n] / unit if n in words.centers else factor for n in range(len(around))]
+        if not all(1e-6 < abs(each) < 1e6 for each in factors):
+            raise BlockError("A scale must not be 0, and below a million", "out-of-range")
+        self._at.scale(around, factors)
+
+    def _set_data(self, words: BlockNumbers) -> None:
+        kind, number = words.roles.get("set-kind"), int(words.roles.get("set-number", 0.0))
+        if kind != 2.0 or not 1 <= number <= len(self._systems):
+            raise BlockError("G10 is printed for L2 and the work coordinates alone: not simulated")
+        self._at.set_system(self._systems[number - 1], words.axes)
+
+    def _reference(self, does: str, words: BlockNumbers, modal: ModalState) -> None:
+        number = int(words.roles.get("reference", 2.0)) if does == "reference-other" else 1
+        if not 1 <= number <= len(self._path.references):
+            raise BlockError(f"P{number}: there are reference points 2 to {len(self._path.references)}")
+        point = self._at.positions([self._path.references[number - 1]], f"reference point {number}")
+        if does in ("reference", "reference-check", "reference-other") and self._at.has_length:
+            raise BlockError("The reference point is not reached with an offset: cancel it first")
+        target = self._at.target(words, is_absolute=modal.is_absolute)
+        if does == "reference-check":
+            self._moves.go(self._at.to_program(point), RAPID, EXACT, modal)
+            self._moves.go(target, RAPID, EXACT, modal)
+            return
+        if does == "reference-return":
+            middle = [
+                here if found is None else found
+                for found, here in zip(self._middle, self._at.position, strict=True)
+            ]
+            self._moves.go(self._at.to_program(middle), RAPID, EXACT, modal)
+            self._moves.go(target, RAPID, EXACT, modal)
+            return
+        through = self._at.to_machine(target)
+        for place in range(len(through)):
+            remembered = self._middle[place]
+            if place in words.axes or place in words.distances or remembered is None:
+                self._middle[place] = through[place]
+            else:
+                through[place] = remembered
+        self._moves.go(self._at.to_program(through), RAPID, EXACT, modal)
+        self._moves.go(self._at.to_program(point), RAPID, EXACT, modal)
