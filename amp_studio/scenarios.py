@@ -24,6 +24,9 @@ SCENARIOS = {
 IDENTIFY = "identify"
 """In the place of a scenario: the machine out of a record."""
 
+CHARTS = ("bode", "nyquist", "nichols")
+"""How `frequency` draws the open loop: over the frequency, in the complex plane, its gain over its phase."""
+
 
 def scenario_names() -> tuple[str, ...]:
     """Return the scenarios of any family, then those that single families bring."""

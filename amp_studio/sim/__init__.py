@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     from .identification.identify_response import identify_response
     from .identification.machine_file import machine_for, read_machine, write_machine
     from .identification.overlay import laid_over
-    from .law import AlarmText, AxisLaw, BoundMachine, Law, Leader, Prediction, Source, law_of
+    from .law import AlarmText, AxisLaw, BoundMachine, Law, Leader, LoopFilter, Prediction, Source, law_of
     from .listings import SimulationListing, listing
     from .machine_test import MachineTest, MachineTestStep
     from .model import assumptions, with_model

@@ -84,6 +84,20 @@ class Source:
 
 
 @dataclass(frozen=True)
+class LoopFilter:
+    """A filter of the control inside of its loops, which the solver sets with the gains."""
+
+    frequency: str
+    """Figure of ``sources``: the cutoff, or the middle of a notch, in Hz."""
+    highest: float
+    """Hz: the most that the manual has a use for. A cutoff there takes nothing out."""
+    lowest: float = 0.0
+    """Hz: the least that is tried."""
+    width: str = ""
+    """Figure of ``sources``: the width of a notch in Hz; "" for a low-pass."""
+
+
+@dataclass(frozen=True)
 class AlarmText:
     """An alarm of the control."""
 
@@ -166,6 +180,8 @@ class AxisLaw:
     """follow(axis) -> what has to follow other gains: feed-forward, limits of the following error."""
     gains: Sequence[str] = ("position_gain",)
     """Figures of ``sources`` that close the loops, from the inner loop outwards: what the solver seeks."""
+    filters: Sequence[LoopFilter] = ()
+    """Filters in the loops that the solver may set beside them."""
     assumptions: tuple[str, ...] = ()
     """What is assumed about the control, each a sentence with its page."""
     assumed: Mapping[str, str] = field(default_factory=dict)
@@ -278,6 +294,7 @@ __all__ = [
     "AxisLaw",
     "BoundMachine",
     "Law",
+    "LoopFilter",
     "Prediction",
     "Ramp",
     "Source",

@@ -24,7 +24,9 @@ from amp_studio.drawing import (
     picture_svg,
     ring_scene,
 )
+from amp_studio.scenarios import CHARTS
 
+from .loop_picture import nichols, nyquist
 from .rounding import value_text
 from .series import Series
 from .sweep_picture import sweep_picture
@@ -36,11 +38,16 @@ FAR = 1.6
 """A limit below this multiple of the peak is drawn as a line; a higher one is given as text."""
 
 
-def picture_of(trace: Trace, before: Trace | None = None) -> Picture:
-    """Return the picture of a trace; ``before`` is drawn under it where it shows the same."""
+def picture_of(trace: Trace, before: Trace | None = None, chart: str = CHARTS[0]) -> Picture:
+    """Return the picture of a trace; ``before`` is drawn under it where it shows the same.
+
+    ``chart`` is how an open loop is drawn, one of CHARTS; every other trace has one picture.
+    """
     if before is not None and next(iter(before.columns)) != next(iter(trace.columns)):
         before = None
-    if "frequency_hz" in trace.columns:
+    if chart != CHARTS[0] and "open_gain_db_model" in trace.columns:
+        picture = nyquist(trace, before) if chart == "nyquist" else nichols(trace, before)
+    elif "frequency_hz" in trace.columns:
         picture = _bode(trace, before)
     elif "radius_deviation" in trace.columns:
         picture = _ballbar(trace, before)
@@ -432,9 +439,15 @@ def limits_outside(trace: Trace) -> Mapping[str, str]:
 
 
 def plot_svg(
-    trace: Trace, before: Trace | None = None, *, width: int = 960, unit: int = 132, small_print: bool = True
+    trace: Trace,
+    before: Trace | None = None,
+    *,
+    chart: str = CHARTS[0],
+    width: int = 960,
+    unit: int = 132,
+    small_print: bool = True,
 ) -> str:
     """Return the SVG text of a trace, with the trace before a change under it;
     the rest as ``picture_svg`` takes it.
     """
-    return picture_svg(picture_of(trace, before), width=width, unit=unit, small_print=small_print)
+    return picture_svg(picture_of(trace, before, chart), width=width, unit=unit, small_print=small_print)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from amp_studio.files import Notify, write_atomic
+from amp_studio.scenarios import CHARTS
 from amp_studio.schema import write_number
 
 from .errors import SimulationError
@@ -44,7 +45,7 @@ def _heading(trace: Trace) -> list[str]:
     ]
 
 
-def plot_png(trace: Trace, before: Trace | None = None) -> bytes:
+def plot_png(trace: Trace, before: Trace | None = None, chart: str = CHARTS[0]) -> bytes:
     """Return the plot as PNG, drawn by Typst; ``before`` is drawn under the trace."""
     import typst  # needed for a PNG only
 
@@ -53,7 +54,10 @@ def plot_png(trace: Trace, before: Trace | None = None) -> bytes:
         '#image(bytes(sys.inputs.at("plot")), format: "svg")\n'
     )
     image = typst.compile(
-        page.encode(), format="png", ppi=PIXELS_PER_INCH, sys_inputs={"plot": plot_svg(trace, before)}
+        page.encode(),
+        format="png",
+        ppi=PIXELS_PER_INCH,
+        sys_inputs={"plot": plot_svg(trace, before, chart=chart)},
     )
     if not isinstance(image, bytes):
         raise SimulationError("the plot did not fit on one page")
@@ -92,10 +96,16 @@ def trace_text(trace: Trace) -> str:
 
 
 def write_trace(
-    trace: Trace, path: Path, notify: Notify = lambda _note: None, *, before: Trace | None = None
+    trace: Trace,
+    path: Path,
+    notify: Notify = lambda _note: None,
+    *,
+    before: Trace | None = None,
+    chart: str = CHARTS[0],
 ) -> None:
     """Write ``.csv``, ``.svg`` or ``.png``, whole or not at all;
-    ``notify`` is called with each lost file attribute.
+    ``notify`` is called with each lost file attribute, and
+    ``chart`` is how an open loop is drawn.
 
     Raises SimulationError for another ending, SaveError where it cannot.
     """
@@ -103,9 +113,9 @@ def write_trace(
     if ending == ".csv":
         content = trace_csv(trace).encode()
     elif ending == ".svg":
-        content = plot_svg(trace, before).encode()
+        content = plot_svg(trace, before, chart=chart).encode()
     elif ending == ".png":
-        content = plot_png(trace, before)
+        content = plot_png(trace, before, chart)
     else:
         raise SimulationError(
             f"{path.name}: unknown format of a trace. Use the file extension {', '.join(ENDINGS)}"

@@ -22,6 +22,7 @@ from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import law_of
 from amp_studio.sim.tuning.aims import AIMS
+from amp_studio.sim.tuning.filters import Filters, FilterSetting
 from amp_studio.sim.tuning.loops import SOUND, Loops
 from amp_studio.sim.tuning.solver import Candidate, Gain, Search, Solved, gains_of, levels_of, solve
 from amp_studio.sim.tuning.trial import Trial, address_of
@@ -37,9 +38,14 @@ AXES = (
 )
 STEPS = {1: 40, 2: 12, 3: 7}
 """Values of each gain in the grid, by the number of gains."""
+COARSE_STEPS = {1: 30, 2: 10, 3: 5}
+"""The same for each of several settings of the filters."""
 LEAST_OF_GRID, MOST_OF_GRID = 1e-7, 1e5
 SOFTER = 1.05
 """The grid may be stiffer by this factor: it and the solver both stop somewhere."""
+
+OTHER_FILTER = 1.25
+"""By this factor with other filters: those are changed where they are worth more than a tenth."""
 
 
 @dataclass(frozen=True)
@@ -114,7 +120,8 @@ def tried(plant: Plant) -> Trial:
     for parameter, number in wanted.items():
         address = address_of(file, parameter, plant.axis)
         old = file.get(address)
-        file.set(address, Value(int(number) if isinstance(old.value, int) else number, old.unit))
+        whole = old is not None and isinstance(old.value, int)
+        file.set(address, Value(int(number) if whole else number, trial.unit(parameter)))
     return Trial(file, lambda other: bind_axis(other, law, plant.axis, plant.settings))
 
 
@@ -128,13 +135,25 @@ class Grid:
     """The least way that the load gives, with gains that keep all of the aim; infinite for none."""
 
 
-def grid(plant: Plant) -> Grid:
-    """Search the gains of a plant on a grid over their bounds."""
+def settings_of(trial: Trial) -> list[FilterSetting]:
+    """Return the filters as they are, and others: a low-pass at three places, a notch at the resonance."""
+    present, resonance = dict(Filters(trial).present), trial.axis.machine.resonance
+    found = [present]
+    for each in Filters(trial).unknowns:
+        if not each.width:
+            found += [present | {each.frequency: share * each.high} for share in (1.0, 0.1, 0.02)]
+        elif resonance:
+            found.append(present | {each.frequency: resonance, each.width: 0.5 * resonance})
+    return [tuple(each.items()) for each in found]
+
+
+def grid(plant: Plant, filters: FilterSetting | None = None, steps: Mapping[int, int] = STEPS) -> Grid:
+    """Search the gains of a plant on a grid over their bounds, with its own filters or with others."""
     trial = tried(plant)
     gains = gains_of(trial)
-    search, level = Search(trial, gains), levels_of(AIMS["normal"])[0]
+    search, level = Search(trial, gains, filters=filters or ()), levels_of(AIMS["normal"])[0]
     sound, best = False, math.inf
-    for point in itertools.product(*(_values(gain, STEPS[len(gains)]) for gain in gains)):
+    for point in itertools.product(*(_values(gain, steps[len(gains)]) for gain in gains)):
         found = search.candidate(point)
         if found is None or not found.loops.stable:
             continue
@@ -152,7 +171,8 @@ def _values(gain: Gain, count: int) -> list[float]:
 
 def faults(plant: Plant) -> Iterator[str]:
     """Yield what the solver does wrong on a plant."""
-    solved, by_grid = solve(tried(plant), AIMS["normal"]), grid(plant)
+    solved = solve(tried(plant), AIMS["normal"])
+    by_grid = grid(plant.with_gains(solved.numbers))
     if by_grid.sound and not solved.sound:
         yield "left unsound where the grid finds sound gains"
     if solved.level == 0 and by_grid.best * SOFTER < sum(solved.after.loops.yields):
@@ -160,6 +180,8 @@ def faults(plant: Plant) -> Iterator[str]:
     if solved.level and math.isfinite(by_grid.best):
         yield f"keeps level {solved.level} where the grid keeps all of the aim"
     yield from _worse(solved)
+    if plant.settings.get("model.resonance") or solved.level:
+        yield from _other_filters(plant, solved)
     again = solve(tried(plant.with_gains(solved.numbers)), AIMS["normal"])
     if again.to_change:
         yield f"a second run changes {dict(again.to_change)} after {dict(solved.numbers)}"
@@ -171,6 +193,19 @@ def faults(plant: Plant) -> Iterator[str]:
                     f"misses {missing:.3f} of what is sound with {inertia} of the inertia and twice the"
                     " friction"
                 )
+
+
+def _other_filters(plant: Plant, solved: Solved) -> Iterator[str]:
+    """Yield where a grid over the gains with other filters finds what the solver did not."""
+    for setting in settings_of(tried(plant)):
+        other = grid(plant, setting, COARSE_STEPS)
+        if other.sound and not solved.sound:
+            yield f"left unsound where the grid is sound with {dict(setting)}"
+        if solved.level and math.isfinite(other.best):
+            yield f"keeps level {solved.level} where the grid keeps all of the aim with {dict(setting)}"
+        gives = sum(solved.after.loops.yields)
+        if solved.level == 0 and other.best * OTHER_FILTER < gives:
+            yield f"softer by {gives / other.best:.3f} than the grid with {dict(setting)}"
 
 
 def _worse(solved: Solved) -> Iterator[str]:

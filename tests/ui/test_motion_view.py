@@ -81,6 +81,7 @@ def test_it_begins_with_the_selected_axis_and_draws_a_trace(view: MotionView) ->
     assert [len(panel.curves) for panel in view.plot.panels] == [2, 1, 2, 1]
     assert "steady following error" in view.figures.toPlainText()
     assert view.save_button.isEnabled()
+    assert view.chart.isHidden()
 
 
 def test_it_draws_anew_after_an_edit_and_after_its_undo(

@@ -17,6 +17,7 @@ from amp_studio.sim import (
     AxisLaw,
     AxisParameters,
     Law,
+    LoopFilter,
     Machine,
     Prediction,
     Ramp,
@@ -50,6 +51,9 @@ _GAINS = {
     loop.FBVEL: ids.tuning_fbvel,
 }
 _MILLISECONDS = 1e-3
+MOST_LOPASS, MOST_NOTCH = 0.1, 0.45
+"""Share of the servo update frequency: up to a tenth of it LOPASS is of use (page 128); a notch must be below
+the half."""
 _SMALLEST_GAIN, _LARGEST_GAIN = 1e-9, 1e6
 
 _NOTES = (
@@ -127,6 +131,10 @@ def bind(read: AxisParameters) -> AxisLaw:
         undamped=UNDAMPED if p[loop.D_GAIN] == p[loop.FBVEL] == 0.0 else "",
         limits={"excess_error": excess} if excess > 0.0 else {},
         gains=("derivative_gain", "position_gain", "integral_gain"),
+        filters=(
+            LoopFilter("lopass", MOST_LOPASS / period),
+            LoopFilter("notch", MOST_NOTCH / period, width="notch_width"),
+        ),
         follow=follow,
         sources=_sources(pulses, ids.speeds_rapid if rapid else ids.max_machine),
         assumptions=tuple(notes),
@@ -268,6 +276,9 @@ def _sources(pulses: float, feedrate: str) -> Mapping[str, Source]:
         "feed_forward": Source(ids.vel_ffwd, page="59"),
         "excess_error": Source(ids.excess_error_band, page="60"),
         "inposition_band": Source(ids.inposition_band, page="60"),
+        "lopass": Source(ids.lopass_frequency, page="128"),
+        "notch": Source(ids.notch_frequency, page="128"),
+        "notch_width": Source(ids.notch_width, page="128"),
         "feedrate": Source(feedrate, page="74"),
         "linear_acceleration": Source(ids.rapid_acc_dec, page="74"),
         "servo_period": Source(ids.servo_period, page="113"),

@@ -11,7 +11,17 @@ from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 
 from amp_studio.schema import canonical, load_schema
-from amp_studio.sim import AlarmText, AxisLaw, AxisParameters, Law, Ramp, SimulationError, Source, value_text
+from amp_studio.sim import (
+    AlarmText,
+    AxisLaw,
+    AxisParameters,
+    Law,
+    LoopFilter,
+    Ramp,
+    SimulationError,
+    Source,
+    value_text,
+)
 
 from . import law_dac as dac
 from . import law_events as events
@@ -19,7 +29,7 @@ from . import law_notes as notes_of
 from . import law_samples as samples
 from . import law_split as split
 from .law_advice import advise, follow
-from .law_drives import Parts, analog, digital, third_party
+from .law_drives import FILTER_OFF, Parts, analog, digital, third_party
 from .law_facts import ids
 from .law_feedback import Feedback, feedback_of
 from .law_figures import Loop, predictions
@@ -32,6 +42,8 @@ from .law_spindle import spindle, tapping
 from .law_tune import SCENARIO as PROCEDURE
 from .law_zones import zones
 
+LOWEST_FILTER = 40.0
+"""Hz: a torque filter below it leaves no velocity loop that is of use."""
 LONGEST_CYCLE = 1000.0
 """ms; 30 is the longest one printed (7-4)."""
 
@@ -229,6 +241,7 @@ def _common(
         "ramps": ramps,
         "follow": follow,
         "gains": ("velocity_proportional_gain", "velocity_integral_gain", "position_gain"),
+        "filters": (LoopFilter("torque_filter", FILTER_OFF, LOWEST_FILTER),),
         "sources": {name: _bounded(source, kind.unit) for name, source in SOURCES.items()},
     }
 

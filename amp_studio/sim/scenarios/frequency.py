@@ -163,7 +163,7 @@ def _frequencies(low: float, high: float, points: int, curve: Series) -> npt.NDA
 
 _UNITS = {"frequency_hz": "Hz"} | {
     f"{loop}_{what}{source}": unit
-    for loop in ("closed", "open")
+    for loop in ("closed", "open", "velocity")
     for what, unit in (("gain_db", "dB"), ("phase_deg", "deg"))
     for source in ("", "_model")
 }
@@ -228,6 +228,10 @@ def _columns(loop: _Loop, curve: Series, swept: _Swept) -> dict[str, Series]:
         apart[known] = np.degrees(np.angle(found[known] / linear[known]))
         columns[f"{name}_gain_db_model"], columns[f"{name}_phase_deg_model"] = _db(linear), phase
         columns[f"{name}_gain_db"], columns[f"{name}_phase_deg"] = _db(found), phase + apart
+    if loop.inner is not None:
+        inner = loop.inner.loop(np.minimum(curve, loop.inner.nyquist))
+        columns["velocity_gain_db_model"] = _db(inner)
+        columns["velocity_phase_deg_model"] = np.degrees(np.unwrap(np.angle(inner)))
     return columns
 
 

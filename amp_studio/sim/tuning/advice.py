@@ -17,7 +17,8 @@ from amp_studio.sim.trace import Recommendation
 from .aims import NORMAL
 from .linear import LinearModel, Margins, linear_model
 from .loops import Loops
-from .solver import Gain, Solved, Tried, solve
+from .solver import Gain, Solved, solve
+from .tried import Tried
 
 INERTIAS = (1.0 / 16.0, 16.0)
 """Shares of the total inertia within which an axis is tried."""
@@ -34,6 +35,7 @@ CHATTER = (
 )
 NONE_SOUND = "No gains within their bounds make it sound on this machine."
 ASK_TUNE = "The scenario tune finds gains."
+FILTER_WEAKER = "A resonance that the model does not have may ring on: your choice."
 RAISED = "It raises a gain on a machine that is partly assumed: your choice."
 
 
@@ -68,7 +70,7 @@ def sounder(trial: Tried) -> Solved:
 
 
 def gain_recommendations(trial: Tried, solved: Solved, why: str = "") -> tuple[Recommendation, ...]:
-    """Return the gains that change, each with what all of them together give."""
+    """Return the gains and filters that change, each with what all of them together give."""
     if not solved.to_change:
         return ()
     loops = solved.after.loops
@@ -83,10 +85,31 @@ def gain_recommendations(trial: Tried, solved: Solved, why: str = "") -> tuple[R
         if number is None or old is None:
             continue
         page = trial.axis.sources[gain.name].page
-        reason = f"{why}{gives}" if not found else f"together with {found[0].parameter}"
-        reason = f"{reason} ({f'page {page}, ' if page else ''}aim {solved.aim.name})."
+        reason = _reason(f"{why}{gives}", found, page, solved)
         found.append(Recommendation(gain.parameter, number, old.unit, reason, _price(trial, solved, gain)))
+    pages = {each.parameter: each.page for each in trial.axis.sources.values()}
+    for parameter, before in solved.filters:
+        number = solved.to_change.get(parameter)
+        if number is not None:
+            reason = _reason(f"{why}{gives}", found, pages.get(parameter, ""), solved)
+            price = _filter_price(trial, before, number)
+            found.append(Recommendation(parameter, number, trial.unit(parameter), reason, price))
     return tuple(found)
+
+
+def _reason(first: str, found: Sequence[Recommendation], page: str, solved: Solved) -> str:
+    reason = first if not found else f"together with {found[0].parameter}"
+    return f"{reason} ({f'page {page}, ' if page else ''}aim {solved.aim.name})."
+
+
+def _filter_price(trial: Tried, before: float | None, number: float) -> str:
+    """Return what another filter costs, in a sentence."""
+    if before is not None and number > before:
+        choice = f" {FILTER_WEAKER}" if trial.axis.assumed else ""
+        return (
+            f"What the filter took out above {value_text(before, digits=3)} Hz comes through again.{choice}"
+        )
+    return "The filter gives phase away below its frequency: the gains fit this filter and no other."
 
 
 def _price(trial: Tried, solved: Solved, gain: Gain) -> str:

@@ -41,6 +41,8 @@ _NOTHING = 1e-300
 """Keeps the logarithm of a response of 0 finite."""
 LONGEST_STEP = 20.0
 """s that a push on the axis is followed for."""
+JOLTED = 12
+"""Samples within which a count moves the output most: longer than the first peak of a filter."""
 HALF_POWER = math.sqrt(0.5)
 """Share of the amplitude at the bandwidth: -3 dB."""
 
@@ -269,23 +271,32 @@ class LawMatrices:
     position: Matrix
     velocity: Matrix | None
     places: Places
+    loops: int = 1
+    """Velocity samples in a position sample."""
 
     @classmethod
     def of(cls, axis: AxisLaw) -> LawMatrices:
         """Return those of an axis; its machine has no part in them."""
         velocity = _law_matrix(axis, axis.velocity_sample) if axis.velocity_sample else None
-        return cls(_law_matrix(axis, axis.position_sample), velocity, _places(axis))
+        loops = max(1, round(axis.servo_period / axis.velocity_period)) if velocity is not None else 1
+        return cls(_law_matrix(axis, axis.position_sample), velocity, _places(axis), loops)
 
     def jolt(self) -> float:
-        """Return by how much one unit of the measured position moves the output in one sample."""
-        signal = self.places.signals
+        """Return by how much one unit of the measured position, which stays, moves the output at most in
+        `JOLTED` samples: a filter spreads it over several.
+        """
+        signal, most = self.places.signals, 0.0
+        measured = [signal["position"], signal["motor"]]
         z = np.zeros((len(self.position), 1))
-        z[[signal["position"], signal["motor"]]] = 1.0
-        z = self.position @ z
-        if self.velocity is not None:
-            z[signal["motor"]] = 1.0
-            z = self.velocity @ z
-        return abs(float(z[signal["output"], 0]))
+        for n in range(JOLTED):
+            z[measured] = 1.0
+            if n % self.loops == 0:
+                z = self.position @ z
+            if self.velocity is not None:
+                z[signal["motor"]] = 1.0
+                z = self.velocity @ z
+            most = max(most, abs(float(z[signal["output"], 0])))
+        return most
 
 
 def linear_model(axis: AxisLaw, law: LawMatrices | None = None) -> LinearModel:

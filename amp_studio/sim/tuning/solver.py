@@ -16,17 +16,17 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol
 
 import numpy as np
 
-from amp_studio.schema import Value
 from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.rounding import rounded
 
 from .aims import Aim
+from .filters import Filters, FilterSetting
 from .linear import LawMatrices
 from .loops import SOUND, LoopDemand, Loops, spread_of
+from .tried import Tried
 
 SHARES = (1.0, 0.87, 0.74, 0.6, 0.45, 0.3, 0.15)
 """Of the largest gain of a loop that are tried with every gain outside of it; 0 as well for an integral
@@ -46,27 +46,18 @@ SMALLEST, LARGEST = 1e-8, 1e5
 """Gains between which is sought where the manual prints no bound."""
 WORTH = 1.03
 """Less stiffness than this factor is not worth a change."""
+FILTER_WORTH = 1.1
+"""Less stiffness than this factor is not worth another filter:
+it may be set against what the model of the machine does not know."""
+FILTER_SHARES = (4.0, 2.5, 1.6, 1.25, 1.0, 0.8, 0.63)
+"""Factors of all gains with which another filter is judged before the gains are sought with it."""
+TRIED_FIRST = 3
+"""Of the filters with which there are sound gains at all, where the present ones leave none."""
+SEARCHED = 1
+"""Other filters that look best by them, with which the gains are sought: each search takes seconds."""
 RESERVE = 0.99
 """Share of every limit that is used: what is tried is computed within half a percent."""
 FULL_PERCENT = 100.0
-
-
-class Tried(Protocol):
-    """What the solver asks of an axis whose values can be tried (`trial.Trial`)."""
-
-    axis: AxisLaw
-
-    def value(self, parameter: str) -> Value | None:
-        """Return the present number of a parameter."""
-
-    def bound(self, numbers: Mapping[str, float]) -> AxisLaw | None:
-        """Return the axis with other values."""
-
-    def range_of(self, parameter: str) -> tuple[float | None, float | None]:
-        """Return the bounds of a parameter."""
-
-    def decimals(self, parameter: str) -> int | None:
-        """Return the decimals that the control keeps of a parameter."""
 
 
 @dataclass(frozen=True)
@@ -173,9 +164,12 @@ class Solved:
     """What the solver found."""
 
     gains: Sequence[Gain]
+    filters: FilterSetting
+    """The filters as they are."""
     aim: Aim
     numbers: Mapping[str, float]
-    """Parameter -> value; those of the file where no other is worth a change."""
+    """Parameter -> value, of gains and of filters that are set;
+    those of the file where no other is worth a change."""
     before: Candidate
     after: Candidate
     level: int
@@ -184,7 +178,7 @@ class Solved:
     @property
     def to_change(self) -> Mapping[str, float]:
         """The numbers that are others than the present ones."""
-        present = {gain.parameter: gain.present for gain in self.gains}
+        present = {**{gain.parameter: gain.present for gain in self.gains}, **dict(self.filters)}
         return {name: number for name, number in self.numbers.items() if number != present[name]}
 
     @property
@@ -245,14 +239,19 @@ def _moves(trial: Tried, gain: Gain) -> bool:
 
 
 class Search:
-    """The candidates of one axis, each computed once."""
+    """The candidates of one axis with one setting of its filters, each computed once."""
 
     def __init__(
-        self, trial: Tried, gains: Sequence[Gain], ceiling: Mapping[str, float] | None = None
+        self,
+        trial: Tried,
+        gains: Sequence[Gain],
+        ceiling: Mapping[str, float] | None = None,
+        filters: FilterSetting = (),
     ) -> None:
-        self._trial, self.gains = trial, gains
+        self._trial, self.gains, self.filters = trial, gains, filters
         self._known: dict[GainPoint, Candidate | None] = {}
         self._kept: dict[tuple[GainPoint, int], bool] = {}
+        self._best: dict[int, GainPoint | None] = {}
         self._near: dict[int, float] = {}  # the last largest value of a gain: where the next one is sought
         self._most = [min(gain.high, (ceiling or {}).get(gain.parameter, math.inf)) for gain in gains]
 
@@ -264,8 +263,8 @@ class Search:
         return self._known[point]
 
     def numbers(self, point: GainPoint) -> dict[str, float]:
-        """Return the values of the parameters."""
-        return {
+        """Return the values of the parameters; a filter that is not set has none."""
+        return {name: value for name, value in self.filters if value is not None} | {
             gain.parameter: gain.sign * value if value else 0.0
             for gain, value in zip(self.gains, point, strict=True)
         }
@@ -285,6 +284,12 @@ class Search:
 
     def best(self, levels: Sequence[Level], level: int) -> GainPoint | None:
         """Return the stiffest gains that keep a level; None where none do."""
+        key = level
+        if key not in self._best:
+            self._best[key] = self._sought(levels, level)
+        return self._best[key]
+
+    def _sought(self, levels: Sequence[Level], level: int) -> GainPoint | None:
         found: list[GainPoint] = []
         self._outwards((), levels, level, found)
         if not found:
@@ -304,6 +309,23 @@ class Search:
         for step in STEPS[1:]:
             best = self._moved(best, step, levels, level)
         return best
+
+    def scaled(self, point: GainPoint, levels: Sequence[Level], level: int) -> GainPoint | None:
+        """Return the largest share of gains that keeps a level here; None where none does."""
+        for share in FILTER_SHARES:
+            there = tuple(
+                min(gain.nearest(share * value), most)
+                for gain, value, most in zip(self.gains, point, self._most, strict=True)
+            )
+            if self.keeps(there, levels, level):
+                return there
+        return None
+
+    def any(self, levels: Sequence[Level], level: int) -> bool:
+        """Return whether gains were found that keep a level: the largest inner one with the least outer
+        ones.
+        """
+        return self._largest((), levels, level) is not None
 
     def least_bad(self, levels: Sequence[Level]) -> GainPoint | None:
         """Return, of all that was tried, the stable gains that miss a sound axis by least."""
@@ -409,9 +431,10 @@ def solve(trial: Tried, aim: Aim, *, raising: bool = True, slowest: float = math
     """
     gains = gains_of(trial)
     ceiling = None if raising else {gain.parameter: abs(gain.present) for gain in gains}
-    search, levels = Search(trial, gains, ceiling), levels_of(aim, slowest)
-    present = tuple(abs(gain.present) for gain in gains)
-    before = search.candidate(present) or Candidate(trial.axis)
+    levels, filters = levels_of(aim, slowest), Filters(trial)
+    settings = _Settings(trial, gains, ceiling, filters)
+    present = filters.present, tuple(abs(gain.present) for gain in gains)
+    before = settings.candidate(present) or Candidate(trial.axis)
     # The present gains are judged without the reserve: what is proposed once must not be improved
     # again.
     now = next((n for n, level in enumerate(levels) if level.keeps(before, 1.0)), len(levels))
@@ -419,42 +442,123 @@ def solve(trial: Tried, aim: Aim, *, raising: bool = True, slowest: float = math
     if gains:
         # Never a worse level than the one that the present gains keep.
         for level in range(min(now + 1, len(levels))):
-            best = search.best(levels, level)
+            best = settings.best(levels, level, others=raising)
             if best is not None:
                 break
         else:
             level = len(levels)
     # Nothing is sound, now or by other gains: then what misses it by least.
     if best is None and gains and now == len(levels):
-        best = search.least_bad(levels)
-    chosen = _worth(search, present, best, now, level, levels)
-    after = search.candidate(chosen) or before
-    numbers = (
-        {gain.parameter: gain.present for gain in gains} if chosen == present else search.numbers(chosen)
-    )
-    return Solved(gains, aim, numbers, _exactly(before), _exactly(after), min(now, level))
+        best = settings.least_bad(levels)
+    chosen = _worth(settings, present, best, now, level, levels)
+    after = settings.candidate(chosen) or before
+    numbers = settings.search(chosen[0]).numbers(chosen[1])
+    if chosen[1] == present[1]:
+        numbers |= {gain.parameter: gain.present for gain in gains}
+    return Solved(gains, filters.present, aim, numbers, _exactly(before), _exactly(after), min(now, level))
+
+
+Chosen = tuple[FilterSetting, GainPoint]
+"""Filters and gains."""
+
+
+class _Settings:
+    """The searches of one axis, one for each setting of its filters that is tried."""
+
+    def __init__(
+        self, trial: Tried, gains: Sequence[Gain], ceiling: Mapping[str, float] | None, filters: Filters
+    ) -> None:
+        self._trial, self._gains, self._ceiling, self._filters = trial, gains, ceiling, filters
+        self._searches: dict[FilterSetting, Search] = {}
+
+    def search(self, setting: FilterSetting) -> Search:
+        """Return the search with a setting."""
+        if setting not in self._searches:
+            self._searches[setting] = Search(self._trial, self._gains, self._ceiling, setting)
+        return self._searches[setting]
+
+    def candidate(self, chosen: Chosen) -> Candidate | None:
+        """Return the axis with filters and gains."""
+        return self.search(chosen[0]).candidate(chosen[1])
+
+    def best(self, levels: Sequence[Level], level: int, *, others: bool) -> Chosen | None:
+        """Return the stiffest loop that keeps a level; with ``others`` by other filters too, where these are
+        worth it.
+
+        It goes on from filters to better ones, so that from where it ends nothing is better: a second run
+        begins there and ends there.
+        """
+        setting = self._filters.present
+        point = self.search(setting).best(levels, level)
+        # Filters are someone's remedy for what the model may not know: with sound gains they stay, unless
+        # the resonance of the machine is known.
+        while others and (point is None or self._filters.is_resonance_known):
+            better = self._better(setting, point, levels, level)
+            if better is None:
+                break
+            setting, point = better
+        return None if point is None else (setting, point)
+
+    def _better(
+        self, setting: FilterSetting, point: GainPoint | None, levels: Sequence[Level], level: int
+    ) -> Chosen | None:
+        """Return filters with which a level is kept by a loop that is stiffer by what a filter is worth."""
+        most = math.inf if point is None else self.search(setting).yields(point) / FILTER_WORTH
+        found = []
+        for other in self._promising(setting, point, levels, level):
+            there = self.search(other).best(levels, level)
+            if there is not None and self.search(other).yields(there) < most:
+                found.append((self.search(other).yields(there), other, there))
+        return min(found, key=lambda each: each[0])[1:] if found else None
+
+    def _promising(
+        self, setting: FilterSetting, point: GainPoint | None, levels: Sequence[Level], level: int
+    ) -> list[FilterSetting]:
+        """Return the filters that look best: a search with each of them would take seconds."""
+        others = self._filters.others(setting)
+        if point is None:
+            # No gains keep the level with the present filters: those that have any at all.
+            return [other for other in others if self.search(other).any(levels, level)][:TRIED_FIRST]
+        most, found = self.search(setting).yields(point), []
+        for other in others:
+            search = self.search(other)
+            scaled = search.scaled(point, levels, level)
+            if scaled is not None and search.yields(scaled) < most:
+                found.append((search.yields(scaled), other))
+        return [other for _, other in sorted(found, key=lambda each: each[0])[:SEARCHED]]
+
+    def least_bad(self, levels: Sequence[Level]) -> Chosen | None:
+        """Return, of all that was tried, the stable loop that misses a sound axis by least."""
+        found = []
+        for setting, search in self._searches.items():
+            point = search.least_bad(levels)
+            tried = None if point is None else search.candidate(point)
+            if point is not None and tried is not None:
+                found.append((tried.loops.lacks(levels[-1].need), setting, point))
+        return min(found, key=lambda each: each[0])[1:] if found else None
 
 
 def _worth(
-    search: Search, present: GainPoint, best: GainPoint | None, now: int, level: int, levels: Sequence[Level]
-) -> GainPoint:
-    """Return the best gains where they are better than the present ones by more than is worth a change."""
+    settings: _Settings, present: Chosen, best: Chosen | None, now: int, level: int, levels: Sequence[Level]
+) -> Chosen:
+    """Return the best loop where it is better than the present one by more than is worth a change."""
     if best is None:
         return present
     if level == len(levels):
-        lacks = [search.candidate(point) for point in (present, best)]
+        lacks = [settings.candidate(each) for each in (present, best)]
         need = levels[-1].need
         misses = [math.inf if each is None else each.loops.lacks(need) for each in lacks]
         return best if misses[1] < misses[0] / WORTH else present
-    least = search.yields(best)
+    search, point = settings.search(best[0]), best[1]
+    least = search.yields(point)
     # A change must be worth a person's time at the machine.
-    if level == now and least * WORTH >= search.yields(present):
+    if level == now and least * WORTH >= settings.search(present[0]).yields(present[1]):
         return present
-    for n, value in enumerate(present):  # what may stay as it is stays
-        kept = (*best[:n], value, *best[n + 1 :])
+    for n, value in enumerate(present[1]):  # what may stay as it is stays
+        kept = (*point[:n], value, *point[n + 1 :])
         if search.keeps(kept, levels, level) and search.yields(kept) <= least * WORTH:
-            best = kept
-    return best
+            point = kept
+    return best[0], point
 
 
 def _exactly(tried: Candidate) -> Candidate:

@@ -71,6 +71,16 @@ class Trial:
         storage = self._file.schema.parameters[parameter].storage
         return storage.decimals if storage else None
 
+    def unit(self, parameter: str) -> str:
+        """Return the unit in which a number of a parameter is written."""
+        value = self.value(parameter)
+        return value.unit if value else next(iter(self._file.schema.parameters[parameter].ranges or {}), "")
+
+    def _written(self, parameter: str, number: float, old: Value | None) -> Value:
+        """Return a number as the value of a parameter: whole where the present one is."""
+        is_whole = old is not None and isinstance(old.value, int)
+        return Value(int(number) if is_whole else number, self.unit(parameter))
+
     def bound(self, numbers: Mapping[str, float]) -> AxisLaw | None:
         """Return the axis with other values of parameters;
         None if one is out of range or it cannot be simulated.
@@ -78,9 +88,9 @@ class Trial:
         wanted: dict[Address, Value] = {}
         for parameter, number in numbers.items():
             address, old = address_of(self._file, parameter, self.axis.axis), self.value(parameter)
-            if address is None or old is None:
+            if address is None:
                 return None
-            wanted[address] = Value(int(number) if isinstance(old.value, int) else number, old.unit)
+            wanted[address] = self._written(parameter, number, old)
         before = {address: self._file.get(address) for address in wanted}
         try:
             self._file.set_checked(wanted)

@@ -126,9 +126,10 @@ def _job(
     file = trial.file.copy()
     for parameter, figure in (others or {}).items():
         address = address_of(file, parameter, trial.axis.axis)
-        old = file.get(address) if address else None
-        if address and old:
-            file.set(address, Value(int(figure) if isinstance(old.value, int) else figure, old.unit))
+        if address:
+            old = file.get(address)
+            whole = old is not None and isinstance(old.value, int)
+            file.set(address, Value(int(figure) if whole else figure, trial.unit(parameter)))
     job = SweepJob(
         content_of(file),
         trial.axis.axis,

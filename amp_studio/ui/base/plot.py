@@ -168,9 +168,7 @@ class Plot(QWidget):
         # Rings are lower than in print, where they have the whole of a page.
         shares = [min(scene.share, 2.0 * self.panels[0].share) for scene in scenes]
         room = max(
-            self.height()
-            - sum(heads)
-            - (4.8 if self.picture.above and self.picture.above.cells else 2.4) * line,
+            self.height() - sum(heads) - (4.8 if _has_figures_below(self.picture.above) else 2.4) * line,
             10.0 * len(scenes),
         )
         top = 0.0
@@ -183,7 +181,11 @@ class Plot(QWidget):
             paint_heading(painter, pieces, frame.top)
             if scene in self.panels:
                 self._frames.append(frame)
-            top += head + height + (2.4 * line if scene is self.picture.above and scene.cells else 0.0)
+            top += (
+                head
+                + height
+                + (2.4 * line if scene is self.picture.above and _has_figures_below(scene) else 0.0)
+            )
 
     def _paint_cursors(self, painter: QPainter) -> None:
         painter.setFont(caption_fonts()[0])
@@ -299,6 +301,11 @@ class Plot(QWidget):
     def _emit_values(self) -> None:
         if self.picture is not None:
             self.read.emit("".join(_reading(self.picture, *self.cursors)))
+
+
+def _has_figures_below(above: Scene | None) -> bool:
+    """Return whether a drawing above the panels has a scale that needs room: rings have none."""
+    return above is not None and above.look != "rings"
 
 
 def _place_of(scene: Scene, right: float, top: float, height: float) -> Placement:

@@ -25,6 +25,7 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.files import ParameterFile, RangeError, axis_title
+from amp_studio.scenarios import CHARTS
 from amp_studio.schema import Address, Value, angular
 from amp_studio.sim import (
     Recommendation,
@@ -132,6 +133,11 @@ class MotionView(QWidget):
         self.compare, self.keep = QCheckBox(self.tr("&Before")), QPushButton(self.tr("&Keep as Before"))
         self.compare.setChecked(True)
         self.compare.setToolTip(self.tr("Draw the trace from before the changes under the present one"))
+        self.chart = QComboBox()
+        self.chart.setAccessibleName(self.tr("Chart"))
+        self.chart.setToolTip(self.tr("How the open loop is drawn"))
+        for name in CHARTS:
+            self.chart.addItem(worded(name.capitalize()), name)
         self.keep.setToolTip(self.tr("Compare with the present trace from now on"))
         self.summary, self.values = QLabel(), QLabel()
         self.summary.setWordWrap(True)
@@ -145,6 +151,7 @@ class MotionView(QWidget):
         self.recommendations = RecommendationsPage(self.apply, self._follow)
         for button in (self.save_button, self.settling, self.all_of_it, self.keep):
             button.setEnabled(False)
+        self.chart.hide()
 
     def _arrange(self) -> None:
         form = FieldForm(
@@ -154,7 +161,7 @@ class MotionView(QWidget):
             )
         )
         tools = QHBoxLayout()
-        for widget in (self.settling, self.all_of_it, self.compare, self.keep):
+        for widget in (self.chart, self.settling, self.all_of_it, self.compare, self.keep):
             tools.addWidget(widget)
         tools.addStretch()
         tools.addWidget(self.run_button)
@@ -198,6 +205,7 @@ class MotionView(QWidget):
         self.axis.currentIndexChanged.connect(self._choose)
         self.run_button.clicked.connect(self.run)
         self.save_button.clicked.connect(self.save)
+        self.chart.currentIndexChanged.connect(self._redraw)
         self.settling.clicked.connect(self._zoom_to_settling)
         self.all_of_it.clicked.connect(lambda: self.plot.zoom(None))
         self.compare.toggled.connect(self._redraw)
@@ -355,7 +363,8 @@ class MotionView(QWidget):
 
     def _redraw(self, *_: object) -> None:
         if self.trace is not None:
-            self.plot.draw(picture_of(self.trace, self._other()))
+            self.chart.setVisible(self.trace.scenario == "frequency")
+            self.plot.draw(picture_of(self.trace, self._other(), str(self.chart.currentData())))
             self.figures.show_trace(self.trace, self._other())
 
     def _zoom_to_settling(self) -> None:
@@ -416,7 +425,8 @@ class MotionView(QWidget):
         path = path if path.suffix else path.with_suffix(chosen[chosen.index("*") + 1 : -1])
         notes: list[str] = []
         try:
-            write_trace(self.trace, path, notes.append, before=self._other())
+            chart = str(self.chart.currentData())
+            write_trace(self.trace, path, notes.append, before=self._other(), chart=chart)
         except (OSError, ValueError) as error:
             self._fail(error)
         else:

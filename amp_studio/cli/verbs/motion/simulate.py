@@ -14,7 +14,7 @@ from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_replaced
 from amp_studio.cli.verb import Options, Verb, VerbArgument
-from amp_studio.scenarios import IDENTIFY
+from amp_studio.scenarios import CHARTS, IDENTIFY
 
 if TYPE_CHECKING:
     from amp_studio import MachineParameters
@@ -126,6 +126,11 @@ VERB = Verb(
         help="lay the record of the machine over the move: lag, difference and its root mean square",
     ),
     VerbArgument(
+        "--chart",
+        choices=CHARTS,
+        help="frequency with -o: how the open loop is drawn, over the frequency or in a plane",
+    ),
+    VerbArgument(
         "--units", metavar="SYSTEM", help="metric or inch, for settings and result (default: as the file)"
     ),
     OUTPUT.but(required=False, help="file to write: .csv, .svg, .png; of identify also .yaml, the machine"),
@@ -137,6 +142,7 @@ VERB = Verb(
         "amp-studio simulate MILL_1394.amp step --axis X",
         "amp-studio simulate MILL_1394.amp step --axis X --set move.distance=50 -o trace.csv",
         "amp-studio simulate MILL_1394.amp tune --axis X --for stiff",
+        "amp-studio simulate MILL_1394.amp frequency --axis X --chart nyquist -o loop.svg",
         "amp-studio simulate MILL_1394.amp spindle S1500",
         "amp-studio simulate MILL_1394.amp tap --pitch 1 --speed 400",
         "amp-studio simulate MILL_1394.amp probe --axis Z --speed 100",
@@ -199,7 +205,7 @@ def run(options: Options) -> int:
     if options.output:
         is_picture = options.output.suffix.lower() in PICTURES
         earlier = _earlier(machine, trace, settings, system) if own and is_picture else None
-        write_trace(trace, options.output, note, before=earlier)
+        write_trace(trace, options.output, note, before=earlier, chart=options.chart or CHARTS[0])
     if options.json:
         print_json(trace_summary(trace, lambda parameter: named_parameter(file, parameter, trace.axis)))
     else:
@@ -212,6 +218,8 @@ def _asked_for(options: Options) -> tuple[dict[str, Any], list[str]]:
     spoken = _spoken(options)
     if (options.record and not spoken) or options.scale:
         raise UsageError(f"a record and its scale belong to {IDENTIFY}, not to {options.scenario}")
+    if options.chart and options.scenario != "frequency":
+        raise UsageError(f"--chart belongs to frequency, not to {options.scenario}")
     named, own = _settings(options.assignments)
     settings: dict[str, Any] = {**spoken, **named}
     if options.aim:
