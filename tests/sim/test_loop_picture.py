@@ -10,7 +10,6 @@ import pytest
 from amp_studio.drawing import Curve, Scene
 from amp_studio.sim import Trace, picture_of
 
-
 RATE, LAG = 30.0, 0.012
 """1/s and s of the loop L = rate / s · exp(-s · lag), whose margins have formulas."""
 
