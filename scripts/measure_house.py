@@ -52,6 +52,12 @@ class ImportedName:
 
 
 @cache
+def tree_of(path: Path) -> ast.Module:
+    """Return the syntax tree of a file, which nobody may change."""
+    return ast.parse(path.read_text("utf-8"))
+
+
+@cache
 def room_of(module: str, package: Path = PACKAGE) -> str:
     """Return the room of a module: the folder or single module directly below the package,
     or a folder in it that has a front page.
@@ -77,30 +83,57 @@ def imported_names(package: Path = PACKAGE) -> Iterator[ImportedName]:
     for path in sorted(package.rglob("*.py")):
         inside = path.relative_to(package.parent).with_suffix("").parts
         module = ".".join(inside).removesuffix(".__init__")
-        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        for node in all_statements(tree_of(path)):
+            if not isinstance(node, (ast.Import, ast.ImportFrom)):
+                continue
             for base, name in _asked_for(node, inside[:-1], package.parent):
                 given_by = room_of(base, package)
                 if not f"{base}.".startswith(f"{top}.") or f"{module}.".startswith(f"{top}.{given_by}."):
                     continue
-                where = f"{path.relative_to(package.parent).as_posix()}:{node.lineno}"  # type: ignore[attr-defined]  # an import
+                where = f"{path.relative_to(package.parent).as_posix()}:{node.lineno}"
                 is_past = base.count(".") > 1 and base != f"{top}.{given_by}"
                 yield ImportedName(room_of(module, package), given_by, base, name, where, is_past)
 
 
-def _asked_for(node: ast.AST, folder: Sequence[str], root: Path) -> Iterator[tuple[str, str]]:
+def statements_in(statement: ast.AST) -> Iterator[ast.AST]:
+    """Yield the statements directly inside of one or of a module, and the handlers and cases that have some:
+    imports are found without the expressions, which are most of the nodes.
+    """
+    for field in ("body", "orelse", "handlers", "finalbody", "cases"):
+        yield from getattr(statement, field, ())
+
+
+def all_statements(tree: ast.Module) -> Iterator[ast.AST]:
+    """Yield every statement of a module."""
+    open_ones: list[ast.AST] = [tree]
+    while open_ones:
+        node = open_ones.pop()
+        yield node
+        open_ones += statements_in(node)
+
+
+def _asked_for(
+    node: ast.Import | ast.ImportFrom, folder: Sequence[str], root: Path
+) -> Iterator[tuple[str, str]]:
     """Yield module and name of each thing that an import takes; a module that is taken whole has no name."""
     if isinstance(node, ast.Import):
         yield from ((alias.name, "") for alias in node.names)
-    elif isinstance(node, ast.ImportFrom):
+    else:
         above = folder[: len(folder) - node.level + 1] if node.level else ()
         base = ".".join([*above, *filter(None, [node.module])])
         for alias in node.names:
-            path = root.joinpath(*base.split("."), alias.name)
-            is_module = path.is_dir() or path.with_suffix(".py").is_file()
-            if is_module and alias.name not in names_given(root.joinpath(*base.split("."), "__init__.py")):
+            if is_module(root.joinpath(*base.split("."), alias.name)) and alias.name not in names_given(
+                root.joinpath(*base.split("."), "__init__.py")
+            ):
                 yield f"{base}.{alias.name}", ""
             else:
                 yield base, alias.name
+
+
+@cache
+def is_module(path: Path) -> bool:
+    """Return whether a module is there: ``path`` as a folder, or with ``.py`` behind it."""
+    return path.is_dir() or path.with_suffix(".py").is_file()
 
 
 @cache
@@ -109,7 +142,7 @@ def names_given(page: Path) -> frozenset[str]:
     and what it makes.
     """
     given: set[str] = set()
-    open_nodes: list[ast.stmt] = ast.parse(page.read_text("utf-8")).body
+    open_nodes: list[ast.stmt] = [*tree_of(page).body]
     for node in open_nodes:
         if isinstance(node, ast.If):
             open_nodes += node.body
@@ -159,7 +192,7 @@ def public_names(tree: ast.Module) -> list[str]:
 def code_figures() -> Iterator[tuple[str, str]]:
     """Yield name and figure of what the sources are."""
     sources = sorted(PACKAGE.rglob("*.py"))
-    trees = [ast.parse(path.read_text("utf-8")) for path in sources]
+    trees = [tree_of(path) for path in sources]
     nodes = [node for tree in trees for node in ast.walk(tree)]
     functions = [branches(node) for node in nodes if isinstance(node, FUNCTIONS)]
     hard = sum(count > MOST_BRANCHES for count in functions)

@@ -31,7 +31,7 @@ from amp_studio.formats import all_formats, formats_of
 from amp_studio.front_pages import listed
 from amp_studio.schema import Parameter, Rule, family_ids, load_schema, program
 
-from .source_trees import nodes_of, tree_of
+from .source_trees import nodes_of, text_of
 
 ROOMS = sorted(path.parent.name for path in Path(amp_studio.__file__).parent.glob("*/__init__.py"))
 CATCH_ALL_NAMES = {"utils", "util", "helpers", "helper", "common", "manager", "misc"}
@@ -144,14 +144,14 @@ def imported_libraries(package: Path) -> list[tuple[str, Path]]:
     """
     found: list[tuple[str, Path]] = []
     for path in sorted(package.rglob("*.py")):
-        for node in nodes_of(path):
+        for node in imports_of(path, at_loading=False, for_types=True):
             if isinstance(node, ast.Import):
                 found += ((alias.name.partition(".")[0], path) for alias in node.names)
-            elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
+            elif node.level == 0 and node.module:
                 found.append((node.module.partition(".")[0], path))
-            elif isinstance(node, ast.Call) and re.search(
-                r"\b(import_module|find_spec)$", ast.unparse(node.func)
-            ):
+        by_name = re.compile(r"\b(import_module|find_spec)$")
+        for node in nodes_of(path) if re.search(r"import_module|find_spec", text_of(path)) else ():
+            if isinstance(node, ast.Call) and by_name.search(ast.unparse(node.func)):
                 names = (each.value for each in node.args[:1] if isinstance(each, ast.Constant))
                 found += ((name.partition(".")[0], path) for name in names if not name.startswith("."))
     return found
@@ -255,7 +255,7 @@ def test_every_function_of_a_walk_is_where_the_page_says(checkout: Path) -> None
     assert len(steps) >= 30
     lost = []
     for module, name in steps:
-        here: list[ast.stmt] = tree_of(checkout / "amp_studio" / module).body
+        here: list[ast.stmt] = measure_house.tree_of(checkout / "amp_studio" / module).body
         for part in name.split("."):
             kinds = (ast.FunctionDef, ast.ClassDef)
             found = next((n for n in here if isinstance(n, kinds) and n.name == part), None)
@@ -302,6 +302,7 @@ def test_nothing_generic_names_a_family_or_its_formats(checkout: Path) -> None:
         for path in sorted(package.rglob("*.py"))
         if path.relative_to(package).parts[0] != "families"
         and path.relative_to(package).as_posix() not in EXAMPLES_OF_FAMILIES
+        and named.search(text_of(path))
         for line, text in texts_of_program(path)
         if named.search(text) and not text.startswith("amp-studio ")
     ] == []
@@ -311,7 +312,7 @@ def test_a_class_or_alias_has_a_name_that_no_other_has(checkout: Path) -> None:
     """A reader who finds ``State`` knows which one it is; names with an underscore are of one module."""
     places: dict[str, list[str]] = {}
     for path in sorted((checkout / "amp_studio").rglob("*.py")):
-        for node in tree_of(path).body:
+        for node in measure_house.tree_of(path).body:
             if isinstance(node, ast.ClassDef):
                 name = node.name
             elif isinstance(node, ast.Assign) and isinstance(node.value, ast.Subscript):
@@ -357,7 +358,7 @@ def asked_for(node: ast.Import | ast.ImportFrom, name: str, modules: dict[str, P
 @cache
 def given_by(page: Path) -> tuple[tuple[str, str], ...]:
     """Return name and module of what a page takes from its modules, without modules that keep their name."""
-    nodes = [*tree_of(page).body] if page.name == "__init__.py" else []
+    nodes = [*measure_house.tree_of(page).body] if page.name == "__init__.py" else []
     nodes += [inner for node in nodes if isinstance(node, ast.If) for inner in node.body]
     return tuple(
         (alias.asname or alias.name, node.module)
@@ -367,22 +368,22 @@ def given_by(page: Path) -> tuple[tuple[str, str], ...]:
     )
 
 
-def imports_of(path: Path, *, at_loading: bool) -> list[ast.Import | ast.ImportFrom]:
-    """Return the imports of a file, those for types alone left out;
-    ``at_loading`` leaves out those in functions too.
+def imports_of(path: Path, *, at_loading: bool, for_types: bool = False) -> list[ast.Import | ast.ImportFrom]:
+    """Return the imports of a file, those for types alone if ``for_types``;
+    ``at_loading`` leaves out those in functions.
     """
     found: list[ast.Import | ast.ImportFrom] = []
-    open_nodes: list[ast.AST] = [tree_of(path)]
+    open_nodes: list[ast.AST] = [measure_house.tree_of(path)]
     while open_nodes:
         node = open_nodes.pop()
         if isinstance(node, (ast.Import, ast.ImportFrom)):
             found.append(node)
-        elif at_loading and isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)):
+        elif at_loading and isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
             continue
-        elif isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
+        elif not for_types and isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
             open_nodes += node.orelse
         else:
-            open_nodes += ast.iter_child_nodes(node)
+            open_nodes += measure_house.statements_in(node)
     return found
 
 
@@ -510,7 +511,7 @@ LOOPS = {"amp_studio.ui.base.modal": {"dialog.exec"}, "amp_studio.ui.base.task":
 def test_an_event_loop_runs_inside_another_one_in_two_places_alone(checkout: Path) -> None:
     found: dict[str, set[str]] = {}
     for name, path in modules_below(checkout / "amp_studio").items():
-        for node in nodes_of(path):
+        for node in nodes_of(path) if re.search(r"\.\s*(exec|processEvents)", text_of(path)) else ():
             if isinstance(node, ast.Attribute) and node.attr in {"exec", "exec_", "processEvents"}:
                 found.setdefault(name, set()).add(ast.unparse(node))
     assert {
@@ -537,6 +538,8 @@ def test_the_window_loads_the_simulator_by_its_loader_alone(checkout: Path) -> N
         for function in nodes_of(path):
             if not isinstance(function, ast.FunctionDef):
                 continue
+            if not any(isinstance(node, (ast.Import, ast.ImportFrom)) for node in function.body):
+                continue
             loaded = [
                 call.lineno
                 for call in ast.walk(function)
@@ -558,7 +561,9 @@ def test_no_test_is_longer_than_a_screen(checkout: Path) -> None:
     long = [
         f"{path.relative_to(checkout)}:{node.lineno} {node.name}: {lines} lines"
         for path in sorted((checkout / "tests").rglob("*.py"))
-        for node in nodes_of(path)
+        if path.name.startswith("test_")
+        for outer in measure_house.tree_of(path).body
+        for node in (outer, *measure_house.statements_in(outer))
         if isinstance(node, ast.FunctionDef) and node.name.startswith("test")
         if (lines := node.end_lineno - node.lineno + 1) > 40
     ]
@@ -640,6 +645,7 @@ def test_every_place_of_a_text_is_filled_in(checkout: Path) -> None:
     empty = [
         f"{path.relative_to(checkout)}:{node.lineno}: {text}"
         for path in sorted((checkout / "amp_studio").rglob("*.py"))
+        if "format(" in text_of(path)
         for node in nodes_of(path)
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "format"
         if all(keyword.arg for keyword in node.keywords)
