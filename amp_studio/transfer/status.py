@@ -65,12 +65,14 @@ class ShowsStatus(Protocol):
 
 
 def known_fault(family: str, code: str, text: str, axis: str = "") -> ActiveFault:
-    """Return a fault with what the family's messages have about it, found by its code or its text."""
+    """Return a fault with what the family's messages have about it, found by its code or its text;
+    a control without codes has the printed text in their place.
+    """
     for message in load_schema(family).messages.values():
-        if message.code == code or (message.text and message.text == text):
+        if message.code == code or (message.text and message.text in (text, code)):
             return ActiveFault(
                 code,
-                message.text or message.title or text,
+                (message.text if message.text != code else text) or message.title or text,
                 axis,
                 message.means,
                 tuple(message.causes),

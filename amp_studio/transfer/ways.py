@@ -8,6 +8,8 @@ from amp_studio.schema import UnknownFamilyError, WayToControl, load_schema, reg
 
 HOUSE = "house"
 """The protocol in which a gateway is spoken to."""
+SCREEN = "screen"
+"""The protocol in the address of the screen of an emulated control."""
 PRINT_SHEET = "print what to key in with amp-studio sheet FILE --against OTHER"
 
 

@@ -10,8 +10,9 @@ from PySide6.QtCore import QObject, Signal
 from pytestqt.qtbot import QtBot
 
 from amp_studio.transfer import AxisStatus, ControlStatus, known_fault
-from amp_studio.ui.control import live
-from amp_studio.ui.control.live import LivePage, StatusReadings
+from amp_studio.ui.control import readings as live
+from amp_studio.ui.control.live import LivePage
+from amp_studio.ui.control.readings import StatusReadings
 
 from .conftest import WAIT_MS
 
@@ -72,6 +73,7 @@ def test_a_reading_shows_position_error_speed_and_the_words_of_the_control(page:
         "axis busy, control loop enabled",
     ]
     assert cell(page, 1, 2) == "–"
+    assert page.figures.text() == "1000 counts"
     assert "feed 20" in page.values.text()
     assert page.toggle.text() == "&Stop"
 
@@ -91,12 +93,44 @@ def test_a_fault_comes_with_cause_cure_parameters_and_page_and_stops_the_reading
     assert followed == ["setup.max_position_error"]
 
 
+def test_a_control_without_a_following_error_is_drawn_by_its_position(page: LivePage) -> None:
+    axes = (AxisStatus("X", 264.0, None, None, "mm", ("limit switch",)),)
+    page.show_status(ControlStatus("grblhal", "grbl", "grblHAL", "Idle", axes))
+    assert page.plot.picture is not None
+    assert [panel.title for panel in page.plot.picture.panels] == ["position mm"]
+    assert "not shown by this control" in page.notes.text()
+
+
+def test_what_begins_between_two_readings_is_an_event(page: LivePage) -> None:
+    page.show_status(status())
+    axes = (AxisStatus("X", 0.0, 0.0, 0.0, "counts", ("axis done", "control loop enabled")),)
+    page.show_status(ControlStatus("57c422b", "registers", "module", "", axes))
+    assert [event[9:] for event in page.happened.events] == ["X: axis done"]
+
+
+def test_keys_of_an_emulated_control_are_pressed_and_its_answer_is_an_event(qtbot: QtBot) -> None:
+    class Keys(QObject):
+        line_shown = Signal(str)
+
+        def send(self, command: str) -> None:
+            self.line_shown.emit(f"did {command}")
+
+    readings = HeldReadings()
+    page = LivePage("tcp://bench:1", "9pc", print, readings=readings, emulated=Keys())  # type: ignore[arg-type]  # the parts that it uses
+    qtbot.addWidget(page)
+    page.keys.setText("jog X+")
+    page.keys.returnPressed.emit()
+    assert page.happened.events[0].endswith("did jog X+")
+    assert readings.is_running
+
+
 def test_a_fault_that_is_over_goes_to_the_history(page: LivePage) -> None:
     page.show_status(status("R73 bit 4"))
     page.start()
     page.show_status(status())
-    assert len(page.past) == 1
-    assert "R73 bit 4" in page.past[0]
+    assert len(page.happened.events) == 1
+    assert "R73 bit 4" in page.happened.events[0]
+    assert page.happened.events[0] in page.events.text()
     assert page.readings.is_running
 
 

@@ -4,6 +4,7 @@ and what it shows.
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -29,7 +30,8 @@ class PanelAxis:
     unit: str
     is_homed: bool
     is_busy: bool
-    alarm: str
+    alarm: tuple[str, str] | None
+    """Code and message of what stopped it."""
 
 
 class FileMachine:
@@ -135,10 +137,19 @@ class FileMachine:
         moving = self._axis(self._named(axis))
         return moving.law.homing().coordinate if moving.law.homing else 0.0
 
+    def make_all(self) -> None:
+        """Make the axes that have not moved yet, as far as they can be made."""
+        fitted = tuple(self._law.axes(self._file)) if self._file is not None else ()
+        for name in fitted:
+            with contextlib.suppress(SimulationError):
+                self._axis(name)
+        made = self._machine.axes
+        self._machine.axes = {name: made[name] for name in fitted if name in made}
+
     def axes(self) -> Iterator[PanelAxis]:
         """Yield what is shown of each axis that has moved."""
         for name, axis in self._machine.axes.items():
-            alarm = f"{axis.alarm.code} {axis.alarm.message}" if axis.alarm else ""
+            alarm = (axis.alarm.code, axis.alarm.message) if axis.alarm else None
             yield PanelAxis(
                 self._letter(name),
                 axis.position,
@@ -155,7 +166,7 @@ class FileMachine:
         lines = [
             f"{each.letter} {each.position:.4f} {each.unit} error {each.following_error:.4f}"
             f"{' moving' if each.is_busy else ''}{' homed' if each.is_homed else ' not homed'}"
-            f"{f' ({each.alarm})' if each.alarm else ''}"
+            f"{' ({} {})'.format(*each.alarm) if each.alarm else ''}"
             for each in self.axes()
         ]
         return "; ".join(lines) or "no axis has moved"

@@ -3,22 +3,28 @@
 from __future__ import annotations
 
 from amp_studio.transfer.driver import ControlDriver
+from amp_studio.transfer.links import parse_endpoint
 from amp_studio.transfer.status import ControlStatus, ShowsStatus
+from amp_studio.transfer.ways import SCREEN
 
 from .drivers import open_driver
+from .screen import ScreenReader
 
 
 class StatusReader:
     """Asks one control what it is doing; raises TransferError. Closed by the one who made it."""
 
     def __init__(self, address: str, family: str = "") -> None:
-        self._driver: ControlDriver = open_driver(address, family)
+        place = parse_endpoint(address)
+        self._asked: ControlDriver | ScreenReader = (
+            ScreenReader(place) if place.protocol == SCREEN else open_driver(place, family)
+        )
 
     def read(self) -> ControlStatus:
         """Return the status now; of a protocol without one, who answers and whether it is in E-stop."""
-        if isinstance(self._driver, ShowsStatus):
-            return self._driver.status()
-        known = self._driver.identify()
+        if isinstance(self._asked, ShowsStatus | ScreenReader):
+            return self._asked.status()
+        known = self._asked.identify()
         state = "" if known.in_estop is None else "E-stop" if known.in_estop else "ready"
         return ControlStatus(
             known.family,
@@ -30,4 +36,4 @@ class StatusReader:
 
     def close(self) -> None:
         """Close the line."""
-        self._driver.close()
+        self._asked.close()

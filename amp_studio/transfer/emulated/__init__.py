@@ -10,5 +10,6 @@ if TYPE_CHECKING:
     from .line_device import DeviceSetup, serve_device
     from .memory import Memory
     from .panel import Start
+    from .screen import screen_status
 else:
     __getattr__ = front_page(__name__)

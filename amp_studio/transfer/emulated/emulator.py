@@ -21,11 +21,13 @@ from amp_studio.schema import quoted, visible
 from amp_studio.transfer.house import Code, Flags, RefusalError, Refused, encode_frame, pack
 from amp_studio.transfer.interruption import interrupts
 from amp_studio.transfer.links import Endpoint, Link, LinkError, Listener, listen, parse_endpoint
+from amp_studio.transfer.status import ControlStatus
 
 from .control import Control
 from .faults import Faults, FaultyLine, arm
-from .panel import OperatorPanel, PlainPanel, Start, TimedPanel
+from .panel import OperatorPanel, PlainPanel, ShownPanel, Start, TimedPanel
 from .responder import CHUNK, WINDOW, Responder
+from .screen import open_screen
 
 RESTART_SECONDS = 0.5
 SLICE = 0.05  # seconds between two looks at the operator's commands
@@ -64,7 +66,8 @@ class Emulator:
     has sent none for HELD_LINE seconds: bytes that are no frame do not count.
 
     ``patch`` gets the image, a key and a value and returns the changed image; it may raise ValueError with
-    what the operator is to read. ``say`` gets what the operator is to see, one line at a time.
+    what the operator is to read. ``screen`` has its turn whatever the control does. ``say`` gets what the
+    operator is to see, one line at a time.
     """
 
     def __init__(
@@ -75,6 +78,7 @@ class Emulator:
         patch: Patch | None = None,
         panel: OperatorPanel | None = None,
         faults: Faults | None = None,
+        screen: Callable[[], None] = lambda: None,
         restart_seconds: float = RESTART_SECONDS,
         window: int = WINDOW,
         chunk: int = CHUNK,
@@ -95,6 +99,7 @@ class Emulator:
         self._window = window
         self._chunk = chunk
         self._show = say
+        self._screen = screen
         self._commands: queue.Queue[str] = queue.Queue(COMMANDS_WAITING)
         self._callers: list[Caller] = []  # in the order in which they came
         self._holder: Caller | None = None
@@ -128,6 +133,7 @@ class Emulator:
         if isinstance(self._panel, TimedPanel):
             before, self._now = self._now, self._clock()
             self._panel.advance(self._control, self._now - before)
+        self._screen()
         self._obey()
         if self._restart_due:
             self._restart_due = False
@@ -315,6 +321,7 @@ def serve(
     patch: Patch | None = None,
     panel: OperatorPanel | None = None,
     faults: Faults | None = None,
+    screen: Endpoint | None = None,
     restart_seconds: float = RESTART_SECONDS,
     commands: Iterable[str] | None = None,
     say: Callable[[str], None] | None = None,
@@ -335,12 +342,14 @@ def serve(
         place.need_all_bytes("the house protocol")
         listener = listen(place)
         stack.callback(listener.close)
+        show(f"listening on {listener.endpoint}")
         emulator = Emulator(
             control,
             listener,
             patch=patch,
             panel=panel,
             faults=faults,
+            screen=open_screen(screen, _shown(panel, control), show, stack),
             restart_seconds=restart_seconds,
             say=show,
             stop=stop,
@@ -352,11 +361,14 @@ def serve(
                 emulator.operate(line)
 
         threading.Thread(target=forward, name="operator", daemon=True).start()
-        show(f"listening on {listener.endpoint}")
         emulator.run()
         if stop.is_set():
             show("bye")
     return 0
+
+
+def _shown(panel: OperatorPanel | None, control: Control) -> Callable[[], ControlStatus] | None:
+    return partial(panel.shown, control) if isinstance(panel, ShownPanel) else None
 
 
 def print_line(line: str) -> None:

@@ -33,6 +33,7 @@ class EmulatedOptions:
     ``machine``  the machine type, None for the family's first
     ``estop``, ``autostart``  as it begins, where a protocol knows of them
     ``faults``   what goes wrong, to practise with, as one JSON object
+    ``screen``   where its screen can be looked at; None for nowhere
     ``hardware`` what was ordered with it, by the names that its family knows
     """
 
@@ -42,6 +43,7 @@ class EmulatedOptions:
     estop: bool = True
     autostart: bool = True
     faults: str = "{}"
+    screen: Endpoint | None = None
     hardware: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -109,7 +111,13 @@ def run_house(listen: Endpoint, options: EmulatedOptions, panel: OperatorPanel |
             accept=decode_image,
         )
         return serve(
-            listen, control, patch=patch_image, panel=panel, faults=read_faults(options.faults), stop=stop
+            listen,
+            control,
+            patch=patch_image,
+            panel=panel,
+            faults=read_faults(options.faults),
+            screen=options.screen,
+            stop=stop,
         )
 
 

@@ -17,11 +17,13 @@ from typing import Protocol, runtime_checkable
 from amp_studio.schema import visible
 from amp_studio.transfer.interruption import interrupts
 from amp_studio.transfer.links import Endpoint, Link, LinkError, Listener, PtyLink, listen
+from amp_studio.transfer.status import ControlStatus
 
 from .emulator import LONGEST_COMMAND, LONGEST_LINE, print_line, standard_input
 from .family_control import EmulatedOptions, memory_folder
 from .faults import Faults, FaultyLine, die, read_faults
 from .memory import Memory
+from .screen import open_screen
 
 SLICE = 0.02  # seconds a turn waits for bytes
 PIECE = 256  # bytes that are worked on before the operator has a turn
@@ -62,6 +64,14 @@ class TimedDevice(Protocol):
         """Let a time pass, s; called before what has come on the line is taken."""
 
 
+@runtime_checkable
+class ShownDevice(Protocol):
+    """A device whose screen can be looked at from elsewhere."""
+
+    def shown(self) -> ControlStatus:
+        """Return what the screen shows now."""
+
+
 @dataclass(frozen=True)
 class DeviceSetup:
     """What an emulated control is made of.
@@ -92,12 +102,14 @@ class DeviceService:
         faults: Faults | None = None,
         say: Callable[[str], None] = print,
         stop: threading.Event | None = None,
+        screen: Callable[[], None] = lambda: None,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._device = device
         self._listener = listener
         self._line = FaultyLine(faults or Faults())
         self._show = say
+        self._screen = screen
         self._stop = stop or threading.Event()
         self._commands: queue.Queue[str] = queue.Queue(COMMANDS_WAITING)
         self._link: Link | None = None
@@ -125,6 +137,7 @@ class DeviceService:
         if isinstance(self._device, TimedDevice):
             before, self._now = self._now, self._clock()
             self._device.advance(self._now - before)
+        self._screen()
         self._obey()
         caller = self._listener.accept(0 if self._link else SLICE)
         if caller is not None:
@@ -194,14 +207,16 @@ def serve_device(
         _arm(memory, faults)
         listener = listen(place)
         stack.callback(listener.close)
-        service = DeviceService(device, listener, faults=faults, say=show, stop=stop)
+        show(f"listening on {listener.endpoint}")
+        shown = device.shown if isinstance(device, ShownDevice) else None
+        screen = open_screen(options.screen, shown, show, stack)
+        service = DeviceService(device, listener, faults=faults, say=show, stop=stop, screen=screen)
 
         def forward() -> None:
             for line in standard_input() if commands is None else commands:
                 service.operate(line)
 
         threading.Thread(target=forward, name="operator", daemon=True).start()
-        show(f"listening on {listener.endpoint}")
         service.run()
         if stop.is_set():
             show("bye")

@@ -7,6 +7,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
+from amp_studio.transfer.status import ControlStatus
+
 from .control import Control
 
 
@@ -45,6 +47,14 @@ class TimedPanel(Protocol):
 
     def advance(self, control: Control, duration: float) -> None:
         """Let a time pass, s; called before anything else of a turn."""
+
+
+@runtime_checkable
+class ShownPanel(Protocol):
+    """A panel whose screen can be looked at from elsewhere."""
+
+    def shown(self, control: Control) -> ControlStatus:
+        """Return what the screen shows now."""
 
 
 class PlainPanel:

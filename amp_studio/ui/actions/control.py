@@ -78,7 +78,9 @@ class ControlDesk(Translated):
         if address is None:
             return
         family = workspace.file.schema.family.family
-        page = self._live = LivePage(address, family, self.window.follow, self.window)
+        own = self.emulated if address == self.emulated.address else None
+        seen = own.screen or address if own else address
+        page = self._live = LivePage(seen, family, self.window.follow, self.window, emulated=own)
         self.window.beside.show(page)
         page.start()
 

@@ -23,6 +23,8 @@ class EmulatedControl(QObject):
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         self.address = ""
+        self.screen = ""
+        """The address of its screen; empty where its own protocol shows what it is doing."""
         self._stopping = False
         self._folder = QTemporaryDir()
         self._process = QProcess(self)
@@ -46,6 +48,8 @@ class EmulatedControl(QObject):
             family,
             "--listen",
             "tcp://127.0.0.1:0",
+            "--screen",
+            "tcp://127.0.0.1:0",
             "--state",
             str(state),
             "--machine",
@@ -54,7 +58,7 @@ class EmulatedControl(QObject):
         self._process.start(sys.executable, arguments)
 
     def send(self, command: str) -> None:
-        """Send a command of its panel: ``estop on``, ``estop off``, ``restart``."""
+        """Send a command of its panel: ``estop on``, ``jog X+``, ``restart``."""
         self._process.write(f"{command}\n".encode())
 
     def stop(self, wait: bool = False) -> None:
@@ -76,6 +80,8 @@ class EmulatedControl(QObject):
             line = bytes(self._process.readLine().data()).decode("utf-8", "replace").strip()
             if line.startswith("listening on "):
                 self.address = line.removeprefix("listening on ").strip()
+            elif line.startswith(("screen at ", "no screen: ")):  # the line after it
+                self.screen = line.removeprefix("screen at ") if line.startswith("screen at ") else ""
                 self.ready.emit(self.address)
             elif line:
                 self.line_shown.emit(line)
@@ -85,7 +91,7 @@ class EmulatedControl(QObject):
             self.ended.emit(self._process.errorString())
 
     def _finished(self, *_: object) -> None:
-        self.address = ""
+        self.address = self.screen = ""
         lines = (
             bytes(self._process.readAllStandardError().data()).decode("utf-8", "replace").strip().splitlines()
         )

@@ -5,15 +5,12 @@ and never written to.
 from __future__ import annotations
 
 import html
-import threading
 import time
-from collections import deque
 from collections.abc import Callable
-from datetime import UTC, datetime
+from datetime import datetime
 from typing import TYPE_CHECKING
 
-import numpy as np
-from PySide6.QtCore import QObject, Qt, QTimer, Signal
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import (
     QComboBox,
@@ -21,6 +18,7 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QHeaderView,
     QLabel,
+    QLineEdit,
     QPushButton,
     QTableWidget,
     QTableWidgetItem,
@@ -28,73 +26,25 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.drawing import Curve, Picture, panel_of
+from amp_studio.ui.base.emulated_control import EmulatedControl
 from amp_studio.ui.base.plot import Plot
-from amp_studio.ui.base.task import Task, TaskProgress
-from amp_studio.ui.base.theme import GAP2, GAP3, colour, font
+from amp_studio.ui.base.theme import GAP2, GAP3, font
+
+from .readings import AxisReadings, Happened, StatusReadings, titled, without_error
 
 if TYPE_CHECKING:
     from amp_studio.transfer import ActiveFault, AxisStatus, ControlStatus
 
-PERIOD = 0.2
-"""s from one question to the next, at least."""
 SILENT_MS = 2000
 """Milliseconds without an answer after which the figures are grey."""
-KEPT = 300
-"""Readings of the following error that stay in the picture."""
-HISTORY = 50
+EVENTS = 6
+"""Events that are shown."""
 PLACES = 4
-
-
-class StatusReadings(QObject):
-    """Asks a control for its status in a separate thread, until it is stopped; may outlast its page."""
-
-    read = Signal(object)
-    failed = Signal(object)
-
-    def __init__(self, address: str, family: str) -> None:
-        super().__init__()
-        self._address, self._family = address, family
-        self._task: Task | None = None
-
-    @property
-    def is_running(self) -> bool:
-        """Whether the control is being asked."""
-        return self._task is not None
-
-    def start(self) -> None:
-        """Begin to ask."""
-        if self._task is not None:
-            return
-        task = self._task = Task(self._ask)
-        task.failed.connect(self._over)
-        task.done.connect(self._over)  # a method: it is called in the window's thread
-        task.begin()
-
-    def stop(self) -> None:
-        """Ask no more; the line is closed after the present answer."""
-        if self._task is not None:
-            self._task.cancelled.set()
-
-    def _over(self, error: object) -> None:
-        self._task = None
-        self.failed.emit(error)
-
-    def _ask(self, _progress: TaskProgress, cancelled: threading.Event) -> None:
-        from contextlib import closing
-
-        from amp_studio.transfer.client import StatusReader
-
-        with closing(StatusReader(self._address, self._family)) as reader:
-            while not cancelled.is_set():
-                begun = time.monotonic()
-                self.read.emit(reader.read())
-                cancelled.wait(max(PERIOD - (time.monotonic() - begun), 0.0))
 
 
 class LivePage(QDialog):
     """Position, following error, states and faults of a control. Reads only; a fault stops it,
-    an exchange ends it.
+    an exchange ends it. ``emulated`` is the emulated control whose keys can be pressed here.
     """
 
     def __init__(
@@ -104,6 +54,7 @@ class LivePage(QDialog):
         show_parameter: Callable[[str], object],
         parent: QWidget | None = None,
         readings: StatusReadings | None = None,
+        emulated: EmulatedControl | None = None,
     ) -> None:
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
@@ -112,11 +63,11 @@ class LivePage(QDialog):
         self.readings = readings or StatusReadings(address, family)
         self.readings.read.connect(self.show_status)
         self.readings.failed.connect(self._over)
-        self._errors: dict[str, deque[tuple[float, float]]] = {}
+        self._emulated = emulated
+        self._axes: dict[str, AxisReadings] = {}
+        self._status: ControlStatus | None = None
         self._begun = time.monotonic()
-        self._active: dict[tuple[str, str], tuple[ActiveFault, datetime]] = {}
-        self.past: list[str] = []
-        """Faults that are over, the last one first."""
+        self.happened = Happened()
         self._why = ""
         self._silence = QTimer(self)
         self._silence.setInterval(SILENT_MS)
@@ -130,6 +81,9 @@ class LivePage(QDialog):
         self.state = QLabel(self.tr("No readings yet."))
         self.state.setFont(font("text", own=True))
         self.lock = QLabel(self.tr("Reads only: nothing is written to the control."))
+        self.figures = QLabel()
+        self.figures.setFont(font("figure"))
+        self.figures.setAccessibleName(self.tr("Position of the chosen axis"))
         self.axes = QTableWidget(0, 5)
         self.axes.setHorizontalHeaderLabels(
             [
@@ -156,11 +110,14 @@ class LivePage(QDialog):
         self.notes = QLabel()
         self.notes.setWordWrap(True)
         self.notes.setFont(font("small"))
+        self.events = QLabel()
+        self.events.setFont(font("small"))
+        self.events.setAccessibleName(self.tr("What has happened before"))
         self.chosen = QComboBox()
-        self.chosen.setAccessibleName(self.tr("Axis whose following error is drawn"))
+        self.chosen.setAccessibleName(self.tr("Axis that is shown large, and whose readings are drawn"))
         self.chosen.currentIndexChanged.connect(lambda _: self._draw())
         self.plot = Plot(has_cursors=False)
-        self.plot.setAccessibleName(self.tr("Following error over time, a dot for each reading"))
+        self.plot.setAccessibleName(self.tr("Readings over time, a dot for each"))
         self.plot.setMinimumHeight(140)
         self.toggle = QPushButton(self.tr("&Start"))
         self.toggle.setAutoDefault(False)
@@ -172,13 +129,46 @@ class LivePage(QDialog):
         foot.addWidget(self.lock, 1)
         foot.addWidget(self.toggle)
         foot.addWidget(close)
+        head = QHBoxLayout()
+        head.addWidget(self.state, 1)
+        head.addWidget(self.chosen)
+        head.addWidget(self.figures)
         column = QVBoxLayout(self)
         column.setContentsMargins(GAP3, GAP3, GAP3, GAP3)
         column.setSpacing(GAP2)
-        for part in (self.state, self.axes, self.values, self.faults, self.chosen, self.plot, self.notes):
-            column.addWidget(part, 1 if part in (self.axes, self.plot) else 0)
+        column.addLayout(head)
+        for part in (self.axes, self.values, self.faults, self.plot, self.events, self.notes):
+            column.addWidget(part, {self.axes: 1, self.plot: 2}.get(part, 0))
+        if self._emulated is not None:
+            column.addLayout(self._keys(self._emulated))
         column.addLayout(foot)
-        self.resize(760, 640)
+        self.resize(760, 680)
+
+    def _keys(self, emulated: EmulatedControl) -> QHBoxLayout:
+        """Return what presses the keys of an emulated control; no other control is operated from here."""
+        self.keys = QLineEdit()
+        self.keys.setAccessibleName(self.tr("Keys of the emulated control"))
+        self.keys.setPlaceholderText("jog X+, release, position")
+        label = QLabel(self.tr("&Keys of the emulated control:"))
+        label.setBuddy(self.keys)
+        self.keys.returnPressed.connect(self._press)
+        emulated.line_shown.connect(self._answered)
+        row = QHBoxLayout()
+        row.addWidget(label)
+        row.addWidget(self.keys, 1)
+        return row
+
+    def _press(self) -> None:
+        command = self.keys.text().strip()
+        if command and self._emulated is not None:
+            self._emulated.send(command)
+            self.keys.selectAll()
+            if not self.readings.is_running:  # whoever moves an axis wants to see it
+                self.start()
+
+    def _answered(self, line: str) -> None:
+        self.happened.note(line)
+        self._show_events()
 
     # -- asking ------------------------------------------------------------------
 
@@ -226,15 +216,18 @@ class LivePage(QDialog):
         """Show a reading; a fault that is new stops the readings."""
         self._silence.start()
         self._grey(False)
+        self._status = status
         name = status.name or status.family
         self.state.setText(f"{name}: {status.state}" if status.state else name)
         self._show_axes(status.axes)
         self.values.setText(", ".join(f"{key} {_value_text(value)}" for key, value in status.values.items()))
         self.values.setVisible(bool(status.values))
-        self.notes.setText("\n".join(status.assumptions))
-        if self._take_faults(status.faults):
-            self.stop(self.tr("Stopped: the control has a fault."))
+        is_new = self.happened.take(status)
+        self._show_faults()
+        self._show_events()
         self._draw()
+        if is_new:
+            self.stop(self.tr("Stopped: the control has a fault."))
 
     def _show_axes(self, axes: tuple[AxisStatus, ...]) -> None:
         if self.axes.rowCount() != len(axes):
@@ -255,30 +248,20 @@ class LivePage(QDialog):
                     self.axes.setItem(row, column, item)
                 if item.text() != text:
                     item.setText(text)
-            if axis.following_error is not None:
-                self._errors.setdefault(axis.axis, deque(maxlen=KEPT)).append((now, axis.following_error))
+            self._axes.setdefault(axis.axis, AxisReadings()).add(now, axis)
 
-    def _take_faults(self, faults: tuple[ActiveFault, ...]) -> bool:
-        """Show active faults and those that are over; returns whether one is new."""
-        now = datetime.now(UTC).astimezone()
-        present = {(fault.axis, fault.code): fault for fault in faults}
-        for key in [key for key in self._active if key not in present]:
-            fault, since = self._active.pop(key)
-            self.past.insert(0, f"{since:%H:%M:%S}–{now:%H:%M:%S} {_titled(fault)}")
-            del self.past[HISTORY:]
-        new = [key for key in present if key not in self._active]
-        self._active |= {key: (present[key], now) for key in new}
-        parts = [self._fault_html(fault, since) for fault, since in self._active.values()]
-        parts += [
-            f'<span style="color:{colour("dim").name()}">{html.escape(text)}</span>' for text in self.past[:3]
-        ]
+    def _show_faults(self) -> None:
+        parts = [self._fault_html(fault, since) for fault, since in self.happened.active.values()]
         self.faults.setText("<br>".join(parts))
         self.faults.setVisible(bool(parts))
-        return bool(new)
+
+    def _show_events(self) -> None:
+        self.events.setText("\n".join(self.happened.events[:EVENTS]))
+        self.events.setVisible(bool(self.happened.events))
 
     def _fault_html(self, fault: ActiveFault, since: datetime) -> str:
         page = self.tr(" (page {page})").format(page=fault.page) if fault.page else ""
-        lines = [f"<b>{html.escape(_titled(fault))}</b>{html.escape(page)} {since:%H:%M:%S}"]
+        lines = [f"<b>{html.escape(titled(fault))}</b>{html.escape(page)} {since:%H:%M:%S}"]
         if fault.means:
             lines.append(html.escape(fault.means))
         lines += [f"{self.tr('Cause:')} {html.escape(each)}" for each in fault.causes]
@@ -289,18 +272,19 @@ class LivePage(QDialog):
         return "<br>".join(lines)
 
     def _draw(self) -> None:
-        """Draw the readings of the chosen axis as dots; nothing is known between them."""
-        points = self._errors.get(self.chosen.currentText())
-        self.plot.setVisible(bool(points))
-        self.chosen.setVisible(bool(points))
-        if points:
-            x, y = np.array(points).T
-            dots = Curve("", x, y, "now", dots=True)
-            self.plot.draw(Picture("", (), (panel_of("following error", (dots,), ("time", "s")),)))
-
-
-def _titled(fault: ActiveFault) -> str:
-    return f"{fault.axis + ': ' if fault.axis else ''}{fault.code} {fault.text}".strip()
+        """Show the chosen axis large, and draw its readings as dots; nothing is known between them."""
+        name, status = self.chosen.currentText(), self._status
+        axis = next((each for each in status.axes if each.axis == name), None) if status else None
+        place = axis.position if axis else None
+        self.figures.setText("" if axis is None or place is None else f"{_value_text(place)} {axis.unit}")
+        readings = self._axes.get(name)
+        picture = readings.picture() if readings else None
+        self.plot.setVisible(picture is not None)
+        notes = status.assumptions if status else ()
+        if picture is not None and readings is not None:
+            self.plot.draw(picture)
+            notes = notes if "following error" in readings.signals else (*notes, without_error())
+        self.notes.setText("\n".join(notes))
 
 
 def _value_text(value: float | str) -> str:

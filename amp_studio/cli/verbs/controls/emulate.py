@@ -35,6 +35,12 @@ VERB = Verb(
         help="what was ordered with the control, where its family has options: axes=3",
     ),
     VerbArgument(
+        "--screen",
+        metavar="ADDRESS",
+        help="where its screen can be looked at with status: positions, messages and alarms of a control"
+        " whose protocol has none",
+    ),
+    VerbArgument(
         "--password-file", type=path_of, metavar="FILE", help="ask clients for the password in its first line"
     ),
     VerbArgument(
@@ -55,6 +61,7 @@ VERB = Verb(
 def run(options: Options) -> int:
     """Be a control until stopped."""
     from amp_studio.transfer.emulated import EmulatedOptions, emulate
+    from amp_studio.transfer.links import parse_endpoint
 
     family(options.family)
     return emulate(
@@ -66,6 +73,7 @@ def run(options: Options) -> int:
             estop=not options.no_estop,
             autostart=not options.manual_restart,
             faults=options.faults,
+            screen=parse_endpoint(options.screen) if options.screen else None,
             hardware=dict(assignments(options.option, "NAME=VALUE")),
         ),
     )

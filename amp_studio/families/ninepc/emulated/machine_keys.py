@@ -4,18 +4,19 @@ and what its position screen shows (chapters 5, 6 and 8).
 Commands are keys: ``jog X+ second`` goes on until ``release``, ``jog X+ increment third`` is one increment,
 ``manual-home X`` the home key (5-3),
 ``mdi G28 X5``, ``mdi G0 X10 Y5`` and ``mdi G1 X10 F500`` a block, ``position`` the position screen.
-The house protocol shows no positions.
+The house protocol shows no positions; a live page looks at the screen (``emulate --screen``).
 """
 
 from __future__ import annotations
 
+import contextlib
 import re
 
 from amp_studio.families.ninepc.law import LAW
 from amp_studio.files import ParameterFile
 from amp_studio.sim import FileMachine, SimulationError, bind_axis
-from amp_studio.transfer import ImageError, decode_image
-from amp_studio.transfer.emulated import Control
+from amp_studio.transfer import ControlStatus, ImageError, decode_image
+from amp_studio.transfer.emulated import Control, screen_status
 from amp_studio.transfer.house import Flags
 
 MUST_HOME, NOT_ALLOWED = "MUST HOME AXIS", "HOMING NOT ALLOWED"
@@ -64,12 +65,24 @@ class MachineKeys:
         except SimulationError as error:
             raise ValueError(str(error)) from None
 
+    def shown(self, control: Control) -> ControlStatus:
+        """Return the position screen: every axis of its AMP, with what has stopped it."""
+        with contextlib.suppress(ValueError, SimulationError):  # an AMP that makes no machine moves nothing
+            self._load_parameters(control)
+            self._machine.make_all()
+        state = "E-STOP" if control.flags & Flags.ESTOP else "moving" if self._machine.is_busy else "ready"
+        identity = control.identity
+        return screen_status(identity.family, identity.name, state, self._machine.axes())
+
+    def _load_parameters(self, control: Control) -> None:
+        if control.image != self._content and not self._machine.is_busy:
+            self._machine.take(_file_of(control))
+            self._content = control.image
+
     def _ready(self, control: Control) -> None:
         if control.flags & Flags.ESTOP:
             raise ValueError("the control is in E-stop")
-        if control.image != self._content:
-            self._machine.take(_file_of(control))
-            self._content = control.image
+        self._load_parameters(control)
         if not self._machine.is_busy:
             self._machine.reset()
 

@@ -10,10 +10,11 @@ EXIT}, ``leave`` goes without it, and ``can`` is the key [CAN].
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import UnknownParameterError, quoted, stored_number, write_number
-from amp_studio.transfer import ImageError, decode_image, patch_image
+from amp_studio.transfer import ControlStatus, ImageError, decode_image, patch_image
 from amp_studio.transfer.emulated import Control, Start
 from amp_studio.transfer.house import Flags
 
@@ -80,6 +81,11 @@ class NinePcPanel:
     def advance(self, control: Control, duration: float) -> None:
         """Let time pass, s: the axes move."""
         self._keys.advance(control, duration)
+
+    def shown(self, control: Control) -> ControlStatus:
+        """Return the position screen and what is in the message line."""
+        status = self._keys.shown(control)
+        return replace(status, values={"messages": "; ".join(self._messages)} if self._messages else {})
 
     # -- at the keys -----------------------------------------------------------------
 

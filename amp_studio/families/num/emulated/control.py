@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from typing import Literal
 
+from amp_studio.transfer import ControlStatus
 from amp_studio.transfer.emulated import DeviceSetup, EmulatedOptions, serve_device
 from amp_studio.transfer.links import Endpoint, Parity
 
@@ -71,6 +72,10 @@ class NumControl:
     def advance(self, duration: float) -> None:
         """Let time pass, s: the axes move."""
         self._keys.advance(duration)
+
+    def shown(self) -> ControlStatus:
+        """Return what its screen shows: the menu it is in, and its axes."""
+        return self._keys.shown(self._doing)
 
     def line_set(self, baud: int, stop: int) -> None:
         """Compare how the client has set its end: another rate, or fewer stop bits than are awaited,

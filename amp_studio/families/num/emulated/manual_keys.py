@@ -3,16 +3,19 @@ and the position page (chapters 6 and 7).
 
 Commands are keys: ``jog X+ slow`` goes on until ``release``, ``homing X`` the homing mode with the key of the
 direction of P15, ``position`` the axis page. The peripheral line carries parameters alone (chapter 13):
-what the axes do is on the screen.
+what the axes do is on the screen (``emulate --screen``).
 """
 
 from __future__ import annotations
+
+import contextlib
 
 from amp_studio.families.num.law import LAW
 from amp_studio.families.num.lines.content import KIND, NumTableContent
 from amp_studio.files import ParameterFile
 from amp_studio.sim import FileMachine, SimulationError, bind_axis
-from amp_studio.transfer import ImageError
+from amp_studio.transfer import ControlStatus, ImageError
+from amp_studio.transfer.emulated import screen_status
 
 from .parameter_memory import ParameterMemory
 
@@ -44,6 +47,8 @@ class NumKeys:
             return "released"
         try:
             self._load_parameters()
+            if not self._machine.is_busy:
+                self._machine.reset()
             if verb == "homing":
                 if self._machine.is_busy:
                     raise ValueError("an axis is moving")
@@ -55,14 +60,19 @@ class NumKeys:
         except SimulationError as error:
             raise ValueError(str(error)) from None
 
+    def shown(self, state: str) -> ControlStatus:
+        """Return the axis page: every axis of the parameters, with what has stopped it."""
+        with contextlib.suppress(ValueError, SimulationError):  # a table that makes no machine moves nothing
+            self._load_parameters()
+            self._machine.make_all()
+        return screen_status("num", "NUM", state, self._machine.axes())
+
     def _load_parameters(self) -> None:
-        """Have the machine be that of the parameters; one that an alarm has stopped is taken up again."""
+        """Have the machine be that of the parameters, at rest."""
         content = b"".join(self._parameters.lines())
-        if content != self._content:
+        if content != self._content and not self._machine.is_busy:
             self._machine.take(_file_of(content))
             self._content = content
-        if not self._machine.is_busy:
-            self._machine.reset()
 
 
 def _file_of(content: bytes) -> ParameterFile:
