@@ -25,7 +25,7 @@ from amp_studio.transfer.status import ControlStatus
 
 from .control import Control
 from .faults import Faults, FaultyLine, arm
-from .panel import OperatorPanel, PlainPanel, ShownPanel, Start, TimedPanel
+from .panel import OperatorPanel, PlainPanel, ScreenPanel, Start, TimedPanel
 from .responder import CHUNK, WINDOW, Responder
 from .screen import open_screen
 
@@ -349,7 +349,7 @@ def serve(
             patch=patch,
             panel=panel,
             faults=faults,
-            screen=open_screen(screen, _shown(panel, control), show, stack),
+            screen=open_screen(screen, _screen_of(panel, control), show, stack),
             restart_seconds=restart_seconds,
             say=show,
             stop=stop,
@@ -367,8 +367,8 @@ def serve(
     return 0
 
 
-def _shown(panel: OperatorPanel | None, control: Control) -> Callable[[], ControlStatus] | None:
-    return partial(panel.shown, control) if isinstance(panel, ShownPanel) else None
+def _screen_of(panel: OperatorPanel | None, control: Control) -> Callable[[], ControlStatus] | None:
+    return partial(panel.screen, control) if isinstance(panel, ScreenPanel) else None
 
 
 def print_line(line: str) -> None:

@@ -33,7 +33,7 @@ class EmulatedOptions:
     ``machine``  the machine type, None for the family's first
     ``estop``, ``autostart``  as it begins, where a protocol knows of them
     ``faults``   what goes wrong, to practise with, as one JSON object
-    ``screen``   where its screen can be looked at; None for nowhere
+    ``screen``   where its screen is read; None for nowhere
     ``hardware`` what was ordered with it, by the names that its family knows
     """
 

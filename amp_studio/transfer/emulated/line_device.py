@@ -65,10 +65,10 @@ class TimedDevice(Protocol):
 
 
 @runtime_checkable
-class ShownDevice(Protocol):
-    """A device whose screen can be looked at from elsewhere."""
+class ScreenDevice(Protocol):
+    """A device whose screen others can read."""
 
-    def shown(self) -> ControlStatus:
+    def screen(self) -> ControlStatus:
         """Return what the screen shows now."""
 
 
@@ -208,8 +208,8 @@ def serve_device(
         listener = listen(place)
         stack.callback(listener.close)
         show(f"listening on {listener.endpoint}")
-        shown = device.shown if isinstance(device, ShownDevice) else None
-        screen = open_screen(options.screen, shown, show, stack)
+        status = device.screen if isinstance(device, ScreenDevice) else None
+        screen = open_screen(options.screen, status, show, stack)
         service = DeviceService(device, listener, faults=faults, say=show, stop=stop, screen=screen)
 
         def forward() -> None:

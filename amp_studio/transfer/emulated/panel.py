@@ -50,10 +50,10 @@ class TimedPanel(Protocol):
 
 
 @runtime_checkable
-class ShownPanel(Protocol):
-    """A panel whose screen can be looked at from elsewhere."""
+class ScreenPanel(Protocol):
+    """A panel whose screen others can read."""
 
-    def shown(self, control: Control) -> ControlStatus:
+    def screen(self, control: Control) -> ControlStatus:
         """Return what the screen shows now."""
 
 

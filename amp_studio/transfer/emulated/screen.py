@@ -1,7 +1,7 @@
 """The screen of an emulated control on a second line: what its operator sees, for a live page.
 
 Some controls show positions and faults on their screen alone: their protocol carries parameters and nothing
-else. Whoever connects here sends a line and gets the status as one line of JSON. Nothing can be changed
+else. A client that connects here sends a line and gets the status as one line of JSON. Nothing can be changed
 over it.
 """
 
@@ -45,8 +45,8 @@ class ScreenAxis(Protocol):
 class ScreenLine:
     """One client at a time that looks at the screen; a new one takes the line over."""
 
-    def __init__(self, listener: Listener, shown: Callable[[], ControlStatus]) -> None:
-        self._listener, self._shown = listener, shown
+    def __init__(self, listener: Listener, status: Callable[[], ControlStatus]) -> None:
+        self._listener, self._status = listener, status
         self._link: Link | None = None
         self._question = b""
 
@@ -62,7 +62,7 @@ class ScreenLine:
             self._question += self._link.read(0)
             *lines, self._question = self._question.split(b"\n")
             if lines:  # asked twice at once, one answer shows all there is
-                self._link.write(json.dumps(asdict(self._shown())).encode() + b"\n")
+                self._link.write(json.dumps(asdict(self._status())).encode() + b"\n")
             if len(self._question) > LONGEST_QUESTION:
                 self.close()
         except LinkError:
@@ -78,7 +78,7 @@ class ScreenLine:
 
 def open_screen(
     place: Endpoint | None,
-    shown: Callable[[], ControlStatus] | None,
+    status: Callable[[], ControlStatus] | None,
     show: Callable[[str], None],
     stack: ExitStack,
 ) -> Callable[[], None]:
@@ -88,12 +88,12 @@ def open_screen(
     """
     if place is None:
         return lambda: None
-    if shown is None:
+    if status is None:
         show("no screen: the status of this control is asked for over its line")
         return lambda: None
     listener = listen(replace(place, protocol=SCREEN))
     stack.callback(listener.close)
-    line = ScreenLine(listener, shown)
+    line = ScreenLine(listener, status)
     stack.callback(line.close)
     show(f"screen at {listener.endpoint}")
     return line.turn

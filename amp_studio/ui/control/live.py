@@ -163,7 +163,7 @@ class LivePage(QDialog):
         if command and self._emulated is not None:
             self._emulated.send(command)
             self.keys.selectAll()
-            if not self.readings.is_running:  # whoever moves an axis wants to see it
+            if not self.readings.is_running:  # an axis that is moved is to be seen
                 self.start()
 
     def _answered(self, line: str) -> None:

@@ -83,12 +83,12 @@ class AxisReadings:
     def add(self, now: float, axis: AxisStatus) -> None:
         """Add a reading at a time in s."""
         self.unit = axis.unit
-        shown = {
+        figures = {
             "following error": axis.following_error,
             "velocity": axis.velocity,
             "position": axis.position,
         }
-        for name, value in shown.items():
+        for name, value in figures.items():
             if value is not None:
                 self.signals.setdefault(name, deque(maxlen=KEPT)).append((now, value))
 

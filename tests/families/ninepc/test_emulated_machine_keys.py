@@ -109,9 +109,9 @@ def test_the_screen_shows_every_axis_and_e_stop(bench: Bench) -> None:
     """Chapter 2: a download needs E-STOP; the house protocol shows no positions."""
     bench.give("jog X+ second")
     bench.panel.advance(bench.control, 0.5)
-    shown = bench.panel.shown(bench.control)
+    shown = bench.panel.screen(bench.control)
     assert [axis.axis for axis in shown.axes] == ["X", "Y", "Z", "B"]
     assert shown.axes[0].states == ("not homed", "moving")
     assert shown.axes[0].following_error
     bench.control.set_estop(True)
-    assert bench.panel.shown(bench.control).state == "E-STOP"
+    assert bench.panel.screen(bench.control).state == "E-STOP"

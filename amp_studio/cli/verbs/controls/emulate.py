@@ -37,7 +37,7 @@ VERB = Verb(
     VerbArgument(
         "--screen",
         metavar="ADDRESS",
-        help="where its screen can be looked at with status: positions, messages and alarms of a control"
+        help="where its screen is read with status: positions, messages and alarms of a control"
         " whose protocol has none",
     ),
     VerbArgument(

@@ -65,7 +65,7 @@ class MachineKeys:
         except SimulationError as error:
             raise ValueError(str(error)) from None
 
-    def shown(self, control: Control) -> ControlStatus:
+    def screen(self, control: Control) -> ControlStatus:
         """Return the position screen: every axis of its AMP, with what has stopped it."""
         with contextlib.suppress(ValueError, SimulationError):  # an AMP that makes no machine moves nothing
             self._load_parameters(control)

@@ -82,9 +82,9 @@ class NinePcPanel:
         """Let time pass, s: the axes move."""
         self._keys.advance(control, duration)
 
-    def shown(self, control: Control) -> ControlStatus:
+    def screen(self, control: Control) -> ControlStatus:
         """Return the position screen and what is in the message line."""
-        status = self._keys.shown(control)
+        status = self._keys.screen(control)
         return replace(status, values={"messages": "; ".join(self._messages)} if self._messages else {})
 
     # -- at the keys -----------------------------------------------------------------

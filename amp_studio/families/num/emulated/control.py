@@ -73,9 +73,9 @@ class NumControl:
         """Let time pass, s: the axes move."""
         self._keys.advance(duration)
 
-    def shown(self) -> ControlStatus:
+    def screen(self) -> ControlStatus:
         """Return what its screen shows: the menu it is in, and its axes."""
-        return self._keys.shown(self._doing)
+        return self._keys.screen(self._doing)
 
     def line_set(self, baud: int, stop: int) -> None:
         """Compare how the client has set its end: another rate, or fewer stop bits than are awaited,

@@ -60,7 +60,7 @@ class NumKeys:
         except SimulationError as error:
             raise ValueError(str(error)) from None
 
-    def shown(self, state: str) -> ControlStatus:
+    def screen(self, state: str) -> ControlStatus:
         """Return the axis page: every axis of the parameters, with what has stopped it."""
         with contextlib.suppress(ValueError, SimulationError):  # a table that makes no machine moves nothing
             self._load_parameters()

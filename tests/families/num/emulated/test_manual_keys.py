@@ -65,6 +65,6 @@ def test_the_screen_shows_the_axes_of_the_table(bench: Bench) -> None:
     """The peripheral line carries parameters alone (chapter 13)."""
     bench.control.operate("jog X+ slow")
     bench.control.advance(0.5)
-    shown = bench.control.shown()
+    shown = bench.control.screen()
     assert (shown.state, shown.axes[0].axis) == ("menu", "X")
     assert shown.axes[0].states == ("not homed", "moving")
