@@ -83,11 +83,22 @@ def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Installe
     return environment
 
 
+def for_users(name: str) -> bool:
+    """Return whether a file of the documents is part of the manual in the window."""
+    parts = name.split("/")[1:]
+    return parts[0].endswith(".md") or parts[0] in ("howto", "simulation", "protocols", "images")
+
+
 def test_the_wheel_holds_the_package_the_facts_and_the_examples(checkout: Path, wheel: Path) -> None:
     expected = {
         *files_below(checkout / "amp_studio", within=checkout),
         *(f"amp_studio/{name}" for name in files_below(checkout / "parameter_db", within=checkout)),
         *(f"amp_studio/{name}" for name in files_below(checkout / "examples", within=checkout)),
+        *(
+            f"amp_studio/{name}"
+            for name in files_below(checkout / "docs", within=checkout)
+            if for_users(name)
+        ),
     }
     names = zipfile.ZipFile(wheel).namelist()
     assert expected == {name for name in names if not re.search(r"\.(dist-info|data)/", name)}

@@ -14,7 +14,15 @@ if TYPE_CHECKING:
     from .build import SheetError, make_sheet
     from .keying import Instruction, Keyed, Keying, Stage, plain_text
     from .model import Sheet, SheetEntry
-    from .read_back import STATES, ReadBack, ReadBackError, compare_screen, judged, read_screen_readings
+    from .read_back import (
+        STATES,
+        ReadBack,
+        ReadBackError,
+        ReadBackState,
+        compare_screen,
+        judged,
+        read_screen_readings,
+    )
     from .ticks import Ticks, TicksError, ticks_path
 else:
     __getattr__ = front_page(__name__)

@@ -49,7 +49,7 @@ def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
     application.setApplicationName("AMP Studio")
     application.setOrganizationName("AMP Studio")
     speak(UserSettings().language())
-    window = MainWindow(is_empty=not (arguments or UserSettings().session()))
+    window = MainWindow(opening=arguments or [str(path) for path in UserSettings().session()])
     sys.excepthook = _hook(window)
     window.show()
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property, partial
 from pathlib import Path
 
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QResizeEvent
-from PySide6.QtWidgets import QMainWindow, QStackedWidget
+from PySide6.QtWidgets import QLabel, QMainWindow, QStackedWidget, QWidget
 
 from amp_studio.files import ENDING, axis_instances
 from amp_studio.schema import Address
@@ -26,6 +28,7 @@ from .base.program_icon import program_icon
 from .base.questions import ask
 from .base.task import Task
 from .base.theme import apply_style
+from .base.translated import tr
 from .base.workspace import Workspace
 from .page.file_page import FilePage
 from .page.left_panel import as_side
@@ -37,6 +40,7 @@ from .window.menus import Menus
 from .window.status_line import StatusLine
 from .window.tab_corner import TabCorner
 from .window.tool_bar import MainToolBar
+from .window.visited import VisitedPlaces
 
 
 class MainWindow(PartsWindow):
@@ -44,9 +48,9 @@ class MainWindow(PartsWindow):
 
     menus: Menus[PartsWindow]
 
-    def __init__(self, *, is_empty: bool = True) -> None:
-        """Begin with the welcome page; not ``is_empty`` leaves it out, as a file is opened at once:
-        ``show_values`` shows it where that fails.
+    def __init__(self, *, opening: Sequence[str] = ()) -> None:
+        """Begin with the welcome page, or with the names of the files that are ``opening`` at once:
+        ``show_values`` shows the welcome page where that fails.
         """
         collect_by_timer()
         super().__init__()
@@ -63,6 +67,7 @@ class MainWindow(PartsWindow):
         self.open_path = self.files.open_path
         self.edits = Edits(self)
         self.finder = FindSearch(self)
+        self.visited = VisitedPlaces(self)
         self.pictures = Pictures(self)
         self.preview = ReportPreview(self)
         self.centre = QStackedWidget()
@@ -87,10 +92,11 @@ class MainWindow(PartsWindow):
         self.tabs.close_wanted.connect(self.files.close)
         self.project_changed.connect(self.enable)
         self.settings.place(self)
-        if is_empty:
-            self._show_page(None)
-        else:
+        if opening:
+            self.centre.setCurrentIndex(self.centre.addWidget(_opening_page(opening)))
             self.enable()
+        else:
+            self._show_page(None)
 
     @cached_property
     def welcome(self) -> WelcomePage:
@@ -135,6 +141,7 @@ class MainWindow(PartsWindow):
         page.table_view.fill_wanted.connect(self._fill_cells)
         self.docks.add(page)
         self.finder.add(page)
+        self.visited.add(page)
         filters.add(self, page)
         view.apply_options(self, page)
         self.tabs.add(page, instead)
@@ -306,3 +313,18 @@ class MainWindow(PartsWindow):
                 self.files.formats.read_from(path)
             else:
                 self.files.open_path(path)
+
+
+def _opening_page(names: Sequence[str]) -> QWidget:
+    """Return what is shown until the first file is there: which one is being read."""
+    first, more = Path(names[0]).name, len(names) - 1
+    text = (
+        tr("Opening {name} …").format(name=first)
+        if not more
+        else tr("Opening {name} and %n more …", "", more).format(name=first)
+    )
+    page = QLabel(text)
+    page.setAlignment(Qt.AlignmentFlag.AlignCenter)
+    page.setBackgroundRole(page.palette().ColorRole.Base)
+    page.setAutoFillBackground(True)
+    return page

@@ -184,7 +184,7 @@ def path(tmp_path: Path, example: bytes) -> Path:
 
 def new_window(path: Path | None = None) -> MainWindow:
     """Open a window on a file, or none, and wait until it has the keyboard."""
-    window = MainWindow(is_empty=path is None)
+    window = MainWindow(opening=[str(path)] if path else [])
     # the least in which every panel has its own place; a smaller one is painted sooner
     window.resize(1200, 640)
     window.show()

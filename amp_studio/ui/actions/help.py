@@ -17,6 +17,26 @@ from amp_studio.ui.window.studio_window import StudioWindow
 from amp_studio.version import __version__
 
 
+def open_manual(window: StudioWindow, page: str = "") -> None:
+    """Open the manual of the program at one of its pages, else where it was."""
+    from amp_studio.ui.dialogs.manual_window import TUTORIAL, ManualWindow
+
+    opened = window.beside.again(ManualWindow)
+    if opened is None:
+        opened = ManualWindow(window)
+        window.beside.show(opened)
+        page = page or TUTORIAL
+    if page:
+        opened.show_page(page)
+
+
+def open_tutorial(window: StudioWindow) -> None:
+    """Open the manual at the first mill that is brought to zero errors."""
+    from amp_studio.ui.dialogs.manual_window import TUTORIAL
+
+    open_manual(window, TUTORIAL)
+
+
 def open_log_folder(_: StudioWindow) -> None:
     """Open the folder in which the details of faults are kept; raises OSError where it cannot be made."""
     log_folder().mkdir(parents=True, exist_ok=True)

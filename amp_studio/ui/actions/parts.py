@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from amp_studio.ui.window.studio_window import StudioWindow
+from amp_studio.ui.window.visited import VisitedPlaces
 
 from .control import ControlDesk
 from .edit import Edits
@@ -18,6 +19,7 @@ class PartsWindow(StudioWindow):
     files: Files
     edits: Edits
     finder: FindSearch
+    visited: VisitedPlaces
     pictures: Pictures
     preview: ReportPreview
     control: ControlDesk

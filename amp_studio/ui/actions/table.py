@@ -362,6 +362,11 @@ def _places() -> Menu[PartsWindow]:
             Action("view.findings", tr("&Findings"), lambda w: w.docks.toggle("Findings"), "Ctrl+4"),
             Action("view.next_finding", tr("&Next Finding"), lambda w: w.step_findings(1), "Alt+Down"),
             Action("view.previous_finding", tr("Pre&vious Finding"), lambda w: w.step_findings(-1), "Alt+Up"),
+            None,
+            Action("view.back", tr("&Back"), lambda w: w.visited.go(-1), _KEY.Back),
+            Action("view.forward", tr("F&orward"), lambda w: w.visited.go(1), _KEY.Forward),
+            FilledMenu(lambda w: w.visited.menu),
+            None,
             Action("view.reset", tr("&Reset Layout"), lambda w: w.docks.reset()),
         ),
     )
@@ -485,6 +490,9 @@ def _help() -> Menu[PartsWindow]:
             Action(
                 "help.commands", tr("&Commands…"), lambda w: w.finder.box.begin(COMMANDS), "Ctrl+Shift+P", ""
             ),
+            Action("help.tutorial", tr("&Tutorial"), help_menu.open_tutorial, needs=""),
+            Action("help.manual", tr("&Manual"), help_menu.open_manual, "F1", needs="", icon="book-open"),
+            None,
             Action("help.keys", tr("&Keys…"), view.open_keys, needs=""),
             Action("help.log", tr("Open &Log Folder"), help_menu.open_log_folder, needs=""),
             Action("help.report", tr("&Report a Problem…"), help_menu.report_problem, needs=""),

@@ -23,9 +23,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.sheet import STATES, Instruction, Sheet, SheetEntry, SheetError, Ticks, judged
+from amp_studio.sheet import Instruction, ReadBackState, Sheet, SheetEntry, SheetError, Ticks, judged
 from amp_studio.ui.base.task import in_background
-from amp_studio.ui.base.theme import GAP2, GAP3, Token, colour, severity_icon
+from amp_studio.ui.base.theme import GAP2, GAP3, Token, colour, scheme, severity_icon
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.message_bar import MessageBar
@@ -37,6 +37,17 @@ _WIDTHS = (120, 90, 110, 60, 100, 270, 110, 130)
 _ENTRY = Qt.ItemDataRole.UserRole
 _FILTERS = "PDF (*.pdf);;Web page (*.html);;Text (*.txt);;Table with a column to fill in (*.csv)"
 _TOKENS: dict[str, Token] = {"same": "text", "old": "error", "other": "error"}
+
+
+def _in_words(state: ReadBackState) -> str:
+    """Return what a value that was read back is."""
+    names: dict[ReadBackState, str] = {
+        "same": tr("as keyed in"),
+        "old": tr("still the old value"),
+        "other": tr("another value"),
+        "not read": tr("not read back"),
+    }
+    return names[state]
 
 
 class _ReadBackOnly(QStyledItemDelegate):
@@ -109,6 +120,7 @@ class HandSheet(QWidget):
         self.list.itemChanged.connect(self._edited)
         self.list.currentItemChanged.connect(self._explain)
         self.list.itemActivated.connect(self._type)
+        scheme().changed.connect(self._judge_all)
         self.setFocusProxy(self.list)
 
     def show_file(self, workspace: Workspace) -> None:
@@ -225,9 +237,16 @@ class HandSheet(QWidget):
         self._judge(item)
         return item
 
+    def _judge_all(self) -> None:
+        """Show every result in the colours of the theme."""
+        self.list.blockSignals(True)
+        for item in self.items():
+            self._judge(item)
+        self.list.blockSignals(False)
+
     def _judge(self, item: QTreeWidgetItem) -> None:
         found = judged(item.data(_STEP, _ENTRY), item.text(_READ))
-        item.setText(_RESULT, "" if found.state == "not read" else STATES[found.state])
+        item.setText(_RESULT, "" if found.state == "not read" else _in_words(found.state))
         if found.state in _TOKENS:
             item.setForeground(_RESULT, QBrush(colour(_TOKENS[found.state])))
 

@@ -28,6 +28,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.ui.base.emulated_control import EmulatedControl
 from amp_studio.ui.base.plot import Plot
+from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.theme import GAP2, GAP3, font
 
 from .readings import AxisReadings, Happened, StatusReadings, titled, without_error
@@ -142,7 +143,7 @@ class LivePage(QDialog):
         if self._emulated is not None:
             column.addLayout(self._keys(self._emulated))
         column.addLayout(foot)
-        self.resize(760, 680)
+        fit_to_screen(self, 760, 680)
 
     def _keys(self, emulated: EmulatedControl) -> QHBoxLayout:
         """Return what presses the keys of an emulated control; no other control is operated from here."""

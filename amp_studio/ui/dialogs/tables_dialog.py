@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.report import cells_of
 from amp_studio.schema import Address, Table
+from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.theme import scheme
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.pages import LINK, drawn, link
@@ -33,7 +34,7 @@ class TablesDialog(QDialog):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(self.tr("Tables of the Manual"))
-        self.resize(900, 560)
+        fit_to_screen(self, 900, 560)
         self._schema = workspace.file.schema
         own = address[0] if address else ""
         self._tables = sorted(self._schema.tables.values(), key=lambda table: own not in table.params)

@@ -31,6 +31,7 @@ from PySide6.QtWidgets import (
 from amp_studio.files import ParameterFile, check_output, matched_by_letter, open_file, same_file
 from amp_studio.report import MachineLine, machine_lines, machine_names, machines_paper, write_paper
 from amp_studio.schema import Address
+from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3, ROW
 from amp_studio.ui.base.workspace import Workspace
@@ -80,7 +81,7 @@ class MachinesDialog(QDialog):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(self.tr("Compare Machines"))
-        self.resize(min(1120, parent.width() - 2 * GAP3) if parent is not None else 1120, 640)
+        fit_to_screen(self, 1120, 640)
         self._show, self._language = show, language
         self._machines = [_Machine(each.path, each) for each in opened]
         self._machines += [

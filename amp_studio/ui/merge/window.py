@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QDialog, QListWidgetItem, QTreeView, QVBoxLayout, 
 
 from amp_studio.files import Merge, MergeChoice, ParameterFile, Row, Side
 from amp_studio.schema import Address, same_value
+from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import PATIENCE_MS, Task
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.message_bar import MessageBar
@@ -72,7 +73,7 @@ class MergeWindow(QDialog):
         self._update = self._timer(0, self._after_choice)
         self._patience = self._timer(PATIENCE_MS, self.reading.show)
         self._connect(save_result)
-        self.resize(1180, 740)
+        fit_to_screen(self, 1180, 740)
         self._show_sources()
 
     # -- building ------------------------------------------------------------------------

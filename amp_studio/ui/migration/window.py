@@ -32,6 +32,7 @@ from amp_studio.meaning import (
 )
 from amp_studio.report import write_migration_folder
 from amp_studio.schema import load_schema
+from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3, colour, font
 from amp_studio.ui.base.translated import tr
@@ -90,7 +91,7 @@ class MigrationWindow(QDialog):
         self.tree.itemDoubleClicked.connect(lambda *_: self._follow(show_parameter))
         self.write_button.clicked.connect(self.write)
         self.draft_button.clicked.connect(self.write)
-        self.resize(1180, 660)
+        fit_to_screen(self, 1180, 660)
         self.migrate()
 
     def _lay_out(self) -> None:

@@ -24,6 +24,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.files import ParameterFile
 from amp_studio.sim import MotionCheck, SimulationError, check_motion, value_text
+from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import GAP2, GAP3, Token, font, icon
 
@@ -111,7 +112,7 @@ class CheckWindow(QDialog):
         column.addWidget(self.table, 1)
         column.addWidget(self.detail)
         column.addLayout(foot)
-        self.resize(860, 560)
+        fit_to_screen(self, 860, 560)
 
     def start(self) -> None:
         """Begin to check."""

@@ -30,6 +30,7 @@ from amp_studio.sim import (
     write_machine,
 )
 from amp_studio.ui.base.plot import Plot
+from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3
 from amp_studio.ui.base.translated import worded
@@ -44,7 +45,7 @@ class IdentifyDialog(QDialog):
         self._file, self._axis, self._path = file, axis, path
         self.trace: Trace | None = None
         self.setWindowTitle(self.tr("Machine from a Record — {name}").format(name=path.name))
-        self.resize(980, 640)
+        fit_to_screen(self, 980, 640)
         self.plot = Plot()
         self.plot.setAccessibleName(self.tr("Measured and predicted torque"))
         scale = Field(

@@ -29,6 +29,7 @@ from amp_studio.calibration import (
 from amp_studio.files import ParameterFile
 from amp_studio.schema import unit_text
 from amp_studio.ui.base.figures import show_value
+from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3, colour
 from amp_studio.ui.forms.form import Field, FieldForm
@@ -49,7 +50,7 @@ class MeasuredDialog(QDialog):
         self.proposal: Proposal | None = None
         self._is_circle = False
         self.setWindowTitle(self.tr("Measured Points — {name}").format(name=path.name))
-        self.resize(920, 620)
+        fit_to_screen(self, 920, 620)
         self._offered = compensation_of(file.schema.family.family)
         self.form = FieldForm(self._fields())
         self.form.entered.connect(lambda _: self.refresh())

@@ -44,6 +44,7 @@ from amp_studio.sim import (
     what_if,
 )
 from amp_studio.ui.base.plot import Plot
+from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import GAP2, GAP3, font
 from amp_studio.ui.base.translated import worded
@@ -104,7 +105,7 @@ class ProgramWindow(QDialog):
         self.form = FieldForm(self._fields())
         self.form.entered.connect(self._entered)
         self._lay_out()
-        self.resize(1180, 720)
+        fit_to_screen(self, 1180, 720)
         self._say(self.tr("Type a block, or open a part program."))
 
     def _fields(self) -> Sequence[Field]:

@@ -29,6 +29,7 @@ from amp_studio.schema import registration_of
 from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask
+from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import CONTROL, GAP2, icon
 from amp_studio.ui.base.translated import worded
@@ -59,7 +60,7 @@ class TuningWindow(QWidget):
         super().__init__(parent, Qt.WindowType.Window)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(self.tr("Tuning — {name}").format(name=workspace.path.name))
-        self.resize(1120, 680)
+        fit_to_screen(self, 1120, 680)
         self._workspace, self._connect = workspace, connect
         self.file_target = FileTarget(workspace)
         self.control: ControlTarget | None = None

@@ -138,6 +138,22 @@ class FilePage(QWidget):
             self.table.show_parameters(parameters)
             self.listed.emit()
 
+    @property
+    def listed_title(self) -> str:
+        """The name of what the table shows: a group, a step, a search."""
+        return self._title
+
+    def show_list(self, title: str, parameters: list[Parameter], address: Address) -> None:
+        """Show again what the table showed before, at one of its cells."""
+        self.uncover()
+        if parameters != self.table.asked:
+            self.left.show_place_of(address[0])
+        if parameters != self.table.asked:
+            self.groups.show_none()
+            self._show_parameters(title, parameters)
+        self.select(address)
+        self.table_view.setFocus()
+
     def _outline(self, *_: object) -> None:
         """Outline the cells that the selected finding reads besides those at fault,
         which are coloured anyway.

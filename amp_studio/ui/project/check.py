@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QDialog, QHeaderView, QLabel, QTreeWidget, QTreeWi
 from amp_studio.files import ParameterFileError, open_file
 from amp_studio.guide import found_in
 from amp_studio.schema import Address
+from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import TaskProgress
 from amp_studio.ui.base.theme import severity_colour, severity_icon
 from amp_studio.ui.base.translated import counted, finding_in_words, worded
@@ -72,7 +73,7 @@ class ProjectCheckDialog(QDialog):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(self.tr("Check All Files"))
-        self.resize(900, 500)
+        fit_to_screen(self, 900, 500)
         totals = [counted(sum(c.count(s) for c in checked), s, none="no") for s in SEVERITIES]
         unread = sum(bool(c.fault) for c in checked)
         self.text = QLabel(

@@ -426,9 +426,12 @@ class ValueTable(QTableView):
         for column, width in enumerate(widths.columns):
             heads.resizeSection(column, width)
         names.number_width = self._corner.number_width = widths.number
+        is_same = names.minimumWidth() == widths.frozen == self.viewportMargins().left()
         names.setFixedWidth(widths.frozen)
         self._corner.place_words()
         self._is_fitting = False
+        if not is_same:  # else the first column lies below the names until something else moves
+            self.updateGeometries()
 
     def _lay_block(self) -> None:
         """Let the values of the whole control have the width of all columns."""
