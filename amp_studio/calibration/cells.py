@@ -69,13 +69,7 @@ def is_number(cell: str) -> bool:
 
 def number_of(cell: str, decimal: str, separator: str, line: int) -> Fraction:
     """Return the number of a cell, exact; raises MeasurementError."""
-    text = cell
-    if "," in cell and _COMMA_NUMBER.fullmatch(cell):
-        if decimal != "comma":
-            raise MeasurementError(f"{cell[:40]} may have a decimal comma: {ASK_COMMA}", line)
-        text = cell.replace(",", ".")
-    elif decimal == "comma" and "." in cell:
-        raise MeasurementError(f"{cell[:40]} has a point, and the decimal sign is to be a comma", line)
+    text = _with_point(cell, decimal, line)
     if len(text) > _LONGEST_NUMBER or not _NUMBER.fullmatch(text):
         raise MeasurementError(f"'{cell[:40]}' is no number" if cell else "a cell is empty", line)
     if separator == "," and _LEADING_ZERO.fullmatch(text):
@@ -84,3 +78,14 @@ def number_of(cell: str, decimal: str, separator: str, line: int) -> Fraction:
     if abs(value) > 10**9:
         raise MeasurementError(f"{cell} is too large", line)
     return value
+
+
+def _with_point(cell: str, decimal: str, line: int) -> str:
+    """Return a cell with a decimal point; raises MeasurementError where its sign is not the chosen one."""
+    if "," in cell and _COMMA_NUMBER.fullmatch(cell):
+        if decimal != "comma":
+            raise MeasurementError(f"{cell[:40]} may have a decimal comma: {ASK_COMMA}", line)
+        return cell.replace(",", ".")
+    if decimal == "comma" and "." in cell:
+        raise MeasurementError(f"{cell[:40]} has a point, and the decimal sign is to be a comma", line)
+    return cell

@@ -263,12 +263,10 @@ def _table(
     state = file.evaluation.state(address)
     if not state.is_active:
         raise CalibrationError(f"the calibration table of this axis is not used: {state.why}")
-    if present and (
-        (wish.input or present.input) != present.input or (wish.start or present.start) != present.start
-    ):
+    before = (present.input, present.start) if present else ("", "")
+    input_, start = wish.input or before[0], wish.start or before[1]
+    if present and (input_, start) != before:
         notes.append("input and start can be chosen again because all points are replaced")
-    input_ = wish.input or (present.input if present else "")
-    start = wish.start or (present.start if present else "")
     fitted = form.fit(file, axis, raw, input_, start)
     notes += fitted.notes
     settings[address] = Value(form.write(file, axis, fitted.table))

@@ -168,18 +168,8 @@ def _heads(
             read = (read_head(cell, column) for column, cell in enumerate(cells))
             heads = [replace(head, unit=head.unit or unit) for head, unit in zip(read, units, strict=True)]
             titles.pop()
-    notes = (
-        (
-            (
-                f"{len(titles)} lines before the columns were not read"
-                if len(titles) != 1
-                else "1 line before the columns was not read"
-            ),
-        )
-        if titles
-        else ()
-    )
-    return heads, notes
+    passed_over = {0: (), 1: ("1 line before the columns was not read",)}
+    return heads, passed_over.get(len(titles), (f"{len(titles)} lines before the columns were not read",))
 
 
 def _units(line: tuple[int, str], separator: str, width: int) -> list[str]:

@@ -7,7 +7,7 @@ or otherwise (``AxisDeclaration``).
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 
 from amp_studio.errors import AmpStudioError
 from amp_studio.schema import Address, AxisProfile, axis_group, axis_name, is_fitted, labelled
@@ -140,18 +140,20 @@ def unlike_axes(file: ParameterFile, addresses: Iterable[Address]) -> set[Addres
     Where each axis has its own value none is unlike the others, and of two axes it is the second.
     """
     profile = file.schema.family.axes
+    of_each_axis = (profile.name, profile.type, profile.fitted_by) if profile else ()
     by_unit: dict[str, list[Address]] = {}
     for address in addresses:
-        if profile is None or address[0] not in (profile.name, profile.type, profile.fitted_by):
+        if address[0] not in of_each_axis:
             by_unit.setdefault(file.evaluation.unit(address, file.header.units), []).append(address)
-    found: set[Address] = set()
-    for alike in by_unit.values():
-        keys = [file.evaluation.keys[a] for a in alike]
-        counts = Counter(keys)
-        usual, count = counts.most_common(1)[0]
-        if len(counts) > 1 and (count > 1 or len(alike) == 2):
-            found.update(a for a, key in zip(alike, keys, strict=True) if key != usual)
-    return found
+    return {a for alike in by_unit.values() for a in _unlike(file, alike)}
+
+
+def _unlike(file: ParameterFile, addresses: Sequence[Address]) -> Iterator[Address]:
+    """Yield the addresses whose value is not the usual one of all; none where no two are the same."""
+    keys = [file.evaluation.keys[a] for a in addresses]
+    usual, count = Counter(keys).most_common(1)[0]
+    if count > 1 or len(addresses) == 2:
+        yield from (a for a, key in zip(addresses, keys, strict=True) if key != usual)
 
 
 def axis_profile(file: ParameterFile) -> AxisProfile:

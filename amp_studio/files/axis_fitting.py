@@ -47,28 +47,35 @@ def name_axes(file: ParameterFile, names: Sequence[str]) -> list[Change]:
     _may_choose(file)
     if declared.letters:
         return file.set_checked(_lettered(file, declared, [name.upper() for name in names]))
-    if declared.least > len(names):
-        raise AxisError(f"{file.schema.family.name} has {declared.least} or more axes (page {declared.page})")
-    wanted: dict[Address, Value | None] = {}
-    for axis, name in zip(instances, names, strict=False):
-        _put(file, wanted, _named(file, declared, axis, name))
-    if declared.count:
-        _put(file, wanted, {(declared.count, ""): Value(len(names))})
-    else:
-        for axis in instances[len(names) :]:
-            _put(file, wanted, _without_letter(file, declared, axis))
-    _put(
-        file,
-        wanted,
-        _flagged(
-            file, declared, dict.fromkeys(instances, False) | dict.fromkeys(instances[: len(names)], True)
-        ),
-    )
+    _enough_axes(file, declared, len(names))
     with file.step() as changes:
-        file.set_checked(wanted)
+        file.set_checked(_named_and_fitted(file, declared, instances, names))
         _each_name_once(file, instances[: len(names)])
         _declare_groups(file, declared)
     return changes
+
+
+def _enough_axes(file: ParameterFile, declared: AxisDeclaration, count: int) -> None:
+    """Raise AxisError for fewer axes than the family always has."""
+    if count < declared.least:
+        raise AxisError(f"{file.schema.family.name} has {declared.least} or more axes (page {declared.page})")
+
+
+def _named_and_fitted(
+    file: ParameterFile, declared: AxisDeclaration, instances: Sequence[str], names: Sequence[str]
+) -> dict[Address, Value | None]:
+    """Return the values by which the first axes have these names and are fitted, and the others are not."""
+    values: dict[Address, Value | None] = {}
+    for axis, name in zip(instances, names, strict=False):
+        _put(file, values, _named(file, declared, axis, name))
+    if declared.count:
+        _put(file, values, {(declared.count, ""): Value(len(names))})
+    else:
+        for axis in instances[len(names) :]:
+            _put(file, values, _without_letter(file, declared, axis))
+    fitted = {axis: n < len(names) for n, axis in enumerate(instances)}
+    _put(file, values, _flagged(file, declared, fitted))
+    return values
 
 
 def _put(file: ParameterFile, wanted: dict[Address, Value | None], more: dict[Address, Value | None]) -> None:
@@ -286,11 +293,10 @@ def _remove(file: ParameterFile, declared: AxisDeclaration, axis: str) -> None:
         raise AxisError(
             f"only the last axis can be removed, {fitted[-1]}: they are counted from the first one"
         )
-    if len(fitted) <= declared.least:
-        raise AxisError(f"{file.schema.family.name} has {declared.least} or more axes (page {declared.page})")
-    count = {(str(declared.count), ""): Value(len(fitted) - 1)} if declared.count else {}
-    listed = {(str(declared.letters), ""): Value("".join(fitted[:-1]))} if declared.letters else {}
-    file.set_checked({**count, **listed})
+    left = fitted[:-1]
+    _enough_axes(file, declared, len(left))
+    counted_by = {declared.count: Value(len(left)), declared.letters: Value("".join(left))}
+    file.set_checked({(parameter, ""): value for parameter, value in counted_by.items() if parameter})
 
 
 def reset_axis(file: ParameterFile, axis: str) -> None:

@@ -159,19 +159,22 @@ def moved(file: ParameterFile, order: Mapping[str, str]) -> None:
             if note := left.get(written((parameter_id, instance))):
                 notes[written(place)] = note
     for parameter_id, bits in words_of_axes(file.schema).items():
-        value = file.get((parameter_id, ""))
-        if value is None:
-            continue
-        word = after = int(float(value.value))
-        for source, target in order.items():
-            if source in bits and target in bits:
-                after = after & ~(1 << bits[target]) | (word >> bits[source] & 1) << bits[target]
-        wanted[parameter_id, ""] = Value(after)
+        if value := file.get((parameter_id, "")):
+            wanted[parameter_id, ""] = Value(_with_bits_moved(int(float(value.value)), bits, order))
     for address, key in _references(file, wanted, order):
         wanted[address] = Value(key)
     for address, found in wanted.items():
         file.set(address, found)
     file.header.value_notes = notes
+
+
+def _with_bits_moved(word: int, bits: Mapping[str, int], order: Mapping[str, str]) -> int:
+    """Return a word with the bit of each axis at that of the axis whose place it takes."""
+    after = word
+    for source, target in order.items():
+        if source in bits and target in bits:
+            after = after & ~(1 << bits[target]) | (word >> bits[source] & 1) << bits[target]
+    return after
 
 
 def _references(
@@ -219,16 +222,21 @@ def compare_axes(file: ParameterFile, first: str, second: str) -> list[AxisDiffe
         and not same_value(file.get((p, i)), file.get(other := (p, second + i[len(first) :])))
         and _exists(file, (p, i), other)
     ]
+    found += (d for d in _different_bits(file, first, second) if d.first[0] not in own)
+    places = file.machine_schema.places
+    return sorted(found, key=lambda d: places[d.first])
+
+
+def _different_bits(file: ParameterFile, first: str, second: str) -> Iterator[AxisDifference]:
+    """Yield the words with a bit for each axis in which those of two axes differ."""
     for parameter_id, bits in words_of_axes(file.schema).items():
-        value = file.get((parameter_id, ""))
-        if value is None or parameter_id in own or not {first, second} <= bits.keys():
+        address = (parameter_id, "")
+        value = file.get(address)
+        if value is None or not {first, second} <= bits.keys():
             continue
         word = int(float(value.value))
         if (word >> bits[first] ^ word >> bits[second]) & 1:
-            address = (parameter_id, "")
-            found.append(AxisDifference(address, address, (bits[first], bits[second])))
-    places = file.machine_schema.places
-    return sorted(found, key=lambda d: places[d.first])
+            yield AxisDifference(address, address, (bits[first], bits[second]))
 
 
 def _exists(file: ParameterFile, *addresses: Address) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 
 from amp_studio.schema import Parameter, Schema, Value, load_schema, unknown_name, whole_of
@@ -92,8 +92,9 @@ def made_like(source: ParameterFile, name: str, axes: Iterable[str] = ()) -> Mad
     file.header.name = name
     file.forced.clear()
     own = {p.id for p in of_one_machine(file.schema)}
-    left = {address[0] for address in source.values if address[0] in own and not source.is_default(address)}
-    for address in [a for a in file.values if a[0] in own]:
+    of_it = [address for address in source.values if address[0] in own]
+    left = {address[0] for address in of_it if not source.is_default(address)}
+    for address in of_it:
         file.set(address, None if file.schema.parameters[address[0]].secret else file.default(address))
     parameters = tuple(file.schema.parameters[name] for name in sorted(left, key=_place_in(file)))
     letters = list(axis_letters(file).values())
@@ -120,15 +121,16 @@ def _with_axes(
     made = new_file(schema.family.family, source.machine, axes, source.header.name)
     made.header.units, made.header.application = source.header.units, source.header.application
     matched = matched_by_letter(source, made).file
-    taken = {axis for axis, letter in axis_letters(made).items() if letter in letters}
+    new = axis_letters(made)
+    taken = {axis for axis, letter in new.items() if letter in letters}
     here = made.machine_schema
     for address in here.places:
         if not here.kin(here.scopes[address[0]], "axis") or whole_of(address[1]) in taken:
             made.set(address, matched.get(address))
     made.unknown.update(source.unknown)
-    return MadeLike(
-        made,
-        left,
-        tuple(a for a in axis_letters(made).values() if a not in letters),
-        tuple(letter for letter in letters if letter not in axis_letters(made).values()),
-    )
+    return MadeLike(made, left, _without(new.values(), letters), _without(letters, list(new.values())))
+
+
+def _without(letters: Iterable[str], others: Collection[str]) -> tuple[str, ...]:
+    """Return the letters that are not among the others."""
+    return tuple(letter for letter in letters if letter not in others)

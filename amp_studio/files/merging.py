@@ -130,13 +130,12 @@ class Merge:
     def _kind(self, base: Value | None, a: Value | None, b: Value | None) -> RowKind:
         if a is b and (a is base or self.base is None):  # equal texts of files are one object
             return "same"
-        agree = same_value(a, b)
+        if same_value(a, b):
+            return "same" if self.base is None or same_value(a, base) else "both"
         if self.base is None:
-            return "same" if agree else "a" if b is None else "b" if a is None else "different"
+            return "a" if b is None else "b" if a is None else "different"
         if same_value(a, base):
-            return "same" if agree else "b"
-        if agree:
-            return "both"
+            return "b"
         return "a" if same_value(b, base) else "conflict"
 
     @cached_property

@@ -273,11 +273,7 @@ class ParameterFile:
             for address, value in wanted.items():
                 self.set(address, value)
             self.refit_turned(changes)
-            faults = {
-                a: message
-                for a, v in wanted.items()
-                if v is not None and (message := fault(self.evaluation, a, v))
-            }
+            faults = self._out_of_range(wanted)
             if faults and not force:
                 raise RangeError(faults)
         changed = {change.address for change in changes}
@@ -288,6 +284,11 @@ class ParameterFile:
             if address not in changed and self.forced.get(address) != marks.get(address):
                 self._notify(Change(address, value, value))  # the value is unchanged, its mark is not
         return changes
+
+    def _out_of_range(self, values: Mapping[Address, Value | None]) -> dict[Address, str]:
+        """Return why each of these values is not allowed, of those that are not."""
+        faults = {a: fault(self.evaluation, a, v) for a, v in values.items() if v is not None}
+        return {a: message for a, message in faults.items() if message}
 
     def refit_turned(self, changes: Iterable[Change]) -> list[Change]:
         """Refit the units of each axis that these changes made turn, or move straight; returns the

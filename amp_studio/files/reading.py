@@ -154,7 +154,13 @@ class _FileReader:
             raise ParameterFileError(self.path, error.line, error.what) from None
         if not isinstance(document.data, dict) or "amp_studio" not in document.data:
             raise self._fault("is not an AMP Studio parameter file")
-        self.data, version = document.data, document.data["amp_studio"]
+        self.data = document.data
+        self._check_version(document.data["amp_studio"])
+        if not document.is_closed:
+            raise self._cut_off()
+
+    def _check_version(self, version: object) -> None:
+        """Raise ParameterFileError for what is no version of the format, and for a newer one."""
         if not isinstance(version, str) or not re.fullmatch(r"[0-9]{1,9}", version):
             shown_version = quoted(version) if isinstance(version, str) else "this"
             raise self._fault(f"{shown_version} is no version of the file format", "amp_studio")
@@ -162,8 +168,6 @@ class _FileReader:
             raise self._fault(
                 f"was written by a newer AMP Studio (file format {version}, known: {FORMAT})", "amp_studio"
             )
-        if not document.is_closed:
-            raise self._cut_off()
 
     def _cut_off(self) -> ParameterFileError:
         line = self.text.count("\n") + 1
@@ -186,8 +190,9 @@ class _FileReader:
         """Return the schema of the family, or of the control that the file describes."""
         lines, given = self.data.get(DESCRIPTION), self.schema
         if lines is None:
-            is_given = given is not None and given.family.family == family and not given.description
-            return given if is_given and given is not None else load_schema(family)
+            if given is not None and given.family.family == family and not given.description:
+                return given
+            return load_schema(family)
         if not isinstance(lines, list) or not all(isinstance(line, str) for line in lines):
             raise self._fault("the description of its control is no list of lines", DESCRIPTION)
         description = "".join(f"{line}\n" for line in lines[1:]).encode("utf-8", "replace")
@@ -197,11 +202,9 @@ class _FileReader:
                 "read the control again, or take the backup",
                 DESCRIPTION,
             )
-        return (
-            given
-            if given is not None and given.description == description
-            else described_schema(family, description)
-        )
+        if given is not None and given.description == description:
+            return given
+        return described_schema(family, description)
 
     def _read_header(self) -> None:
         header, family = self.file.header, self.file.schema.family

@@ -40,15 +40,7 @@ def content_of(file: ParameterFile, previous: bytes | None = None) -> bytes:
     """Return a file's content; with the ``previous`` content what did not change stays
     as it is written there.
     """
-    header: dict[str, Any] = {"amp_studio": str(FORMAT), "family": file.schema.family.family}
-    header |= {key: getattr(file.header, key) for key in HEADER_KEYS if getattr(file.header, key)}
-    header |= file.header.extra
-    wanted: dict[str, Any] = header | {"done": dict(file.header.done), "values": _entries(file)}
-    wanted |= {"forced": {written(a): why for a, why in file.forced.items()}}
-    wanted |= {name: dict(getattr(file.header, name)) for name in NOTE_SECTIONS}
-    if file.schema.description:
-        description = file.schema.description
-        wanted[DESCRIPTION] = [seal_of(description), *description.decode("utf-8").split("\n")[:-1]]
+    wanted = _sections(file)
     text = None if previous is None else _amended(file, previous, wanted)
     if text is None:
         from .yaml_text import new_text  # what only opens files does not write any
@@ -56,6 +48,19 @@ def content_of(file: ParameterFile, previous: bytes | None = None) -> bytes:
         wanted |= {"amp_studio": FORMAT}  # a number: everything else that is one is a text
         text = new_text({key: value for key, value in wanted.items() if value or key not in SECTIONS}, "...")
     return text.encode("utf-8")
+
+
+def _sections(file: ParameterFile) -> dict[str, Any]:
+    """Return what a file contains, as the keys of its YAML in their order."""
+    found: dict[str, Any] = {"amp_studio": str(FORMAT), "family": file.schema.family.family}
+    found |= {key: getattr(file.header, key) for key in HEADER_KEYS if getattr(file.header, key)}
+    found |= file.header.extra
+    found |= {"done": dict(file.header.done), "values": _entries(file)}
+    found |= {"forced": {written(a): why for a, why in file.forced.items()}}
+    found |= {name: dict(getattr(file.header, name)) for name in NOTE_SECTIONS}
+    if description := file.schema.description:
+        found[DESCRIPTION] = [seal_of(description), *description.decode("utf-8").split("\n")[:-1]]
+    return found
 
 
 def _amended(file: ParameterFile, previous: bytes, wanted: dict[str, Any]) -> str | None:

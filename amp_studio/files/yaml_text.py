@@ -87,12 +87,14 @@ def entry_lines(key: Any, value: Any, indent: str = "") -> Iterator[str]:
             yield from entry_lines(inner, inside, indent + "  ")
     elif isinstance(value, (list, tuple)) and value:
         yield f"{indent}{name}:"
-        for item in value:
-            is_scalar = isinstance(item, str) or not isinstance(item, (Mapping, Sequence))
-            yield f"{indent}- {scalar_text(item) if is_scalar else _flow_text(item)}"
+        yield from (f"{indent}- {_line_text(item)}" for item in value)
     else:
-        text = _flow_text(value) if isinstance(value, (Mapping, list, tuple)) else scalar_text(value)
-        yield f"{indent}{name}: {text}"
+        yield f"{indent}{name}: {_line_text(value)}"
+
+
+def _line_text(value: Any) -> str:
+    """Return how a value is written in one line: a list or a mapping in brackets."""
+    return _flow_text(value) if isinstance(value, (Mapping, list, tuple)) else scalar_text(value)
 
 
 def new_text(entries: Mapping[str, Any], end: str = "") -> str:
@@ -167,18 +169,22 @@ class _Editor:
                 self._delete((*path, key))
         behind = self._line_behind(self.spans[path].start + 1) if path else self._line_start(first)
         for key, value in wanted.items():
-            at = (*path, key)
             if key not in known:
                 self._insert(behind, key, value, indent)
                 continue
-            behind = self._line_behind(self.spans[at].end)
-            if repr(known[key]) == repr(value):
-                continue
-            if key in self.sections and not path and self._is_block(at, known[key]) and value:
-                self.amend(at, known[key], value)
-            elif not self._replace_scalar(at, value):
-                self._delete(at)
+            behind = self._line_behind(self.spans[*path, key].end)
+            if repr(known[key]) != repr(value) and not self._amended_in_place(
+                (*path, key), known[key], value
+            ):
+                self._delete((*path, key))
                 self._insert(behind, key, value, indent)
+
+    def _amended_in_place(self, path: KeyPath, known: Any, value: Any) -> bool:
+        """Bring a section entry by entry, or a scalar, to another value; return whether it is one of both."""
+        if len(path) == 1 and path[0] in self.sections and self._is_block(path, known) and value:
+            self.amend(path, known, value)
+            return True
+        return self._replace_scalar(path, value)
 
     def add_item(self, title: str, last: Span | None, item: Mapping[str, Any]) -> None:
         """Write a mapping as the next item of a list in lines; as the first, under its title,

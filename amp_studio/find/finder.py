@@ -94,11 +94,9 @@ class Finder:
             # A choice of which only the parameter was named is no more than that parameter.
             hits += [self._hit(m) for m in found if m.entry.kind != "choice" or "choice" in m.where]
         hits += self._found_by_synonym(query, most)
-        best: dict[tuple[str, str, str], Hit] = {}
-        for hit in sorted(hits, key=lambda hit: -hit.score):
-            best.setdefault((hit.kind, hit.key, hit.title if hit.kind in ("choice", "note") else ""), hit)
-        least = _TAIL * max((hit.score for hit in best.values() if hit.score < _EXACT - 1), default=0.0)
-        return [self._of_axis(hit, axis) for hit in best.values() if hit.score >= least][:most]
+        best = _best_of_each(hits)
+        least = _TAIL * max((hit.score for hit in best if hit.score < _EXACT - 1), default=0.0)
+        return [self._of_axis(hit, axis) for hit in best if hit.score >= least][:most]
 
     def nearest(self, query: str) -> str:
         """Return the nearest question that has words which are known; empty where there is none."""
@@ -255,6 +253,14 @@ class Finder:
 
     def _place(self, address: Address) -> str:
         return place_of(self.file, address) if self.file is not None else self._here.instance_label(address)
+
+
+def _best_of_each(hits: Iterable[Hit]) -> list[Hit]:
+    """Return the hits, the best first, each parameter, choice and note once."""
+    best: dict[tuple[str, str, str], Hit] = {}
+    for hit in sorted(hits, key=lambda hit: -hit.score):
+        best.setdefault((hit.kind, hit.key, hit.title if hit.kind in ("choice", "note") else ""), hit)
+    return list(best.values())
 
 
 def elsewhere(query: str, finders: Iterable[Finder], most: int = 3) -> list[tuple[Schema, Hit]]:

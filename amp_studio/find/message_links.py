@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, ControlMessage, Parameter, Rule, Schema, show_value
+from amp_studio.schema import Address, ControlMessage, MachineSchema, Parameter, Rule, Schema, show_value
 from amp_studio.validate import Finding
 
 from .places import place_of
@@ -78,18 +78,19 @@ def message_page(
     or another machine type does not have is left out.
     """
     here = schema.on(machine)
-    rules = {rule.id: rule for rule in schema.rules}
+    present = [schema.parameters[name] for name in message.params if name in schema.parameters]
+    linked = (_linked(here, parameter, file) for parameter in present if here.instances(parameter))
     by_rule: dict[str, list[Finding]] = {}
     for finding in findings:
         by_rule.setdefault(finding.rule, []).append(finding)
-    linked = []
-    for name in message.params:
-        parameter = schema.parameters.get(name)
-        instances = here.instances(parameter) if parameter is not None else ()
-        if parameter is None or not instances:
-            continue
-        values = () if file is None or parameter.access == "read" else _values(file, parameter, instances)
-        number = here.number((name, instances[0])) or ""
-        linked.append(LinkedParameter(name, parameter.name, number, tuple(values)))
+    rules = {rule.id: rule for rule in schema.rules}
     found = (LinkedRule(rules[name], tuple(by_rule.get(name, ()))) for name in message.rules if name in rules)
     return MessagePage(message, tuple(linked), tuple(found))
+
+
+def _linked(here: MachineSchema, parameter: Parameter, file: ParameterFile | None) -> LinkedParameter:
+    """Return a parameter of a message with its number and, for one that can be set, its values in a file."""
+    instances = here.instances(parameter)
+    values = () if file is None or parameter.access == "read" else _values(file, parameter, instances)
+    number = here.number((parameter.id, instances[0])) or ""
+    return LinkedParameter(parameter.id, parameter.name, number, tuple(values))

@@ -12,6 +12,7 @@ from typing import Any
 from amp_studio.files import ParameterFile
 from amp_studio.schema import (
     Address,
+    Value,
     load_part,
     registered_families,
     registration_of,
@@ -83,6 +84,14 @@ def migrate(file: ParameterFile, target: str, answers: Mapping[str, str] | None 
     return Migration(machine, target, written, tuple(_entries(file, machine, written)))
 
 
+def _active_values(file: ParameterFile) -> Iterator[tuple[Address, Value]]:
+    """Yield each value that has an effect, in the manual's order."""
+    for address in file.machine_schema.addresses:
+        value = file.get(address)
+        if value is not None and file.evaluation.state(address).is_active:
+            yield address, value
+
+
 def _entries(
     file: ParameterFile, machine: MachineMeaning, written: WrittenMachine
 ) -> Iterator[MigratedParameter]:
@@ -91,12 +100,8 @@ def _entries(
     used = _used(machine)
     grades = {(g.axis, g.concept): g for g in written.graded}
     asked = {source.address: q for q in written.asked for source in q.sources}
-    for address in here.addresses:
-        value = file.get(address)
-        if value is None or not file.evaluation.state(address).is_active:
-            continue
-        parameter, param = file.schema.parameters[address[0]], here.short(address)
-        raw = show_value(parameter, value)
+    for address, value in _active_values(file):
+        param, raw = here.short(address), show_value(file.schema.parameters[address[0]], value)
         # A parameter that a question is about waits for its answer, whatever else it would become: each
         # is listed once.
         if address in asked:

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import contextlib
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import NamedTuple, Protocol
 
@@ -125,18 +125,20 @@ def _whole(evaluation: FileState, text: str) -> ResolvedAddress:
     if existing:
         others = [a for a in evaluation.machine_schema.claims(text) if a != existing[0]]
         return ResolvedAddress(existing[0], None, text, tuple(others))
-    words = _words(evaluation, text)
-    if len(words) == 1:
-        return ResolvedAddress(words[0], None, text)
-    if words:
-        first, last = (evaluation.machine_schema.number(a) for a in (words[0], words[-1]))
-        raise UnknownParameterError(
-            f"{quoted(text)} has {len(words)} words, {first} to {last}: name one of them"
-        )
+    if words := _words(evaluation, text):
+        return ResolvedAddress(_only_word(evaluation, words, text), None, text)
     if instance and (same := _words(evaluation, name) or _claims(evaluation, name)):
         parameter = schema.parameters[same[0][0]]
         return ResolvedAddress((parameter.id, _instance(evaluation, parameter, instance, text)), None, name)
     raise UnknownParameterError(*unknown(schema, text))
+
+
+def _only_word(evaluation: FileState, words: Sequence[Address], text: str) -> Address:
+    """Return the one word that a number has; raises UnknownParameterError where it has several."""
+    if len(words) == 1:
+        return words[0]
+    first, last = (evaluation.machine_schema.number(a) for a in (words[0], words[-1]))
+    raise UnknownParameterError(f"{quoted(text)} has {len(words)} words, {first} to {last}: name one of them")
 
 
 def _claims(evaluation: FileState, text: str) -> list[Address]:
@@ -283,20 +285,19 @@ def unknown(schema: Schema, text: str) -> tuple[str, partial[list[str]]]:
     return f"Unknown parameter {quoted(text)}", partial(_nearest, schema, text)
 
 
+_NUMBER_FORM = re.compile(r"[a-z$]*[0-9]+([a-z]+[0-9]*)?(\.[0-9]+)?")
+
+
 def _nearest(schema: Schema, text: str) -> list[str]:
     """Return the ids and numbers that a person may have meant, nearest first."""
     name, sign, instance = text.partition("@")
     name = name.casefold()
     numbers = list(dict.fromkeys(n for m in schema.family.machines for n in schema.on(m.key).every_number))
-    if (
-        re.fullmatch(r"[a-z$]*[0-9]+([a-z]+[0-9]*)?(\.[0-9]+)?", name)
-        and not sign
-        and len(name) < _LONGEST_NUMBER
-    ):
+    if _NUMBER_FORM.fullmatch(name) and not sign and len(name) < _LONGEST_NUMBER:
         return _nearest_numbers(numbers, name)
     known = {p.name.casefold(): p.id for p in schema.parameters.values()}
     known |= {p.id.partition(".")[2]: p.id for p in schema.parameters.values()}
-    known |= {p: p for p in schema.parameters}
+    known |= dict(zip(schema.parameters, schema.parameters, strict=True))
     found = dict.fromkeys(known[word] for word in close_matches(name[:80], known, 2 * _NEAREST, 0.7))
     return [f"{n}{sign}{short(instance)}" if n in schema.parameters else n for n in found][:_NEAREST]
 

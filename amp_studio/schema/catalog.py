@@ -6,6 +6,7 @@ import hashlib
 import json
 from dataclasses import dataclass
 from functools import cache, cached_property
+from operator import attrgetter
 from typing import Any
 
 from .address import Address, UnknownParameterError, read_address, whole_of
@@ -182,32 +183,13 @@ class Schema:
         """
         lines = []
         machines = [m.key for m in self.family.machines if m.in_signature]
-        for parameter in self.parameters.values():
-            if not parameter.in_signature:
-                continue
+        for parameter in filter(attrgetter("in_signature"), self.parameters.values()):
             instances = {m: self.on(m).instances(parameter) for m in machines}
             numbers = {m: self.on(m).numbers(parameter) for m in machines}
-            choices = _codes(parameter.choices)
-            bits = [
-                (b.bit, b.width, b.was or b.label, _codes(b.choices))
-                for b in parameter.bits or ()
-                if not b.needs
-            ]
+            choices, bits = _codes(parameter.choices), _signed_bits(parameter)
             storage = _signed_storage(parameter.storage) if parameter.storage else None
-            lines.append(
-                [
-                    parameter.id,
-                    parameter.name,
-                    parameter.type,
-                    parameter.quantity,
-                    parameter.unit,
-                    instances,
-                    numbers,
-                    choices,
-                    bits,
-                    storage,
-                ]
-            )
+            named = [parameter.id, parameter.name, parameter.type, parameter.quantity, parameter.unit]
+            lines.append([*named, instances, numbers, choices, bits, storage])
         text = json.dumps([self.family.family, lines], sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(text.encode()).hexdigest()
 
@@ -223,6 +205,12 @@ def _signed_storage(storage: Storage) -> dict[str, Any]:
     if "command" in signed:
         signed["command"] = signed["command"].replace("{k}", "{n}")  # as the place was written once
     return signed
+
+
+def _signed_bits(parameter: Parameter) -> list[tuple[int, int, str, list[tuple[str, str, int | None]]]]:
+    """Return the bits that every control of the family has."""
+    bits = (b for b in parameter.bits or () if not b.needs)
+    return [(b.bit, b.width, b.was or b.label, _codes(b.choices)) for b in bits]
 
 
 def _codes(choices: tuple[Choice, ...] | None) -> list[tuple[str, str, int | None]]:

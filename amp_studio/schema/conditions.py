@@ -281,13 +281,6 @@ class Conditions:
         parameter_id, which, order, kin = self._named(text, scope)
         if not kin:
             instance = ""
-        if which == "":
-            if instance in order:
-                return Reference(((parameter_id, instance),), False)
-            for own in (whole_of(instance), ""):
-                if own in order:
-                    return Reference(((parameter_id, own),), False)
-            raise UnknownParameterError(f"{parameter_id} has no instance '{instance}'")
         instances = tuple(order)
         if which == ".":
             head = f"{whole_of(instance)}."
@@ -296,9 +289,11 @@ class Conditions:
             at = order.get(instance, len(instances))
             chosen = {"*": instances, "<": instances[:at], ">": instances[at + 1 :]}[which]
             return Reference(tuple((parameter_id, i) for i in chosen), True)
-        if which not in order:
-            raise UnknownParameterError(f"{parameter_id} has no instance '{which}'")
-        return Reference(((parameter_id, which),), False)
+        candidates = (which,) if which else (instance, whole_of(instance), "")
+        for own in candidates:
+            if own in order:
+                return Reference(((parameter_id, own),), False)
+        raise UnknownParameterError(f"{parameter_id} has no instance '{candidates[0]}'")
 
 
 @lru_cache(maxsize=32)

@@ -9,7 +9,18 @@ from pathlib import Path
 from typing import NamedTuple
 
 from .cel_engine import WORD_FUNCTIONS, compile_expression, functions_called
-from .model import BoundRef, Commissioning, Family, Group, Messages, Parameter, Plausible, Rule, StateRule
+from .model import (
+    BoundRef,
+    Commissioning,
+    Family,
+    Group,
+    GroupState,
+    Messages,
+    Parameter,
+    Plausible,
+    Rule,
+    StateRule,
+)
 from .quoting import quoted
 from .yaml_reader import KeyPath
 
@@ -153,37 +164,37 @@ def _axis_faults(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
         ("letters",): declared.letters,
         **{("flags", n): flag for n, flag in enumerate(declared.flags)},
     }
-    for place, named in params.items():
-        if named is not None and named not in ids:
-            yield Inconsistency(None, ("declared_axes", *place), f"there is no parameter {quoted(named)}")
     conditions: dict[KeyPath, str | None] = {
         ("absent_when",): declared.absent_when,
         **{("other_uses", condition): condition for condition in declared.other_uses},
     }
-    for place, named in conditions.items():
-        if named is not None and named not in family.conditions:
-            yield Inconsistency(None, ("declared_axes", *place), f"there is no condition {quoted(named)}")
+    for kind, used, known in (
+        ("parameter", params, ids),
+        ("condition", conditions, family.conditions.keys()),
+    ):
+        for place, named in used.items():
+            if named is not None and named not in known:
+                yield Inconsistency(None, ("declared_axes", *place), f"there is no {kind} {quoted(named)}")
 
 
 def _in_group_states(family: Family, group: Group) -> Iterator[Inconsistency]:
     """Yield what is wrong with the states of a group: an unknown condition, and one that no parameter
     gets.
     """
-    ids = {p.id for p in group.parameters}
-    scopes = {scope for p in group.parameters for scope in p.scopes}
     for key in ("states", "last_states"):
         for n, state in enumerate(getattr(group, key)):
-            for place, what in _in_state(family, state):
+            for place, what in (*_in_state(family, state), *_without_parameter(group, state)):
                 yield Inconsistency(group.key, (key, n, *place), what)
-            if state.scope is not None and state.scope not in scopes:
-                yield Inconsistency(
-                    group.key, (key, n, "scope"), f"no parameter here has scope {quoted(state.scope)}"
-                )
-            for at, named in enumerate(state.not_for):
-                if named not in ids:
-                    yield Inconsistency(
-                        group.key, (key, n, "not_for", at), f"there is no parameter {quoted(named)} here"
-                    )
+
+
+def _without_parameter(group: Group, state: GroupState) -> Iterator[tuple[KeyPath, str]]:
+    """Yield place and text of what a state of a group names that no parameter of it has or is."""
+    if state.scope is not None and not any(state.scope in p.scopes for p in group.parameters):
+        yield ("scope",), f"no parameter here has scope {quoted(state.scope)}"
+    ids = {p.id for p in group.parameters}
+    for at, named in enumerate(state.not_for):
+        if named not in ids:
+            yield ("not_for", at), f"there is no parameter {quoted(named)} here"
 
 
 def _in_state(family: Family, state: StateRule) -> Iterator[tuple[KeyPath, str]]:
@@ -257,21 +268,18 @@ def _all_scopes(parameter: Parameter) -> Iterator[tuple[KeyPath, str]]:
 
 def faults_of_order(order: Commissioning, groups: tuple[Group, ...]) -> Iterator[tuple[KeyPath, str]]:
     """Yield what is wrong with the steps of a family: what does not exist, and what is in two of them."""
-    known = {
-        "params": {p.id for group in groups for p in group.parameters},
-        "groups": {group.key for group in groups},
-    }
-    known["again"], known["id"] = known["params"], set()
+    params = {p.id for group in groups for p in group.parameters}
+    known = {"params": params, "again": params, "groups": {group.key for group in groups}}
     seen: dict[str, set[str]] = {"params": set(), "groups": set(), "id": set()}
     for n, step in enumerate(order.steps):
         if step.id in seen["id"]:
             yield ("steps", n, "id"), f"there are two steps {quoted(step.id)}"
         seen["id"].add(step.id)
-        for key in ("params", "groups", "again"):
+        for key, kind in (("params", "parameter"), ("groups", "group"), ("again", "parameter")):
             for at, name in enumerate(getattr(step, key)):
                 here: KeyPath = ("steps", n, key, at)
                 if name not in known[key]:
-                    yield here, f"there is no {'group' if key == 'groups' else 'parameter'} {quoted(name)}"
+                    yield here, f"there is no {kind} {quoted(name)}"
                 elif name in seen.get(key, ()):
                     yield here, f"{quoted(name)} is in an earlier step"
                 seen.get(key, set()).add(name)

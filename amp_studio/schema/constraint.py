@@ -132,20 +132,24 @@ def fault(evaluation: Evaluation, address: Address, value: Value) -> str | None:
     if parameter.access == "read":
         return f"{parameter.name} can only be read: the control writes it itself"
     if isinstance(found, str):
-        if parameter.choices and found.startswith("raw:") and not parameter.more_codes:
-            return f"{found[4:]} is no code of {parameter.name}"
-        return _format_fault(evaluation, address, found) if parameter.type == "format" else None
+        return _text_fault(evaluation, address, found)
     if isinstance(found, bool):
         return None
     if parameter.type == "bits" and (message := _bits_fault(parameter, int(found))):
         return message
     allowed = limits(evaluation, address, value.unit)
-    if allowed is None:
-        return None
-    if _beyond(found, allowed):
+    if allowed is not None and _beyond(found, allowed):
         figure = MASKED if parameter.secret else _value_text(value)
         return f"{parameter.name} {figure} is outside {_named(evaluation, allowed)}"
     return None
+
+
+def _text_fault(evaluation: Evaluation, address: Address, text: str) -> str | None:
+    """Return why the text of a choice or a format is not allowed, or None."""
+    parameter = evaluation.schema.parameters[address[0]]
+    if parameter.choices and text.startswith("raw:") and not parameter.more_codes:
+        return f"{text[4:]} is no code of {parameter.name}"
+    return _format_fault(evaluation, address, text) if parameter.type == "format" else None
 
 
 def bounding(evaluation: Evaluation, address: Address, value: Value) -> tuple[Address, ...]:
@@ -187,8 +191,9 @@ def _bits_fault(parameter: Parameter, word: int) -> str | None:
     if word < 0 or (width is not None and word >> width):
         return f"{parameter.name} {word} does not fit {f'its {width} bits' if width else 'a word of bits'}"
     for field in parameter.bits or ():
-        codes = [choice.raw for choice in field.choices or ()]
-        if codes and None not in codes and field_value(field, word) not in codes:
+        # A field of which not every code is printed may contain any.
+        codes = {choice.raw for choice in field.choices or ()} or {None}
+        if not codes & {None, field_value(field, word)}:
             return f"{field_value(field, word)} is no code of {field.label} in {parameter.name}"
     return None
 

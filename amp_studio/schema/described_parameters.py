@@ -53,6 +53,7 @@ _QUANTITIES = {
     "A": "current",
     "deg": "angle",
 }
+_YES_NO = (Choice(key="yes", label="Yes", raw=1), Choice(key="no", label="No", raw=0))
 _TURNING = ("mm", "mm/min", "mm/s2", "mm/s3", "steps/mm")
 """Units that are degrees where the axis turns."""
 
@@ -198,14 +199,7 @@ class DescribedSchema:
 
     def _parameter(self, alike: list[DescribedParameter]) -> Parameter:
         first = alike[0]
-        known = next(
-            (
-                p
-                for p in self._by_base.get(first.base, ())
-                if p.type == first.kind and (_is_axis(p) == bool(first.axis))
-            ),
-            None,
-        )
+        known = self._known_one(first)
         name = first.name[:1].upper() + first.name[1:]
         facts = _value_facts(first, self._described)
         if first.kind == "integer" and known and known.storage:
@@ -225,6 +219,12 @@ class DescribedSchema:
             layouts=(self._layout(alike),),
             **facts,
         )
+
+    def _known_one(self, described: DescribedParameter) -> Parameter | None:
+        """Return the parameter of the facts that has the same number, type and scope."""
+        kind = (described.kind, bool(described.axis))
+        same_number = self._by_base.get(described.base, ())
+        return next((p for p in same_number if (p.type, _is_axis(p)) == kind), None)
 
     def _id(self, first: DescribedParameter, known: Parameter | None) -> str:
         wanted = known.id if known else f"{first.group.key}.{group_key(first.name) or 'setting'}"
@@ -274,8 +274,7 @@ def _value_facts(described: DescribedParameter, control: DescribedControl) -> di
     """Return what a described parameter takes: range, choices, bits, storage; raises DescriptionError."""
     kind, command = described.kind, control.command
     if kind == "boolean":
-        choices = (Choice(key="yes", label="Yes", raw=1), Choice(key="no", label="No", raw=0))
-        return {"choices": choices, "storage": Storage(command=command)}
+        return {"choices": _YES_NO, "storage": Storage(command=command)}
     if kind == "choice":
         return {"choices": _choices(described, control), "storage": Storage(command=command)}
     if kind == "bits":
@@ -284,13 +283,18 @@ def _value_facts(described: DescribedParameter, control: DescribedControl) -> di
         return {"bits": bits, "storage": Storage(bits=max(1, len(labels)), signed=False, command=command)}
     if kind == "text":
         return {"storage": Storage(command=command)}
+    return _number_facts(described, command)
+
+
+def _number_facts(described: DescribedParameter, command: str | None) -> dict[str, Any]:
+    """Return range, unit and storage of a described number."""
     unit, least = described.unit, described.least
     facts: dict[str, Any] = {
         "ranges": {unit: (least, described.most)},
         "unit": None if unit in _TURNING else unit or None,
         "quantity": _QUANTITIES.get(unit, ""),
     }
-    if kind == "integer":
+    if described.kind == "integer":
         is_signed = least is None or least < 0
         return facts | {"storage": Storage(unit=unit, bits=32, signed=is_signed, command=command)}
     storage = Storage(unit=unit, decimals=described.decimals, single=True, command=command)

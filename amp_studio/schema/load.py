@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Collection, Iterable
 from functools import cache, partial
+from itertools import count, repeat
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
@@ -248,17 +249,11 @@ def read_entries(path: Path, kinds: Collection[str]) -> tuple[list[FactEntry], l
     faults: list[DatabaseError] = []
     for key, listed in data.items():
         if key in kinds and isinstance(listed, list):
-            entries += [
-                FactEntry(key, item, partial(_line_of, document, (key, n))) for n, item in enumerate(listed)
-            ]
+            lines = (partial(_line_of, document, (key, n)) for n in count())
+            entries += map(FactEntry, repeat(key), listed, lines)
         elif listed is not None or key not in kinds:
-            name = short(str(key))
-            message = (
-                f"{name}: is no list"
-                if key in kinds
-                else f"{name}: this file contains only {', '.join(kinds)}"
-            )
-            faults.append(DatabaseError(path, document.line((key,)), message))
+            what = "is no list" if key in kinds else f"this file contains only {', '.join(kinds)}"
+            faults.append(DatabaseError(path, document.line((key,)), f"{short(str(key))}: {what}"))
     return entries, faults
 
 

@@ -34,27 +34,20 @@ def read_model(kind: type[T], data: Any, family: object = None) -> T:
 def _slips(error: ValidationError, data: object, model: type[Model]) -> list[Slip]:
     """Return what is wrong; a key that is mistyped is not missing as well."""
     wrong = error.errors(include_url=False)
-    missing: dict[KeyPath, list[str]] = {}
-    for each in wrong:
-        if each["type"] == "missing":
-            missing.setdefault(each["loc"][:-1], []).append(str(each["loc"][-1]))
+    missing = [each["loc"] for each in wrong if each["type"] == "missing"]
     found: dict[KeyPath, str] = {}
     supposed: set[KeyPath] = set()
     for each in wrong:
         place = each["loc"]
         if each["type"] == "unexpected_keyword_argument":
             record, key = place[:-1], str(place[-1])
-            lacking = missing.get(record, [])
+            lacking = [str(at[-1]) for at in missing if at[:-1] == record]
             supposed |= {(*record, name) for name in lacking if did_you_mean(key, [name])}
             known = lacking if did_you_mean(key, lacking) else list(_keys_at(model, record))
             found.setdefault(place, f"there is no such key{did_you_mean(key, known)}")
         elif each["type"] != "missing":
             found.setdefault(_in_data(place, data), _sentence(each))
-    found |= {
-        each["loc"]: "is missing"
-        for each in wrong
-        if each["type"] == "missing" and each["loc"] not in supposed
-    }
+    found |= {at: "is missing" for at in missing if at not in supposed}
     return [(place, " ".join(what.split())[:_LONGEST]) for place, what in found.items()]
 
 

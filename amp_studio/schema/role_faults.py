@@ -89,10 +89,11 @@ def faults_of_program(program: ProgramWords, groups: tuple[Group, ...]) -> Itera
         if named not in known:
             yield place, f"there is no parameter {quoted(named)}"
     for n, group in enumerate(program.groups):
-        offered = {c.key for c in known[group.power_up].choices or ()} if group.power_up in known else set()
+        parameter = known.get(group.power_up or "")
+        offered = {None, *(c.key for c in (parameter and parameter.choices) or ())}
         for m, code in enumerate(group.codes):
-            if code.choice is not None and code.choice not in offered:
-                yield ("groups", n, "codes", m, "choice"), f"there is no choice {quoted(code.choice)}"
+            if code.choice not in offered:
+                yield ("groups", n, "codes", m, "choice"), f"there is no choice {quoted(str(code.choice))}"
 
 
 def faults_of_motion(motion: MotionFacts, groups: tuple[Group, ...]) -> Iterator[tuple[KeyPath, str]]:

@@ -88,13 +88,18 @@ def from_stored(parameter: Parameter, number: Fraction | float, unit: str) -> Va
     if not parameter.choices:
         found /= exact(_storage(parameter).scale)
     if parameter.type == "real":
-        double = _double(found)
-        if math.isinf(double) or (double == 0 and found != 0):
-            raise StorageError(f"{parameter.name} cannot have a number of that size")
-        return Value(double, unit)
+        return Value(_real_of(parameter, found), unit)
     if found.denominator != 1:
         raise StorageError(f"{parameter.name} takes whole numbers, not {short(write_number(_double(found)))}")
     return choice_of(parameter, int(found)) if parameter.choices else Value(int(found), unit)
+
+
+def _real_of(parameter: Parameter, number: Fraction) -> float:
+    """Return the nearest double; raises StorageError where it is infinite, or 0 for what is not."""
+    double = _double(number)
+    if math.isinf(double) or (double == 0 and number != 0):
+        raise StorageError(f"{parameter.name} cannot have a number of that size")
+    return double
 
 
 def stored_number(parameter: Parameter, value: Value, *, turns: bool) -> float | int | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable
 from decimal import Decimal
 from fractions import Fraction
 
@@ -91,21 +92,14 @@ def _decimal(digits: str, exponent: str) -> str:
         decimal = max(digits.rfind(","), digits.rfind("."))
         whole, fraction = digits[:decimal], digits[decimal + 1 :]
         group = "," if digits[decimal] == "." else "."
-        if digits[decimal] in whole or not re.fullmatch(rf"[+-]?\d{{1,3}}(\{group}\d{{3}})+", whole):
-            raise InvalidValueError(f"{quoted(digits)} is not a number")
-        digits = whole.replace(group, "") + "." + fraction
-    elif "," in digits:
-        if digits.count(",") > 1:
-            if not re.fullmatch(r"[+-]?\d{1,3}(,\d{3})+", digits):
-                raise InvalidValueError(f"{quoted(digits)} is not a number")
-            digits = digits.replace(",", "")
-        elif re.fullmatch(r"[+-]?[1-9]\d{0,2},\d{3}", digits):
-            ways = [digits.replace(",", point) + exponent for point in ("", ".")]
-            raise InvalidValueError(
-                f"'{digits}{exponent}' can be read two ways: write {ways[0]} or {ways[1]}"
-            )
-        else:
-            digits = digits.replace(",", ".")
+        digits = f"{_without_groups(whole, group, digits)}.{fraction}"
+    elif digits.count(",") > 1:
+        digits = _without_groups(digits, ",", digits)
+    elif re.fullmatch(r"[+-]?[1-9]\d{0,2},\d{3}", digits):
+        ways = [digits.replace(",", point) + exponent for point in ("", ".")]
+        raise InvalidValueError(f"'{digits}{exponent}' can be read two ways: write {ways[0]} or {ways[1]}")
+    else:
+        digits = digits.replace(",", ".")
     try:
         if "_" in digits:
             raise ValueError  # Python reads 1_0 as 10
@@ -113,6 +107,13 @@ def _decimal(digits: str, exponent: str) -> str:
     except ValueError:
         raise InvalidValueError(f"{quoted(digits + exponent)} is not a number") from None
     return digits + exponent
+
+
+def _without_groups(whole: str, group: str, digits: str) -> str:
+    """Return a whole number without the character between its groups of three; raises InvalidValueError."""
+    if not re.fullmatch(rf"[+-]?\d{{1,3}}(\{group}\d{{3}})+", whole):
+        raise InvalidValueError(f"{quoted(digits)} is not a number")
+    return whole.replace(group, "")
 
 
 def read_value(parameter: Parameter, text: str, unit: str) -> Value:
@@ -146,11 +147,8 @@ def _checked(parameter: Parameter, value: Value) -> Value:
     found = value.value
     if isinstance(found, str):
         return _checked_text(parameter, value, found)
-    if isinstance(found, bool) != (parameter.type == "boolean") or parameter.type in (
-        "choice",
-        "text",
-        "format",
-    ):
+    is_of_type = parameter.type not in ("choice", "text", "format")
+    if not is_of_type or isinstance(found, bool) != (parameter.type == "boolean"):
         raise InvalidValueError(f"{found} is no value of {parameter.name}")
     if isinstance(found, bool):
         return value
@@ -159,12 +157,19 @@ def _checked(parameter: Parameter, value: Value) -> Value:
     if not math.isfinite(found):
         raise InvalidValueError(f"{found} is not a number that {parameter.name} can have")
     if parameter.type in ("integer", "bits"):
-        if found != int(found):
-            raise InvalidValueError(f"{parameter.name} takes whole numbers, not {write_number(found)}")
-        if abs(found) > EXACT:
-            raise InvalidValueError(f"{short(write_number(found))} is too large for {parameter.name}")
-        return value if isinstance(found, int) else Value(int(found), value.unit)
+        return Value(_whole_number(parameter, found), value.unit)
     return Value(0.0, value.unit) if found == 0 else value  # there is no -0
+
+
+def _whole_number(parameter: Parameter, number: float) -> int:
+    """Return a number as the whole one that it is; raises InvalidValueError for a fraction, and for one
+    beyond what a double has exactly.
+    """
+    if number != int(number):
+        raise InvalidValueError(f"{parameter.name} takes whole numbers, not {write_number(number)}")
+    if abs(number) > EXACT:
+        raise InvalidValueError(f"{short(write_number(number))} is too large for {parameter.name}")
+    return int(number)
 
 
 def _checked_text(parameter: Parameter, value: Value, found: str) -> Value:
@@ -299,17 +304,24 @@ def digits_of(form: str) -> tuple[int, int]:
     return int(whole), int(decimals or 0)
 
 
+def _named_choice(choices: Iterable[Choice], text: str) -> Choice | None:
+    """Return the choice with this label, else that with this code, else that with this key."""
+    for field in ("label", "code", "key"):
+        for choice in choices:
+            name = getattr(choice, field)
+            if name is not None and plain(name) == plain(text):
+                return choice
+    return None
+
+
 def _read_choice(parameter: Parameter, text: str) -> Value:
     choices = parameter.choices or ()
     yes_no = parameter.type == "boolean"
     word = text.casefold()
     if word.startswith("raw:"):
         return _read_raw(parameter, text)
-    for field in ("label", "code", "key"):
-        for choice in choices:
-            name = getattr(choice, field)
-            if name is not None and plain(name) == plain(text):
-                return choice_value(parameter, choice)
+    if choice := _named_choice(choices, text):
+        return choice_value(parameter, choice)
     if yes_no and word in ("true", "yes", "on", "1", "false", "no", "off", "0"):
         return Value(word in ("true", "yes", "on", "1"))
     offered = ", ".join(f"{c.label} ({c.code})" if c.code else c.label for c in choices)

@@ -203,7 +203,7 @@ class _YamlParser:
     def _node(self, event: Any, events: Iterator[Any], path: KeyPath) -> tuple[Any, int]:
         """Return a value, and where its text ends."""
         anchor, kind = event.anchor, type(event).__name__
-        if anchor is None and kind == "ScalarEvent" and event.tag is None:  # nearly all are
+        if _is_plain_scalar(event):  # nearly all are
             text = event.value
             return (self.scalar(text) if event.implicit[0] else text), event.end_mark.index
         is_alias = kind == "AliasEvent"
@@ -239,12 +239,7 @@ class _YamlParser:
         found: dict[Any, Any] = {}
         spans, end = self.document.spans, start.end_mark.index
         while type(event := next(events)).__name__ != "MappingEndEvent":
-            if (
-                self.anchors is None
-                and event.anchor is None
-                and type(event).__name__ == "ScalarEvent"
-                and event.tag is None
-            ):
+            if self.anchors is None and _is_plain_scalar(event):
                 key = event.value  # a key is a name, also where it looks like a number
             else:
                 key, _ = self._node(event, events, path)
@@ -284,6 +279,11 @@ _WHOLE = re.compile(r"[-+]?[0-9]+")
 _BASED = re.compile(r"0o[0-7]+|0x[0-9a-fA-F]+")
 _REAL = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
 _LONGEST_NUMBER = 40
+
+
+def _is_plain_scalar(event: Any) -> bool:
+    """Return whether a value is a scalar without anchor and tag."""
+    return type(event).__name__ == "ScalarEvent" and event.anchor is None and event.tag is None
 
 
 def text_scalar(text: str) -> str | None:

@@ -125,15 +125,8 @@ def _line(
     number, name = _number_and_name(wanted, address)
     if value is None:
         return LeftOut(number, name, "the file does not set it: the control keeps its own value")
-    state = wanted.evaluation.state(address)
-    if state.state == "hidden":
-        return LeftOut(number, name, "it does not exist on this machine as the file configures it")
-    if parameter.access == "read":
-        return LeftOut(number, name, "the control writes it itself")
-    if obstacle := keying.obstacle(wanted, address):
+    if obstacle := _why_not_keyed(keying, wanted, address, secrets):
         return LeftOut(number, name, obstacle)
-    if parameter.secret and not secrets:
-        return LeftOut(number, name, "it is a secret, which is on the sheet only where somebody asks for it")
     new = keying.text(wanted, address, value)
     if new is None:
         return LeftOut(number, name, f"no code is printed for {show_value(parameter, value)}: {NOT_OFFERED}")
@@ -142,6 +135,20 @@ def _line(
         return None
     stage = keying.stage(present, wanted, address)
     return _Line(NewValue(address, value), old, new, stage)
+
+
+def _why_not_keyed(keying: Keying, file: ParameterFile, address: Address, secrets: bool) -> str | None:
+    """Return why a value that the file sets is not keyed in, None where it is."""
+    if file.evaluation.state(address).state == "hidden":
+        return "it does not exist on this machine as the file configures it"
+    parameter = file.schema.parameters[address[0]]
+    if parameter.access == "read":
+        return "the control writes it itself"
+    if obstacle := keying.obstacle(file, address):
+        return obstacle
+    if parameter.secret and not secrets:
+        return "it is a secret, which is on the sheet only where somebody asks for it"
+    return None
 
 
 def _same_in_control(

@@ -68,21 +68,19 @@ def read_screen_readings(text: str) -> list[ScreenReading]:
         raise ReadBackError(f"the text has more than {_MOST} characters", 1)
     lines = text.removeprefix("\ufeff").splitlines()
     first = next((line for line in lines if line.strip() and not line.startswith("#")), "")
-    if (
-        _SHOWN_HEAD in (cells := next(csv.reader([first], delimiter=_delimiter(first)), []))
-        and _NUMBER_HEAD in cells
-    ):
+    heads = next(csv.reader([first], delimiter=_delimiter(first)), [])
+    if {_SHOWN_HEAD, _NUMBER_HEAD} <= {*heads}:
         return _of_table(lines, _delimiter(first))
-    found: list[ScreenReading] = []
-    for n, line in enumerate(lines, 1):
-        if line.strip() and not line.lstrip().startswith("#"):
-            parts = _LINE.fullmatch(line.strip())
-            if parts is None or not parts[2].strip():
-                raise ReadBackError(
-                    f"{quoted(line.strip())} is not a number and the value that the screen shows", n
-                )
-            found.append(ScreenReading(parts[1], parts[2].strip(), n))
-    return found
+    stripped = ((n, line.strip()) for n, line in enumerate(lines, 1))
+    return [_reading(line, n) for n, line in stripped if line and not line.startswith("#")]
+
+
+def _reading(line: str, n: int) -> ScreenReading:
+    """Return number and value of a line; raises ReadBackError."""
+    parts = _LINE.fullmatch(line)
+    if parts is None or not parts[2].strip():
+        raise ReadBackError(f"{quoted(line)} is not a number and the value that the screen shows", n)
+    return ScreenReading(parts[1], parts[2].strip(), n)
 
 
 def _delimiter(line: str) -> str:

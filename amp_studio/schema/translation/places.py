@@ -4,11 +4,20 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import chain
 from string import Formatter
 from typing import Any
 
 from amp_studio.schema.load import Compiled, FurtherFacts
-from amp_studio.schema.model import Commissioning, FactTranslation, HelpNote, Messages, Model, MotionFacts
+from amp_studio.schema.model import (
+    Commissioning,
+    FactTranslation,
+    HelpNote,
+    Messages,
+    Model,
+    MotionFacts,
+    Parameter,
+)
 
 TextPlace = tuple[str | int, ...]
 """``("rules", "9pc.axis.two-spindles", "title")``: the keys of a file of a language."""
@@ -36,15 +45,18 @@ def names_in(message: str) -> set[str]:
     return {name for _, name, _, _ in Formatter().parse(message) if name is not None}
 
 
+def _of_help(parameter: Parameter) -> Iterator[tuple[TextPlace, str]]:
+    for grade in GRADES:
+        notes: tuple[HelpNote, ...] = getattr(parameter.help, grade)
+        yield from ((("help", parameter.id, grade, n), note.says) for n, note in enumerate(notes))
+
+
 def _english(compiled: Compiled, further: FurtherFacts) -> Iterator[tuple[TextPlace, str]]:
     for rule in compiled.rules:
         for part in ("title", "message", "reason"):
             yield ("rules", rule.id, part), getattr(rule, part)
-    for group in compiled.groups:
-        for parameter in group.parameters:
-            for grade in GRADES:
-                notes: tuple[HelpNote, ...] = getattr(parameter.help, grade)
-                yield from ((("help", parameter.id, grade, n), note.says) for n, note in enumerate(notes))
+    for parameter in chain.from_iterable(group.parameters for group in compiled.groups):
+        yield from _of_help(parameter)
     for name, condition in compiled.family.conditions.items():
         yield ("conditions", name), condition.why
     if further.commissioning:
