@@ -86,10 +86,9 @@ def _parted(verb: Verb, words: Sequence[str]) -> tuple[VerbArgument | None, list
         if waiting is not None:
             waiting = None
         elif word.startswith("-") and word != "-":
-            option = options.get(word)
-            waiting = (
-                option if option is not None and not option.is_flag and "nargs" not in option.how else None
-            )
+            waiting = options.get(word)
+            if waiting is not None and (waiting.is_flag or "nargs" in waiting.how):
+                waiting = None
         else:
             values.append(word)
     return waiting, values

@@ -94,16 +94,25 @@ def _run(arguments: Sequence[str], replaced: list[Target]) -> int:
     return code
 
 
+def _print_version() -> None:
+    print(f"amp-studio {__version__}")
+
+
+def _print_help() -> None:
+    from .manual import program_help
+
+    print(program_help(), end="")
+
+
+_OF_THE_PROGRAM = {"--version": _print_version, "-h": _print_help, "--help": _print_help}
+"""What the program is asked for itself, not one of its verbs."""
+
+
 def _call(arguments: Sequence[str], replaced: list[Target]) -> int:
     """Do what the first word names, and return the exit code; each module is loaded when it is needed."""
     name, *words = arguments
-    if name == "--version":
-        print(f"amp-studio {__version__}")
-        return 0
-    if name in ("-h", "--help"):
-        from .manual import program_help
-
-        print(program_help(), end="")
+    if name in _OF_THE_PROGRAM:
+        _OF_THE_PROGRAM[name]()
         return 0
     from .parsing import HelpPrinted, parse, refuse_program
     from .registry import module_of, verb_names

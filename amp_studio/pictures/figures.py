@@ -189,7 +189,7 @@ class ValueReader:
         if role.bits and instance in axes and not isinstance(value.value, str):
             is_set = int(value.value) >> axes.index(instance) & 1
             return 1.0 if bool(is_set) == (role.bits == "plus") else -1.0
-        return 1.0 if value.value in role.plus else -1.0 if value.value in role.minus else 0.0
+        return float((value.value in role.plus) - (value.value in role.minus))
 
     # -- back to values ----------------------------------------------------------
 

@@ -204,16 +204,13 @@ def _by_rise(figures: ValueReader, role: RampKind, axis: str, speed: float) -> _
     """Return a ramp that is given by the time in ms in which it reaches the feedrate."""
     own = [figures.figure(parameter, axis, quiet=True) for parameter in role.rise]
     found = next((each for each in own if each is not None and each.number is not None), None)
-    if found is None or not found.number or found.number <= 0.0:
-        named = found or own[0]
-        if named is not None:
-            figures.add_note(
-                f"{named.label}: {named.problem or f'{named.text} is no time'}",
-                named.address,
-                wrong=found is not None,
-            )
+    time = (found and found.number) or 0.0
+    if found is None or time <= 0.0:
+        if named := found or own[0]:
+            text = named.problem or f"{named.text} is no time"
+            figures.add_note(f"{named.label}: {text}", named.address, wrong=found is not None)
         return None
-    slope = speed / (found.number / 1000.0)
+    slope = speed / (time / 1000.0)
     return _Drawn(role, Ramp(role.kind, slope, slope), rise=found, factor=0.001)
 
 

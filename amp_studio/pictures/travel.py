@@ -303,6 +303,11 @@ def _side(figures: ValueReader, zone: ZoneRole) -> str:
     return ""
 
 
+def _end_texts(ends: _Ends) -> list[str]:
+    """Return the values of both ends, of those that are set."""
+    return [figure.text for figure in ends.figures if figure is not None and figure.number is not None]
+
+
 def _name_travel(
     figures: ValueReader,
     drawing: SceneShapes,
@@ -311,13 +316,8 @@ def _name_travel(
     axes: tuple[str, ...],
     views: list[tuple[float, float]],
 ) -> None:
-    parts = []
-    for ends, axis in zip(row, axes, strict=True):
-        end_texts = [
-            figure.text for figure in ends.figures if figure is not None and figure.number is not None
-        ]
-        if end_texts:
-            parts.append(f"{figures.axis(axis)} {' to '.join(end_texts)}")
+    texts = {axis: _end_texts(ends) for ends, axis in zip(row, axes, strict=True)}
+    parts = [f"{figures.axis(axis)} {' to '.join(of_axis)}" for axis, of_axis in texts.items() if of_axis]
     if not parts:
         return
     left = _shown_edges(row[0], views[0])[0]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from datetime import datetime
@@ -214,6 +215,7 @@ def _signature(file: ParameterFile) -> str:
 def _counts(file: ParameterFile, found: Rows, printed: int, now: Present) -> list[tuple[str, str]]:
     rows = found.rows
     severities = [counted(n, s) for s in ("error", "warning", "advice") if (n := _severity(now.findings, s))]
+    states = Counter(r.state for r in rows)
     counts = [
         ("Findings", ", ".join(severities) or "none"),
         *([("State", delivered_text(now.delivered, now.steps))] if now.delivered else []),
@@ -222,9 +224,9 @@ def _counts(file: ParameterFile, found: Rows, printed: int, now: Present) -> lis
         ("Differ from the default", str(sum(r.is_changed for r in rows))),
         ("Set, no default printed", str(sum(r.no_default for r in rows))),
         ("Forced out of range", str(len(file.forced))),
-        ("Not set", str(sum(_is_missing(r) for r in rows))),
-        ("Ignored by the control", str(sum(r.state == "ignored" for r in rows))),
-        ("Not available", str(sum(r.state == "unusable" for r in rows))),
+        ("Not set", str(sum(map(_is_missing, rows)))),
+        ("Ignored by the control", str(states["ignored"])),
+        ("Not available", str(states["unusable"])),
         ("Hidden, left out", str(found.hidden)),
     ]
     if file.schema.family.fits_axes:

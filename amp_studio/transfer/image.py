@@ -124,6 +124,16 @@ def decode_image(image: bytes) -> ParameterFile:
     return file
 
 
+def _record(number: int, line: str) -> tuple[str, str]:
+    """Return address and value of a line; raises ImageError."""
+    parts = line.split("\t")
+    if len(parts) != 3:
+        found = _ADDRESS.search(line)
+        entry = f" ({_short(found[0])})" if found else ""
+        raise ImageError(f"line {number} of the control image{entry} is not number, address and value")
+    return parts[1], parts[2]
+
+
 def _split(image: bytes) -> tuple[dict[str, str], list[tuple[str, str]]]:
     """Return the head and the records, address and value; raises ImageError."""
     try:
@@ -143,14 +153,7 @@ def _split(image: bytes) -> tuple[dict[str, str], list[tuple[str, str]]]:
         if not line.startswith(f"{key} "):
             raise ImageError(f"line {number} of the control image is not its {key}")
         head[key] = line[len(key) + 1 :]
-    records = []
-    for number, line in enumerate(lines[6:-2], 7):
-        parts = line.split("\t")
-        if len(parts) != 3:
-            found = _ADDRESS.search(line)
-            entry = f" ({_short(found[0])})" if found else ""
-            raise ImageError(f"line {number} of the control image{entry} is not number, address and value")
-        records.append((parts[1], parts[2]))
+    records = [_record(number, line) for number, line in enumerate(lines[6:-2], 7)]
     if lines[-2] != f"end {len(records)}":
         raise ImageError(
             f"the control image contains {len(records)} records and ends with '{_short(lines[-2])}'"

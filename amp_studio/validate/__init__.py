@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .builder_rules import NO_RULES, RULES_FILE, BuilderRules, Suppressed
     from .calculator import Calculator, calculate, calculators, shown_result
     from .cell_expression import Entered, enter, read_plain
-    from .explanation import Explanation, explain, rule_title
+    from .explanation import Explanation, SeenValue, explain, rule_title
     from .finding import NOT_SET, SEVERITIES, AddressedValue, Finding, addresses_not_set, family_of_rule
     from .findings_between import new_findings
     from .fixes import Fixed, apply_all_safe, apply_fixes

@@ -25,18 +25,12 @@ from amp_studio.transfer.client import Drift, drift_of_all, known_controls
 _FIRST = 12
 """Values of a control that are printed; --json and --report have all."""
 _CODES = {"same": 0, "differs": 1, "not reached": FAULT, "no file": FAULT}
+"""What a comparison can end with, and the exit code of it."""
 
 
 def verify_all_verb(options: Options) -> int:
     """Compare every known control with its file; 1 where one differs, 2 where one could not be compared."""
-    folder = options.path or Path()
-    if options.control:
-        raise UsageError("--all compares the known controls: it takes no --with")
-    if not folder.is_dir():
-        raise UsageError(f"{folder} is no folder: --all compares the known controls of one")
-    if options.report is not None:
-        check_paper_ending(options.report)
-        check_new(options.report, "a table of results")
+    folder = _folder_of_controls(options)
     known = known_controls(folder)
     if not known:
         raise UsageError(
@@ -47,20 +41,26 @@ def verify_all_verb(options: Options) -> int:
     counts = {word: sum(each.result == word for each in found) for word in _CODES}
     if options.json:
         controls = [_entry(each, options.secrets) for each in found]
-        print_json(
-            {
-                "controls": controls,
-                "same": counts["same"],
-                "differs": counts["differs"],
-                "not_reached": counts["not reached"],
-                "no_file": counts["no file"],
-            }
-        )
+        totals = {word.replace(" ", "_"): count for word, count in counts.items()}
+        print_json({"controls": controls, **totals})
     else:
         _print(found, counts, options.secrets)
     if options.report is not None:
         write_paper(_paper(found, options.secrets), options.report, notify=note)
     return max(_CODES[each.result] for each in found)
+
+
+def _folder_of_controls(options: Options) -> Path:
+    """Return the folder whose controls are compared; raises UsageError for options that do not fit."""
+    folder = options.path or Path()
+    if options.control:
+        raise UsageError("--all compares the known controls: it takes no --with")
+    if not folder.is_dir():
+        raise UsageError(f"{folder} is no folder: --all compares the known controls of one")
+    if options.report is not None:
+        check_paper_ending(options.report)
+        check_new(options.report, "a table of results")
+    return folder
 
 
 def _entry(drift: Drift, secrets: bool) -> dict[str, Any]:

@@ -27,12 +27,7 @@ def file_like(options: Options, axes: list[str]) -> MachineParameters:
 def _made_like(options: Options, axes: list[str]) -> MadeLike:
     """Return a file like another file or an example; raises UsageError where they cannot be alike."""
     path = Path(options.like)
-    known = {e.path.parent.name: e.path for e in examples()} | {e.path.stem: e.path for e in examples()}
-    if not path.exists() and options.like not in known:
-        raise UsageError(
-            unknown_name("file or example", options.like, [e.path.parent.name for e in examples()])
-        )
-    source = opened(path if path.exists() else known[options.like]).file
+    source = opened(path if path.exists() else _example(options.like)).file
     if source.schema.family.family != options.family:
         raise UsageError(
             f"{options.like} is a file for {source.schema.family.name}, not for {options.family}"
@@ -46,6 +41,15 @@ def _made_like(options: Options, axes: list[str]) -> MadeLike:
     if path.exists():
         note_origin(made.file, options.path, path)
     return made
+
+
+def _example(name: str) -> Path:
+    """Return the file of an example, named by its folder or file; raises UsageError."""
+    paths = [example.path for example in examples()]
+    known = {path.parent.name: path for path in paths} | {path.stem: path for path in paths}
+    if name not in known:
+        raise UsageError(unknown_name("file or example", name, [path.parent.name for path in paths]))
+    return known[name]
 
 
 def _not_taken(made: MadeLike) -> Iterator[str]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from amp_studio.calibration import Proposal
 from amp_studio.drawing import Polyline, Scale, Scene, ShapeSort, Text
 from amp_studio.schema import unit_text
@@ -16,6 +18,13 @@ _SORTS: dict[tuple[str, bool], ShapeSort] = {
 }
 
 
+_DIRECTIONS: dict[bool, tuple[str, Literal["above", "below"]]] = {
+    True: ("rising", "below"),
+    False: ("falling", "above"),
+}
+"""Whether the axis rises -> the name of the direction, and where its curve is named."""
+
+
 def proposal_scene(proposal: Proposal, title: str) -> Scene:
     """Return the mean errors of both directions over the position, before and after."""
     times, unit = (MICRO, "µm") if proposal.unit == "mm" else (1.0, unit_text(proposal.unit))
@@ -24,19 +33,10 @@ def proposal_scene(proposal: Proposal, title: str) -> Scene:
         for side, curve in sides.items():
             points = tuple((float(at), float(by) * times) for at, by in curve.points)
             sort = _SORTS[when, side]
+            direction, where = _DIRECTIONS[side]
             lines.append(Polyline(points, sort, dashed=when == "measured"))
-            texts.append(
-                Text(
-                    points[-1],
-                    f"{when}, {'rising' if side else 'falling'}",
-                    "",
-                    "below" if side else "above",
-                    None,
-                    sort,
-                )
-            )
-    xs = [x for line in lines for x, _ in line.points]
-    ys = [y for line in lines for _, y in line.points]
+            texts.append(Text(points[-1], f"{when}, {direction}", "", where, None, sort))
+    xs, ys = zip(*(point for line in lines for point in line.points), strict=True)
     margin, room = 0.02 * (max(xs) - min(xs)), 0.15 * (max(ys) - min(ys)) or 1.0
     return Scene(
         "calibration",

@@ -82,14 +82,15 @@ def fix_text(file: ParameterFile, findings: Sequence[Finding]) -> str:
     parameters = {setting.address[0] for setting in settings}
     if not settings:
         return ""
+    several = f"Set {len(settings)} Values"
     if len(parameters) > 1:
-        return f"Set {len(settings)} Values"
+        return several
     name = file.schema.parameters[settings[0].address[0]].name
     values = {_value_text(file, setting) for setting in settings}
     if len(values) == 1:
         return f"Set {name} to {values.pop()}"
     axes = [axis_letter(file, s.address[1]) for s in settings if scope_of(file, s.address) == "axis"]
-    return f"Set {name} on {', '.join(axes)}" if all(axes) and axes else f"Set {len(settings)} Values"
+    return f"Set {name} on {', '.join(axes)}" if axes and all(axes) else several
 
 
 def fix_lines(file: ParameterFile, finding: Finding) -> tuple[str, ...]:

@@ -21,6 +21,7 @@ from amp_studio.files import (
 from amp_studio.report.axes import place_of
 from amp_studio.report.dangers import dangers_of_change
 from amp_studio.report.language import Language, language_of
+from amp_studio.report.model import Danger
 from amp_studio.report.wording import counted
 from amp_studio.schema import Address, Value, same_value, show_value
 
@@ -30,6 +31,12 @@ _DANGER_SHARES = (8.0, 1.2, 6.0)
 _SHARES = (2.2, 5.0, 2.0, 3.4, 3.4)
 SIDE_BY_SIDE = 6
 """Machines that have a column each; more of them are grouped."""
+
+
+def _danger_table(dangers: Sequence[Danger], words: Language) -> PaperTable:
+    """Return what a change can do to a machine, each with the parameters it is about."""
+    rows = tuple((d.says, d.page, "; ".join(label for _, label in d.about)) for d in dangers)
+    return PaperTable(words.text("Dangers"), ("Danger", "Page", "Parameters"), rows, _DANGER_SHARES)
 
 
 def differences_paper(
@@ -52,10 +59,7 @@ def differences_paper(
     count = len(found.differences) + (len(more[1]) if more else 0)
     words = language_of(language, file.schema.family.family)
     if dangers := dangers_of_change(file, found.differences, words):
-        rows = tuple((d.says, d.page, "; ".join(label for _, label in d.about)) for d in dangers)
-        tables.insert(
-            0, PaperTable(words.text("Dangers"), ("Danger", "Page", "Parameters"), rows, _DANGER_SHARES)
-        )
+        tables.insert(0, _danger_table(dangers, words))
     known = {title for title, _ in facts}
     sides = zip("AB", names, (file, more[0] if more else None), strict=True)
     own = [fact for side in sides for fact in _side(*side, words) if fact[0] not in known]
@@ -269,18 +273,25 @@ def machine_names(stems: Sequence[str]) -> list[str]:
     return [stem if stems.count(stem) == 1 else f"{stem} ({n})" for n, stem in enumerate(stems, 1)]
 
 
-def machine_rows(
-    files: Sequence[ParameterFile], *, everything: bool = False
-) -> tuple[list[tuple[Address, tuple[Value | None, ...]]], int]:
-    """Return each address with its value in each file, and how many are the same in all;
-    only what differs unless ``everything``.
+def _in_one_schema(files: Sequence[ParameterFile]) -> list[ParameterFile]:
+    """Return files by the schema of the first one; raises ValueError for one alone, and for several
+    families.
     """
     if len(files) < 2:
         raise ValueError("give two files or more")
     families = dict.fromkeys(file.schema.family.name for file in files)
     if len(families) > 1:
         raise ValueError(f"files of different control families cannot be compared: {', '.join(families)}")
-    same_schema = [files[0], *(by_schema(file, files[0].schema) for file in files[1:])]
+    return [files[0], *(by_schema(file, files[0].schema) for file in files[1:])]
+
+
+def machine_rows(
+    files: Sequence[ParameterFile], *, everything: bool = False
+) -> tuple[list[tuple[Address, tuple[Value | None, ...]]], int]:
+    """Return each address with its value in each file, and how many are the same in all;
+    only what differs unless ``everything``.
+    """
+    same_schema = _in_one_schema(files)
     rows, same = [], 0
     for address in in_order(files[0].schema, {a for file in same_schema for a in file.values}):
         values = tuple(file.get(address) for file in same_schema)

@@ -107,6 +107,15 @@ def render_sheet_text(printed: PrintedSheet) -> bytes:
     return ("\n".join(line.rstrip() for line in text_lines(printed)) + "\n").encode("utf-8")
 
 
+def _stage_lines(stage: Stage, words: Language) -> Iterator[str]:
+    """Yield the title of a part of the sheet, and why it is a part; nothing for one without a title."""
+    if stage.title:
+        page = f" ({words.text(f'page {stage.page}')})" if stage.page else ""
+        yield from _wrapped(words.title(stage.title).upper() + page, "")
+        if stage.why:
+            yield from _wrapped(words.sentence(stage.why), "")
+
+
 def text_lines(printed: PrintedSheet) -> Iterator[str]:
     """Yield the lines of the sheet as text."""
     sheet, words = printed.sheet, printed.words
@@ -126,15 +135,11 @@ def text_lines(printed: PrintedSheet) -> Iterator[str]:
     for warning in sheet.warnings:
         yield from _wrapped(words.sentence(warning), "! ")
     yield from _instructions("Before", sheet.before, words)
+    step_head, number, key, unit, now = map(words.text, ("Step", "Number", "Key in", "Unit", "Now"))
+    head = f"{step_head:>8}  {number:<12}{key:>16} {unit:<8}{now:>14}  {words.text('Parameter')}"
     for stage, steps in printed.parts():
         yield ""
-        if stage.title:
-            page = f" ({words.text(f'page {stage.page}')})" if stage.page else ""
-            yield from _wrapped(words.title(stage.title).upper() + page, "")
-            if stage.why:
-                yield from _wrapped(words.sentence(stage.why), "")
-        step_head, number, key, unit, now = map(words.text, ("Step", "Number", "Key in", "Unit", "Now"))
-        head = f"{step_head:>8}  {number:<12}{key:>16} {unit:<8}{now:>14}  {words.text('Parameter')}"
+        yield from _stage_lines(stage, words)
         yield head
         for step in steps:
             yield from _step_lines(step, words)

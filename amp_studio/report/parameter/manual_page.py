@@ -107,11 +107,14 @@ def _page(schema: Schema, parameter: Parameter, machine: str | None) -> str:
             *(f"{_INDENT}{line}" for line in table_lines(table)),
             "",
         ]
-    rules = [r for r in schema.rules if any(read_address(t)[0] == parameter.id for t in r.reads.values())]
-    lines += _section(
-        "Rules that use it", (f"{severity_name(r.severity):14} {r.title} ({r.cited}; {r.id})" for r in rules)
-    )
+    lines += _section("Rules that use it", _rule_lines(schema, parameter))
     return "\n".join(lines).rstrip()
+
+
+def _rule_lines(schema: Schema, parameter: Parameter) -> Iterator[str]:
+    for rule in schema.rules:
+        if any(read_address(text)[0] == parameter.id for text in rule.reads.values()):
+            yield f"{severity_name(rule.severity):14} {rule.title} ({rule.cited}; {rule.id})"
 
 
 def _commissioning(schema: Schema, parameter: Parameter) -> Iterator[str]:

@@ -7,12 +7,21 @@ from collections.abc import Iterator
 from amp_studio.files import ParameterFile
 from amp_studio.report.wording import severity_name, state_name
 from amp_studio.schema import Address
-from amp_studio.validate import Explanation, Finding
+from amp_studio.validate import Explanation, Finding, SeenValue
 
 from .manual_page import erratum_text
 
 _MANY = 24
 """Most parameters that an explanation lists; a rule over all tools reads hundreds."""
+
+
+def _seen_text(file: ParameterFile, seen: SeenValue) -> str:
+    """Return a value that a rule reads: its name there, the value, why it is inactive, and its label."""
+    name = f"{seen.name} = " if seen.name else ""
+    state = "" if seen.state.is_active else f" ({state_name(seen.state.state)}: {seen.state.why})"
+    here = file.machine_schema
+    place = here.instance_label(seen.address)
+    return f"{name}{seen.value}{state}: {here.label(seen.address)}{f', {place}' if place else ''}"
 
 
 def why_parts(
@@ -28,13 +37,7 @@ def why_parts(
     for side, worth in why.sides:
         yield "Result", f"{side} = {worth}", None
     for seen in why.seen[:_MANY]:
-        name = f"{seen.name} = " if seen.name else ""
-        state = "" if seen.state.is_active else f" ({state_name(seen.state.state)}: {seen.state.why})"
-        label, place = (
-            file.machine_schema.label(seen.address),
-            file.machine_schema.instance_label(seen.address),
-        )
-        yield "Reads", f"{name}{seen.value}{state}: {label}{f', {place}' if place else ''}", seen.address
+        yield "Reads", _seen_text(file, seen), seen.address
     if len(why.seen) > _MANY:
         yield "Reads", f"and {len(why.seen) - _MANY} more", None
     for erratum in why.errata:

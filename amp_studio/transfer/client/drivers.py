@@ -85,9 +85,9 @@ def _recognise(place: Endpoint, exchange: Exchange) -> str:
                 for each in known:
                     link.write(each.question)
             heard += link.read(min(left, ASK_AGAIN))
-            for each in known:
-                if each.answer.search(heard):
-                    return each.protocol
+            answered = next((each.protocol for each in known if each.answer.search(heard)), None)
+            if answered is not None:
+                return answered
         return ""
     finally:
         link.close()

@@ -96,24 +96,28 @@ class Connection:
             self._talk.link.close()
             self._talk = None
 
+    def _open_talk(self) -> Transaction:
+        """Return the transactions of the line there is, or of a new one."""
+        if self._talk is None:
+            first = int.from_bytes(self.random(2), "little")
+            link = self._open_link(self._poll)
+            try:
+                self._talk = Transaction(link, self.now, self._policy, first=first, look=self._poll)
+            except BaseException:
+                link.close()
+                raise
+        return self._talk
+
     def greet(self, tries: int = 3) -> Welcome:
         """Send Hello on the line there is, or on a new one.
 
         Raises LinkError, NoAnswerError, RefusalError; WrongFamilyError and ProtocolMismatchError,
         after which the line is closed.
         """
-        talk = self._talk
-        if talk is None:
-            first = int.from_bytes(self.random(2), "little")
-            link = self._open_link(self._poll)
-            try:
-                talk = Transaction(link, self.now, self._policy, first=first, look=self._poll)
-            except BaseException:
-                link.close()
-                raise
-            self._talk = talk
         nonce = self.random(4)
-        welcome = talk.request(Hello(PROTOCOL_VERSION, nonce, self._client), Welcome, tries=tries)
+        welcome = self._open_talk().request(
+            Hello(PROTOCOL_VERSION, nonce, self._client), Welcome, tries=tries
+        )
         # The answer to an earlier Hello, still on its way, is not taken for the one to this.
         if welcome.nonce != nonce:
             raise NoAnswerError

@@ -235,16 +235,24 @@ class PortListener:
 def _message(error: Exception) -> str:
     number = getattr(error, "errno", None)
     text = str(error)
-    if number == errno.ENOTTY or f"({errno.ENOTTY}," in text:
-        return NO_PORT
-    if "Could not configure port" in text:
-        return f"{NO_PORT}, or one that cannot be set like this"
-    if number == errno.ENOENT or "FileNotFoundError" in text:
-        return "there is no such port"
-    if number == errno.EACCES or "PermissionError" in text:
-        return "this port may not be opened (no permission, or another program has it)"
-    if number in {errno.EAGAIN, errno.EBUSY} or "exclusively lock" in text:
-        return TAKEN
-    if number in {errno.EIO, errno.ENXIO, errno.ENODEV}:
-        return "nothing is connected to this port"
+    for numbers, part, message in _MESSAGES:
+        if number in numbers or (part and part in text):
+            return message
     return os.strerror(number) if number else text or "the port cannot be opened"
+
+
+# pyserial raises its own exception for most faults, on Windows without a number: then a part of its text is
+# all there is to tell them apart by.
+_MESSAGES: tuple[tuple[set[int], str, str], ...] = (
+    ({errno.ENOTTY}, f"({errno.ENOTTY},", NO_PORT),
+    (set(), "Could not configure port", f"{NO_PORT}, or one that cannot be set like this"),
+    ({errno.ENOENT}, "FileNotFoundError", "there is no such port"),
+    (
+        {errno.EACCES},
+        "PermissionError",
+        "this port may not be opened (no permission, or another program has it)",
+    ),
+    ({errno.EAGAIN, errno.EBUSY}, "exclusively lock", TAKEN),
+    ({errno.EIO, errno.ENXIO, errno.ENODEV}, "", "nothing is connected to this port"),
+)
+"""Numbers of a fault, a part of its text, and what is shown for it; the first that fits."""

@@ -34,11 +34,9 @@ class SerialPort:
         if self.manufacturer and self.manufacturer.casefold() not in name.casefold():
             name = f"{name} by {self.manufacturer}" if name else self.manufacturer
         parts = [name or ("USB adapter" if self.usb_id else "")]
-        parts += [
-            f"{what} {text}" for what, text in (("number", self.serial_number), ("USB", self.usb_id)) if text
-        ]
-        parts += [f"in USB socket {self.location}"] if self.location else []
-        return ", ".join(part for part in parts if part)
+        facts = (("number", self.serial_number), ("USB", self.usb_id), ("in USB socket", self.location))
+        parts += [f"{what} {text}" for what, text in facts if text]
+        return ", ".join(filter(None, parts))
 
 
 def serial_ports() -> list[SerialPort]:

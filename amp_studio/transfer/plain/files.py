@@ -65,17 +65,17 @@ def send_files(
                 sender.send(files[0].content)
         except PlainFileError as error:
             if sender.has_begun:
-                total = sum(len(file.content) for file in files)
                 error.at_control = "unknown"
-                error.what += (
-                    "; how much has arrived is not known: look at the control"
-                    if protocol == "raw"
-                    else (
-                        f"; {sender.taken} of {total} bytes were acknowledged: look at the control what it"
-                        " has made of them"
-                    )
-                )
+                error.what += f"; {_what_arrived(protocol, sender, files)}"
             raise
+
+
+def _what_arrived(protocol: str, sender: BlockSender, files: Sequence[PlainFile]) -> str:
+    """Return how much of the files has arrived, in words."""
+    if protocol == "raw":
+        return "how much has arrived is not known: look at the control"
+    total = sum(len(file.content) for file in files)
+    return f"{sender.taken} of {total} bytes were acknowledged: look at the control what it has made of them"
 
 
 def receive_files(

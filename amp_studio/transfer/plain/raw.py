@@ -64,13 +64,19 @@ def read_tape(line: ByteLine, tape: Tape, idle: float) -> bytes:
             start = got.find(b"%") if start < 0 else start
             if start >= 0 and (end := _END.search(got, start + 1)):
                 return bytes(got[start : end.end()]) + b"\n"
-    if not tape.percent:
-        text = bytes(got).strip(FILLERS + (tape.filler if tape.filler != b"\0" else b""))
-        if not text:
-            raise PlainFileError(f"nothing has come for {line.patience.start:g} s")
-        return text
+    if tape.percent:
+        return _between_percents(bytes(got))
+    text = bytes(got).strip(FILLERS + (tape.filler if tape.filler != b"\0" else b""))
+    if not text:
+        raise PlainFileError(f"nothing has come for {line.patience.start:g} s")
+    return text
+
+
+def _between_percents(got: bytes) -> bytes:
+    """Return a text from its first ``%`` to one at the end of all; raises PlainFileError."""
+    start = got.find(b"%")
     if start < 0:
         raise PlainFileError("no % has come")
     if not (end := _LAST.search(got, start + 1)):
         raise PlainFileError("the text has no % at its end: it may have been cut off")
-    return bytes(got[start : end.start() + 2]) + b"\n"
+    return got[start : end.start() + 2] + b"\n"

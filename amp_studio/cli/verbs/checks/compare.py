@@ -131,8 +131,9 @@ def _by_meaning(options: Options, files: list[ParameterFile]) -> int:
         rows = compare_meanings(files)
     except MeaningError as error:
         raise UsageError(str(error)) from None
-    listed = rows if options.everything else [row for row in rows if not row.is_same]
-    same = sum(row.is_same for row in rows)
+    different = [row for row in rows if not row.is_same]
+    listed = rows if options.everything else different
+    same = len(rows) - len(different)
     if options.json:
         print_json(
             {
@@ -149,4 +150,4 @@ def _by_meaning(options: Options, files: list[ParameterFile]) -> int:
         for row in listed:
             print(f"{f'{row.axis} {row.concept}'.strip():24} {' | '.join(row.texts())}")
         print(f"{same} of {len(rows)} the same")
-    return int(any(not row.is_same for row in rows))
+    return int(bool(different))

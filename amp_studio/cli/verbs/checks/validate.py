@@ -135,15 +135,11 @@ def _results(
             made.append(next(fresh))
             yield made[-1]
     before = dict(zip(paths, keys, strict=True))
-    cache.write(
-        {
-            key: one
-            for one, key in zip(made, cache.keys(left), strict=True)
-            # A file that was changed while it was checked has the result of one content or the other.
-            if key is not None and key == before[one.path] and not one.fault
-        },
-        used=keys,
-    )
+    # A file that was changed while it was checked has the result of one content or the other.
+    unchanged = {
+        key: one for one, key in zip(made, cache.keys(left), strict=True) if key and key == before[one.path]
+    }
+    cache.write({key: one for key, one in unchanged.items() if not one.fault}, used=keys)
 
 
 def _print(form: CheckFormat, one: CheckResult) -> None:

@@ -24,10 +24,10 @@ def run(options: Options) -> int:
     from amp_studio.schema import unknown_name
 
     schema = family(options.family)
-    wanted = options.group and options.group.casefold()
-    groups = [
-        g for g in schema.groups if not wanted or wanted in map(str.casefold, (g.key, g.name, g.section))
-    ]
+    groups = schema.groups
+    if options.group:
+        called = options.group.casefold()
+        groups = tuple(g for g in groups if called in map(str.casefold, (g.key, g.name, g.section)))
     if not groups:
         raise UsageError(unknown_name("group", options.group, [g.name for g in schema.groups]))
     parameters = [p for g in groups for p in g.parameters]

@@ -123,23 +123,18 @@ def _change(file: ParameterFile, operation: str, arguments: Sequence[str]) -> li
 def _print_changes(file: ParameterFile, changes: Sequence[Change], options: Options) -> None:
     from amp_studio.schema import show_value
 
-    last = {change.address: change for change in changes}
+    after = {change.address: change.new for change in changes}
     before = {change.address: change.old for change in reversed(changes)}
-    rows = []
-    for address, change in last.items():
+    changed = []
+    for address, last in after.items():
         parameter = file.schema.parameters[address[0]]
-        old, new = (show_value(parameter, v, secrets=options.secrets) for v in (before[address], change.new))
-        rows.append((address, old, new))
-    changed = [row for row in rows if row[1] != row[2]]
+        old, new = (show_value(parameter, v, secrets=options.secrets) for v in (before[address], last))
+        if old != new:
+            changed.append((address, old, new))
     if options.json:
-        print_json(
-            {
-                "changes": [
-                    {"param": file.machine_schema.short(a), "old": old, "new": new} for a, old, new in changed
-                ],
-                "axes": _axes_json(file),
-            }
-        )
+        short = file.machine_schema.short
+        entries = [{"param": short(address), "old": old, "new": new} for address, old, new in changed]
+        print_json({"changes": entries, "axes": _axes_json(file)})
         return
     for address, old, new in changed:
         print(f"{file.machine_schema.named(address)}: {old} -> {new}")

@@ -60,7 +60,7 @@ def _print_not_set(options: Options, machine: MachineParameters, only: set[Addre
     where given.
     """
     from amp_studio.guide import progress
-    from amp_studio.schema import ResolvedAddress, unit_text
+    from amp_studio.schema import ResolvedAddress
 
     file, validator, rows = machine.file, machine.validator(), []
     for each in progress(validator, validator.run()).steps:
@@ -69,17 +69,20 @@ def _print_not_set(options: Options, machine: MachineParameters, only: set[Addre
         rows += [value | {"step": each.step.number} for value in values]
         if found and not options.json:
             print(f"Step {each.step.number}: {each.step.title}")
-            for address in found:
-                unit = file.evaluation.unit(address, file.header.units)
-                print(
-                    f"  {file.machine_schema.named(address):50} not set"
-                    + (f" (in {unit_text(unit)})" if unit else "")
-                )
+            print("\n".join(_not_set_line(file, address) for address in found))
     if options.json:
         print_json({"values": rows})
     elif not rows:
         print("Every active value is set.")
     return 0
+
+
+def _not_set_line(file: ParameterFile, address: Address) -> str:
+    """Return name and unit of a value that is not set."""
+    from amp_studio.schema import unit_text
+
+    unit = file.evaluation.unit(address, file.header.units)
+    return f"  {file.machine_schema.named(address):50} not set" + (f" (in {unit_text(unit)})" if unit else "")
 
 
 def run(options: Options) -> int:

@@ -156,10 +156,16 @@ def _family(options: Options, schema: Schema, asked_for: str | None) -> int:
     for step in steps:
         print(f"{step.number:>3}  {step.title}" + (f" (page {step.page})" if step.page else ""))
         if asked_for:
-            here = schema.on(schema.family.default_machine)
-            instances = ((p, here.instances(p)) for p in step.parameters)
-            print("\n".join(f"     {here.label((p.id, each[0]))}" for p, each in instances if each))
+            print("\n".join(f"     {label}" for label in _parameter_labels(schema, step)))
     return 0
+
+
+def _parameter_labels(schema: Schema, step: SetupStep) -> Iterator[str]:
+    """Yield the label of each parameter of a step that the usual machine of a family has."""
+    here = schema.on(schema.family.default_machine)
+    for parameter in step.parameters:
+        if instances := here.instances(parameter):
+            yield here.label((parameter.id, instances[0]))
 
 
 def _order(schema: Schema) -> dict[str, Any]:
@@ -229,9 +235,8 @@ def _next(options: Options, file: ParameterFile, come: GuideProgress, only: Setu
         step, value = step_of(file.schema)[found[0]], open_value(file, found)
         print(f"Step {step.number} {step.title}: {_value_text(value)}")
         parameter = file.schema.parameters[found[0]]
-        for text in (parameter.help.what, parameter.help.find):
-            if text:
-                print(text)
+        for text in filter(None, (parameter.help.what, parameter.help.find)):
+            print(text)
         print(f"Set it with: {file.machine_schema.short(found)}=…")
     return 0
 

@@ -52,15 +52,7 @@ def run(options: Options) -> int:
     if options.about is None:
         return _list(options)
     if options.text is None and not options.remove:
-        file = opened(options.path).file
-        text = _present(file, _about(file, options))
-        if options.json:
-            print_json({"about": options.about, "text": text})
-        elif text:
-            print(text)
-        else:
-            note("no note")
-        return 0
+        return _show(options)
     if options.text is not None and options.remove:
         raise UsageError("a note is written or removed, not both")
     with edit(options.path) as machine:
@@ -74,6 +66,19 @@ def run(options: Options) -> int:
         else:
             note("no change")
         note_all(machine.notes)
+    return 0
+
+
+def _show(options: Options) -> int:
+    """Print one note."""
+    file = opened(options.path).file
+    text = _present(file, _about(file, options))
+    if options.json:
+        print_json({"about": options.about, "text": text})
+    elif text:
+        print(text)
+    else:
+        note("no note")
     return 0
 
 

@@ -35,7 +35,7 @@ MOST = 1000
 
 def run(options: Options) -> int:
     """Read blocks: 1 where the control refuses a word."""
-    from amp_studio.programs import BlockReader, ProgramBlockError, power_up
+    from amp_studio.programs import power_up
 
     file = opened(options.path, options).file
     if not file.schema.program.page:
@@ -44,19 +44,27 @@ def run(options: Options) -> int:
         state = power_up(file)
         print_json(_state_json(file, state)) if options.json else _print_state(file, state)
         return 0
-    lines = [line for text in options.block for line in text.splitlines()]
-    if len(lines) > MOST:
-        raise UsageError(f"{len(lines)} blocks are more than {MOST}")
-    reader = BlockReader(file)
-    try:
-        blocks = [reader.read(line) for line in lines]
-    except ProgramBlockError as error:
-        raise UsageError(f"{error}") from None
+    blocks = _read(file, "\n".join(options.block).splitlines())
     if options.json:
         print_json(_json(file, blocks))
     else:
         _print(file, blocks)
     return int(any(block.faults for block in blocks))
+
+
+def _read(file: ParameterFile, lines: Sequence[str]) -> list[ReadBlock]:
+    """Return blocks as the control reads them one after the other; raises UsageError for too many, and for
+    what is no block.
+    """
+    from amp_studio.programs import BlockReader, ProgramBlockError
+
+    if len(lines) > MOST:
+        raise UsageError(f"{len(lines)} blocks are more than {MOST}")
+    reader = BlockReader(file)
+    try:
+        return [reader.read(line) for line in lines]
+    except ProgramBlockError as error:
+        raise UsageError(f"{error}") from None
 
 
 def _labels(file: ParameterFile, addresses: Iterable[Address]) -> list[str]:

@@ -50,40 +50,35 @@ def run(options: Options) -> int:
 
 
 def _write(options: Options, file: ParameterFile, checks: Sequence[MotionCheck]) -> None:
-    from html import escape
-
     from amp_studio.files import write_atomic
 
-    rows = [
-        (
-            check.verdict,
-            check.scenario,
-            check.letter,
-            "; ".join(figure_text(name, value, unit) for name, (value, unit) in check.figures.items()),
-            " ".join(
-                (check.why, *(f"{alarm.code}." for alarm in check.alarms if alarm.code not in check.why))
-            ).strip(),
-        )
-        for check in checks
-    ]
+    rows = [_row(check) for check in checks]
     head = ("Verdict", "Scenario", "Axis", "Figures", "What is not good")
     title = f"{file.header.name or options.path.stem}: in motion"
     summary = ", ".join(f"{count} {verdict}" for verdict, count in counts(checks).items())
-    if options.output.suffix.lower() == ".html":
-        body = "".join(
-            "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>\n" for row in rows
-        )
-        content = (
-            '<!doctype html>\n<html lang="en"><meta'
-            f' charset="utf-8"><title>{escape(title)}</title>\n<style>body{{font:14px'
-            " sans-serif;margin:2em}td,th{text-align:left;padding:.2em .8em;border-bottom:1px solid"
-            f" #ccc}}</style>\n<h1>{escape(title)}</h1>\n<p>{escape(summary)}</p>\n<table>\n<tr>"
-            + "".join(f"<th>{cell}</th>" for cell in head)
-            + f"</tr>\n{body}</table>\n</html>\n"
-        ).encode()
-    else:
-        content = _pdf(title, summary, head, rows)
-    write_atomic(options.output, content, keep_backup=False)
+    as_document = _html if options.output.suffix.lower() == ".html" else _pdf
+    write_atomic(options.output, as_document(title, summary, head, rows), keep_backup=False)
+
+
+def _row(check: MotionCheck) -> tuple[str, ...]:
+    """Return verdict, scenario, axis, figures and reason of a check, in words."""
+    figures = "; ".join(figure_text(name, value, unit) for name, (value, unit) in check.figures.items())
+    alarms = (f"{alarm.code}." for alarm in check.alarms if alarm.code not in check.why)
+    return check.verdict, check.scenario, check.letter, figures, " ".join((check.why, *alarms)).strip()
+
+
+def _html(title: str, summary: str, head: Sequence[str], rows: Sequence[Sequence[str]]) -> bytes:
+    from html import escape
+
+    body = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>\n" for row in rows)
+    return (
+        '<!doctype html>\n<html lang="en"><meta'
+        f' charset="utf-8"><title>{escape(title)}</title>\n<style>body{{font:14px'
+        " sans-serif;margin:2em}td,th{text-align:left;padding:.2em .8em;border-bottom:1px solid"
+        f" #ccc}}</style>\n<h1>{escape(title)}</h1>\n<p>{escape(summary)}</p>\n<table>\n<tr>"
+        + "".join(f"<th>{cell}</th>" for cell in head)
+        + f"</tr>\n{body}</table>\n</html>\n"
+    ).encode()
 
 
 def _pdf(title: str, summary: str, head: Sequence[str], rows: Sequence[Sequence[str]]) -> bytes:

@@ -47,10 +47,7 @@ def run(options: Options) -> int:
     file, axis = machine.file, machine.axis(options.axis) if options.axis else None
     tests = machine_tests(file, axis)
     if options.name:
-        tests = tuple(test for test in tests if test.name == options.name)
-        if not tests:
-            known = ", ".join(test.name for test in machine_tests(file, axis))
-            raise UsageError(f"Unknown test '{options.name}'. Known: {known}")
+        tests = _named_test(tests, options.name)
     if options.output:
         _write(options.output, tests)
     if options.json:
@@ -58,6 +55,14 @@ def run(options: Options) -> int:
     else:
         print("\n\n".join(map(text, tests)))
     return int(bool(options.name) and bool(tests[0].refusal))
+
+
+def _named_test(tests: Sequence[MachineTest], name: str) -> tuple[MachineTest, ...]:
+    """Return the one test with a name; raises UsageError."""
+    named = tuple(test for test in tests if test.name == name)
+    if not named:
+        raise UsageError(f"Unknown test '{name}'. Known: {', '.join(test.name for test in tests)}")
+    return named
 
 
 def text(test: MachineTest) -> str:
