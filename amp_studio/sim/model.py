@@ -82,11 +82,8 @@ def model_settings() -> dict[str, str]:
 
 def with_model(axis: AxisLaw, read: AxisParameters) -> AxisLaw:
     """Return the axis with the machine as the settings have it; what is set is no longer assumed."""
-    changes: dict[str, float] = {}
-    for name, (figure, factor, _, _) in _FIGURES.items():
-        value = read.optional(name)
-        if value is not None:
-            changes[figure] = value * factor
+    given = {name: value for name in _FIGURES if (value := read.optional(name)) is not None}
+    changes = {_FIGURES[name][0]: value * _FIGURES[name][1] for name, value in given.items()}
     for own in ("velocity_bandwidth", "velocity_integral"):
         if own in changes and axis.machine.velocity_per_output == 0.0:
             name = f"model.{own}"

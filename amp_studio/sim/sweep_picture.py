@@ -21,10 +21,11 @@ WIDEST = 200
 def sweep_picture(trace: Trace) -> Picture:
     """Return the picture of a sweep, by what it varied."""
     sides = [np.unique(trace.columns[name]) for name in trace.over]
-    grid = math.prod(len(side) for side in sides) == trace.rows and all(len(side) > 1 for side in sides)
-    if grid and len(sides) == 2 and max(len(side) for side in sides) <= WIDEST:
+    sizes = [len(side) for side in sides]
+    is_grid = math.prod(sizes) == trace.rows and min(sizes, default=0) > 1
+    if is_grid and len(sides) == 2 and max(sizes) <= WIDEST:
         return _map(trace, sides[0], sides[1])
-    if grid and len(sides) == 1:
+    if is_grid and len(sides) == 1:
         return _line(trace, sides[0])
     return _distribution(trace)
 

@@ -290,16 +290,21 @@ def _names_in_message(rule: Rule) -> set[str]:
     """Return the names that the message of a rule shows; raises RuleError for one that it cannot."""
     known = {*rule.reads, *rule.values, *ALWAYS_THERE}
     try:
-        fields = [
-            (name, form, how) for _, name, form, how in Formatter().parse(rule.message) if name is not None
-        ]
+        parsed = [*Formatter().parse(rule.message)]
     except ValueError as error:
         raise RuleError(rule.id, f"message: {error}") from None
-    for name, form, how in fields:
-        if name not in known or form or how:
-            written = f"{name}{f'!{how}' if how else ''}{f':{form}' if form else ''}"
+    fields = [_field(name, how, form) for _, name, form, how in parsed if name is not None]
+    for field in fields:
+        if field not in known:
             raise RuleError(
                 rule.id,
-                f"the message shows {quoted(f'{{{written}}}')}, which is neither read nor among its values",
+                f"the message shows {quoted(f'{{{field}}}')}, which is neither read nor among its values",
             )
-    return {name for name, _, _ in fields}
+    return set(fields)
+
+
+def _field(name: str, how: str | None, form: str | None) -> str:
+    """Return a field as it is written, also with a conversion or a form, which a message does not have:
+    its figures are written as values are.
+    """
+    return f"{name}{f'!{how}' if how else ''}{f':{form}' if form else ''}"

@@ -130,8 +130,7 @@ class ValueChecks:
         other = None
         allowed = limits(self._file.evaluation, address, value.unit)
         if allowed is not None and not isinstance(value.value, str):
-            low = allowed.low is not None and value.value < allowed.low
-            other = allowed.low_from if low else allowed.high_from
+            other = _setter_of_bound(allowed, value.value)
             if other is not None and (
                 allowed.low == allowed.high or _bounds(self._file.schema.parameters[other[0]], address[0])
             ):
@@ -177,9 +176,7 @@ class ValueChecks:
         key = (address[0], value.unit)
         span = self._spans.get(key)
         if span is None:
-            allowed = limits(self._file.evaluation, address, value.unit)
-            low, high = (allowed.low, allowed.high) if allowed else (None, None)
-            span = self._spans[key] = (-math.inf if low is None else low, math.inf if high is None else high)
+            span = self._spans[key] = _span(limits(self._file.evaluation, address, value.unit))
         return span[0] <= found <= span[1]
 
     def _finding(self, address: Address, value: Value, text: str, mended: Value | None) -> Finding:
@@ -202,6 +199,18 @@ class ValueChecks:
             parameter.page,
             compared=bounding(self._file.evaluation, address, value),
         )
+
+
+def _setter_of_bound(allowed: Limits, number: float) -> Address | None:
+    """Return the parameter that sets the bound which a number is beyond; None where it is printed."""
+    is_low = allowed.low is not None and number < allowed.low
+    return allowed.low_from if is_low else allowed.high_from
+
+
+def _span(allowed: Limits | None) -> tuple[float, float]:
+    """Return both bounds, infinite where there is none."""
+    low, high = (allowed.low, allowed.high) if allowed else (None, None)
+    return -math.inf if low is None else low, math.inf if high is None else high
 
 
 def _is_near(value: Value, bound: Value) -> bool:

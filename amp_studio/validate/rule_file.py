@@ -89,7 +89,8 @@ class _RuleFileReader:
 
     def read(self) -> BuilderRules:
         entries, self._faults = read_entries(self._path, ("rules", _SUPPRESSIONS))
-        for kind, most in (("rules", MOST_RULES), ("suppressions", MOST_SUPPRESSIONS)):
+        used: dict[str, list[FactEntry]] = {}
+        for kind, most in (("rules", MOST_RULES), (_SUPPRESSIONS, MOST_SUPPRESSIONS)):
             of_kind = [entry for entry in entries if entry.kind == kind]
             for entry in of_kind[most : most + 1]:
                 self._fault(
@@ -97,13 +98,13 @@ class _RuleFileReader:
                     (),
                     f"there are {len(of_kind):,} {kind}, and {most:,} are the most; the rest is not used",
                 )
-            for entry in of_kind[:most]:
-                if kind == "rules":
-                    self._rule(entry)
-        suppressions = [e for e in entries if e.kind == "suppressions"][:MOST_SUPPRESSIONS]
-        used = tuple(found for entry in suppressions if (found := self._suppression(entry)) is not None)
+            used[kind] = of_kind[:most]
+        for entry in used["rules"]:
+            self._rule(entry)
+        # A suppression may name a rule of this file.
+        suppressions = tuple(found for entry in used[_SUPPRESSIONS] if (found := self._suppression(entry)))
         return BuilderRules(
-            tuple(self._rules.values()), used, tuple(self._findings()), self._places, self._costs
+            tuple(self._rules.values()), suppressions, tuple(self._findings()), self._places, self._costs
         )
 
     def _fault(self, entry: FactEntry, place: KeyPath, what: str) -> None:
@@ -187,21 +188,29 @@ class _RuleFileReader:
         """Return a suppression that is about this family."""
         found, slips = entry_model(entry.data, Suppression)
         if found and not slips:
-            others = {*self._families} - {self._schema.family.family}
-            if found.rule in self._rules or found.rule in _ids(self._schema):
-                slips += self._unknown_params(found)
-            elif found.rule in GENERAL_RULES:
-                if found.params and all(_is_elsewhere(text, self._schema) for text in found.params):
-                    return None
-                slips += self._unknown_params(found)
-            elif found.rule in self._lines or found.rule.partition(".")[0] in others:
+            if self._is_of_another_family(found):
                 return None
-            else:
-                near = did_you_mean(found.rule, [*self._lines, *_ids(self._schema), *GENERAL_RULES])
-                slips.append((("rule",), f"{quoted(found.rule)} is no rule{near}"))
+            slips += self._suppression_slips(found)
         for place, what in slips:
             self._fault(entry, place, what)
         return None if slips else found
+
+    def _is_of_another_family(self, found: Suppression) -> bool:
+        """Return whether a suppression is about a rule, or parameters, that only another family has."""
+        if found.rule in self._rules or found.rule in _ids(self._schema):
+            return False
+        if found.rule in GENERAL_RULES:
+            return bool(found.params) and all(_is_elsewhere(text, self._schema) for text in found.params)
+        others = {*self._families} - {self._schema.family.family}
+        return found.rule in self._lines or found.rule.partition(".")[0] in others
+
+    def _suppression_slips(self, found: Suppression) -> list[tuple[KeyPath, str]]:
+        """Return what a suppression names that there is not."""
+        known = [*self._rules, *_ids(self._schema), *GENERAL_RULES]
+        if found.rule in known:
+            return list(self._unknown_params(found))
+        near = did_you_mean(found.rule, [*self._lines, *_ids(self._schema), *GENERAL_RULES])
+        return [(("rule",), f"{quoted(found.rule)} is no rule{near}")]
 
     def _unknown_params(self, suppression: Suppression) -> Iterator[Slip]:
         for n, text in enumerate(suppression.params):
@@ -232,18 +241,20 @@ def _is_known(text: str, schema: Schema) -> bool:
     """Return whether a family has what a suppression names, on whatever machine type."""
     parameter_id, which = read_address(text.strip().casefold())
     parameter = schema.parameters.get(parameter_id)
-    for on in (schema.on(machine.key) for machine in schema.family.machines):
-        if parameter is None:
-            word = text.strip().rpartition(".")[0]  # of one of its bits
-            known = bool(on.addressed_by(text) or on.words(text) or (word and on.addressed_by(word)))
-        else:
-            is_axis = which.isalpha() and on.kin(
-                on.scopes[parameter.id], "axis"
-            )  # by a letter that the file gives it
-            known = not which or is_axis or which in map(str.casefold, on.instances(parameter))
-        if known:
-            return True
-    return False
+    machines = [schema.on(machine.key) for machine in schema.family.machines]
+    if parameter is None:
+        word = text.strip().rpartition(".")[0]  # of one of its bits
+        return any(
+            on.addressed_by(text) or on.words(text) or (word and on.addressed_by(word)) for on in machines
+        )
+    if not which:
+        return True
+    # An axis may be named by a letter that the file gives it.
+    return any(
+        (which.isalpha() and on.kin(on.scopes[parameter.id], "axis"))
+        or which in map(str.casefold, on.instances(parameter))
+        for on in machines
+    )
 
 
 @lru_cache(maxsize=4096)

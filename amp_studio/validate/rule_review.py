@@ -60,18 +60,21 @@ class Review:
     is_ours: bool = True
 
 
+def _is_of_another_family(rule: Rule, schema: Schema) -> bool:
+    """Return whether another family has all parameters that a rule reads, and this one has not."""
+    read = {parameter_id for parameter_id, _ in _read(rule).values()}
+    if read <= schema.parameters.keys():
+        return False
+    others = (family for family in family_ids() if family != schema.family.family)
+    return any(read <= load_schema(family).parameters.keys() for family in others)
+
+
 def review(rule: Rule, schema: Schema, *, any_family: bool) -> Review:
     """Return the remarks on a rule; with ``any_family`` it may be about parameters of another one."""
     found = Review()
-    unknown = {n: i for n, (i, _) in _read(rule).items() if i not in schema.parameters}
-    if unknown:
-        every = {parameter_id for parameter_id, _ in _read(rule).values()}
-        others = [
-            f for f in family_ids() if f != schema.family.family and every <= load_schema(f).parameters.keys()
-        ]
-        found.is_ours = not (any_family and others)
-        if not found.is_ours:
-            return found
+    if any_family and _is_of_another_family(rule, schema):
+        found.is_ours = False
+        return found
     found.slips += _reads_slips(rule, schema)
     found.slips += _name_slips(rule)
     found.slips += _message_slips(rule)
@@ -131,14 +134,15 @@ def _instances(schema: Schema, parameter: Parameter) -> list[str]:
 
 
 def _name_slips(rule: Rule) -> Iterator[tuple[KeyPath, str]]:
-    for key, names in (("optional", rule.optional), ("any_state", rule.any_state)):
-        for n, name in enumerate(names):
-            if name not in rule.reads:
-                yield (key, n), f"{quoted(name)} is not read{did_you_mean(name, rule.reads)}"
-    for key, conditions in (("blames", rule.blames), ("compares", rule.compares)):
-        for name in conditions:
-            if name not in rule.reads:
-                yield (key, name), f"{quoted(name)} is not read{did_you_mean(name, rule.reads)}"
+    named: list[tuple[KeyPath, str]] = [
+        *((("optional", n), name) for n, name in enumerate(rule.optional)),
+        *((("any_state", n), name) for n, name in enumerate(rule.any_state)),
+        *((("blames", name), name) for name in rule.blames),
+        *((("compares", name), name) for name in rule.compares),
+    ]
+    for place, name in named:
+        if name not in rule.reads:
+            yield place, f"{quoted(name)} is not read{did_you_mean(name, rule.reads)}"
     yield from _assignment_slips(rule)
     for name in rule.values:
         if name in rule.reads or name in ALWAYS_THERE:

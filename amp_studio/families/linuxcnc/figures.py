@@ -109,16 +109,20 @@ def _read_choice(parameter: Parameter, text: str) -> Value:
     raise InvalidValueError(f"it is not one of {', '.join(c.label for c in choices)}")
 
 
+def _line_text(parameter: Parameter, text: str) -> str:
+    """Return a text; raises FormatError for one that a line cannot contain."""
+    if re.search(r"[\r\n]|\\$", text) or text != text.strip():
+        raise FormatError(f"{parameter.name} is a text that one line cannot contain")
+    return text
+
+
 def write_figure(parameter: Parameter, value: Value, unit: str) -> str:
     """Return the text of a value; raises FormatError for one that a line cannot contain."""
     if parameter.choices:
         key = ("yes" if value.value else "no") if isinstance(value.value, bool) else str(value.value)
         return next((c.label for c in parameter.choices if c.key == key), key.removeprefix("raw:"))
     if parameter.type == "text":
-        text = str(value.value)
-        if re.search(r"[\r\n]|\\$", text) or text != text.strip():
-            raise FormatError(f"{parameter.name} is a text that one line cannot contain")
-        return text
+        return _line_text(parameter, str(value.value))
     number = to_stored(parameter, value, unit)
     text = format(Decimal(repr(float(number))) if parameter.type == "real" else Decimal(int(number)), "f")
     return text.rstrip("0").rstrip(".") if "." in text else text

@@ -102,16 +102,21 @@ def axes(file: ParameterFile) -> Sequence[str]:
     return tuned or MOTION.axes
 
 
-def bind(read: AxisParameters) -> AxisLaw:
-    """Return one axis; raises SimulationError that names every register that has to be set."""
-    _refuse_missing(read)
-    if read.number(ids.gain_proportional) <= 0.0:
+def _refuse_no_gain(read: AxisParameters) -> None:
+    """Raise SimulationError where the proportional gain is not above 0."""
+    gain = read.number(ids.gain_proportional)
+    if gain <= 0.0:
         raise SimulationError(
-            f"{ids.gain_proportional} of axis {read.axis} is {read.number(ids.gain_proportional):g}:"
-            " without it the axis does"
+            f"{ids.gain_proportional} of axis {read.axis} is {gain:g}: without it the axis does"
             " not follow. Begin with 100 (page 5-3)",
             ids.gain_proportional,
         )
+
+
+def bind(read: AxisParameters) -> AxisLaw:
+    """Return one axis; raises SimulationError that names every register that has to be set."""
+    _refuse_missing(read)
+    _refuse_no_gain(read)
     current = read.number(ids.gain_velocity) != 0.0
     per_volt = None if read.value(PER_VOLT) is None else read.within(PER_VOLT, 1.0, 1e9)
     machine = plant.machine(current_reference=current, velocity_per_volt=per_volt)

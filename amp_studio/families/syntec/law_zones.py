@@ -19,17 +19,20 @@ TIERS = (("2", "second", "MOT-044", "MOT-037", "MOT-038"), ("3", "third", "MOT-0
 """Number, name of the parameters, code of going in, of leaving at the plus and the minus side."""
 
 
+def _sides(machine: BoundMachine, name: str) -> Iterator[tuple[str, tuple[float, float]]]:
+    """Yield each axis that an area bounds, with its two sides in u; equal ones bound nothing."""
+    for axis in machine.fitted:
+        own = machine.read(axis)
+        first, second = (own.optional(ids[f"limit_{name}_{side}"]) for side in ("negative", "positive"))
+        if first is not None and second is not None and first != second:
+            yield axis, (min(first, second) * BLU, max(first, second) * BLU)
+
+
 def zones(machine: BoundMachine, _axes: Sequence[str]) -> Iterator[Zone]:
     """Yield both areas; the second is on by Pr3838, the third by C83 of the PLC."""
     read = machine.parameters
     for number, name, enters, plus, minus in TIERS:
-        sides = {}
-        for axis in machine.fitted:
-            own = machine.read(axis)
-            first, second = (own.optional(ids[f"limit_{name}_{side}"]) for side in ("negative", "positive"))
-            if first is None or second is None or first == second:
-                continue
-            sides[axis] = (min(first, second) * BLU, max(first, second) * BLU)
+        sides = dict(_sides(machine, name))
         if not sides:
             continue
         keeps_in = read.value(ids[f"limit_{name}_scope"], everywhere=True) == "outside"

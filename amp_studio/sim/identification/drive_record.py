@@ -114,13 +114,22 @@ def read_drive_record(path: Path) -> DriveRecord:
         raise SimulationError(f"{text_of_name(path.name)}: {error}") from None
 
 
+def _lines_of(text: str) -> _Lines:
+    """Return the lines of a text with their numbers, without empty ones and remarks."""
+    numbered = enumerate(text.splitlines(), 1)
+    return [(n, line) for n, line in numbered if line.strip() and line.lstrip()[0] != "#"]
+
+
+def _separator_of(line: str) -> str:
+    """Return the character between the cells of a line; a comma where there is none."""
+    return next((character for character in ";\t," if character in line), ",")
+
+
 def drive_record_of(text: str) -> DriveRecord:
     """Read a record from a text of comma, semicolon or tab separated columns;
     raises SimulationError naming the line.
     """
-    lines = [
-        (n, line) for n, line in enumerate(text.splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"
-    ]
+    lines = _lines_of(text)
     if len(lines) > MOST_ROWS + _HEAD_WITHIN:
         raise SimulationError(f"{len(lines)} lines are too many: {MOST_ROWS} at most")
     heads, names, separator, rest = _heads(lines)
@@ -151,7 +160,7 @@ def _heads(lines: _Lines) -> tuple[dict[str, int], list[tuple[str, str]], str, _
     numbers.
     """
     for place, (n, line) in enumerate(lines[:_HEAD_WITHIN]):
-        separator = next((character for character in ";\t," if character in line), ",")
+        separator = _separator_of(line)
         cells = _cells(line, separator, n)
         names = [_name_and_unit(cell) for cell in cells]
         found = _kinds([name for name, _ in names])
@@ -170,7 +179,7 @@ def named_columns(text: str, wanted: Mapping[str, str]) -> dict[str, tuple[int, 
     in the first line of a text that names one; {} where none does.
     """
     for n, line in enumerate(text.splitlines()[:_HEAD_WITHIN], 1):
-        separator = next((character for character in ";\t," if character in line), ",")
+        separator = _separator_of(line)
         heads = [_name_and_unit(cell) for cell in _cells(line, separator, n)]
         found = {
             name: (place, heads[place][1])
@@ -241,18 +250,24 @@ def _unit(head: tuple[str, str], kind: str) -> tuple[str, float]:
         unit_name = unit_named(text)
     except UnitError as error:
         raise SimulationError(f"The column {name}: {error}") from None
-    wanted = {
-        "time": ("time",),
-        "velocity": ("velocity", "angular velocity", "count rate"),
-        "position": ("length", "angle", "counts"),
-    }[kind]
-    if unit_name == "rpm" and kind == "velocity":
-        return unit_name, 1.0
-    if dimension(unit_name) not in wanted or (kind == "time" and unit_name not in _TIMES):
+    if not _fits_kind(unit_name, kind):
         raise SimulationError(
             f"The column {name} is in {text[:20]}, which is no unit of a {kind} of the axis"
         )
     return unit_name, 1.0
+
+
+def _fits_kind(unit: str, kind: str) -> bool:
+    """Return whether a column of a kind may be in a unit."""
+    if kind == "time":
+        return unit in _TIMES
+    return (kind, unit) == ("velocity", "rpm") or dimension(unit) in _DIMENSIONS[kind]
+
+
+_DIMENSIONS = {
+    "velocity": ("velocity", "angular velocity", "count rate"),
+    "position": ("length", "angle", "counts"),
+}
 
 
 def _torque_unit(text: str) -> tuple[str, float] | None:
@@ -276,13 +291,11 @@ def read_number_table(text: str, used: Sequence[int]) -> list[Series]:
     """Return the columns at the places ``used`` of a text, below its first line that has no number;
     raises SimulationError naming the line.
     """
-    lines = [
-        (n, line) for n, line in enumerate(text.splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"
-    ]
+    lines = _lines_of(text)
     if len(lines) > MOST_ROWS:
         raise SimulationError(f"{len(lines)} lines are too many: {MOST_ROWS} at most")
     for place, (n, line) in enumerate(lines):
-        separator = next((character for character in ";\t," if character in line), ",")
+        separator = _separator_of(line)
         cells = _cells(line, separator, n)
         if len(cells) > max(used) and not _NUMBER.fullmatch(cells[used[0]].replace(",", ".")):
             return _columns(lines[place + 1 :], used, len(cells), separator)

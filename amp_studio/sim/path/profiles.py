@@ -40,14 +40,17 @@ def axis_profiles(plan: ProgramPlan) -> list[list[float]]:
                 gone += piece.length()
                 now += piece.duration
         if plan.rest[n] > 0.0:
-            for axis, rows in enumerate(profiles):
-                end = float(geometry.ends[n, axis] - origin[axis])
-                rows.extend([now, float(plan.rest[n]), end, 0.0, 0.0, 0.0, POLYNOMIAL, 0.0])
+            _add_rest(profiles, now, float(plan.rest[n]), geometry.ends[n] - origin)
             now += float(plan.rest[n])
-    for axis, rows in enumerate(profiles):
-        last = geometry.ends[-1, axis] if len(geometry.ends) else origin[axis]
-        rows.extend([now, math.inf, float(last - origin[axis]), 0.0, 0.0, 0.0, POLYNOMIAL, 0.0])
+    last = geometry.ends[-1] if len(geometry.ends) else origin
+    _add_rest(profiles, now, math.inf, last - origin)
     return profiles
+
+
+def _add_rest(profiles: list[list[float]], now: float, duration: float, at: PathRows) -> None:
+    """Have each axis stay where it is, ``at`` from its start, for a time in s."""
+    for place, rows in zip(at.tolist(), profiles, strict=True):
+        rows.extend([now, duration, place, 0.0, 0.0, 0.0, POLYNOMIAL, 0.0])
 
 
 def _pieces(plan: ProgramPlan, n: int, ramp: Ramp) -> list[Piece]:

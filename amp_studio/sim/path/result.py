@@ -159,6 +159,18 @@ def program_text(file: ParameterFile, run: ProgramRun, tries: Sequence[WhatIf] =
     return "\n".join(in_text(line, length) for line in _lines(file, run, tries))
 
 
+def _contour_line(run: ProgramRun) -> str:
+    """Return the contour error in words, or why there is none."""
+    contour = run.contour
+    if contour is None:
+        return f"No contour error: {run.why_no_contour}"
+    return (
+        f"Contour error: at most {value_text(1000.0 * contour.largest, 'µm', 3)} in line {_line(run)}"
+        f" after {value_text(float(contour.time[contour.worst]), 's', 4)};"
+        f" 95 % of the time below {value_text(1000.0 * contour.p95, 'µm', 3)}"
+    )
+
+
 def _lines(file: ParameterFile, run: ProgramRun, tries: Sequence[WhatIf]) -> Iterator[str]:
     plan = run.plan
     yield f"{plan.path.blocks} blocks, {len(plan.path)} moves, {value_text(plan.time, 's', 5)}"
@@ -168,19 +180,10 @@ def _lines(file: ParameterFile, run: ProgramRun, tries: Sequence[WhatIf]) -> Ite
             param = f"  {row['param']}" if row["param"] else ""
             time = value_text(row["time_s"], "s", 4)
             yield f"  {100.0 * row['share']:5.1f} %  {time:>10}  {row['name']}{param}"
-    if run.contour is not None:
-        contour = run.contour
-        yield (
-            f"Contour error: at most {value_text(1000.0 * contour.largest, 'µm', 3)} in line {_line(run)}"
-            f" after {value_text(float(contour.time[contour.worst]), 's', 4)};"
-            f" 95 % of the time below {value_text(1000.0 * contour.p95, 'µm', 3)}"
-        )
-    else:
-        yield f"No contour error: {run.why_no_contour}"
+    yield _contour_line(run)
     if tries:
         yield "What if:"
-        for each in tries:
-            yield _try_line(file, run, each)
+        yield from (_try_line(file, run, each) for each in tries)
     for alarm in run.alarms:
         code = f"{alarm.code}: " if alarm.code else ""
         yield f"Line {alarm.line}: {code}{alarm.message}"

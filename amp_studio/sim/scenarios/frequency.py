@@ -135,13 +135,18 @@ def _span(loop: _Loop, settings: Settings) -> tuple[float, float, int]:
         raise SimulationError(
             f"move.lowest is {value_text(low)} Hz; it must be below {value_text(high)} Hz", "move.lowest"
         )
+    return low, high, _points(settings)
+
+
+def _points(settings: Settings) -> int:
+    """Return the number of frequencies; raises SimulationError."""
     points = above_zero(settings, "move.points") or float(POINTS)
     if not (points.is_integer() and 2 <= points <= MOST_POINTS):
         raise SimulationError(
             f"move.points is {value_text(points)}; it must be a whole number from 2 to {MOST_POINTS}",
             "move.points",
         )
-    return low, high, int(points)
+    return int(points)
 
 
 def _known(loop: _Loop, low: float, high: float) -> list[float]:

@@ -57,11 +57,10 @@ def run_plane(machine: BoundMachine, settings: Settings) -> Trace:
     if mode not in ("jog", "program"):
         raise SimulationError("move.mode must be jog or program", "move.mode")
     zones = [zone.settled(start) for zone in _active(machine, axes, settings)]
-    for zone in zones:
-        if zone.broken(start):
-            raise SimulationError(
-                f"The start is not allowed by {zone.name}: give another move.start", "move.start"
-            )
+    if broken := next((zone for zone in zones if zone.broken(start)), None):
+        raise SimulationError(
+            f"The start is not allowed by {broken.name}: give another move.start", "move.start"
+        )
     return _travelled(machine, axes, start, to, zones, settings, is_program=mode == "program")
 
 
@@ -100,10 +99,15 @@ def _active(machine: BoundMachine, axes: Mapping[str, AxisLaw], settings: Settin
         return found
     text = f"{wanted:g}" if isinstance(wanted, float) else str(wanted)
     for number in text.replace(";", ",").split(","):
-        numbered = [zone for zone in zones if f" {number.strip()}" in zone.name.partition(",")[0]]
-        if not numbered:
-            raise SimulationError(f"Zone {number.strip()} is not set for these axes", "move.zone")
-        found += numbered
+        found += _numbered(zones, number.strip())
+    return found
+
+
+def _numbered(zones: Sequence[Zone], number: str) -> list[Zone]:
+    """Return the zones with a number; raises SimulationError where there is none."""
+    found = [zone for zone in zones if f" {number}" in zone.name.partition(",")[0]]
+    if not found:
+        raise SimulationError(f"Zone {number} is not set for these axes", "move.zone")
     return found
 
 
@@ -353,13 +357,13 @@ def _areas(
         return
     reach = {name: (min(start[name], to[name]), max(start[name], to[name])) for name in pair}
     margin = max(high - low for low, high in reach.values()) or 1.0
+    seen = {name: (low - margin, high + margin) for name, (low, high) in reach.items()}
     for zone in zones:
         if not any(name in zone.sides for name in pair):
             continue
         spans = []
-        for name in pair:
+        for name, (least, most) in seen.items():
             low, high = zone.sides.get(name, (-math.inf, math.inf))
-            least, most = reach[name][0] - margin, reach[name][1] + margin
             spans.append((max(low, least), min(high, most)))
         if all(low < high for low, high in spans):
             yield PlaneArea(zone.name, spans[0], spans[1])

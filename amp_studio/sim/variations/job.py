@@ -155,23 +155,18 @@ class _Axes:
             raise SimulationError(str(error)) from None
 
     def _one(self, point: Sequence[float]) -> _Bound:
-        given = {
-            each.name: number for each, number in zip(self.job.varied, point, strict=True) if not each.address
-        }
-        own = {**self.move, **{name: number for name, number in given.items() if name.startswith("move.")}}
-        model = {name: number for name, number in given.items() if name.startswith("model.")}
+        varied = list(zip(self.job.varied, point, strict=True))
+        given = {each.name: number for each, number in varied if not each.address}
+        own = self.move | {name: number for name, number in given.items() if name.startswith("move.")}
+        model = self.model | {name: number for name, number in given.items() if name.startswith("model.")}
         if self._machine is not None:
             base, law = self._machine
-            return with_model(base, AxisParameters(_nothing, base.axis, {**self.model, **model})), own, law
-        wanted = {
-            each.address: typed(each, self.file, number)
-            for each, number in zip(self.job.varied, point, strict=True)
-            if each.address
-        }
+            return with_model(base, AxisParameters(_nothing, base.axis, model)), own, law
+        wanted = {each.address: typed(each, self.file, number) for each, number in varied if each.address}
         before = {address: self.file.get(address) for address in wanted}
         try:
             self.file.set_checked(wanted)
-            return bind_axis(self.file, self.law, self.job.axis, {**self.model, **model}), own, None
+            return bind_axis(self.file, self.law, self.job.axis, model), own, None
         finally:
             for address, value in before.items():
                 self.file.set(address, value)

@@ -151,18 +151,25 @@ def swept_address(file: ParameterFile, name: str, axis: str) -> Address:
         raise SimulationError(str(error), name) from None
 
 
+def _sampled(varied: Sequence[Varied], samples: int, seed: int) -> Matrix:
+    """Return a Latin hypercube: each of ``samples`` equal parts of the range of each figure has one point
+    (McKay, Beckman and Conover, Technometrics 21, 1979). Raises SimulationError for more than MOST.
+    """
+    if not 1 <= samples <= MOST:
+        raise SimulationError(f"{samples} samples: it must be 1 to {MOST}")
+    dice = np.random.default_rng(seed)
+    shares = [(dice.permutation(samples) + dice.random(samples)) / samples for _ in varied]
+    columns = [[each.at(float(share)) for share in own] for each, own in zip(varied, shares, strict=True)]
+    return np.array(columns).T.reshape(samples, len(varied))
+
+
 def points_of(varied: Sequence[Varied], samples: int | None, seed: int) -> Matrix:
     """Return the points (variations, what is varied), a grid in the order of an odometer or ``samples``.
 
     Raises SimulationError for more than MOST, or a distribution without ``samples``.
     """
     if samples is not None:
-        if not 1 <= samples <= MOST:
-            raise SimulationError(f"{samples} samples: it must be 1 to {MOST}")
-        dice = np.random.default_rng(seed)
-        shares = [(dice.permutation(samples) + dice.random(samples)) / samples for _ in varied]
-        columns = [[each.at(float(share)) for share in own] for each, own in zip(varied, shares, strict=True)]
-        return np.array(columns).T.reshape(samples, len(varied))
+        return _sampled(varied, samples, seed)
     for each in varied:
         if each.normal:
             raise SimulationError(f"{each.name} has a distribution: say how many --samples", each.name)

@@ -8,7 +8,7 @@ times the present ones, with the region in which both loops are sound and the pr
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -102,13 +102,14 @@ def _gain_map(trial: Trial, move: Settings, figure: str, way: Way) -> Trace:
     points = points_of(varied, None, 1)
     job = _job(trial, varied, move, motion=motion, loops=True, others=others)
     trace = _trace(job, trial, points, _run(job, points, way), figure)
-    others_as_text = ", ".join(f"{name} is {value_text(number)}" for name, number in others.items())
-    note = (
-        f"With the other gains as they are none is safe: here {others_as_text}, as tune recommends."
-        if others_as_text
-        else ""
-    )
-    return replace(trace, assumptions=(*([note] if note else []), *trace.assumptions))
+    return replace(trace, assumptions=(*_note_of_others(others), *trace.assumptions))
+
+
+def _note_of_others(others: Mapping[str, float]) -> Iterator[str]:
+    """Yield which gains beside those of the map are not the present ones, if any."""
+    if others:
+        words = ", ".join(f"{name} is {value_text(number)}" for name, number in others.items())
+        yield f"With the other gains as they are none is safe: here {words}, as tune recommends."
 
 
 def _job(
@@ -176,10 +177,9 @@ def _varied(trial: Trial, text: str) -> tuple[Varied, ...]:
     for each in found:
         if names.count(each.name) > 1:
             raise SimulationError(f"{each.name} is varied twice", each.name)
-        if each.name.startswith("model.") and each.name not in model_settings():
-            raise SimulationError(unknown_name("setting", each.name, model_settings()), each.name)
-        if each.name.startswith("move.") and each.name not in MOVE:
-            raise SimulationError(unknown_name("setting", each.name, MOVE), each.name)
+        known = {"model": model_settings(), "move": MOVE}.get(each.name.partition(".")[0])
+        if known is not None and each.name not in known:
+            raise SimulationError(unknown_name("setting", each.name, known), each.name)
     return found
 
 

@@ -155,15 +155,9 @@ class RangeEdits:
                 text = rows[r % height][c % width].strip()
                 if address is not None and text:
                     found[address] = text
-        beyond = max(0, height - len(block)) * width + max(0, width - max(map(len, block), default=0)) * len(
-            block
-        )
-        some = (
-            tr("1 cell is beyond the table.")
-            if beyond == 1
-            else tr("%n cells are beyond the table.", "", beyond)
-        )
-        return found, [some] if beyond else []
+        below = max(0, height - len(block)) * width
+        right = max(0, width - max(map(len, block), default=0)) * len(block)
+        return found, _beyond_the_table(below + right)
 
     def _by_name(self, rows: list[list[str]]) -> tuple[dict[Address, str], list[str]]:
         """Return the text for each address of a block that has numbers and heads, wherever its rows are
@@ -276,3 +270,12 @@ class RangeEdits:
 def _column(columns: Mapping[str, int], head: str) -> int | None:
     """Return the column of a head as it was copied: the same, or that of the same letter."""
     return columns.get(head.strip(), columns.get(head.strip().partition(" ")[0]))
+
+
+def _beyond_the_table(count: int) -> list[str]:
+    """Return how many cells of a block have no place, in words; nothing where all have one."""
+    if not count:
+        return []
+    return [
+        tr("1 cell is beyond the table.") if count == 1 else tr("%n cells are beyond the table.", "", count)
+    ]

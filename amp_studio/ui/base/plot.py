@@ -328,6 +328,11 @@ def _shifted(
     return places[0] + by, places[1] + by
 
 
+def _five_digits(value: float) -> str:
+    """Return a figure of a curve as it is read at a cursor; a dash where the curve has none."""
+    return figure_text(float(f"{value:.5g}")) if math.isfinite(value) else "–"
+
+
 def _reading(picture: Picture, one: float, two: float) -> Iterator[str]:
     """Yield a table: a row for each curve with its value at both cursors and the difference."""
     along = picture.panels[0].x
@@ -336,16 +341,14 @@ def _reading(picture: Picture, one: float, two: float) -> Iterator[str]:
     yield "".join(cell.format(f"<b>{head}</b>") for head in ("A", "B", "B − A")) + "</tr>"
     rows: list[tuple[str, str, float, float]] = [(along.label, along.unit, one, two)]
     for panel in picture.panels:
-        alone = sum(bool(curve.name) and not curve.is_before for curve in panel.curves) < 2
-        for curve in panel.curves:
-            if len(curve.x) and not curve.is_before:
+        curves = [curve for curve in panel.curves if not curve.is_before]
+        alone = sum(bool(curve.name) for curve in curves) < 2
+        for curve in curves:
+            if len(curve.x):
                 words = panel.title if alone else f"{panel.title}, {curve.name}"
                 at_one, at_two = (float(np.interp(at, curve.x, curve.y)) for at in (one, two))
                 rows.append((words, panel.y.unit, at_one, at_two))
     for words, unit, a, b in rows:
-        values = "".join(
-            cell.format(figure_text(float(f"{value:.5g}")) if math.isfinite(value) else "–")
-            for value in (a, b, b - a)
-        )
+        values = "".join(cell.format(_five_digits(value)) for value in (a, b, b - a))
         yield f"<tr><td>{words}</td>{values}<td>&nbsp;{unit}</td></tr>"
     yield "</table>"

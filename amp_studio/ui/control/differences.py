@@ -152,15 +152,8 @@ class DifferenceTable(QTreeWidget):
     def _show_side(self, address: Address) -> None:
         row, item = self.rows[address], self._items[address]
         for column, is_taken in ((CONTROL, not row.takes_file), (FILE, row.takes_file)):
-            name = "check-circle-fill" if is_taken else "circle"
-            item.setIcon(
-                column,
-                (
-                    icon(name, "sel" if is_taken else "dim")
-                    if not row.is_fixed or is_taken
-                    else icon(name, "grid")
-                ),
-            )
+            left = icon("circle", "grid" if row.is_fixed else "dim")
+            item.setIcon(column, icon("check-circle-fill", "sel") if is_taken else left)
             item.setFont(column, font("text", own=is_taken))
             item.setForeground(column, colour("text" if is_taken else "dim"))
         if row.is_fixed:

@@ -238,10 +238,10 @@ class LivePage(QDialog):
         now = time.monotonic() - self._begun
         for row, axis in enumerate(axes):
             velocity = "" if axis.velocity is None else f"{_value_text(axis.velocity)} {axis.unit}/s"
-            error = (
-                "–" if axis.following_error is None else f"{_value_text(axis.following_error)} {axis.unit}"
+            error, place = (
+                "–" if value is None else f"{_value_text(value)} {axis.unit}"
+                for value in (axis.following_error, axis.position)
             )
-            place = "–" if axis.position is None else f"{_value_text(axis.position)} {axis.unit}"
             for column, text in enumerate((axis.axis, place, error, velocity, ", ".join(axis.states))):
                 item = self.axes.item(row, column)
                 if item is None:

@@ -296,13 +296,14 @@ class FindingsPanel(QWidget):
 
     def _restore(self, opened: set[str], group: str, finding: Finding | None, row: int, place: int) -> None:
         """Open and select the same rows again; a finding that has ended leaves its place to the next one."""
-        for n, each in enumerate(self.model.groups):
-            if each.key in opened:
+        groups = [each.key for each in self.model.groups]
+        for n, key in enumerate(groups):
+            if key in opened:
                 self.view.setExpanded(self.model.index(n, 0), True)
-        if not self.model.groups:
+        if not groups:
             return
-        found = next((n for n, each in enumerate(self.model.groups) if each.key == group), None)
-        index = self.model.index(min(max(row, 0), len(self.model.groups) - 1) if found is None else found, 0)
+        found = groups.index(group) if group in groups else None
+        index = self.model.index(min(max(row, 0), len(groups) - 1) if found is None else found, 0)
         if found is not None and finding is not None:
             keys = [each.key for each in self.model.groups[found].findings]
             child = keys.index(finding.key) if finding.key in keys else min(place, len(keys) - 1)

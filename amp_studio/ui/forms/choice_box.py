@@ -9,7 +9,7 @@ from PySide6.QtCore import QElapsedTimer, QEvent, QObject, QPoint, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QComboBox, QListView, QToolTip, QWidget
 
-from amp_studio.schema import Address
+from amp_studio.schema import Address, Value
 from amp_studio.ui.base.workspace import Workspace
 
 _CODE = Qt.ItemDataRole.UserRole + 1
@@ -46,16 +46,7 @@ class ChoiceBox(QComboBox):
             if choice.note:
                 self.setItemData(self.count() - 1, choice.note, Qt.ItemDataRole.ToolTipRole)
         value = workspace.file.get(address)
-        current = None if value is None else value.value
-        key = (
-            ""
-            if current is None
-            else "yes"
-            if current is True
-            else "no"
-            if current is False
-            else str(current)
-        )
+        key = "" if value is None else _key_of(value)
         keys = [c.key for c in choices]
         self.setPlaceholderText(key or self.tr("not set"))
         self._own = keys.index(key) if key in keys else -1
@@ -164,3 +155,10 @@ class ChoiceBox(QComboBox):
         if event.type() == QEvent.Type.Hide:
             self.left.emit()
         return super().eventFilter(watched, event)
+
+
+def _key_of(value: Value) -> str:
+    """Return the key of the choice that a value is."""
+    if isinstance(value.value, bool):
+        return "yes" if value.value else "no"
+    return str(value.value)

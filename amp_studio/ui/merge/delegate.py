@@ -112,16 +112,14 @@ class MergeDelegate(QStyledItemDelegate):
 
     def _paint_side(self, painter: QPainter, place: QRect, row: Row, column: int) -> None:
         merge, side = self._model.merge, SIDES[column]
-        left = _LEFT
-        is_taken = row.kind != "same" and merge.choice(row) == side
-        if row.kind != "same" and (column != BASE or is_taken):
+        differs, is_of_base = row.kind != "same", column == BASE
+        is_taken = differs and merge.choice(row) == side
+        if differs and (is_taken or not is_of_base):
             circle = QRect(place.left() + _LEFT, place.top(), SMALL_ICON, place.height())
-            name, colour_name = ("check-circle-fill", "sel") if is_taken else ("circle", "dim")
-            paint_icon(painter, _square(circle), name, colour("sel" if colour_name == "sel" else "dim"))
-            left += _MARK
-        elif column != BASE:
-            left += _MARK
-        is_own = row.kind != "same" and column != BASE and self._changed(row, column)
+            name, tint = ("check-circle-fill", colour("sel")) if is_taken else ("circle", colour("dim"))
+            paint_icon(painter, _square(circle), name, tint)
+        left = _LEFT + (_MARK if is_taken or not is_of_base else 0)
+        is_own = differs and not is_of_base and self._changed(row, column)
         cell = self._model.cell(row, column)
         self._value(
             painter,

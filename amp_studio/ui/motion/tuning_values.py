@@ -32,6 +32,8 @@ from amp_studio.ui.base.translated import worded
 from .tuning_target import TuningTarget, effect_words
 
 _INSTANCE, _NAME, _VALUE, _ALLOWED, _EFFECT = range(5)
+_SIGNS: dict[object, int] = {"+": 1, "-": -1, Qt.Key.Key_Plus: 1, Qt.Key.Key_Minus: -1}
+"""The text or key of a step -> its sign."""
 _ADDRESS = Qt.ItemDataRole.UserRole
 _PART = 100
 """The step that is offered first is at most this part of the value."""
@@ -232,8 +234,7 @@ class ValuesPage(QWidget):
         """Take the keys + and - for steps and A for an addition, which the table would take for a search."""
         if watched is self.table and isinstance(event, QKeyEvent) and event.type() == QEvent.Type.KeyPress:
             ten = event.modifiers() & Qt.KeyboardModifier.ControlModifier
-            if event.text() in ("+", "-") or event.key() in (Qt.Key.Key_Plus, Qt.Key.Key_Minus):
-                sign = 1 if event.text() == "+" or event.key() == Qt.Key.Key_Plus else -1
+            if sign := _SIGNS.get(event.text()) or _SIGNS.get(event.key()):
                 self._guarded(lambda: self._change(sign * (10 if ten else 1)))
                 return True
             if event.key() == Qt.Key.Key_A and not event.modifiers():

@@ -217,9 +217,8 @@ class StepsPanel(QWidget):
         item.setData(0, COUNTS, counts)
         item.setData(0, RIGHT, str(len(each.open)) if each.open else "")
         is_near = now.current is None or each.step.number <= now.current.step.number
-        item.setData(
-            0, TOKEN, "off" if each.state == "not needed" else "text" if is_near or each.own else "dim"
-        )
+        tokens = {"not needed": "off"}
+        item.setData(0, TOKEN, tokens.get(each.state, "text" if is_near or each.own else "dim"))
         parts = [item.text(0), self._state_name(each.state)]
         parts += [counted(n, severity) for severity, n in counts]
         parts += [self.tr("%n values not set", "", len(each.open))] if each.open else []

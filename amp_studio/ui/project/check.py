@@ -104,15 +104,15 @@ class ProjectCheckDialog(QDialog):
 
 
 def _branch(checked: CheckedFile) -> QTreeWidgetItem:
-    worst = next((s for s in SEVERITIES if checked.count(s)), None)
+    counts = {severity: checked.count(severity) for severity in SEVERITIES}
+    worst = "error" if checked.fault else next((s for s in SEVERITIES if counts[s]), "")
     first = checked.fault or (
         finding_in_words(checked.findings[0]) if checked.findings else worded("no findings")
     )
-    item = QTreeWidgetItem(
-        [checked.path.name, *("" if checked.fault else str(checked.count(s)) for s in SEVERITIES), first]
-    )
-    if checked.fault or worst:
-        item.setIcon(0, severity_icon("error" if checked.fault else str(worst)))
+    figures = ["" if checked.fault else str(count) for count in counts.values()]
+    item = QTreeWidgetItem([checked.path.name, *figures, first])
+    if worst:
+        item.setIcon(0, severity_icon(worst))
     item.setData(0, _GOES_TO, (checked.path, None))
     for finding, label in zip(checked.findings, checked.labels, strict=True):
         leaf = QTreeWidgetItem([label, "", "", "", finding_in_words(finding)])

@@ -7,7 +7,7 @@ with a row that has its name and no values.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
@@ -184,14 +184,13 @@ class ParameterTable(QAbstractTableModel):
         """Return the rows with at least one value that is not hidden, each group under its name."""
         self._unfiltered = None
         known = [row for p in self.asked for row in self._layout(p)]
-        exists, here = self.values.exists, set(columns)
-        listed = known
+        listed, exists, here = known, self.values.exists, set(columns)
         if not self.hidden_too:
-            listed = [row for row in known if any(c in here and exists(a) for c, a in row.cells.items())]
+            listed = [row for row in known if any(map(exists, _cells_in(row, here)))]
         self.hidden_rows = len(known) - len(listed)
         if self._filter is not None:
             wanted = self._filter
-            listed = [row for row in listed if wanted(row, [a for c, a in row.cells.items() if c in here])]
+            listed = [row for row in listed if wanted(row, _cells_in(row, here))]
         return self._with_sections(listed)
 
     def _with_sections(self, rows: list[TableRow]) -> list[TableRow]:
@@ -462,3 +461,8 @@ class ParameterTable(QAbstractTableModel):
         if self.rows and self.columns:
             last = self.index(len(self.rows) - 1, len(self.columns) - 1)
             self.dataChanged.emit(self.index(0, 0), last)
+
+
+def _cells_in(row: TableRow, columns: Collection[str]) -> list[Address]:
+    """Return the addresses of a row that are in some columns."""
+    return [address for column, address in row.cells.items() if column in columns]

@@ -14,7 +14,7 @@ from itertools import combinations
 from typing import NamedTuple
 
 from amp_studio.files import ParameterFile, axis_letter
-from amp_studio.schema import ACTIVE, Address, Schema, dimension, show_value
+from amp_studio.schema import ACTIVE, Address, Parameter, Schema, dimension, show_value
 from amp_studio.validate.finding import Finding
 
 from .slip import slip_between
@@ -56,16 +56,18 @@ def _comparable(schema: Schema) -> dict[str, bool]:
     if family.declared_axes is not None:
         fields = (family.declared_axes.name, family.declared_axes.group)
         own += [field.param for field in fields if field is not None]
-    unlike, may_differ = _named(schema, schema.plausible.unlike), _named(schema, schema.plausible.may_differ)
+    may_differ = _named(schema, schema.plausible.may_differ)
+    left_out = {*own, *_named(schema, schema.plausible.unlike)}
     return {
         p.id: p.id not in may_differ
         for p in schema.parameters.values()
-        if p.type not in ("text", "format")
-        and p.id not in own
-        and not p.secret
-        and p.access != "read"
-        and p.id not in unlike
+        if p.id not in left_out and _has_figure_of_a_user(p)
     }
+
+
+def _has_figure_of_a_user(parameter: Parameter) -> bool:
+    """Return whether a parameter has a value that a user gives and that can be compared with others."""
+    return parameter.type not in ("text", "format") and not parameter.secret and parameter.access != "read"
 
 
 def _named(schema: Schema, patterns: Iterable[str]) -> set[str]:
@@ -164,10 +166,9 @@ class Alike:
             compared, count = pair.compared[0], len(pair.differing)
             if not count or compared < _LEAST or count > max(1, compared // 8):
                 continue
+            is_sure = count == 1 and compared >= _SURE
             for name in pair.differing:
-                if (count == 1 and compared >= _SURE and self._comparable[name]) or self._slip(
-                    scope, name, a, b
-                ):
+                if (is_sure and self._comparable[name]) or self._slip(scope, name, a, b):
                     asked.setdefault((scope, name), []).append((a, b, compared - count))
         for (scope, name), pairs in asked.items():
             yield self._finding(scope, name, pairs)

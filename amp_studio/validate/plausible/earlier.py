@@ -77,14 +77,17 @@ class EarlierValues:
             return ""
         if isinstance(old.value, bool | str) or isinstance(new.value, bool | str):
             return ""
-        parameter = self._file.schema.parameters[address[0]]
-        if parameter.type not in ("integer", "real") or parameter.secret or parameter.access == "read":
-            return ""
-        if not one.is_same_machine and any(
-            fnmatchcase(address[0], pattern) for pattern in self._file.schema.plausible.unlike
-        ):
+        if not self._may_have_slipped(address[0], is_same_machine=one.is_same_machine):
             return ""
         return slip_between(canonical(new.value, new.unit), canonical(old.value, old.unit))
+
+    def _may_have_slipped(self, name: str, *, is_same_machine: bool) -> bool:
+        """Return whether a parameter is a number that a user gives, and not one by which machines differ."""
+        parameter = self._file.schema.parameters[name]
+        if parameter.type not in ("integer", "real") or parameter.secret or parameter.access == "read":
+            return False
+        unlike = self._file.schema.plausible.unlike
+        return is_same_machine or not any(fnmatchcase(name, pattern) for pattern in unlike)
 
     def findings(self, asked: Iterable[Address]) -> Iterator[Finding]:
         """Yield what was found, of each value once; values that are ``asked`` about

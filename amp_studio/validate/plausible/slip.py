@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
+from typing import TypeGuard
 
 _INCH = 25.4
 _FACTORS = {
@@ -49,18 +50,15 @@ def significant_digits(number: float) -> int:
     return len(f"{abs(number):.10g}".split("e")[0].replace(".", "").strip("0"))
 
 
+def _is_number(value: Hashable) -> TypeGuard[float]:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
 def slip_between(value: Hashable, other: Hashable) -> str:
     """Return in words how ``value`` came of ``other`` by a slip (``ten times``);
     "" where no slip explains it.
     """
-    if isinstance(value, (bool, str)) or isinstance(other, (bool, str)):
-        return ""
-    if (
-        not isinstance(value, (int, float))
-        or not isinstance(other, (int, float))
-        or value == other
-        or not other
-    ):
+    if not _is_number(value) or not _is_number(other) or value == other or not other:
         return ""
     if value == 0:
         return "zero instead of"

@@ -20,6 +20,8 @@ LONGEST = 128  # characters of a line; more are neither taken nor echoed (assume
 PIECE = 256
 BACKSPACE, DELETE, RETURN = 0x08, 0x7F, 0x0D
 COMMANDS = "power, patch COMMAND, echo on|off, home AXES, mdi G28 X1, stop, status, quit"
+_LISTED = {"VER": (*BANNER,), "HELP": (*BANNER, f"Commands: {COMMANDS_LISTED}")}
+"""What the card lists of itself."""
 _LIVE = re.compile(r"(?:PRINT\s+|\?\s*)(P|BIT)\s*([0-9]{1,5})\s*", re.IGNORECASE)
 
 
@@ -82,28 +84,23 @@ class AcrCard:
         """Obey a line; ESAVE, ELOAD, ERASE, VER and HELP are words of the list of page 91,
         and what they do is assumed.
         """
-        match line.strip().upper():
-            case "ESAVE":
-                self.settings.save()
-            case "ELOAD":
-                self.settings.load()
-            case "ERASE":
-                self.settings.erase()
-            case "VER":
-                return list(BANNER)
-            case "HELP":
-                return [*BANNER, "Commands: " + COMMANDS_LISTED]
-            case "ECHO":
-                return ["ON" if self._echoes else "OFF"]
-            case word if found := re.fullmatch("PROG([0-9])", word):
-                self._program = int(found[1])
-            case word if word.partition(" ")[0] in WORDS:
-                return self.motion.obey(*line.strip().upper().partition(" ")[::2])
-            case word if (found := _LIVE.fullmatch(word)) and (live := self._live(found)):
-                return [live]
-            case _:
-                return self.settings.obey(line)
-        return []
+        words = line.strip().upper()
+        of_memory = {"ESAVE": self.settings.save, "ELOAD": self.settings.load, "ERASE": self.settings.erase}
+        if words in of_memory:
+            of_memory[words]()
+            return []
+        if words in _LISTED:
+            return list(_LISTED[words])
+        if words == "ECHO":
+            return ["ON" if self._echoes else "OFF"]
+        if found := re.fullmatch("PROG([0-9])", words):
+            self._program = int(found[1])
+            return []
+        if words.partition(" ")[0] in WORDS:
+            return self.motion.obey(*words.partition(" ")[::2])
+        if (found := _LIVE.fullmatch(words)) and (live := self._live(found)):
+            return [live]
+        return self.settings.obey(line)
 
     def _live(self, found: re.Match[str]) -> str:
         """Return a system parameter or a bit as it is now;

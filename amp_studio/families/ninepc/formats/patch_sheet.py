@@ -12,6 +12,7 @@ import re
 from amp_studio.files import ParameterFile
 from amp_studio.formats import FormatError, ReadOptions, TextFormat, TextRead
 from amp_studio.schema import (
+    Address,
     InvalidValueError,
     Schema,
     UnitError,
@@ -36,6 +37,19 @@ def _recognises(text: str) -> bool:
     return text.startswith(_HEAD)
 
 
+def _line(file: ParameterFile, address: Address, value: Value) -> str:
+    """Return the line of a value; a remark for one of which no code is printed."""
+    parameter = file.schema.parameters[address[0]]
+    number = file.machine_schema.number(address) or ""
+    name = f"{parameter.name} {file.machine_schema.instance_label(address)}".rstrip()
+    turns = file.evaluation.turns(address)
+    stored = stored_number(parameter, value, turns=turns)
+    if stored is None:
+        return f"# {number}\t{show_value(parameter, value)}: no code is printed\t\t{name}"
+    unit = (parameter.storage.unit if parameter.storage else None) or ""
+    return f"{number}\t{write_number(stored)}\t{angular(unit) if turns else unit}\t{name}"
+
+
 def _write(file: ParameterFile) -> str:
     """Return the sheet of a file."""
     lines = [
@@ -45,17 +59,8 @@ def _write(file: ParameterFile) -> str:
     ]
     for address in file.addresses():
         parameter, value = file.schema.parameters[address[0]], file.get(address)
-        if value is None or not parameter.patchable or file.evaluation.state(address).state == "hidden":
-            continue
-        number = file.machine_schema.number(address) or ""
-        name = f"{parameter.name} {file.machine_schema.instance_label(address)}".rstrip()
-        turns = file.evaluation.turns(address)
-        stored = stored_number(parameter, value, turns=turns)
-        if stored is None:
-            lines.append(f"# {number}\t{show_value(parameter, value)}: no code is printed\t\t{name}")
-            continue
-        unit = (parameter.storage.unit if parameter.storage else None) or ""
-        lines.append(f"{number}\t{write_number(stored)}\t{angular(unit) if turns else unit}\t{name}")
+        if value is not None and parameter.patchable and file.evaluation.state(address).state != "hidden":
+            lines.append(_line(file, address, value))
     for key, text in file.unknown.items():
         if key.isdecimal():  # a number that was kept from such a sheet
             figure, _, named = text.partition(" ")

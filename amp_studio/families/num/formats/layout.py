@@ -51,6 +51,14 @@ class Placed:
         return f"{head} {self.count}" if self.data is None else f"{head}#{self.data}"
 
 
+def _job_reference(number: object) -> str:
+    """Return the eight digits of a job reference; raises FormatError."""
+    reference = f"{number:08d}" if isinstance(number, int) else str(number)
+    if not re.fullmatch("[0-9]{8}", reference):
+        raise FormatError(f"the job reference '{reference}' is not of eight digits")
+    return reference
+
+
 @dataclass
 class TableLayout:
     """What a table contains besides its words; the defaults are those of a table that the control sends."""
@@ -91,10 +99,7 @@ class TableLayout:
     def from_header(cls, header: object) -> TableLayout:
         """Read the header of a parameter file; raises FormatError where a person wrote what cannot be."""
         entries = header if isinstance(header, Mapping) else {}
-        number = entries.get("job_reference", cls.job_reference)
-        reference = f"{number:08d}" if isinstance(number, int) else str(number)
-        if not re.fullmatch("[0-9]{8}", reference):
-            raise FormatError(f"the job reference '{reference}' is not of eight digits")
+        reference = _job_reference(entries.get("job_reference", cls.job_reference))
         comment = str(entries.get("comment", ""))
         if not re.fullmatch(r"(?![0-9])[ -~]*", comment):
             raise FormatError(

@@ -78,22 +78,31 @@ def _unmeasured(text: str, n: int) -> FormatError:
     return FormatError("something comes after the length of the line", n, last.end() + 1)
 
 
+def _place_behind(text: str) -> tuple[int, int]:
+    """Return line and column of what follows a text."""
+    return text.count("\n") + 1, len(text.rpartition("\n")[2]) + 1
+
+
+def _without_end(text: str) -> FormatError:
+    """Return the error of a table without Xoff: its name is written there, or it was cut off."""
+    word = re.search(r"^[ \t]*X[ -]?off\b", text, re.IGNORECASE | re.MULTILINE)
+    if word is not None:
+        line = text[: word.start()].count("\n") + 1
+        return FormatError("the table ends with the character Xoff (ALT 19), not with its name", line, 1)
+    return FormatError(
+        "the table has no Xoff (ALT 19) at its end: it may have been cut off", *_place_behind(text)
+    )
+
+
 def split_table(text: str) -> tuple[list[str], TableLayout]:
     """Return the lines of a table without their lengths, the start apart; raises FormatError."""
     body, xoff, tail = text.partition(XOFF)
-    last = body.count("\n") + 1
     if not xoff:
-        word = re.search(r"^[ \t]*X[ -]?off\b", text, re.IGNORECASE | re.MULTILINE)
-        if word is not None:
-            line = text[: word.start()].count("\n") + 1
-            raise FormatError("the table ends with the character Xoff (ALT 19), not with its name", line, 1)
-        column = len(body.rpartition("\n")[2]) + 1
-        raise FormatError("the table has no Xoff (ALT 19) at its end: it may have been cut off", last, column)
+        raise _without_end(text)
     behind = _TAIL.match(tail)
     if behind is None or behind.end() != len(tail):
         before = f"{body}{xoff}{tail[: behind.end() if behind else 0]}"
-        line, column = before.count("\n") + 1, len(before.rpartition("\n")[2]) + 1
-        raise FormatError("something comes after Xoff, which ends the table", line, column)
+        raise FormatError("something comes after Xoff, which ends the table", *_place_behind(before))
     # By the first line: one that ends otherwise was joined from two files, or damaged.
     line_end = "\r\n" if body.partition("\n")[0].endswith("\r") else "\n"
     lines = body.split(line_end)

@@ -230,9 +230,10 @@ def words_of(schema: Schema, machine: str) -> KnownWords:
     meanings: dict[Word, tuple[WordMeaning, ...]] = {}
     counts: dict[int, int] = {}
     forms: dict[int, Spelling] = {}
-    for address in schema.on(machine).addresses:
-        found = _NUMBER.fullmatch(schema.on(machine).number(address) or "")
-        if found is None or schema.on(machine).is_disputed(address[0]):
+    here = schema.on(machine)
+    for address in here.addresses:
+        found = _NUMBER.fullmatch(here.number(address) or "")
+        if found is None or here.is_disputed(address[0]):
             continue
         a, b = int(found[1]), int(found[2])
         meaning = WordMeaning.of(schema, address)
