@@ -513,6 +513,19 @@ def _plain(value: float | bool | str) -> str:
 # -- what a user types, and what he gets
 
 
+def _read_assigned(
+    trial: ParameterFile, param: str, address: Address, bit: int | None, text: str
+) -> Value | None:
+    """Return the value that a text gives an address, or one bit of it; None clears it. Raises ValueError."""
+    if not text:
+        raise ValueError(
+            f"no value is given ({param}={NOT_SET} clears it)" if bit is None else "no value is given"
+        )
+    if bit is not None:
+        return _with_bit(trial, address, bit, text)
+    return None if _clears(text) else _entered(trial, address, text)
+
+
 def read_assignments(
     file: ParameterFile,
     wanted: Iterable[tuple[str, str | Value]],
@@ -537,16 +550,9 @@ def read_assignments(
                 found[address] = text
                 trial.set(address, text)
                 continue
-            if not text:
-                raise ValueError(
-                    f"no value is given ({param}={NOT_SET} clears it)" if bit is None else "no value is given"
-                )
-            if bit is not None:
-                value: Value | None = _with_bit(trial, address, bit, text)
-            else:
-                value = None if _clears(text) else _entered(trial, address, text)
-                if address in found and found[address] != value:
-                    raise ValueError("it is given two values")
+            value = _read_assigned(trial, param, address, bit, text)
+            if bit is None and address in found and found[address] != value:
+                raise ValueError("it is given two values")
             found[address] = value
         except UnknownParameterError as error:
             slips.append(str(error))

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import statistics
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
@@ -80,16 +81,17 @@ def figures(measurement: Measurement) -> AxisFigures:
     up = [(t.mean_rising, t.spread_rising) for t in targets if t.mean_rising is not None]
     down = [(t.mean_falling, t.spread_falling) for t in targets if t.mean_falling is not None]
     both = [*up, *down] if up and down else []
+    directions = Counter(run.rising for run in measurement.runs)
     return AxisFigures(
         targets,
-        sum(run.rising for run in measurement.runs),
-        sum(not run.rising for run in measurement.runs),
+        directions[True],
+        directions[False],
         max(map(abs, reversals), default=None),
         math.fsum(reversals) / len(reversals) if reversals else None,
         _range([t.mean for t in targets if t.mean is not None]),
-        _range([mean for mean, _ in up]),
-        _range([mean for mean, _ in down]),
-        _range([mean for mean, _ in both]),
+        _range_of_means(up),
+        _range_of_means(down),
+        _range_of_means(both),
         _fourfold(up),
         _fourfold(down),
         _largest(_repeatability(t) for t in targets) if both else None,
@@ -113,6 +115,10 @@ def _spread(values: list[float] | None) -> float | None:
 
 def _range(values: list[float]) -> float | None:
     return max(values) - min(values) if values else None
+
+
+def _range_of_means(targets: Iterable[tuple[float, float | None]]) -> float | None:
+    return _range([mean for mean, _ in targets])
 
 
 def _largest(values: Iterable[float | None]) -> float | None:

@@ -84,15 +84,28 @@ class Proposal:
         return _span(self.after)
 
 
-def propose(file: ParameterFile, axis: str, measurement: Measurement, wish: Wish) -> Proposal:
-    """Return what measured points make of an axis (its instance);
-    raises CalibrationError for what is to be answered first.
-    """
+def _offered(file: ParameterFile) -> Compensation:
+    """Return how a family compensates; raises CalibrationError where it does not."""
     offered = compensation_of(file.schema.family.family)
     if not offered.reversal and offered.table is None:
         raise CalibrationError(
             f"{file.schema.family.name} has neither a calibration table nor a reversal error"
         )
+    return offered
+
+
+def _left_over(curve: ErrorCurve, added: ErrorCurve, removed: ErrorCurve, shift: Fraction) -> ErrorCurve:
+    """Return the error that is left of a measured one: what was compensated already comes on top, what will
+    be compensated is taken off.
+    """
+    return ErrorCurve(tuple((at, e + added.at(at) - removed.at(at) + shift) for at, e in curve.points))
+
+
+def propose(file: ParameterFile, axis: str, measurement: Measurement, wish: Wish) -> Proposal:
+    """Return what measured points make of an axis (its instance);
+    raises CalibrationError for what is to be answered first.
+    """
+    offered = _offered(file)
     check_unit(file, offered, axis, measurement.unit)
     present = _present(file, offered, axis, wish)
     old = lost_motion(file, offered, axis)
@@ -124,15 +137,9 @@ def propose(file: ParameterFile, axis: str, measurement: Measurement, wish: Wish
     if len(sides) == 1:
         notes.append("measured in one direction only: the lost motion is not known")
         lost = Fraction(0)
-    after = {
-        side: ErrorCurve(
-            tuple(
-                (at, e + added.at(at) - removed.at(at) + (lost if side else -lost) / 2)
-                for at, e in curve.points
-            )
-        )
-        for side, curve in sides.items()
-    }
+    # Half of the lost motion is missing in each direction.
+    shifts = {True: lost / 2, False: -lost / 2}
+    after = {side: _left_over(curve, added, removed, shifts[side]) for side, curve in sides.items()}
     return Proposal(
         axis, measurement.unit, settings, table, reversal, figures(measurement), sides, after, tuple(notes)
     )

@@ -7,7 +7,7 @@ docs/tuning.md.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -68,6 +68,30 @@ def read_measurement(text: str, answers: MeasurementAnswers, usual_unit: str = "
     return Measurement(runs, base, used, assumed, raw.notes, is_circle=raw.is_circle)
 
 
+_SIGN_OF_KIND = {"correction": "target-measured", "measured": "measured-target"}
+"""The kind of a table's figures -> their sign, where it leaves none to choose."""
+
+
+def _sign(raw: RawTable, answered: str) -> str:
+    """Return the sign of the errors, "" where neither table nor answer names it; raises MeasurementError
+    where they contradict each other.
+    """
+    known = _SIGN_OF_KIND.get(raw.kind, answered)
+    if answered not in ("", known):
+        raise MeasurementError(
+            f"the heads of the columns name {raw.kind} figures, which are {known}, not {answered}"
+        )
+    return known
+
+
+def _check_units(unit: str, error_unit: str, *, is_circle: bool) -> None:
+    """Raise MeasurementError for units of position and error that do not belong together."""
+    if is_circle and (_BASE[unit], _BASE[error_unit]) != ("deg", "mm"):
+        raise MeasurementError("a circle has angles in deg and errors of its radius in mm, in or um")
+    if not is_circle and _BASE[unit] != _BASE[error_unit]:
+        raise MeasurementError(f"positions in {unit} and errors in {error_unit} do not belong together")
+
+
 def _settled(
     raw: RawTable, answers: MeasurementAnswers, usual_unit: str
 ) -> tuple[MeasurementAnswers, tuple[str, ...]]:
@@ -79,18 +103,8 @@ def _settled(
     # What was measured beside a target is in the unit of the target.
     named["error_unit"] = answers.error_unit or raw.error_unit or (unit if raw.kind == "measured" else "")
     error_unit = named["error_unit"] or (usual_unit if raw.is_circle else unit)
-    named["sign"] = answers.sign
-    if raw.kind != "error":
-        known = "target-measured" if raw.kind == "correction" else "measured-target"
-        if answers.sign and answers.sign != known:
-            raise MeasurementError(
-                f"the heads of the columns name {raw.kind} figures, which are {known}, not {answers.sign}"
-            )
-        named["sign"] = known
-    if raw.is_circle and (_BASE[unit], _BASE[error_unit]) != ("deg", "mm"):
-        raise MeasurementError("a circle has angles in deg and errors of its radius in mm, in or um")
-    if not raw.is_circle and _BASE[unit] != _BASE[error_unit]:
-        raise MeasurementError(f"positions in {unit} and errors in {error_unit} do not belong together")
+    named["sign"] = _sign(raw, answers.sign)
+    _check_units(unit, error_unit, is_circle=raw.is_circle)
     used = MeasurementAnswers(unit, error_unit, named["sign"] or SIGNS[0], answers.decimal or DECIMALS[0])
     return used, tuple(name for name, text in named.items() if not text)
 
@@ -208,15 +222,25 @@ def _table(
     else:
         runs = parted(figures[0])
     ignored = sum(kind == "" or (kind == "mean" and n not in values) for n, kind in enumerate(kinds))
-    if ignored > 1:
-        notes = (*notes, f"{ignored} columns that are neither position nor error were not read")
-    elif ignored:
-        notes = (*notes, "1 column that is neither position nor error was not read")
-    is_circle = kinds[at] == "angle"
-    if is_circle and kinds[values[0]] == "measured":
+    is_circle, kind = kinds[at] == "angle", kinds[values[0]]
+    if is_circle and kind == "measured":
         raise MeasurementError("a circle needs the error of its radius, not the radius: angle, deviation")
-    kind = "error" if kinds[values[0]] == "mean" else kinds[values[0]]
-    return RawTable(tuple(runs), kind, heads[at].unit, heads[values[0]].unit, notes, is_circle)
+    return RawTable(
+        tuple(runs),
+        "error" if kind == "mean" else kind,
+        heads[at].unit,
+        heads[values[0]].unit,
+        (*notes, *_not_read(ignored)),
+        is_circle,
+    )
+
+
+def _not_read(count: int) -> Iterator[str]:
+    """Yield how many columns were left out, in words; nothing where none was."""
+    if count > 1:
+        yield f"{count} columns that are neither position nor error were not read"
+    elif count:
+        yield "1 column that is neither position nor error was not read"
 
 
 def _heads_of_two(row: tuple[int, list[str]]) -> list[Head]:
@@ -233,20 +257,21 @@ def _columns(heads: Sequence[Head]) -> tuple[int, list[int]]:
     """Return the column of the position, and those of what was measured there, in one kind and unit;
     raises MeasurementError where the heads do not name them.
     """
-    kinds = [head.kind for head in heads]
-    values = [n for n, kind in enumerate(kinds) if kind in ("measured", "error", "correction")]
-    if not values:  # a table of means alone
-        values = [n for n, kind in enumerate(kinds) if kind == "mean"]
-    positions = [n for n, kind in enumerate(kinds) if kind in ("position", "angle")]
+    columns: dict[str, list[int]] = {}
+    for n, head in enumerate(heads):
+        columns.setdefault(head.kind, []).append(n)
+    positions = sorted(columns.get("position", []) + columns.get("angle", []))
+    found = [columns[kind] for kind in ("measured", "error", "correction") if kind in columns]
+    if not found:  # a table of means alone
+        found = [columns.get("mean", [])]
+    # Measured beside its error: the reading of the instrument is the one without a sign to guess.
+    values = columns.get("measured") or found[0]
     if len(positions) != 1 or not values:
         raise MeasurementError(
             "the heads of the columns do not name one position and what was measured there: position, error"
         )
-    if len({kinds[n] for n in values}) > 1:
-        # Measured beside its error: the reading of the instrument is the one without a sign to guess.
-        values = [n for n in values if kinds[n] == "measured"] or values
-        if len({kinds[n] for n in values}) > 1:
-            raise MeasurementError("columns of errors and of corrections: leave one of them")
+    if len(found) > 1 and "measured" not in columns:
+        raise MeasurementError("columns of errors and of corrections: leave one of them")
     if len({heads[n].unit for n in values}) > 1:
         raise MeasurementError("the columns of errors have several units")
     return positions[0], values
@@ -277,12 +302,8 @@ def _grouped(
 # -- runs ---------------------------------------------------------------------------------------
 
 
-def parted(points: Sequence[tuple[Fraction, Fraction]]) -> list[RawRun]:
-    """Part points in the order of measuring into runs: a new one where the direction turns,
-    or it starts over.
-
-    Several readings of one target in a row are one of each run.
-    """
+def _piles(points: Sequence[tuple[Fraction, Fraction]]) -> list[tuple[Fraction, list[Fraction]]]:
+    """Return the targets in the order of measuring, each with its readings in a row."""
     later = _later(points)
     piles: list[tuple[Fraction, list[Fraction]]] = []
     for n, (at, value) in enumerate(points):
@@ -290,6 +311,16 @@ def parted(points: Sequence[tuple[Fraction, Fraction]]) -> list[RawRun]:
             piles[-1][1].append(value)
         else:
             piles.append((at, [value]))
+    return piles
+
+
+def parted(points: Sequence[tuple[Fraction, Fraction]]) -> list[RawRun]:
+    """Part points in the order of measuring into runs: a new one where the direction turns,
+    or it starts over.
+
+    Several readings of one target in a row are one of each run.
+    """
+    piles = _piles(points)
     runs: list[list[tuple[Fraction, list[Fraction]]]] = [[]]
     direction: int | None = None
     for pile in piles:

@@ -4,7 +4,7 @@ before anything is tried.
 
 from __future__ import annotations
 
-from amp_studio.schema import Schema
+from amp_studio.schema import Choice, Schema
 
 from .axes import axis_instances, fitted_axes, other_use
 from .parameter_file import ParameterFile
@@ -55,15 +55,23 @@ def parameters_of_axes(schema: Schema) -> tuple[str, ...]:
 
 def letters_offered(schema: Schema) -> tuple[str, ...]:
     """Return the letters an axis can be given; none where they are fixed, or any text is one."""
+    return tuple(choice.label for choice in _letter_choices(schema) if choice.key != "none")
+
+
+def _letter_choices(schema: Schema) -> tuple[Choice, ...]:
+    """Return the choices of what names an axis: a parameter, or a field of a packed word."""
     profile, declared = schema.family.axes, schema.family.declared_axes
     field = declared.name if declared else None
-    named = profile.name if profile else field.param if field else None
-    if named is None:
+    if profile is not None:
+        named, bit = profile.name, field.bit if field else None
+    elif field is not None:
+        named, bit = field.param, field.bit
+    else:
         return ()
     parameter = schema.parameters[named]
-    packed = field is not None and field.bit is not None
-    bits = next((b.choices for b in parameter.bits or () if field and b.bit == field.bit), None)
-    return tuple(c.label for c in (bits if packed else parameter.choices) or () if c.key != "none")
+    if bit is None:
+        return parameter.choices or ()
+    return next((b.choices or () for b in parameter.bits or () if b.bit == bit), ())
 
 
 def places_offered(file: ParameterFile) -> tuple[str, ...]:

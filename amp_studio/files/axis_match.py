@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from amp_studio.schema import Address, read_address, whole_of, written
@@ -48,22 +48,24 @@ def matched_by_letter(file: ParameterFile, like: ParameterFile) -> MatchedAxes:
         return MatchedAxes(file, (), ())
     places = {axis: wanted[letter] for axis, letter in mine.items() if letter in wanted}
     free = [axis for axis in axis_instances(like) if axis not in theirs]
-    left_out = []
-    for axis, letter in mine.items():
-        if axis in places:
-            continue
-        if not free:
-            left_out.append(letter)
-            continue
-        places[axis] = axis if axis in free else free[0]
-        free.remove(places[axis])
+    left_out = _placed_where_free([axis for axis in mine if axis not in places], free, places)
     others = tuple((mine[axis], axis, places[axis]) for axis in mine if places.get(axis, axis) != axis)
     if not others and not left_out:
         return MatchedAxes(file, (), ())
     rest = [axis for axis in axis_instances(file) if axis not in mine]  # unfitted ones go where there is room
     room = [axis for axis in axis_instances(file) if axis not in places.values()]
     places |= dict(zip(rest, room, strict=False))
-    return MatchedAxes(_moved(file, places), others, tuple(left_out))
+    return MatchedAxes(_moved(file, places), others, tuple(mine[axis] for axis in left_out))
+
+
+def _placed_where_free(axes: Sequence[str], free: list[str], places: dict[str, str]) -> list[str]:
+    """Give each axis a free number, its own if possible; returns those for which there is none left."""
+    for n, axis in enumerate(axes):
+        if not free:
+            return list(axes[n:])
+        places[axis] = axis if axis in free else free[0]
+        free.remove(places[axis])
+    return []
 
 
 def _moved(file: ParameterFile, places: Mapping[str, str]) -> ParameterFile:

@@ -59,16 +59,18 @@ def words_of_axes(schema: Schema) -> dict[str, dict[str, int]]:
     if info is None:
         return {}
     names = {name: a for a in info.instances for name in (a, info.label.format(i=a, j=""))}
+    fewest = min(_FEWEST_LABELS, len(info.instances))
     found = {}
     for p in schema.parameters.values():
-        labels = [b.label for b in p.bits or () if b.width == 1]
-        if (
-            p.scope == "global"
-            and len(labels) >= min(_FEWEST_LABELS, len(info.instances))
-            and set(labels) <= names.keys()
-        ):
-            found[p.id] = {names[b.label]: b.bit for b in p.bits or () if b.width == 1}
+        bits = _bits_by_label(p)
+        if p.scope == "global" and len(bits) >= fewest and bits.keys() <= names.keys():
+            found[p.id] = {names[label]: bit for label, bit in bits.items()}
     return found
+
+
+def _bits_by_label(parameter: Parameter) -> dict[str, int]:
+    """Return the single bits of a word by what they are called."""
+    return {b.label: b.bit for b in parameter.bits or () if b.width == 1}
 
 
 # -- copy

@@ -22,23 +22,8 @@ def new_file(
     ValueError for a machine type or an axis name the family does not have.
     """
     schema = load_schema(family)
-    known = [m.key for m in schema.family.machines]
-    if machine is not None and machine not in known:
-        raise ValueError(unknown_name("machine type", machine, known))
-    applications = schema.family.applications
-    file = ParameterFile(
-        schema,
-        Header(
-            name=name,
-            application=applications[0] if applications else "",
-            machine="" if schema.family.machine_parameter else machine or schema.family.default_machine,
-            signature=schema.signature,
-        ),
-    )
-    if schema.family.machine_parameter:
-        file.set((schema.family.machine_parameter, ""), Value(machine or schema.family.default_machine))
-    if file.schema.family.axes:
-        profile = file.schema.family.axes
+    file = _empty_file(schema, machine, name)
+    if profile := schema.family.axes:
         for instance in schema.on(file.machine).instances(schema.parameters[profile.type]):
             default = file.default((profile.type, instance))
             if default is not None:
@@ -48,6 +33,24 @@ def new_file(
         name_axes(file, axes)
     declared = schema.family.declared_axes
     fill_defaults(file, existing_only=declared is not None and declared.letters is not None)
+    return file
+
+
+def _empty_file(schema: Schema, machine: str | None, name: str) -> ParameterFile:
+    """Return a file with a header alone, and the machine type where a parameter has it; raises ValueError
+    for a machine type that the family does not have.
+    """
+    family = schema.family
+    known = [m.key for m in family.machines]
+    if machine is not None and machine not in known:
+        raise ValueError(unknown_name("machine type", machine, known))
+    machine = machine or family.default_machine
+    application = family.applications[0] if family.applications else ""
+    header = Header(name=name, application=application, machine=machine, signature=schema.signature)
+    file = ParameterFile(schema, header)
+    if family.machine_parameter:
+        header.machine = ""
+        file.set((family.machine_parameter, ""), Value(machine))
     return file
 
 

@@ -207,16 +207,12 @@ def _read(path: Path, content: bytes) -> ProjectInfo:
     except YamlError as error:
         raise ParameterFileError(path, error.line, error.what) from None
     data = document.data
-    version = data.get(_VERSION) if isinstance(data, dict) else None
-    if not isinstance(version, str) or not re.fullmatch("[0-9]{1,9}", version):
-        raise ParameterFileError(path, None, "is not an AMP Studio project")
-    if int(version) > PROJECT_FORMAT:
-        raise ParameterFileError(path, None, f"was written by a newer AMP Studio (project format {version})")
+    _check_version(path, data.get(_VERSION) if isinstance(data, dict) else None)
     texts = {key: data[key] for key in _TEXTS if data.get(key) is not None}
     for key, value in texts.items():
         if not isinstance(value, str):
             raise ParameterFileError(path, document.line((key,)), f"{key} is no text")
-    extra = {k: v for k, v in typed.items() if k not in _TEXTS and k != _VERSION}
+    extra = {k: v for k, v in typed.items() if k not in (*_TEXTS, _VERSION)}
     lacking = [key for key in ("name", "family") if key not in texts]
     for key in extra:  # it stays in the file, unless it is one that the project lacks
         if near := did_you_mean(str(key), lacking):
@@ -230,6 +226,14 @@ def _read(path: Path, content: bytes) -> ProjectInfo:
         line = document.line(("family",)) if info.name.strip() and info.family else None
         raise ParameterFileError(path, line, str(error)) from None
     return info
+
+
+def _check_version(path: Path, version: object) -> None:
+    """Raise ParameterFileError for what is no version of the format, and for a newer one."""
+    if not isinstance(version, str) or not re.fullmatch("[0-9]{1,9}", version):
+        raise ParameterFileError(path, None, "is not an AMP Studio project")
+    if int(version) > PROJECT_FORMAT:
+        raise ParameterFileError(path, None, f"was written by a newer AMP Studio (project format {version})")
 
 
 def _content(info: ProjectInfo, previous: bytes | None) -> str:

@@ -38,20 +38,20 @@ def storage_text(file: ParameterFile, address: Address) -> str:
         return _single_text(parameter, value, turns=file.evaluation.turns(address))
     text = write_number(stored)
     if storage is None or storage.words == 1:
-        same = (
-            isinstance(value.value, (int, float))
-            and not isinstance(value.value, bool)
-            and stored == value.value
-        )
-        return "" if same else text
+        is_number = isinstance(value.value, (int, float)) and not isinstance(value.value, bool)
+        return "" if is_number and stored == value.value else text
     try:
         words = words_of(parameter, value, storage.unit or value.unit)
     except StorageError:
         return text
     number = file.machine_schema.number(address) or ""
-    names = [_LAST_NUMBER.sub(lambda m, k=n: str(int(m[1]) + k), number) for n in range(len(words))]  # type: ignore[misc]  # the default binds the number of this turn
-    each = ", ".join(f"{name} = {word} (0x{word:04X})" for name, word in zip(names, words, strict=True))
+    each = ", ".join(f"{_behind(number, n)} = {word} (0x{word:04X})" for n, word in enumerate(words))
     return f"{write_number(round(stored))}: {each}"
+
+
+def _behind(number: str, count: int) -> str:
+    """Return the number of the word that comes so many words after one: ``R20`` behind ``R19``."""
+    return _LAST_NUMBER.sub(lambda match: str(int(match[1]) + count), number)
 
 
 def _single_text(parameter: Parameter, value: Value, *, turns: bool) -> str:

@@ -102,10 +102,7 @@ def _read_row(
     if parameter is None or not _has_instance(schema, parameter, address[1]):
         if not keep_unknown:
             raise FormatError(f"{schema.family.name} has no {short(written(address))}", line, column)
-        if written(address) in found.unknown:
-            raise FormatError(f"{short(written(address))} occurs twice", line, column)
-        found.unknown[written(address)] = text
-        found.unknown_lines[written(address)] = line
+        _keep_unknown(found, written(address), text, line, column)
         return
     if address in found.values:
         raise FormatError(f"{written(address)} occurs twice", line, column)
@@ -122,6 +119,14 @@ def _read_row(
         if problem := note_fault(note):
             raise FormatError(f"{written(address)}: {problem}", line, heads.index(_NOTE) + 1)
         found.value_notes[written(address)] = note
+
+
+def _keep_unknown(found: TextRead, name: str, text: str, line: int, column: int) -> None:
+    """Keep a value that the family does not have; raises FormatError where it occurs twice."""
+    if name in found.unknown:
+        raise FormatError(f"{short(name)} occurs twice", line, column)
+    found.unknown[name] = text
+    found.unknown_lines[name] = line
 
 
 FORMAT = TextFormat(

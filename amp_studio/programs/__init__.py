@@ -10,7 +10,7 @@ from amp_studio.front_pages import front_page
 
 if TYPE_CHECKING:
     from .at_power_up import PowerUp, PowerUpLine, power_up
-    from .block import BlockReader, ReadBlock
+    from .block import BlockReader, BlockWord, ReadBlock
     from .formats import digits_of, number_of
     from .interpreter import path_letters, tool_path
     from .source import read_program

@@ -97,9 +97,7 @@ def build_report(
         not_set=tuple(_not_set(found.rows)),
         sections=sections_of(file, printed, contents.sort, language),
         pictures=() if "pictures" in contents.without else drawings(file, language),
-        motion=()
-        if "motion" in contents.without
-        else tuple(_in_words(figure, language) for figure in motion),
+        motion=tuple(_in_words(figure, language) for figure in motion if "motion" not in contents.without),
         power_up=() if "power-up" in contents.without else tuple(_power_up(file, language)),
         exchanges=() if "exchanges" in contents.without else tuple(exchanges),
         family_id=family.family,

@@ -123,22 +123,25 @@ def _as_name(address: str) -> str:
     return "-".join(filter(None, "".join(c if c.isalnum() or c in "._" else "-" for c in address).split("-")))
 
 
+def _print_table(rows: list[FleetRow]) -> None:
+    wide = max(len(row.address) for row in rows)
+    for row in rows:
+        print(f"{row.address:{wide}}  {row.word:14}  {row.sha256[:12]:12}  {row.text}".rstrip())
+
+
 def _end(options: Options, rows: list[FleetRow]) -> int:
     """Print the table, write the report and return one code for all."""
     codes = [_code(row) for row in rows]
     if options.json:
-        print_json({"controls": [_as_json(row, code) for row, code in zip(rows, codes, strict=True)]})
+        print_json({"controls": list(map(_as_json, rows, codes))})
     else:
-        wide = max(len(row.address) for row in rows)
-        for row in rows:
-            print(f"{row.address:{wide}}  {row.word:14}  {row.sha256[:12]:12}  {row.text}".rstrip())
+        _print_table(rows)
     if options.report is not None:
         write_paper(results_paper("Controls", HEADS, [row.cells for row in rows]), options.report)
-    wrong = [row for row, code in zip(rows, codes, strict=True) if code > 1]
+    wrong = [f"{row.address} {row.word}" for row, code in zip(rows, codes, strict=True) if code > 1]
     if not wrong:
         return max(codes)
-    names = ", ".join(f"{row.address} {row.word}" for row in wrong)
-    note(f"amp-studio: {len(rows) - len(wrong)} of {counted(len(rows), 'control')} done; {names}")
+    note(f"amp-studio: {len(rows) - len(wrong)} of {counted(len(rows), 'control')} done; {', '.join(wrong)}")
     if UNKNOWN in codes:
         return UNKNOWN
     is_partly = options.verb == "download" and any(row.word == "done" for row in rows)

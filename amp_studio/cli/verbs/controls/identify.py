@@ -9,6 +9,12 @@ from amp_studio.cli.arguments import JSON
 from amp_studio.cli.console import family, print_json, progress
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
+TYPE_CHECKING = False  # the typing module is not loaded for it
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from amp_studio.control import ControlLook
+
 VERB = Verb(
     __doc__,
     VerbArgument("address", metavar="ADDRESS", help="where the control is reached"),
@@ -61,19 +67,21 @@ def run(options: Options) -> int:
             }
         )
         return 0
-    print(
-        f"{control.name or 'A control'} of the family {control.family}, revision"
-        f" {control.revision or 'unknown'}"
-    )
-    print(f"protocol {control.protocol}" + ("" if abilities.can_send else ", which takes no download"))
-    if abilities.can_send:
-        print(abilities.lasting_text())
-    print(f"axes {', '.join(axes)}" if axes else "axes unknown")
-    print(
-        f"{len(content)} bytes, "
-        + (f"not readable: {unreadable}" if unreadable else counted(values or 0, "value"))
-    )
-    print(f"sha256 {found.sha256}")
-    if control.restart_needed:
-        print("Its parameters become active after a restart.")
+    readable = f"not readable: {unreadable}" if unreadable else counted(values or 0, "value")
+    print("\n".join(_lines(found, axes, readable)))
     return 0
+
+
+def _lines(found: ControlLook, axes: Sequence[str], readable: str) -> Iterator[str]:
+    """Yield what a control is and contains, in words; ``readable`` is how much of it can be read."""
+    control, abilities = found.identity, found.abilities
+    name, revision = control.name or "A control", control.revision or "unknown"
+    yield f"{name} of the family {control.family}, revision {revision}"
+    yield f"protocol {control.protocol}" + ("" if abilities.can_send else ", which takes no download")
+    if abilities.can_send:
+        yield abilities.lasting_text()
+    yield f"axes {', '.join(axes)}" if axes else "axes unknown"
+    yield f"{len(found.content)} bytes, {readable}"
+    yield f"sha256 {found.sha256}"
+    if control.restart_needed:
+        yield "Its parameters become active after a restart."

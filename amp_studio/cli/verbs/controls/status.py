@@ -9,7 +9,9 @@ from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 TYPE_CHECKING = False  # the typing module is not loaded for it
 if TYPE_CHECKING:
-    from amp_studio.transfer import ControlStatus
+    from collections.abc import Iterator
+
+    from amp_studio.transfer import ActiveFault, AxisStatus, ControlStatus
 
 VERB = Verb(
     __doc__,
@@ -59,26 +61,33 @@ def as_json(address: str, status: ControlStatus) -> dict[str, object]:
 def text(status: ControlStatus) -> str:
     """Return a status as a person reads it."""
     lines = [f"{status.name or status.family}{': ' + status.state if status.state else ''}"]
-    for axis in status.axes:
-        figures = [("", axis.position, axis.unit), ("following error", axis.following_error, axis.unit)]
-        figures.append(("velocity", axis.velocity, f"{axis.unit}/s"))
-        texts = [
-            f"{name} {_number(value)} {unit}".strip() for name, value, unit in figures if value is not None
-        ]
-        lines.append(f"  {axis.axis}  {', '.join((*texts, *axis.states))}")
+    lines += map(_axis_line, status.axes)
     lines += [f"  {name} {_number(value)}" for name, value in status.values.items()]
     for fault in status.faults:
-        where = f" of axis {fault.axis}" if fault.axis else ""
-        page = f" (page {fault.page})" if fault.page else ""
-        lines.append(f"  fault{where}: {fault.code} {fault.text}{page}")
-        lines += [
-            f"    {word}: {each}"
-            for word, texts in (("cause", fault.causes), ("cure", fault.cures))
-            for each in texts
-        ]
-        if fault.params:
-            lines.append(f"    parameters: {', '.join(fault.params)}")
+        lines += _fault_lines(fault)
     return "\n".join((*lines, *(f"  {note}" for note in status.assumptions)))
+
+
+def _axis_line(axis: AxisStatus) -> str:
+    """Return the figures and states of an axis, of those that the control sends."""
+    figures = (
+        ("", axis.position, axis.unit),
+        ("following error", axis.following_error, axis.unit),
+        ("velocity", axis.velocity, f"{axis.unit}/s"),
+    )
+    texts = [f"{name} {_number(value)} {unit}".strip() for name, value, unit in figures if value is not None]
+    return f"  {axis.axis}  {', '.join((*texts, *axis.states))}"
+
+
+def _fault_lines(fault: ActiveFault) -> Iterator[str]:
+    """Yield a fault with its causes, cures and parameters."""
+    where = f" of axis {fault.axis}" if fault.axis else ""
+    page = f" (page {fault.page})" if fault.page else ""
+    yield f"  fault{where}: {fault.code} {fault.text}{page}"
+    yield from (f"    cause: {cause}" for cause in fault.causes)
+    yield from (f"    cure: {cure}" for cure in fault.cures)
+    if fault.params:
+        yield f"    parameters: {', '.join(fault.params)}"
 
 
 def _number(value: float | str) -> str:

@@ -11,6 +11,14 @@ from amp_studio.cli.opened import opened
 from amp_studio.cli.stopping import asked_politely
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
+TYPE_CHECKING = False  # the typing module is not loaded for it
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from typing import Any
+
+    from amp_studio.files import Difference, ParameterFile
+    from amp_studio.transfer.client import ImageComparison
+
 VERB = Verb(
     __doc__,
     PATH.but(nargs="?", help="parameter file (.amp); with --all a folder (default: this one)"),
@@ -32,7 +40,6 @@ VERB = Verb(
 def run(options: Options) -> int:
     """Compare a file with what a control contains, its values and every byte; 1 where they differ."""
     from amp_studio import connect
-    from amp_studio.cli.checks.comparing import difference_json, print_comparison, print_difference
     from amp_studio.cli.controls.by_hand import ways_offered
     from amp_studio.cli.controls.fleet import check_fleet, is_fleet, verify_several
 
@@ -54,30 +61,43 @@ def run(options: Options) -> int:
     with ways_offered(file.schema.family.family, control.address):
         found = control.verify(machine)
     if options.json:
-        print_json(
-            {
-                "differences": [difference_json(file, d, options.secrets) for d in found.values.differences],
-                "same": found.values.same,
-                "same_bytes": found.is_same,
-                "sha256": control.sha256,
-                "unreadable": found.unreadable or None,
-                "absent": found.missing or None,
-                "in_use": [difference_json(file, d, options.secrets) for d in found.in_use],
-                "stays": found.stays or None,
-                "header": [asdict(d) for d in found.head],
-                "other_units": [difference_json(file, d, options.secrets) for d in found.other_units],
-            }
-        )
-        return int(not found.agrees)
+        print_json(_as_json(file, found, control.sha256, secrets=options.secrets))
+    else:
+        _print(file, found, secrets=options.secrets)
+        print(f"sha256 {control.sha256}")
+    return int(not found.agrees)
+
+
+def _as_json(file: ParameterFile, found: ImageComparison, sha256: str, *, secrets: bool) -> dict[str, Any]:
+    from amp_studio.cli.checks.comparing import difference_json
+
+    def listed(differences: Iterable[Difference]) -> list[dict[str, Any]]:
+        return [difference_json(file, difference, secrets) for difference in differences]
+
+    return {
+        "differences": listed(found.values.differences),
+        "same": found.values.same,
+        "same_bytes": found.is_same,
+        "sha256": sha256,
+        "unreadable": found.unreadable or None,
+        "absent": found.missing or None,
+        "in_use": listed(found.in_use),
+        "stays": found.stays or None,
+        "header": [asdict(d) for d in found.head],
+        "other_units": listed(found.other_units),
+    }
+
+
+def _print(file: ParameterFile, found: ImageComparison, *, secrets: bool) -> None:
+    from amp_studio.cli.checks.comparing import print_comparison, print_difference
+
     if not found.unreadable:
-        print_comparison(file, found.values, options.secrets)
+        print_comparison(file, found.values, secrets)
     for difference in found.other_units:
-        print_difference(file, difference, options.secrets)
+        print_difference(file, difference, secrets)
     for difference in found.in_use:
         print("in use since the start: ", end="")
-        print_difference(file, difference, options.secrets)
+        print_difference(file, difference, secrets)
     for head in found.head:
         print(f"{head.line} in the header: '{head.a}'  |  '{head.b}'")
     print(found.summary())
-    print(f"sha256 {control.sha256}")
-    return int(not found.agrees)

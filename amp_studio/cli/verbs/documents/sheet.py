@@ -146,6 +146,8 @@ def _named(names: Iterable[str], file: ParameterFile, sheet: Sheet) -> list[Shee
 
 
 def _check(options: Options, file: ParameterFile, sheet: Sheet, ticks: Ticks) -> int:
+    from collections import Counter
+
     from amp_studio.schema import read_file
     from amp_studio.sheet import STATES, ReadBackError, compare_screen, read_screen_readings
 
@@ -156,16 +158,16 @@ def _check(options: Options, file: ParameterFile, sheet: Sheet, ticks: Ticks) ->
         raise UsageError(f"{options.check}: there is a byte that is no UTF-8 text") from None
     except ReadBackError as error:
         raise UsageError(f"{options.check}: {error}") from None
-    by_number = {each.entry.number: each for each in found}
+    different = [each for each in found if each.state != "same"]
     if options.json or options.output:
-        _print(options, sheet, ticks, by_number)
+        _print(options, sheet, ticks, {each.entry.number: each for each in found})
     if not options.json:
-        for each in found:
-            if each.state != "same":
-                print(_outcome(each))
-        counts = [(state, sum(each.state == state for each in found)) for state in STATES]
-        print(", ".join(f"{n} {STATES[state]}" for state, n in counts if n) or "Nothing is on the sheet")
-    return int(any(each.state != "same" for each in found))
+        for each in different:
+            print(_outcome(each))
+        counts = Counter(each.state for each in found)
+        words = (f"{counts[state]} {name}" for state, name in STATES.items() if counts[state])
+        print(", ".join(words) or "Nothing is on the sheet")
+    return int(bool(different))
 
 
 def _outcome(each: ReadBack) -> str:

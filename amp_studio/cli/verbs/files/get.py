@@ -85,26 +85,30 @@ def _not_set_line(file: ParameterFile, address: Address) -> str:
     return f"  {file.machine_schema.named(address):50} not set" + (f" (in {unit_text(unit)})" if unit else "")
 
 
+def _asked_for(options: Options, file: ParameterFile) -> list[ResolvedAddress]:
+    """Return the values of the named parameters; else those of the file that exist, or all there are."""
+    from amp_studio.schema import ResolvedAddress, resolve_all
+
+    if options.params:
+        return [m for p in options.params for m in resolve_all(file.evaluation, p)]
+    if options.all:
+        return list(map(ResolvedAddress, file.addresses()))
+    state = file.evaluation.state
+    return [ResolvedAddress(a) for a in file.addresses() if a in file.values and state(a).state != "hidden"]
+
+
 def run(options: Options) -> int:
     """Print values."""
     from amp_studio.cli.files.marked import marks_asked, with_marks
-    from amp_studio.schema import ResolvedAddress, resolve_all
 
     machine = opened(options.path, options)
     file = machine.file
-    if options.params:
-        found = [m for p in options.params for m in resolve_all(file.evaluation, p)]
-    else:
-        found = [
-            ResolvedAddress(a)
-            for a in file.addresses()
-            if options.all or (a in file.values and file.evaluation.state(a).state != "hidden")
-        ]
+    found = _asked_for(options, file)
     if options.not_set:
         return _print_not_set(options, machine, {m.address for m in found} if options.params else None)
     if marks := marks_asked(options):
         found = with_marks(machine, options.path, found, marks)
-    for message in dict.fromkeys(message for m in found if (message := m.remark(file.schema))):
+    for message in filter(None, dict.fromkeys(m.remark(file.schema) for m in found)):
         note(message)
     rows = [machine.row(each, secrets=options.secrets) for each in found]
     if options.json:

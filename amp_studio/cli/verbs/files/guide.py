@@ -281,20 +281,13 @@ def _step_line(each: StepProgress, width: int) -> str:
     return text.rstrip()
 
 
-def _step_lines(file: ParameterFile, each: StepProgress) -> Iterator[str]:
-    """Yield a step with every value of it that is active."""
-    from amp_studio.files import with_local_times
+def _value_lines(file: ParameterFile, each: StepProgress) -> Iterator[str]:
+    """Yield the values of a step that are active, and what those can be that are not set."""
     from amp_studio.report import open_value
     from amp_studio.schema import show_value
 
-    step, here = each.step, file.machine_schema
-    yield f"Step {step.number}: {step.title}" + (f" (page {step.page})" if step.page else "")
-    if step.what:
-        yield step.what
-    ticked = f", ticked {with_local_times(each.ticked)}" if each.ticked else ""
-    yield f"{each.state}, {each.set} of {each.total} set{ticked}"
-    open_values = set(each.open)
-    for parameter in step.parameters:
+    here, open_values = file.machine_schema, set(each.open)
+    for parameter in each.step.parameters:
         for instance in here.instances(parameter):
             address = (parameter.id, instance)
             if address in open_values:
@@ -302,6 +295,19 @@ def _step_lines(file: ParameterFile, each: StepProgress) -> Iterator[str]:
             elif address in file.values and file.evaluation.state(address).is_active:
                 mark = "" if file.is_default(address) else " *"
                 yield f"  {here.named(address):52} {show_value(parameter, file.get(address))}{mark}"
+
+
+def _step_lines(file: ParameterFile, each: StepProgress) -> Iterator[str]:
+    """Yield a step with every value of it that is active."""
+    from amp_studio.files import with_local_times
+
+    step = each.step
+    yield f"Step {step.number}: {step.title}" + (f" (page {step.page})" if step.page else "")
+    if step.what:
+        yield step.what
+    ticked = f", ticked {with_local_times(each.ticked)}" if each.ticked else ""
+    yield f"{each.state}, {each.set} of {each.total} set{ticked}"
+    yield from _value_lines(file, each)
     if step.again:
         yield f"Check again: {', '.join(parameter.name for parameter in step.again)}"
     for finding in each.findings:

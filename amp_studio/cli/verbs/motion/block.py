@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from amp_studio.files import ParameterFile
-    from amp_studio.programs import PowerUp, PowerUpLine, ReadBlock
+    from amp_studio.programs import BlockWord, PowerUp, PowerUpLine, ReadBlock
     from amp_studio.schema import Address
 
 VERB = Verb(
@@ -95,20 +95,21 @@ def _json(file: ParameterFile, blocks: Sequence[ReadBlock]) -> dict[str, Any]:
     }
 
 
+def _row(file: ParameterFile, word: BlockWord) -> tuple[str, str, str, str]:
+    """Return a word, its figure, what it means, and its parameters with the page."""
+    return (
+        word.word,
+        "" if word.number is None else f"{word.number:.10g} {word.unit}".strip(),
+        f"{word.meaning}: {word.fault}" if word.fault else word.meaning,
+        f"{', '.join(_labels(file, word.params))} (page {word.page})".strip() if word.page else "",
+    )
+
+
 def _print(file: ParameterFile, blocks: Sequence[ReadBlock]) -> None:
     for n, block in enumerate(blocks):
         if len(blocks) > 1:
             print("" if n == 0 else "\n", block.text, sep="")
-        rows = [
-            (
-                word.word,
-                "" if word.number is None else f"{word.number:.10g} {word.unit}".strip(),
-                f"{word.meaning}: {word.fault}" if word.fault else word.meaning,
-                f"{', '.join(_labels(file, word.params))} (page {word.page})".strip() if word.page else "",
-            )
-            for word in block.words
-        ]
-        _print_rows(rows)
+        _print_rows([_row(file, word) for word in block.words])
     unknown = [word.word for block in blocks for word in block.words if not word.is_known]
     if unknown:
         print(f"Not known here: {', '.join(unknown)}. {file.schema.program.not_printed}.")
