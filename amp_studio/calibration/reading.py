@@ -260,10 +260,9 @@ def _columns(heads: Sequence[Head]) -> tuple[int, list[int]]:
     columns: dict[str, list[int]] = {}
     for n, head in enumerate(heads):
         columns.setdefault(head.kind, []).append(n)
-    positions = sorted(columns.get("position", []) + columns.get("angle", []))
+    positions = columns.get("position", []) + columns.get("angle", [])
     found = [columns[kind] for kind in ("measured", "error", "correction") if kind in columns]
-    if not found:  # a table of means alone
-        found = [columns.get("mean", [])]
+    found = found or [columns.get("mean", [])]  # a table of means alone
     # Measured beside its error: the reading of the instrument is the one without a sign to guess.
     values = columns.get("measured") or found[0]
     if len(positions) != 1 or not values:
@@ -321,18 +320,17 @@ def parted(points: Sequence[tuple[Fraction, Fraction]]) -> list[RawRun]:
     Several readings of one target in a row are one of each run.
     """
     piles = _piles(points)
-    runs: list[list[tuple[Fraction, list[Fraction]]]] = [[]]
+    runs: list[list[tuple[Fraction, list[Fraction]]]] = [piles[:1]]
     direction: int | None = None
-    for pile in piles:
-        run = runs[-1]
-        step = 0 if not run else (pile[0] > run[-1][0]) - (pile[0] < run[-1][0])
-        if run and direction is not None and step != direction:
+    for pile in piles[1:]:
+        last = runs[-1][-1][0]
+        step = (pile[0] > last) - (pile[0] < last)
+        if direction not in (None, step):
             runs.append([pile])
             direction = None
             continue
-        if run:
-            direction = step
-        run.append(pile)
+        direction = step
+        runs[-1].append(pile)
     if sum(max(len(values) for _, values in run) for run in runs if run) > MOST_RUNS:
         raise MeasurementError(f"these are more than {MOST_RUNS} runs")
     return [part for run in runs for part in _layers(run)]

@@ -55,23 +55,20 @@ def parameters_of_axes(schema: Schema) -> tuple[str, ...]:
 
 def letters_offered(schema: Schema) -> tuple[str, ...]:
     """Return the letters an axis can be given; none where they are fixed, or any text is one."""
-    return tuple(choice.label for choice in _letter_choices(schema) if choice.key != "none")
+    return tuple(choice.label for choice in _letter_choices(schema) or () if choice.key != "none")
 
 
-def _letter_choices(schema: Schema) -> tuple[Choice, ...]:
+def _letter_choices(schema: Schema) -> tuple[Choice, ...] | None:
     """Return the choices of what names an axis: a parameter, or a field of a packed word."""
     profile, declared = schema.family.axes, schema.family.declared_axes
     field = declared.name if declared else None
-    if profile is not None:
-        named, bit = profile.name, field.bit if field else None
-    elif field is not None:
-        named, bit = field.param, field.bit
-    else:
-        return ()
+    named = profile.name if profile else field.param if field else None
+    if named is None:
+        return None
     parameter = schema.parameters[named]
-    if bit is None:
-        return parameter.choices or ()
-    return next((b.choices or () for b in parameter.bits or () if b.bit == bit), ())
+    if field is None or field.bit is None:
+        return parameter.choices
+    return next((bit.choices for bit in parameter.bits or () if bit.bit == field.bit), None)
 
 
 def places_offered(file: ParameterFile) -> tuple[str, ...]:

@@ -276,15 +276,19 @@ def delete_axis(file: ParameterFile, axis: str) -> list[Change]:
     return changes
 
 
+def _unfit(file: ParameterFile, declared: AxisDeclaration, axis: str) -> None:
+    """Take letter and flag of an axis away, then its bit in each word that is set."""
+    file.set_checked(_without_letter(file, declared, axis) | _flagged(file, declared, {axis: False}))
+    bits = bits_of_axes(file, {axis: False})
+    file.set_checked({a: value for a, value in bits.items() if file.get(a) is not None})
+
+
 def _remove(file: ParameterFile, declared: AxisDeclaration, axis: str) -> None:
     fitted = fitted_axes(file)
     if axis not in fitted:
         raise AxisError(f"axis {axis} is not there")
     if declared.flags:
-        file.set_checked({**_without_letter(file, declared, axis), **_flagged(file, declared, {axis: False})})
-        file.set_checked(
-            {a: v for a, v in bits_of_axes(file, {axis: False}).items() if file.get(a) is not None}
-        )
+        _unfit(file, declared, axis)
         return
     if declared.any_letters:
         file.set_checked(_lettered(file, declared, [name for name in fitted if name != axis]))
@@ -335,14 +339,21 @@ def _named(
     try:
         if declared.name.bit is None:
             return {(declared.name.param, axis): file.read((declared.name.param, axis), letter)}
-        wanted = _with_field(file, declared.name, axis, letter)
-        if declared.group is not None and (
-            group or not is_fitted(file.evaluation, axis) or _has_none(file, declared.group, axis)
-        ):
-            wanted = _with_field(file, declared.group, axis, f"Group {group or 1}", wanted)
+        return _with_group(file, declared, axis, group, _with_field(file, declared.name, axis, letter))
     except InvalidValueError as error:
         raise AxisError(str(error).removesuffix(", none")) from None
-    return wanted
+
+
+def _with_group(
+    file: ParameterFile, declared: AxisDeclaration, axis: str, group: str, values: dict[Address, Value | None]
+) -> dict[Address, Value | None]:
+    """Return values with the group of an axis in them: the given one, else the first for an axis without."""
+    if declared.group is None:
+        return values
+    has_one = is_fitted(file.evaluation, axis) and not _has_none(file, declared.group, axis)
+    if has_one and not group:
+        return values
+    return _with_field(file, declared.group, axis, f"Group {group or 1}", values)
 
 
 def _has_none(file: ParameterFile, field: AxisField, axis: str) -> bool:

@@ -99,7 +99,7 @@ def made_like(source: ParameterFile, name: str, axes: Iterable[str] = ()) -> Mad
     left = {address[0] for address in of_it if not source.is_default(address)}
     for address in of_it:
         file.set(address, None if file.schema.parameters[address[0]].secret else file.default(address))
-    parameters = tuple(file.schema.parameters[name] for name in sorted(left, key=_place_in(file)))
+    parameters = tuple(map(file.schema.parameters.__getitem__, sorted(left, key=_place_in(file))))
     letters = list(axis_letters(file).values())
     if not axes or axes == letters:
         return MadeLike(file, parameters)

@@ -128,15 +128,21 @@ class Merge:
         return Row(row_id, base, a, b, self._kind(base, a, b))
 
     def _kind(self, base: Value | None, a: Value | None, b: Value | None) -> RowKind:
-        if a is b and (a is base or self.base is None):  # equal texts of files are one object
+        if self.base is None:
+            return self._kind_without_base(a, b)
+        if a is b is base:  # equal texts of files are one object
             return "same"
         if same_value(a, b):
-            return "same" if self.base is None or same_value(a, base) else "both"
-        if self.base is None:
-            return "a" if b is None else "b" if a is None else "different"
+            return "same" if same_value(a, base) else "both"
         if same_value(a, base):
             return "b"
         return "a" if same_value(b, base) else "conflict"
+
+    @staticmethod
+    def _kind_without_base(a: Value | None, b: Value | None) -> RowKind:
+        if a is b or same_value(a, b):
+            return "same"
+        return "a" if b is None else "b" if a is None else "different"
 
     @cached_property
     def differing(self) -> tuple[Row, ...]:

@@ -186,13 +186,18 @@ class _FileReader:
                 f"the description of its control cannot be used: {error}", DESCRIPTION
             ) from None
 
+    def _printed_schema(self, family: str) -> Schema:
+        """Return the schema of a family whose facts are printed."""
+        given = self.schema
+        if given is not None and given.family.family == family and not given.description:
+            return given
+        return load_schema(family)
+
     def _schema(self, family: str) -> Schema:
         """Return the schema of the family, or of the control that the file describes."""
         lines, given = self.data.get(DESCRIPTION), self.schema
         if lines is None:
-            if given is not None and given.family.family == family and not given.description:
-                return given
-            return load_schema(family)
+            return self._printed_schema(family)
         if not isinstance(lines, list) or not all(isinstance(line, str) for line in lines):
             raise self._fault("the description of its control is no list of lines", DESCRIPTION)
         description = "".join(f"{line}\n" for line in lines[1:]).encode("utf-8", "replace")

@@ -298,7 +298,7 @@ def _nearest(schema: Schema, text: str) -> list[str]:
     known = {p.name.casefold(): p.id for p in schema.parameters.values()}
     known |= {p.id.partition(".")[2]: p.id for p in schema.parameters.values()}
     known |= dict(zip(schema.parameters, schema.parameters, strict=True))
-    found = dict.fromkeys(known[word] for word in close_matches(name[:80], known, 2 * _NEAREST, 0.7))
+    found = dict.fromkeys(map(known.__getitem__, close_matches(name[:80], known, 2 * _NEAREST, 0.7)))
     return [f"{n}{sign}{short(instance)}" if n in schema.parameters else n for n in found][:_NEAREST]
 
 

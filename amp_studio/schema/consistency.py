@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from fnmatch import fnmatchcase
+from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
@@ -268,7 +269,7 @@ def _all_scopes(parameter: Parameter) -> Iterator[tuple[KeyPath, str]]:
 
 def faults_of_order(order: Commissioning, groups: tuple[Group, ...]) -> Iterator[tuple[KeyPath, str]]:
     """Yield what is wrong with the steps of a family: what does not exist, and what is in two of them."""
-    params = {p.id for group in groups for p in group.parameters}
+    params = {p.id for p in chain.from_iterable(group.parameters for group in groups)}
     known = {"params": params, "again": params, "groups": {group.key for group in groups}}
     seen: dict[str, set[str]] = {"params": set(), "groups": set(), "id": set()}
     for n, step in enumerate(order.steps):

@@ -188,7 +188,7 @@ def _bits_fault(parameter: Parameter, word: int) -> str | None:
     or a code that a field does not have.
     """
     width = parameter.word_width
-    if word < 0 or (width is not None and word >> width):
+    if word < 0 or word >> (width or word.bit_length()):
         return f"{parameter.name} {word} does not fit {f'its {width} bits' if width else 'a word of bits'}"
     for field in parameter.bits or ():
         # A field of which not every code is printed may contain any.

@@ -27,8 +27,9 @@ def state_after_break(
         return "new", ()
     if not new:
         return "old", ()
-    more = len(new) - MOST_NAMED
-    return "mixed", (*new[:MOST_NAMED], *([f"{more} more"] if more > 0 else []))
+    if len(new) > MOST_NAMED:
+        new[MOST_NAMED:] = [f"{len(new) - MOST_NAMED} more"]
+    return "mixed", tuple(new)
 
 
 def _by_numbers(name: str) -> tuple[object, ...]:

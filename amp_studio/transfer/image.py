@@ -134,8 +134,8 @@ def _record(number: int, line: str) -> tuple[str, str]:
     return parts[1], parts[2]
 
 
-def _split(image: bytes) -> tuple[dict[str, str], list[tuple[str, str]]]:
-    """Return the head and the records, address and value; raises ImageError."""
+def _whole_lines(image: bytes) -> list[str]:
+    """Return the lines of an image that begins and ends as one; raises ImageError."""
     try:
         text = image.decode("utf-8")
     except UnicodeDecodeError:
@@ -148,6 +148,12 @@ def _split(image: bytes) -> tuple[dict[str, str], list[tuple[str, str]]]:
     if found := _CONTROL_CHARACTER.search(text):
         number = text.count("\n", 0, found.start()) + 1
         raise ImageError(f"line {number} of the control image contains a control character")
+    return lines
+
+
+def _split(image: bytes) -> tuple[dict[str, str], list[tuple[str, str]]]:
+    """Return the head and the records, address and value; raises ImageError."""
+    lines = _whole_lines(image)
     head = {}
     for number, (key, line) in enumerate(zip(_HEAD, lines[1:6], strict=True), 2):
         if not line.startswith(f"{key} "):

@@ -243,10 +243,8 @@ def _is_known(text: str, schema: Schema) -> bool:
     parameter = schema.parameters.get(parameter_id)
     machines = [schema.on(machine.key) for machine in schema.family.machines]
     if parameter is None:
-        word = text.strip().rpartition(".")[0]  # of one of its bits
-        return any(
-            on.addressed_by(text) or on.words(text) or (word and on.addressed_by(word)) for on in machines
-        )
+        word = text.strip().rpartition(".")[0] or text  # of one of its bits
+        return any(on.addressed_by(text) or on.words(text) or on.addressed_by(word) for on in machines)
     if not which:
         return True
     # An axis may be named by a letter that the file gives it.

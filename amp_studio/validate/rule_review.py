@@ -145,7 +145,7 @@ def _name_slips(rule: Rule) -> Iterator[tuple[KeyPath, str]]:
             yield place, f"{quoted(name)} is not read{did_you_mean(name, rule.reads)}"
     yield from _assignment_slips(rule)
     for name in rule.values:
-        if name in rule.reads or name in ALWAYS_THERE:
+        if name in (*rule.reads, *ALWAYS_THERE):
             yield ("values", name), f"{quoted(name)} is the name of something else already"
     for name, unit in rule.units.items():
         if name not in rule.values:

@@ -4,7 +4,7 @@ on one page and with one exit code for a job.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -82,20 +82,26 @@ def _differences(drift: Drift) -> list[tuple[ParameterFile, Difference]]:
     return [(drift.file, each) for each in (*drift.compared.values.differences, *drift.compared.other_units)]
 
 
+def _difference_lines(each: Drift, secrets: bool) -> Iterator[str]:
+    """Yield the first differences of a control from its file; why it differs where none can be listed."""
+    listed = _differences(each)
+    for row in _rows(listed[:_FIRST], secrets):
+        yield f"{row[0]:48} {row[1]}  |  {row[2]}"
+    if len(listed) > _FIRST:
+        yield f"and {len(listed) - _FIRST} more"
+    if each.result == "differs" and not listed:
+        yield each.text
+
+
 def _print(found: Sequence[Drift], counts: dict[str, int], secrets: bool) -> None:
     wide = max(len(each.known.address) for each in found)
     for each in found:
         text = "" if each.result == "same" else f"  {each.since or each.text}"
         print(f"{each.known.address:{wide}}  {each.result:11}  {each.known.path}{text}")
-        listed = _differences(each)
-        for row in _rows(listed[:_FIRST], secrets):
-            print(f"{'':{wide}}  {row[0]:48} {row[1]}  |  {row[2]}")
-        if len(listed) > _FIRST:
-            print(f"{'':{wide}}  and {len(listed) - _FIRST} more")
-        if each.result == "differs" and not listed:
-            print(f"{'':{wide}}  {each.text}")
-    words = ", ".join(f"{count} {word}" for word, count in counts.items() if count)
-    print(f"{counted(len(found), 'control')}: {words}")
+        for line in _difference_lines(each, secrets):
+            print(f"{'':{wide}}  {line}")
+    words = (f"{count} {word}" for word, count in counts.items() if count)
+    print(f"{counted(len(found), 'control')}: {', '.join(words)}")
 
 
 def _rows(listed: Sequence[tuple[ParameterFile, Difference]], secrets: bool) -> list[tuple[str, str, str]]:

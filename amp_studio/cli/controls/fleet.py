@@ -144,7 +144,7 @@ def _end(options: Options, rows: list[FleetRow]) -> int:
     note(f"amp-studio: {len(rows) - len(wrong)} of {counted(len(rows), 'control')} done; {', '.join(wrong)}")
     if UNKNOWN in codes:
         return UNKNOWN
-    is_partly = options.verb == "download" and any(row.word == "done" for row in rows)
+    is_partly = options.verb == "download" and "done" in [row.word for row in rows]
     return CHANGED if CHANGED in codes or is_partly else FAULT
 
 

@@ -4,13 +4,14 @@ protocol.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from amp_studio.schema import load_part, load_schema, quoted, registered_families, registration_of
 from amp_studio.transfer.driver import ControlDriver, DriverFactory, Recognised
 from amp_studio.transfer.errors import NoConnectionError
 from amp_studio.transfer.exchange import QUIET, Exchange
-from amp_studio.transfer.links import Endpoint, LinkError, PasswordError, connect, parse_endpoint
+from amp_studio.transfer.links import Endpoint, Link, LinkError, PasswordError, connect, parse_endpoint
 from amp_studio.transfer.waiting import Waiting
 from amp_studio.transfer.ways import HOUSE, PRINT_SHEET, folder_protocols, in_order_of_ways
 
@@ -77,20 +78,25 @@ def _recognise(place: Endpoint, exchange: Exchange) -> str:
     waiting.begin(exchange)
     link = connect(place, look=waiting.look)
     try:
-        end = waiting.now() + (RECOGNISED_SERIAL if place.kind == "serial" else RECOGNISED)
-        heard = b""
-        while (left := end - waiting.now()) > 0 and len(heard) < LONGEST_GREETING:
-            waiting.look()
-            if not heard or heard.endswith(b"\n"):
-                for each in known:
-                    link.write(each.question)
-            heard += link.read(min(left, ASK_AGAIN))
-            answered = next((each.protocol for each in known if each.answer.search(heard)), None)
-            if answered is not None:
-                return answered
-        return ""
+        seconds = RECOGNISED_SERIAL if place.kind == "serial" else RECOGNISED
+        return _answered_protocol(link, waiting, known, waiting.now() + seconds)
     finally:
         link.close()
+
+
+def _answered_protocol(link: Link, waiting: Waiting, known: Sequence[Recognised], end: float) -> str:
+    """Return the protocol whose question is answered on a line until a moment; "" where none is."""
+    heard = b""
+    while (left := end - waiting.now()) > 0 and len(heard) < LONGEST_GREETING:
+        waiting.look()
+        if not heard or heard.endswith(b"\n"):
+            for each in known:
+                link.write(each.question)
+        heard += link.read(min(left, ASK_AGAIN))
+        for each in known:
+            if each.answer.search(heard):
+                return each.protocol
+    return ""
 
 
 def protocols_of(family: str) -> dict[str, str]:

@@ -67,12 +67,8 @@ class Recording:
             exchanges = read_exchanges(record_path(beside).parent) if beside is not None else []
         except OSError:
             return
-        names = (
-            Path(each.kept).name
-            for each in reversed(exchanges)
-            if each.control == self._address and each.kept
-        )
-        for path in (folder / name for name in names):
+        kept = [each.kept for each in reversed(exchanges) if each.control == self._address]
+        for path in (folder / Path(name).name for name in filter(None, kept)):
             try:
                 earlier = open_copy(path).image
                 # Another protocol keeps another kind, of which nothing can be missing here.

@@ -48,15 +48,21 @@ def read_faults(text: str) -> Faults:
         found = None
     if not isinstance(found, dict):
         raise ValueError("faults are one JSON object")
-    known = [field.name for field in dataclasses.fields(Faults)]
     for name, value in found.items():
-        if name not in known:
-            raise ValueError(f"there is no fault {quoted(name)}; there are {', '.join(known)}")
-        if name == "silent" and not isinstance(value, bool):
-            raise ValueError("the fault 'silent' must be true or false")
-        if name != "silent" and (type(value) is not int or value < 0):
-            raise ValueError(f"the fault '{name}' must be a whole number from 0")
+        _check_fault(name, value)
     return Faults(**found)
+
+
+def _check_fault(name: str, value: object) -> None:
+    """Raise ValueError for a fault that there is not, and for a value that is not of its kind."""
+    known = [field.name for field in dataclasses.fields(Faults)]
+    if name not in known:
+        raise ValueError(f"there is no fault {quoted(name)}; there are {', '.join(known)}")
+    if name == "silent" and not isinstance(value, bool):
+        raise ValueError("the fault 'silent' must be true or false")
+    # A yes/no is a whole number to Python.
+    if name != "silent" and (not isinstance(value, int) or isinstance(value, bool) or value < 0):
+        raise ValueError(f"the fault '{name}' must be a whole number from 0")
 
 
 class FaultyLink:

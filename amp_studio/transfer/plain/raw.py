@@ -66,9 +66,14 @@ def read_tape(line: ByteLine, tape: Tape, idle: float) -> bytes:
                 return bytes(got[start : end.end()]) + b"\n"
     if tape.percent:
         return _between_percents(bytes(got))
-    text = bytes(got).strip(FILLERS + (tape.filler if tape.filler != b"\0" else b""))
+    return _without_fillers(bytes(got), tape, line.patience.start)
+
+
+def _without_fillers(got: bytes, tape: Tape, seconds: float) -> bytes:
+    """Return a text without leader and trailer; raises PlainFileError where there is nothing else."""
+    text = got.strip(FILLERS + (tape.filler if tape.filler != b"\0" else b""))
     if not text:
-        raise PlainFileError(f"nothing has come for {line.patience.start:g} s")
+        raise PlainFileError(f"nothing has come for {seconds:g} s")
     return text
 
 

@@ -110,7 +110,6 @@ class RangeEdits:
         data = QGuiApplication.clipboard().mimeData()
         # A clipboard that nothing was ever copied into has no content at all.
         rows = read_block(data.text(), data.html() if data.hasHtml() else "") if data else []
-        rows = [row for row in rows if any(cell.strip() for cell in row)] if len(rows) == 1 else rows
         if not any(cell.strip() for row in rows for cell in row):
             raise ValueError(tr("There is no text to paste."))
         self._selected()

@@ -118,7 +118,7 @@ class MergeDelegate(QStyledItemDelegate):
             circle = QRect(place.left() + _LEFT, place.top(), SMALL_ICON, place.height())
             name, tint = ("check-circle-fill", colour("sel")) if is_taken else ("circle", colour("dim"))
             paint_icon(painter, _square(circle), name, tint)
-        left = _LEFT + (_MARK if is_taken or not is_of_base else 0)
+        left = _LEFT if is_of_base and not is_taken else _LEFT + _MARK
         is_own = differs and not is_of_base and self._changed(row, column)
         cell = self._model.cell(row, column)
         self._value(

@@ -114,11 +114,17 @@ def _branch(checked: CheckedFile) -> QTreeWidgetItem:
     if worst:
         item.setIcon(0, severity_icon(worst))
     item.setData(0, _GOES_TO, (checked.path, None))
-    for finding, label in zip(checked.findings, checked.labels, strict=True):
-        leaf = QTreeWidgetItem([label, "", "", "", finding_in_words(finding)])
-        leaf.setIcon(0, severity_icon(finding.severity))
-        leaf.setForeground(0, QBrush(severity_colour(finding.severity)))
-        leaf.setToolTip(4, finding_in_words(finding))
-        leaf.setData(0, _GOES_TO, (checked.path, finding.addresses[0] if finding.addresses else None))
-        item.addChild(leaf)
+    item.addChildren(
+        [_leaf(checked.path, *each) for each in zip(checked.findings, checked.labels, strict=True)]
+    )
     return item
+
+
+def _leaf(path: Path, finding: Finding, label: str) -> QTreeWidgetItem:
+    """Return the line of a finding of a file."""
+    leaf = QTreeWidgetItem([label, "", "", "", finding_in_words(finding)])
+    leaf.setIcon(0, severity_icon(finding.severity))
+    leaf.setForeground(0, QBrush(severity_colour(finding.severity)))
+    leaf.setToolTip(4, finding_in_words(finding))
+    leaf.setData(0, _GOES_TO, (path, finding.addresses[0] if finding.addresses else None))
+    return leaf

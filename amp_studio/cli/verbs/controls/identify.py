@@ -40,7 +40,7 @@ def run(options: Options) -> int:
         found = connect(options.address, options.family or "", progress=progress()).look()
     control, abilities, content = found.identity, found.abilities, found.content
     note_by_hand(control.family)
-    unreadable, axes, values, signature = "", list(control.axes), None, control.signature
+    unreadable, axes, values, signature = "", list(control.axes), 0, control.signature
     try:
         file = found.machine().file
         axes, values = axes or list(fitted_axes(file)), len(file.values)
@@ -60,14 +60,14 @@ def run(options: Options) -> int:
                 "signature": signature,
                 "size": len(content),
                 "sha256": found.sha256,
-                "values": values,
+                "values": None if unreadable else values,
                 "unreadable": unreadable or None,
                 "in_estop": control.in_estop,
                 "restart_needed": control.restart_needed,
             }
         )
         return 0
-    readable = f"not readable: {unreadable}" if unreadable else counted(values or 0, "value")
+    readable = f"not readable: {unreadable}" if unreadable else counted(values, "value")
     print("\n".join(_lines(found, axes, readable)))
     return 0
 

@@ -8,6 +8,10 @@ from amp_studio.cli.console import family, print_json
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
+TYPE_CHECKING = False  # the typing module is not loaded for it
+if TYPE_CHECKING:
+    from amp_studio.schema import Group, Schema
+
 VERB = Verb(
     __doc__,
     FAMILY,
@@ -21,15 +25,9 @@ VERB = Verb(
 def run(options: Options) -> int:
     """Print every parameter definition of a family."""
     from amp_studio.report import definition, one_line
-    from amp_studio.schema import unknown_name
 
     schema = family(options.family)
-    groups = schema.groups
-    if options.group:
-        called = options.group.casefold()
-        groups = tuple(g for g in groups if called in map(str.casefold, (g.key, g.name, g.section)))
-    if not groups:
-        raise UsageError(unknown_name("group", options.group, [g.name for g in schema.groups]))
+    groups = _named_groups(schema, options.group) if options.group else schema.groups
     parameters = [p for g in groups for p in g.parameters]
     if options.json:
         print_json(
@@ -43,3 +41,14 @@ def run(options: Options) -> int:
         for parameter in parameters:
             print(one_line(schema, parameter))
     return 0
+
+
+def _named_groups(schema: Schema, name: str) -> list[Group]:
+    """Return the groups with this key, name or section; raises UsageError."""
+    from amp_studio.schema import unknown_name
+
+    called = name.casefold()
+    found = [g for g in schema.groups if called in map(str.casefold, (g.key, g.name, g.section))]
+    if not found:
+        raise UsageError(unknown_name("group", name, [g.name for g in schema.groups]))
+    return found

@@ -64,7 +64,7 @@ def _print_not_set(options: Options, machine: MachineParameters, only: set[Addre
 
     file, validator, rows = machine.file, machine.validator(), []
     for each in progress(validator, validator.run()).steps:
-        found = [address for address in each.open if only is None or address in only]
+        found = each.open if only is None else tuple(filter(only.__contains__, each.open))
         values = (machine.row(ResolvedAddress(address), secrets=options.secrets) for address in found)
         rows += [value | {"step": each.step.number} for value in values]
         if found and not options.json:
