@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from amp_studio.files import ParameterFile, value_note, with_local_times
 from amp_studio.schema import (
     MASKED,
     Address,
+    Bit,
     Parameter,
     StateInfo,
     UnitError,
@@ -194,18 +196,23 @@ def _bits(parameter: Parameter, value: Value | None) -> str:
     """
     if not parameter.bits or value is None or isinstance(value.value, (str, bool)):
         return ""
-    word, parts = int(value.value), []
-    lost: dict[str, list[int]] = {}
+    word = int(value.value)
+    # A field has its value, a bit its label; bits of one lost figure have theirs together.
+    by_label: dict[tuple[str, int | None], list[Bit]] = {}
     for bit in parameter.bits:
-        if bit.unknown and bit.width == 1 and field_value(bit, word):
-            lost.setdefault(bit.label, []).append(bit.bit)
-    for bit in parameter.bits:
-        field = field_value(bit, word)
-        if bit.choices or bit.width > 1:
-            label = next((c.label for c in bit.choices or () if c.raw == field), str(field))
-            parts.append(f"{bit.label}: {label}")
-        elif field and len(lost.get(bit.label, ())) < 2:
-            parts.append(f"bit {bit.bit}: {bit.label}")
-        elif field and bit.bit == lost[bit.label][0]:
-            parts.append(f"bits {', '.join(map(str, lost[bit.label]))}: {bit.label}")
-    return "; ".join(parts)
+        is_field = bool(bit.choices) or bit.width > 1
+        if is_field or field_value(bit, word):
+            together = bit.unknown and not is_field
+            by_label.setdefault((bit.label, None if together else bit.bit), []).append(bit)
+    return "; ".join(_bits_text(bits, word) for bits in by_label.values())
+
+
+def _bits_text(bits: Sequence[Bit], word: int) -> str:
+    """Return ``bits 3, 4: label`` of bits that are set, ``label: value`` of one field."""
+    first = bits[0]
+    if first.choices or first.width > 1:
+        field = field_value(first, word)
+        label = next((c.label for c in first.choices or () if c.raw == field), str(field))
+        return f"{first.label}: {label}"
+    many = "s" if len(bits) > 1 else ""
+    return f"bit{many} {', '.join(str(bit.bit) for bit in bits)}: {first.label}"

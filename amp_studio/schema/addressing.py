@@ -156,6 +156,16 @@ def _words(evaluation: FileState, text: str) -> list[Address]:
 # -- instances
 
 
+def _of_letter(evaluation: FileState, parameter: Parameter, instance: str) -> list[str]:
+    """Return the instances of a parameter of the axes that are called by a letter: ``X``, ``X.2``."""
+    here = evaluation.machine_schema
+    if not instance or not here.kin(evaluation.scope((parameter.id, "")), "axis"):
+        return []
+    letter, point, part = instance.partition(".")
+    named = (axis + point + part for axis in _axes_named(evaluation, letter))
+    return [each for each in named if each in here.instances(parameter)]
+
+
 def _instance(evaluation: FileState, parameter: Parameter, instance: str, text: str) -> str:
     """Return the instance that is named by itself, or by the letter of its axis;
     raises UnknownParameterError.
@@ -164,9 +174,7 @@ def _instance(evaluation: FileState, parameter: Parameter, instance: str, text: 
     if instance in instances:
         return instance
     alike = [i for i in instances if i and i.casefold() == instance.casefold()]
-    if not alike and instance and evaluation.machine_schema.kin(evaluation.scope((parameter.id, "")), "axis"):
-        letter, point, part = instance.partition(".")
-        alike = [i for axis in _axes_named(evaluation, letter) if (i := axis + point + part) in instances]
+    alike = alike or _of_letter(evaluation, parameter, instance)
     if len(alike) == 1:
         return alike[0]
     if alike:

@@ -6,7 +6,9 @@ named is 0, and ``none`` is no bit at all.
 
 from __future__ import annotations
 
+import contextlib
 import re
+from collections import Counter
 
 from .model import Bit, Parameter
 from .nearest import close_matches
@@ -56,23 +58,23 @@ def labels_of_word(parameter: Parameter, word: int) -> str:
     It is read back by ``word_of_labels``; a bit without a label, or with that of another, is ``bit 7``.
     """
     fields = parameter.bits or ()
-    named = [plain(field.label) for field in fields]
-    parts, rest = [], word
-    for field, name in zip(fields, named, strict=True):
-        mask = (1 << field.width) - 1
-        rest &= ~(mask << field.bit)
+    counts = Counter(plain(field.label) for field in fields)
+    parts, unnamed = [], word
+    for field in fields:
+        unnamed &= ~(((1 << field.width) - 1) << field.bit)
         number = field_value(field, word)
-        if number == 0:
-            continue
-        if field.width == 1 and not field.choices:
-            parts.append(
-                field.label if named.count(name) == 1 and "," not in field.label else f"bit {field.bit}"
-            )
-        else:
-            label = next((c.label for c in field.choices or () if c.raw == number), str(number))
-            parts.append(f"{field.label}: {label}")
-    parts += [f"bit {n}" for n in range(rest.bit_length()) if rest >> n & 1]
+        if number:
+            parts.append(_part(field, number, is_alone=counts[plain(field.label)] == 1))
+    parts += [f"bit {n}" for n in range(unnamed.bit_length()) if unnamed >> n & 1]
     return ", ".join(parts) or "none"
+
+
+def _part(field: Bit, number: int, *, is_alone: bool) -> str:
+    """Return what a field is in the text of a word; ``is_alone``: no other one has its label."""
+    if field.width > 1 or field.choices:
+        label = next((c.label for c in field.choices or () if c.raw == number), str(number))
+        return f"{field.label}: {label}"
+    return field.label if is_alone and "," not in field.label else f"bit {field.bit}"
 
 
 def no_label(parameter: Parameter, text: str) -> str:
@@ -148,28 +150,39 @@ def with_field(field: Bit, word: int, text: str) -> int:
     """Return a word with one field changed to what a person wrote; every other bit stays.
     Raises InvalidValueError.
     """
-    typed = plain(text)
+    mask = (1 << field.width) - 1
+    number = _chosen(field, plain(text))
+    if number is None:
+        number = _typed_number(field, text) & mask
+    return word & ~(mask << field.bit) | number << field.bit
+
+
+def _chosen(field: Bit, typed: str) -> int | None:
+    """Return the number of the choice of a field that a text names; None where it names none."""
     for choice in field.choices or ():
         names = [plain(name) for name in (choice.label, choice.code, choice.key) if name]
         if choice.raw is not None and typed in [*names, f"raw:{choice.raw}"]:
-            number = choice.raw
-            break
-    else:
-        switch = {"yes": 1, "true": 1, "on": 1, "no": 0, "false": 0, "off": 0} if field.width == 1 else {}
-        mask = (1 << field.width) - 1
-        lowest, highest = (-(mask + 1) // 2, mask // 2) if field.signed else (0, mask)
-        try:
-            if len(typed) > LONGEST_NUMBER:
-                raise ValueError
-            number = switch[typed] if typed in switch else int(typed.removeprefix("raw:"), 0)
-        except ValueError:
-            number = lowest - 1
-        if field.choices and typed not in switch and not lowest <= number <= highest:
-            offered = ", ".join(choice.label for choice in field.choices)
-            raise InvalidValueError(f"{quoted(text.strip())} is not a choice of {field.label}: {offered}")
-        if not lowest <= number <= highest:
-            raise InvalidValueError(
-                f"{quoted(text)} does not fit {field.label}, which takes {lowest} to {highest}"
-            )
-        number &= mask
-    return word & ~(((1 << field.width) - 1) << field.bit) | number << field.bit
+            return choice.raw
+    return None
+
+
+_SWITCH = {"yes": 1, "true": 1, "on": 1, "no": 0, "false": 0, "off": 0}
+
+
+def _typed_number(field: Bit, text: str) -> int:
+    """Return the number that is typed for a field, or yes or no for one bit; raises InvalidValueError."""
+    typed = plain(text)
+    if field.width == 1 and typed in _SWITCH:
+        return _SWITCH[typed]
+    mask = (1 << field.width) - 1
+    lowest, highest = (-(mask + 1) // 2, mask // 2) if field.signed else (0, mask)
+    with contextlib.suppress(ValueError):
+        if (
+            len(typed) <= LONGEST_NUMBER
+            and lowest <= (number := int(typed.removeprefix("raw:"), 0)) <= highest
+        ):
+            return number
+    if field.choices:
+        offered = ", ".join(choice.label for choice in field.choices)
+        raise InvalidValueError(f"{quoted(text.strip())} is not a choice of {field.label}: {offered}")
+    raise InvalidValueError(f"{quoted(text)} does not fit {field.label}, which takes {lowest} to {highest}")

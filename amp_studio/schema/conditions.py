@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache
+from itertools import chain
 from typing import Literal, NamedTuple
 
 from .address import Address, UnknownParameterError, read_address, whole_of
@@ -183,16 +184,10 @@ class Conditions:
         parameter, family = self._schema.parameters[address[0]], self._schema.family
         names = [r.when or r.unless or "" for r in parameter.states]
         names += [v.when for v in parameter.range_variants]
-        angular = self._schema.angular_when(parameter)
-        names += [angular] if angular else []
+        names += filter(None, [self._schema.angular_when(parameter)])
         asked = [self.asked(name, address[1], self.scopes[address[0]]) for name in names]
-        found = {
-            a
-            for one in asked
-            for reference in self.question(one).references
-            if reference
-            for a in reference.addresses
-        }
+        references = chain.from_iterable(self.question(one).references for one in asked)
+        found = {a for reference in references if reference for a in reference.addresses}
         by_machine = parameter.layouts or any("machine" in self.decisions[name].always for name in names)
         if by_machine and family.machine_parameter:
             found.add((family.machine_parameter, ""))

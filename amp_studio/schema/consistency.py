@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from fnmatch import fnmatchcase
 from itertools import chain
 from pathlib import Path
@@ -79,6 +79,10 @@ def faults_of_messages(
                         yield path, (*here, key, n), f"{message.id}: there is no {kind} {quoted(name)}"
 
 
+def _matches_any(pattern: str, names: Iterable[str]) -> bool:
+    return any(fnmatchcase(name, pattern) for name in names)
+
+
 def faults_of_experience(plausible: Plausible, groups: tuple[Group, ...]) -> Iterator[tuple[KeyPath, str]]:
     """Yield each parameter that the facts of experience name and that does not exist,
     and each pattern without any.
@@ -86,16 +90,19 @@ def faults_of_experience(plausible: Plausible, groups: tuple[Group, ...]) -> Ite
     known = {p.id for group in groups for p in group.parameters}
     for key, patterns in (("unlike", plausible.unlike), ("may_differ", plausible.may_differ)):
         for n, pattern in enumerate(patterns):
-            if not any(fnmatchcase(name, pattern) for name in known):
+            if not _matches_any(pattern, known):
                 yield (key, n), f"there is no parameter {quoted(pattern)}"
-    for key, entries in _named_by_experience(plausible).items():
-        for n, name in ((n, name) for n, names in enumerate(entries) for name in names):
-            if name not in known:
-                yield (key, n), f"there is no parameter {quoted(name)}"
-    for key, facts in (("usual", plausible.usual), ("equal_rows", plausible.equal_rows)):
-        for name in facts:
-            if name not in known:
-                yield (key, name), f"there is no parameter {quoted(name)}"
+    named: list[tuple[KeyPath, str]] = [
+        ((key, n), name)
+        for key, entries in _named_by_experience(plausible).items()
+        for n, names in enumerate(entries)
+        for name in names
+    ]
+    named += [(("usual", name), name) for name in plausible.usual]
+    named += [(("equal_rows", name), name) for name in plausible.equal_rows]
+    for place, name in named:
+        if name not in known:
+            yield place, f"there is no parameter {quoted(name)}"
 
 
 def _named_by_experience(plausible: Plausible) -> dict[str, tuple[tuple[str, ...], ...]]:

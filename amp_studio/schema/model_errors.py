@@ -88,26 +88,27 @@ def _sentence(error: ErrorDetails) -> str:
             return f"{quoted(str(given))} is not {details['expected']}{near}"
         case "string_type":
             return "is empty" if given is None else f"must be a text: put {quoted(str(given))} in quotes"
-        case "string_pattern_mismatch" if details["pattern"] == PAGE_PATTERN:
-            return f"{quoted(given)} is no page: written like 7-20, A-5 or 102"
-        case "string_pattern_mismatch" if "\\." in details["pattern"]:
-            return (
-                f"{quoted(given)} is no id: small letters and digits with a point between, like"
-                " works.lathe-rapid"
-            )
         case "string_pattern_mismatch":
-            return f"{quoted(given)} is no key: small letters, digits and _ . + - without a blank"
-        case "string_too_short":
-            return "is empty"
-        case "bool_type" | "bool_parsing":
-            return "must be true or false"
-        case "float_type" | "float_parsing":
-            return "must be a number"
-        case "int_type" | "int_parsing" | "int_from_float":
-            return "must be a whole number"
-        case "dict_type" | "dataclass_type":
-            return "must be names with what they are: {name: ...}"
-        case "tuple_type" | "list_type":
-            return "must be a list: [...]"
-        case _:
-            return error["msg"].removeprefix("Value error, ")
+            return f"{quoted(given)} is {_pattern_in_words(details['pattern'])}"
+        case kind:
+            return _SENTENCES.get(kind, error["msg"].removeprefix("Value error, "))
+
+
+def _pattern_in_words(pattern: str) -> str:
+    """Return what a text is not that does not have a pattern, and how that is written."""
+    if pattern == PAGE_PATTERN:
+        return "no page: written like 7-20, A-5 or 102"
+    if "\\." in pattern:
+        return "no id: small letters and digits with a point between, like works.lathe-rapid"
+    return "no key: small letters, digits and _ . + - without a blank"
+
+
+_SENTENCES = {
+    "string_too_short": "is empty",
+    **dict.fromkeys(("bool_type", "bool_parsing"), "must be true or false"),
+    **dict.fromkeys(("float_type", "float_parsing"), "must be a number"),
+    **dict.fromkeys(("int_type", "int_parsing", "int_from_float"), "must be a whole number"),
+    **dict.fromkeys(("dict_type", "dataclass_type"), "must be names with what they are: {name: ...}"),
+    **dict.fromkeys(("tuple_type", "list_type"), "must be a list: [...]"),
+}
+"""The type of pydantic's error -> what is wrong with a value."""

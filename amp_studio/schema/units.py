@@ -35,6 +35,22 @@ class UnitError(AmpStudioError, ValueError):
     """A unit that is not known, or does not measure what is asked for."""
 
 
+def _check_unit(unit: str, meaning: tuple[str, Fraction]) -> None:
+    """Raise UnitError for a unit that is known with another meaning, and for one without a canonical unit."""
+    known = UNITS.get(unit)
+    if known is None and (other := _alias(unit)) is not None:
+        raise UnitError(f"{quoted(unit)} is how people write {other}")
+    if known is not None and known != meaning:
+        raise UnitError(
+            f"{quoted(unit)} measures {known[0] or 'nothing'} already, with the factor {known[1]}"
+        )
+    measures, factor = meaning
+    if factor <= 0:
+        raise UnitError(f"the factor of {quoted(unit)} is {factor}: it must be above 0")
+    if factor != 1 and (measures, _ONE) not in UNITS.values():
+        raise UnitError(f"no unit of {measures} has the factor 1, which {quoted(unit)} could be converted to")
+
+
 def define_unit(
     unit: str, measures: str, factor: Fraction, display: str = "", also: Iterable[str] = ()
 ) -> None:
@@ -44,17 +60,7 @@ def define_unit(
     and for a dimension without a canonical unit.
     """
     meaning = (measures, _ONE if factor == 1 else factor)
-    known = UNITS.get(unit)
-    if known is None and (other := _alias(unit)) is not None:
-        raise UnitError(f"{quoted(unit)} is how people write {other}")
-    if known is not None and known != meaning:
-        raise UnitError(
-            f"{quoted(unit)} measures {known[0] or 'nothing'} already, with the factor {known[1]}"
-        )
-    if factor <= 0:
-        raise UnitError(f"the factor of {quoted(unit)} is {factor}: it must be above 0")
-    if factor != 1 and (measures, _ONE) not in UNITS.values():
-        raise UnitError(f"no unit of {measures} has the factor 1, which {quoted(unit)} could be converted to")
+    _check_unit(unit, meaning)
     for text in (*also, display):
         if text and (UNITS.keys() & {text} - {unit} or _alias(text) not in (None, unit)):
             raise UnitError(f"{quoted(text)} is how people write {_alias(text) or text} already")

@@ -203,22 +203,28 @@ def _read(parameter: Parameter, text: str, unit: str) -> Value:
     if len(text) > LONGEST_NUMBER:
         raise InvalidValueError(f"{quoted(text)} is too long for a number")
     text = text.replace(_MINUS, "-")
-    if parameter.type in ("bits", "integer") and (
-        hexadecimal := re.fullmatch(r"(?:0[xX]|\$)([0-9a-fA-F]+)", text)
-    ):
+    is_whole = parameter.type in ("integer", "bits")
+    if is_whole and (hexadecimal := re.fullmatch(r"(?:0[xX]|\$)([0-9a-fA-F]+)", text)):
         return Value(int(hexadecimal[1], 16), unit)
     if parameter.bits and not text.isdecimal() and (word := _labelled(parameter, text)) is not None:
         return Value(word, unit)
     if _is_hex(parameter):
         _refuse_ambiguous(text)
-    number, rest = read_number(text)
-    if rest:
-        unit = _unit_entered(parameter, rest, unit)
-    if parameter.type in ("integer", "bits") and (exact := Decimal(_digits(text)[0])) != number:
-        # Beyond what a double stores: 2 ** 53 + 1, or a half that would be rounded away.
+    number, behind = read_number(text)
+    unit = _unit_entered(parameter, behind, unit) if behind else unit
+    if is_whole:
+        _refuse_rounded(parameter, text, number)
+    return Value(number, unit)
+
+
+def _refuse_rounded(parameter: Parameter, text: str, number: float) -> None:
+    """Raise InvalidValueError for a number beyond what a double stores: 2 ** 53 + 1, or a half that would be
+    rounded away.
+    """
+    exact = Decimal(_digits(text)[0])
+    if exact != number:
         size = "too large for" if exact == exact.to_integral_value() else "no whole number, which is taken by"
         raise InvalidValueError(f"{quoted(text)} is {size} {parameter.name}")
-    return Value(number, unit)
 
 
 def _refuse_ambiguous(text: str) -> None:

@@ -15,6 +15,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
+from functools import partial, reduce
 from typing import NamedTuple
 
 from amp_studio.files import ParameterFile
@@ -423,14 +424,15 @@ def _called(name: str, parts: list[_Quantity]) -> _Quantity:
         case "abs":
             return _Quantity(abs(first.number), first.unit)
         case "round":
-            halves = first.number + Fraction(1, 2) if first.number >= 0 else first.number - Fraction(1, 2)
-            return _Quantity(Fraction(int(halves)), first.unit)  # a half goes away from 0, as people round
+            half = Fraction(1, 2) if first.number >= 0 else Fraction(-1, 2)
+            # A half goes away from 0, as people round.
+            return _Quantity(Fraction(int(first.number + half)), first.unit)
         case "figure":
             return _Quantity(first.number)
-    best = first
-    for part in parts[1:]:
-        mine, other = _alike(best, part)
-        best = (
-            other if (other.number < mine.number) == (name == "min") and other.number != mine.number else mine
-        )
-    return best
+    return reduce(partial(_better, -1 if name == "min" else 1), parts)
+
+
+def _better(sign: int, one: _Quantity, other: _Quantity) -> _Quantity:
+    """Return the larger of two, or the smaller where ``sign`` is -1; the first where they are equal."""
+    mine, theirs = _alike(one, other)
+    return theirs if sign * theirs.number > sign * mine.number else mine

@@ -150,10 +150,7 @@ class ExpressionCheck:
             self._slip(f"{quoted(name)} is no function{did_you_mean(name, self._functions)}")
             return ANY, cost
         if not signature.fewest <= len(given) <= signature.most:
-            count = f"{signature.fewest}" + (
-                f" to {signature.most}" if signature.most > signature.fewest else ""
-            )
-            self._slip(f"{name} takes {count} value{'s' if count != '1' else ''}, not {len(given)}")
+            self._slip(f"{name} takes {_how_many(signature)}, not {len(given)}")
             return signature.gives, cost
         for place in sorted(signature.numbers):
             if place < len(given) and given[place].kind in ("text", "list", "table", "yes/no"):
@@ -168,11 +165,7 @@ class ExpressionCheck:
             self._piece(node, given)
         if name == "string" and given[0].choices:
             return given[0], cost
-        gives = signature.gives
-        if gives.item or gives.kind == "text":  # a formula may give back as much as it is given
-            length = gives.length + sum(worth.length for worth in given)
-            gives = list_worth(length, gives.item) if gives.item else text_worth(length)
-        return gives, cost
+        return _given_back(signature.gives, given), cost
 
     def _piece(self, node: Node, given: list[Worth]) -> None:
         """See that a text that is looked for in a choice is in one of its keys."""
@@ -236,26 +229,22 @@ class ExpressionCheck:
             self._slip(f"{quoted(node.text)} is {_CALLED[worth.kind]}, where true or false is wanted")
 
     def _arithmetic(self, node: Node, parts: list[Worth]) -> Worth:
-        kinds = {part.kind for part in parts} - {"any", "null"}
+        every = {part.kind for part in parts}
+        kinds, numbers = every - {"any", "null"}, {"decimal", "whole"}
         operator = "-" if node.kind == "negative" else node.kind
         if operator == "+" and kinds == {"list"}:
-            return list_worth(sum(p.length for p in parts), any_of([p.item for p in parts if p.item]))
+            return _joined(parts)
         if operator == "+" and kinds == {"text"}:
             return text_worth(sum(p.length for p in parts))
-        if kinds == {"decimal", "whole"}:
+        if kinds == numbers:
             self._slip(f"{quoted(node.text)} {_mixed(node, parts)}")
         elif operator == "%" and "decimal" in kinds:
             self._slip(f"'%' takes whole numbers only: write mod({', '.join(p.text for p in node.parts)})")
-        elif len(kinds) > 1 or not kinds <= {"decimal", "whole"}:
+        elif not (kinds <= {"decimal"} or kinds <= {"whole"}):
             self._slip(_unusable(node, parts, operator))
         if kinds == {"whole"}:
             return WHOLE
-        sizes = list_worth(sum(p.length for p in parts), any_of([p.item for p in parts if p.item]))
-        return (
-            DECIMAL
-            if kinds <= {"decimal", "whole"} and "any" not in {p.kind for p in parts}
-            else replace(sizes, kind="any")
-        )
+        return DECIMAL if kinds <= numbers and "any" not in every else replace(_joined(parts), kind="any")
 
     def _compare(self, node: Node, left: Worth, right: Worth) -> None:
         one, other = node.parts
@@ -356,6 +345,27 @@ def _unusable(node: Node, parts: list[Worth], operator: str) -> str:
     is_beside_number = any(part.kind in _NUMBERS for part in parts)
     hint = ": write string(...) around the number" if is_beside_number and kind == "text" else ""
     return f"{quoted(odd.text)} is {_CALLED[kind]}, and '{operator}' cannot use it here{hint}"
+
+
+def _how_many(signature: Signature) -> str:
+    """Return how many values a function takes, in words."""
+    if signature.fewest == signature.most == 1:
+        return "1 value"
+    count = f"{signature.fewest}" + (f" to {signature.most}" if signature.most > signature.fewest else "")
+    return f"{count} values"
+
+
+def _given_back(gives: Worth, given: list[Worth]) -> Worth:
+    """Return what a function gives: a text or a list may be as long as all it is given, and its own."""
+    length = gives.length + sum(worth.length for worth in given)
+    if gives.item:
+        return list_worth(length, gives.item)
+    return text_worth(length) if gives.kind == "text" else gives
+
+
+def _joined(parts: list[Worth]) -> Worth:
+    """Return the list of all items of some lists."""
+    return list_worth(sum(p.length for p in parts), any_of([p.item for p in parts if p.item]))
 
 
 def _mixed(node: Node, parts: list[Worth]) -> str:

@@ -1,5 +1,6 @@
 """What a parameter is: numbers, values, ranges, states, storage."""
 
+from collections.abc import Collection
 from typing import Annotated, Any, Literal
 
 from amp_studio.schema.units import UNITS
@@ -231,6 +232,12 @@ class Default(Model):
     instances: dict[str, float | bool | str] | None = None
     """Instances whose default differs from ``value``."""
 
+    def check_choices(self, keys: Collection[str]) -> None:
+        """Raise ValueError where a default is not one of these choices."""
+        for value in (self.value, *(self.instances or {}).values()):
+            if value not in keys:
+                raise ValueError(f"default {value!r} is not one of its choices")
+
 
 class Need(Model):
     """An option, a piece of hardware or a software release without which a parameter does nothing."""
@@ -352,6 +359,4 @@ class Parameter(Model):
             if _is_shared(choices, field):
                 raise ValueError(f"two choices share a {field}")
         if isinstance(self.default, Default) and choices:
-            for value in (self.default.value, *(self.default.instances or {}).values()):
-                if value not in keys:
-                    raise ValueError(f"default {value!r} is not one of its choices")
+            self.default.check_choices(keys)

@@ -57,14 +57,13 @@ class BlockReceiver:
         while tries < TRIES and line.now() < end:
             came = self._next(patience.ask if is_first else patience.answer)
             if isinstance(came, tuple):
-                if came[0] == number:
-                    line.put(bytes([ACK]))
-                    return came[1]
-                if came[0] != number - 1 & 0xFF:
+                if came[0] not in (number, number - 1 & 0xFF):
                     raise PlainFileError(
                         f"block {came[0]} has come, and block {number} was to come: one is lost"
                     )
-                line.put(bytes([ACK]))  # once more: the acknowledgement was lost
+                line.put(bytes([ACK]))  # of the block before once more: its acknowledgement was lost
+                if came[0] == number:
+                    return came[1]
                 if is_first:
                     line.put(self._request(silences))
                 tries += 1

@@ -16,6 +16,7 @@ from amp_studio.files import unlike_axes, value_note, with_days_and_times
 from amp_studio.report import state_name
 from amp_studio.schema import (
     Address,
+    Parameter,
     Schema,
     StateInfo,
     UnitError,
@@ -300,21 +301,29 @@ class ShownValues(Translated):
         if parameter.secret and not self.workspace.secrets:
             look.text = self.text(address, value)
         elif parameter.bits and isinstance(value.value, int):
-            look.text = labels_of_word(parameter, value.value)
-            look.unit = f"0x{value.value:X}" if value.value >= 0 else str(value.value)
-            short = short_labels(tuple(bit.label for bit in parameter.bits))
-            look.short = ", ".join(short.get(name, name) for name in look.text.split(", "))
+            _show_word(look, parameter, value.value)
         else:
             here = self.in_units(address, value)
             assert here is not None
-            if not look.is_own:
-                here = as_written(here)
-            plain = show_value(parameter, Value(here.value, ""), secrets=True)
-            look.text = grouped(plain) if look.is_number else plain.replace("\n", " ⏎ ")
-            look.unit = unit_text(here.unit)
-            if parameter.choices:
-                look.short = short_labels(tuple(c.label for c in parameter.choices)).get(plain, "")
+            _show_plain(look, parameter, here if look.is_own else as_written(here))
         used = self.effective.get(address)
         if used is not None:
             look.text += f" → {self.text(address, used)}"
         return look
+
+
+def _show_word(look: CellLook, parameter: Parameter, word: int) -> None:
+    """Give a cell the labels of what is set in a word, in full and short, and its number as their unit."""
+    look.text = labels_of_word(parameter, word)
+    look.unit = f"0x{word:X}" if word >= 0 else str(word)
+    short = short_labels(tuple(bit.label for bit in parameter.bits or ()))
+    look.short = ", ".join(short.get(name, name) for name in look.text.split(", "))
+
+
+def _show_plain(look: CellLook, parameter: Parameter, value: Value) -> None:
+    """Give a cell a value that is in the unit it is shown in."""
+    plain = show_value(parameter, Value(value.value, ""), secrets=True)
+    look.text = grouped(plain) if look.is_number else plain.replace("\n", " ⏎ ")
+    look.unit = unit_text(value.unit)
+    if parameter.choices:
+        look.short = short_labels(tuple(c.label for c in parameter.choices)).get(plain, "")

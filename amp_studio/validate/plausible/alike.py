@@ -139,13 +139,11 @@ class Alike:
             del row[name]
         else:
             row[name] = new
-        for other, values in rows.items():
-            theirs = values.get(name)
-            if other == instance or theirs is None:
-                continue
+        others = (each for each in rows if each != instance and name in rows[each])
+        for other in others:
             pair = self._pairs.get((scope, instance, other)) or self._pairs[scope, other, instance]
             pair.compared[0] += (new is not None) - (old is not None)
-            if new is None or new == theirs:
+            if new in (None, rows[other][name]):
                 pair.differing.discard(name)
             else:
                 pair.differing.add(name)

@@ -96,21 +96,17 @@ class EqualRows:
     def _look_at(self, name: str) -> None:
         keys, addresses = self._file.evaluation.keys, self._addresses(name)
         counts = Counter(keys[address] for address in addresses)
-        alone = [key for key, count in counts.items() if count == 1]
-        if (
-            len(addresses) < _LEAST
-            or len(alone) != 1
-            or min(c for k, c in counts.items() if k != alone[0]) < _OFTEN
-        ):
+        by_count = sorted(counts.values())
+        if len(addresses) < _LEAST or by_count[0] != 1 or by_count[1] < _OFTEN:
             return
-        address = next(a for a in addresses if keys[a] == alone[0])
-        others = [key for key in counts if key != alone[0] and key not in _NO_FIGURES]
-        slip, usual = next(
-            ((s, key) for key in others if (s := slip_between(alone[0], key)) and alone[0]), ("", None)
-        )
-        if slip:
-            other = next(a for a in addresses if keys[a] == usual)
-            self._found[name] = self._finding(address, other, counts[usual], slip)
+        alone = next(key for key, count in counts.items() if count == 1)
+        if not alone:
+            return
+        for usual in (key for key in counts if key != alone and key not in _NO_FIGURES):
+            if slip := slip_between(alone, usual):
+                address, other = (next(a for a in addresses if keys[a] == key) for key in (alone, usual))
+                self._found[name] = self._finding(address, other, counts[usual], slip)
+                return
 
     def findings(self) -> Iterator[Finding]:
         """Yield what was found."""

@@ -146,6 +146,18 @@ class UsualValues:
         return Finding(USUAL, "advice", (address,), message, reason=REASON)
 
 
+def _not_usual(facts: _Known, usual: Usual, number: float, unit: str) -> str:
+    """Return what is usual instead of a number; "" where it is one of the usual."""
+    if usual.among:
+        return "" if number in usual.among else f"usual are {', '.join(map(write_figure, usual.among))}"
+    measures = dimension(unit)
+    span = facts.spans.get(measures)
+    if span is None or span[0] <= canonical(number, unit) <= span[1]:
+        return ""
+    shown, (low, high) = next((u, b) for u, b in usual.between.items() if dimension(u) == measures)
+    return f"usual is {write_figure(low)} to {write_figure(high)} {unit_text(shown)}".rstrip()
+
+
 def _doubt(facts: _Known, value: Value) -> str:
     """Return what is unusual about a number, in words; "" for nothing."""
     usual = facts.usual
@@ -153,15 +165,12 @@ def _doubt(facts: _Known, value: Value) -> str:
         return _doubt_of_choice(facts.parameter, usual, value.value) if usual is not None else ""
     number = float(value.value)
     measures = dimension(value.unit)
-    if usual is not None and number not in usual.also:
-        if usual.among:
-            if number not in usual.among:
-                return f"usual are {', '.join(map(write_figure, usual.among))}"
-        elif (span := facts.spans.get(measures)) is not None and not span[0] <= canonical(
-            number, value.unit
-        ) <= span[1]:
-            unit, (low, high) = next((u, b) for u, b in usual.between.items() if dimension(u) == measures)
-            return f"usual is {write_figure(low)} to {write_figure(high)} {unit_text(unit)}".rstrip()
+    if (
+        usual is not None
+        and number not in usual.also
+        and (words := _not_usual(facts, usual, number, value.unit))
+    ):
+        return words
     unit = value.unit
     if measures != facts.default_measures and facts.default_digits >= ODD:
         unit = unit.replace("deg", "mm")  # the manual prints one number for linear and rotary axes
