@@ -242,7 +242,7 @@ def _message(error: Exception) -> str:
 
 
 # pyserial raises its own exception for most faults, on Windows without a number: then a part of its text is
-# all there is to tell them apart by.
+# all that distinguishes them.
 _MESSAGES: tuple[tuple[set[int], str, str], ...] = (
     ({errno.ENOTTY}, f"({errno.ENOTTY},", NO_PORT),
     (set(), "Could not configure port", f"{NO_PORT}, or one that cannot be set like this"),

@@ -154,8 +154,8 @@ def _not_usual(facts: _Known, usual: Usual, number: float, unit: str) -> str:
     span = facts.spans.get(measures)
     if span is None or span[0] <= canonical(number, unit) <= span[1]:
         return ""
-    shown, (low, high) = next((u, b) for u, b in usual.between.items() if dimension(u) == measures)
-    return f"usual is {write_figure(low)} to {write_figure(high)} {unit_text(shown)}".rstrip()
+    printed, (low, high) = next((u, b) for u, b in usual.between.items() if dimension(u) == measures)
+    return f"usual is {write_figure(low)} to {write_figure(high)} {unit_text(printed)}".rstrip()
 
 
 def _doubt(facts: _Known, value: Value) -> str:
