@@ -8,13 +8,14 @@ from math import copysign, cos, sin
 from pathlib import Path
 
 import pytest
-from PySide6.QtWidgets import QDialog, QFileDialog, QLineEdit
+from PySide6.QtWidgets import QDialog, QFileDialog, QFormLayout, QLineEdit
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import open_file
 from amp_studio.sim import SimulationError, read_machine
 from amp_studio.ui.motion.identify_dialog import IdentifyDialog
 from amp_studio.ui.motion.machine_page import MachinePage
+from tests.sim.test_frequency_response import FREQUENCIES, hidden_plant, table
 
 from .alt_letters import doubled, texts_of
 
@@ -44,6 +45,35 @@ def type_scale(dialog: IdentifyDialog, text: str) -> None:
     scale.editingFinished.emit()
 
 
+def figures_of(dialog: IdentifyDialog) -> dict[str, str]:
+    """Return the rows of figures."""
+    rows = {}
+    for n in range(dialog.figures.rowCount()):
+        name, text = (dialog.figures.itemAt(n, role) for role in _ROLES)
+        assert name is not None
+        assert text is not None
+        rows[name.widget().text()] = text.widget().text()
+    return rows
+
+
+_ROLES = (QFormLayout.ItemRole.LabelRole, QFormLayout.ItemRole.FieldRole)
+
+
+def test_a_frequency_response_gives_its_resonance_and_the_notch_for_it(qtbot: QtBot, tmp_path: Path) -> None:
+    figures, response, _ = hidden_plant(2)
+    path = tmp_path / "frf.csv"
+    path.write_text(table(FREQUENCIES, response))
+    dialog = IdentifyDialog(FILE, "1", path)
+    qtbot.addWidget(dialog)
+    assert dialog.trace is not None
+    assert dialog.trace.result["resonance"][0] == pytest.approx(figures["resonance"], rel=0.03)
+    assert {"resonance", "delay"} <= set(figures_of(dialog))
+    assert "notch" in dialog.message.text()
+    assert dialog.chirp.isHidden()
+    assert dialog.use.isEnabled()
+    assert doubled(texts_of(dialog)) == {}
+
+
 def test_amperes_need_a_scale_and_then_the_fit_is_shown(dialog: IdentifyDialog) -> None:
     assert "give how much is 1 %" in dialog.message.text()
     assert not dialog.use.isEnabled()
@@ -52,7 +82,7 @@ def test_amperes_need_a_scale_and_then_the_fit_is_shown(dialog: IdentifyDialog) 
     assert dialog.trace.result["coulomb_friction"][0] == pytest.approx(4.0, rel=0.02)
     assert dialog.use.isEnabled()
     assert dialog.plot.picture is not None
-    assert dialog.figures.rowCount() == 6
+    assert {"Coulomb friction", "r²", "Rows"} <= set(figures_of(dialog))
     type_scale(dialog, "much")
     assert dialog.trace is None
     assert dialog.plot.picture is None

@@ -85,6 +85,17 @@ _KINDS: dict[str, tuple[str, ...]] = {
     ),
 }
 """What a column is -> its names, the ones that are taken first before the others."""
+_SIDES = {
+    "motor": (
+        "(motor|encoder|first) (position|pos)|motor encoder|resolver( position)?"
+        "|motor(lage|position)|position|pos"
+    ),
+    "load": (
+        "(load|scale|table|second|external|direct) (position|pos|encoder)|(linear|glass) scale"
+        "|last(lage|position)"
+    ),
+}
+"""Positions on both sides of a backlash -> their names; in a record of both, its position is the motor's."""
 _EXAMPLE = "time (s), velocity (mm/min), torque (%)"
 
 
@@ -101,6 +112,9 @@ class DriveRecord:
     torque_unit: str
     columns: tuple[str, ...]
     """The heads of the columns that were used."""
+    sides: tuple[Series, Series] | None = None
+    """Positions of motor and load where the record has both, in ``sides_unit``."""
+    sides_unit: str = ""
 
 
 def read_drive_record(path: Path) -> DriveRecord:
@@ -133,6 +147,7 @@ def drive_record_of(text: str) -> DriveRecord:
     if len(lines) > MOST_ROWS + _HEAD_WITHIN:
         raise SimulationError(f"{len(lines)} lines are too many: {MOST_ROWS} at most")
     heads, names, separator, rest = _heads(lines)
+    sides, sides_unit = _both_sides(names, rest, separator)
     motion = "velocity" if "velocity" in heads else "position"
     used = [heads[kind] for kind in ("time", motion, "torque")]
     units = [_unit(names[n], kind) for n, kind in zip(used, ("time", motion, "torque"), strict=True)]
@@ -147,7 +162,26 @@ def drive_record_of(text: str) -> DriveRecord:
         motion_unit,
         torque_unit,
         tuple(" ".join(part for part in names[n] if part) for n in used),
+        sides,
+        sides_unit,
     )
+
+
+def _both_sides(
+    names: Sequence[tuple[str, str]], rest: _Lines, separator: str
+) -> tuple[tuple[Series, Series] | None, str]:
+    """Return the positions of motor and load, in one unit of the program; none where a column is missing."""
+    places = {}
+    for side, pattern in _SIDES.items():
+        fitting = [n for n, (name, _) in enumerate(names) if re.fullmatch(pattern, name)]
+        if len(fitting) != 1:
+            return None, ""
+        places[side] = fitting[0]
+    units = [_unit(names[n], "position") for n in places.values()]
+    if units[0][0] != units[1][0]:
+        raise SimulationError(f"Motor and load are in {units[0][0]} and {units[1][0]}: give one unit")
+    motor, load = _columns(rest, list(places.values()), len(names), separator)
+    return (motor * units[0][1], load * units[1][1]), units[0][0]
 
 
 # -- heads -------------------------------------------------------------------------------------------
@@ -164,6 +198,9 @@ def _heads(lines: _Lines) -> tuple[dict[str, int], list[tuple[str, str]], str, _
         cells = _cells(line, separator, n)
         names = [_name_and_unit(cell) for cell in cells]
         found = _kinds([name for name, _ in names])
+        if "position" not in found or re.fullmatch(_SIDES["load"], names[found["position"]][0]):
+            motor = [n for n, (name, _) in enumerate(names) if re.fullmatch(_SIDES["motor"], name)]
+            found.update({"position": motor[0]} if motor else {})
         if not {"time", "torque"} <= found.keys() or not {"velocity", "position"} & found.keys():
             continue
         rest = lines[place + 1 :]
@@ -361,6 +398,18 @@ def travel_per_turn(text: str, unit: str) -> float:
             f"The travel for a turn is '{text[:40]}': give it above 0 and in {unit}, the unit of the axis"
         )
     return canonical(number, own)
+
+
+def position_factor(unit: str, of_axis: str) -> float:
+    """Return how many u of an axis one of a position's ``unit`` is;
+    raises SimulationError where an axis in that unit has no such positions.
+    """
+    wanted = {"mm": "length", "deg": "angle", "counts": "counts"}[of_axis]
+    if dimension(unit) != wanted:
+        raise SimulationError(
+            f"Motor and load are in {unit}, and the axis moves in {of_axis}: give {of_axis}"
+        )
+    return canonical(1.0, unit)
 
 
 def speed_factor(record: DriveRecord, unit: str, turn: str | None = None) -> float:

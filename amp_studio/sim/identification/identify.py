@@ -20,14 +20,19 @@ from amp_studio.sim.trace import Figure, Trace
 from amp_studio.sim.unit_system import in_unit, length_unit
 
 from .beyond_friction import is_shifted, residual_doubts, static_friction, time_shift
-from .drive_record import DriveRecord, read_drive_record, speed_factor, torque_figure
+from .drive_record import DriveRecord, position_factor, read_drive_record, speed_factor, torque_figure
 from .friction import FrictionFit, fit_friction
+from .lost_motion import backlash
 
 DIGITS = 6
 DOUBTFUL_FIT, DOUBTFUL_ERROR = 0.9, 0.5
 """r² below which, and share of a figure above which its standard error is a doubt."""
 FIGURES = ("acceleration_per_output", "viscous_friction", "coulomb_friction", "gravity")
 """What the machine gets; each has a standard error beside it."""
+_LOST = (
+    "The backlash is by how much the load lags behind its motor in one direction more than in the other: what"
+    " the drive train yields to the friction of the load is in it."
+)
 _EQUAL = (
     "The dry friction is taken as equal in both directions; half of what they differ by is gravity. "
     "In the record of an axis a weight and a friction that is larger in one direction look the same."
@@ -81,6 +86,9 @@ def identify(
             "stribeck_speed": (60.0 * static.speed.value, f"{bound.unit}/min"),
             "stribeck_speed_standard_error": (60.0 * static.speed.error, f"{bound.unit}/min"),
         }
+    lost = _lost_motion(record, fit, bound)
+    result |= lost
+    notes += [_LOST] if lost else []
     return in_unit(
         Trace(
             scenario=IDENTIFY,
@@ -101,6 +109,17 @@ def identify(
         ),
         length_unit(file, system),
     )
+
+
+def _lost_motion(record: DriveRecord, fit: FrictionFit, bound: AxisLaw) -> dict[str, Figure]:
+    """Return the backlash where the record has the positions of motor and load; {} elsewhere."""
+    if record.sides is None:
+        return {}
+    size = position_factor(record.sides_unit, bound.unit)
+    found = backlash(fit, record.time, record.sides[0] * size, record.sides[1] * size)
+    if found is None:
+        return {}
+    return {"backlash": (found.value, bound.unit), "backlash_standard_error": (found.error, bound.unit)}
 
 
 def _fit(record: DriveRecord, bound: AxisLaw, time: Series, torque: Series, factor: float) -> FrictionFit:
@@ -252,8 +271,8 @@ MACHINE = (*list(_WORDS)[:10],)
 """Figures that are settings of the machine, in the order in which they are written."""
 
 
-def identified_text(trace: Trace) -> str:
-    """Return the result for the terminal."""
+def figure_rows(trace: Trace) -> list[tuple[str, str]]:
+    """Return the figures of a result in words, those of the machine first with their standard errors."""
     result, torque = dict(trace.result), trace.result["viscous_friction"][1]
     length = result["acceleration_per_output"][1].partition("/")[0]
     also = {
@@ -266,7 +285,7 @@ def identified_text(trace: Trace) -> str:
         for name, words in _WORDS.items()
         if name in result
     ]
-    rows += [
+    return rows + [
         (words, value_text(value, unit, 5))
         for name, (value, unit) in result.items()
         if name not in _WORDS
@@ -275,6 +294,11 @@ def identified_text(trace: Trace) -> str:
         and value is not None
         for words in [_FITS.get(name, name.replace("_", " "))]
     ]
+
+
+def identified_text(trace: Trace) -> str:
+    """Return the result for the terminal."""
+    rows = figure_rows(trace)
     width = max(len(name) for name, _ in rows)
     recommended = [
         f"{each.parameter} at {value_text(each.value, each.unit)}: {each.why} {each.price}"

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
+    QCheckBox,
     QDialog,
     QFileDialog,
     QFormLayout,
@@ -23,8 +24,10 @@ from amp_studio.files import ParameterFile, SaveError
 from amp_studio.sim import (
     SimulationError,
     Trace,
-    figure_text,
+    figure_rows,
     identify,
+    identify_response,
+    is_response,
     picture_of,
     value_text,
     write_machine,
@@ -54,8 +57,20 @@ class IdentifyDialog(QDialog):
             tip=self.tr("Torque of the record for 1 % of rated torque, or for 1 V of output"),
             hint=self.tr("only for A, Nm or N: 0.056 A"),
         )
-        self.form = FieldForm((scale,))
-        self.form.editor("scale", QLineEdit).editingFinished.connect(self.refresh)
+        turn = Field(
+            "turn",
+            self.tr("&Travel for a Turn"),
+            tip=self.tr("Travel of the axis for one turn of the motor"),
+            hint=self.tr("only for a record in rpm: 10 mm"),
+        )
+        self.form = FieldForm((scale, turn))
+        for name in ("scale", "turn"):
+            self.form.editor(name, QLineEdit).editingFinished.connect(self.refresh)
+        # A table over the frequency is nothing else; a record may be one of moves or of a chirp.
+        self._is_response = _is_table_of_response(path)
+        self.chirp = QCheckBox(self.tr("Reco&rd of a chirp: find resonance and delay too"))
+        self.chirp.setVisible(not self._is_response)
+        self.chirp.toggled.connect(self.refresh)
         self.message = QLabel()
         self.message.setWordWrap(True)
         self.message.setTextFormat(Qt.TextFormat.PlainText)
@@ -75,6 +90,7 @@ class IdentifyDialog(QDialog):
     def _arrange(self, cancel: QPushButton) -> None:
         left = QVBoxLayout()
         left.addWidget(self.form)
+        left.addWidget(self.chirp)
         left.addSpacing(GAP2)
         left.addLayout(self.figures)
         left.addWidget(self.message)
@@ -94,20 +110,28 @@ class IdentifyDialog(QDialog):
 
     def refresh(self) -> None:
         """Fit the record again with the scale that is given."""
-        scale = self.form.answer("scale") or None
+        scale, turn = self.form.answer("scale") or None, self.form.answer("turn") or None
+        by_response = self._is_response or self.chirp.isChecked()
+
+        def work() -> Trace:
+            if by_response:
+                return identify_response(self._file, self._path, self._axis, scale, turn=turn)
+            return identify(self._file, self._path, self._axis, scale, turn=turn)
+
         try:
-            self.trace = in_background(
-                self,
-                self.tr("Reading the Record"),
-                lambda: identify(self._file, self._path, self._axis, scale),
-            )
+            self.trace = in_background(self, self.tr("Reading the Record"), work)
         except (SimulationError, OSError) as error:
             self.trace = None
             self.plot.clear_picture()
             self.message.setText(str(error))
         else:
             self.plot.draw(picture_of(self.trace))
-            self.message.setText("\n".join((*self.trace.doubts, *map(worded, self.trace.assumptions))))
+            found = [
+                f"{worded(each.parameter)} {value_text(each.value, each.unit)}: {each.why}"
+                for each in self.trace.recommendations
+            ]
+            texts = (*self.trace.doubts, *found, *map(worded, self.trace.assumptions))
+            self.message.setText("\n".join(texts))
         self._show_figures()
         for button in (self.use, self.save):
             button.setEnabled(self.trace is not None)
@@ -117,20 +141,12 @@ class IdentifyDialog(QDialog):
             self.figures.removeRow(0)
         if self.trace is None:
             return
-        result = dict(self.trace.result)
-        names = {
-            "acceleration_per_output": self.tr("Acceleration for one unit of torque"),
-            "viscous_friction": self.tr("Viscous friction at 1000 mm/min"),
-            "coulomb_friction": self.tr("Coulomb friction"),
-            "gravity": self.tr("Gravity"),
-        }
-        for name, words in names.items():
-            self.figures.addRow(words, QLabel(figure_text(result, name)))
-        self.figures.addRow("r²", QLabel(value_text(result["r_squared"][0] or 0.0, digits=5)))
-        used = self.tr("{used} of {all}").format(
-            used=int(result["rows_used"][0] or 0), all=int(result["rows"][0] or 0)
-        )
-        self.figures.addRow(self.tr("Rows"), QLabel(used))
+        for words, text in figure_rows(self.trace):
+            self.figures.addRow(worded(words), QLabel(text))
+        if "rows_used" in self.trace.result:
+            used, rows = (int(self.trace.result[name][0] or 0) for name in ("rows_used", "rows"))
+            text = self.tr("{used} of {all}").format(used=used, all=rows)
+            self.figures.addRow(self.tr("Rows"), QLabel(text))
 
     def save_machine(self) -> None:
         """Write the machine for ``simulate --machine``."""
@@ -151,3 +167,10 @@ class IdentifyDialog(QDialog):
                 self.message.setText(str(error))
             else:
                 self.message.setText(self.tr("{path} written").format(path=path))
+
+
+def _is_table_of_response(path: Path) -> bool:
+    try:
+        return is_response(path)
+    except OSError:
+        return False  # whoever reads it next shows why it cannot be read
