@@ -253,7 +253,7 @@ class Scene:
     """Places of x."""
     look: Literal["picture", "panel", "rings"] = "picture"
     """A ``panel`` of several has a frame and above it what it shows and its curves by name;
-    ``rings`` have no scales."""
+    ``rings``, and a diagram of boxes, have no scales."""
     share: float = 1.0
     """Share of a panel in the height of its picture."""
     fixed: float | None = None

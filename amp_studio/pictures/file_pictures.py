@@ -8,7 +8,7 @@ from functools import partial
 
 from amp_studio.drawing import PictureNote, Scene
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, ParameterId, RampRoles, axis_name
+from amp_studio.schema import Address, LoopRoles, ParameterId, RampRoles, axis_name
 
 from .gain import draw_gain
 from .gears import draw_gears, spindles
@@ -97,6 +97,10 @@ def _pictures(file: ParameterFile) -> Iterator[FilePicture]:
     if error := roles.error:
         own = _own(file, (error.gain, *error.limits))
         yield FilePicture(file, "error", "Error limits", own, partial(draw_gain, file, error), 1)
+    if loop := roles.loop:
+        axes = _own(file, [param for block in loop.blocks for param in block.params])
+        parts = (*axes, *((f"{axis}@10", f"{name} at 10 %") for axis, name in axes))
+        yield FilePicture(file, "loop", "Loops", parts, partial(_loop, file, loop))
     for table in roles.tables:
         own = _own(file, (table.param,))
         yield FilePicture(file, "calibration", "Calibration", own, partial(draw_table, file, table), 1)
@@ -111,6 +115,12 @@ def _ramps(file: ParameterFile, roles: RampRoles, part: str, like: Scene | None)
     from .ramps import draw_ramps  # numpy is loaded when a ramp is drawn
 
     return draw_ramps(file, roles, part, like)
+
+
+def _loop(file: ParameterFile, roles: LoopRoles, part: str, like: Scene | None) -> Scene:
+    from .loop import draw_loop  # so is the simulator
+
+    return draw_loop(file, roles, part, like)
 
 
 def _of_ramps(roles: RampRoles) -> list[ParameterId]:

@@ -78,6 +78,8 @@ if TYPE_CHECKING:
         HelpNote,
         HomePlace,
         JogRoles,
+        LoopBlock,
+        LoopRoles,
         MacroCall,
         Messages,
         Model,

@@ -1,9 +1,10 @@
-"""The following error of a move at its full speed, with its sign."""
+"""What is constant while an axis moves at one speed: following error, output, reference."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from .law import AxisLaw
 from .trace import Trace
 
 SPEED = 1e-3
@@ -25,3 +26,24 @@ def error_at_speed(trace: Trace) -> float | None:
         return None
     late = even[even.size // 2 :]
     return float((trace.columns["following_error"][late] * np.sign(speed[late])).mean())
+
+
+def steady_signals(axis: AxisLaw, speed: float) -> dict[str, tuple[float, str]]:
+    """Return the signals of an axis at a constant speed in u/s, by name, each with its unit.
+
+    Those that the law predicts, and the output that keeps this speed: of a drive with a velocity loop its
+    reference, of one that gives a torque that of the friction and of the weight.
+    """
+    machine = axis.machine
+    if machine.velocity_per_output > 0.0:
+        output = speed / machine.velocity_per_output
+    else:
+        output = machine.viscous_friction * speed + machine.coulomb_friction + machine.gravity
+    predicted = {
+        name: (each.value, each.unit) for name, each in axis.predict(speed).items() if each.value is not None
+    }
+    return {
+        "command_velocity": (speed * 60.0, f"{axis.unit}/min"),
+        "output": (output, axis.output_unit),
+        **predicted,
+    }

@@ -204,6 +204,38 @@ class TableRoles(Model):
     """A length of the axis, in whose unit position and compensation are."""
 
 
+class LoopBlock(Model):
+    """A block of a diagram of loops: what acts there."""
+
+    name: str
+    params: tuple[ParameterId, ...] = ()
+    place: Literal["command", "ahead", "chain", "back"] = "chain"
+    """Where it is: the command itself, added ahead of the loop, in the loop in this order, or on the way
+    back."""
+    into: str = ""
+    """Name of the block of the chain to which it is added; the first one without."""
+    signal: str = ""
+    """The steady signal behind it, as the simulation names it."""
+
+
+class LoopRoles(Model):
+    """The loops of an axis as a diagram."""
+
+    page: Page
+    blocks: tuple[LoopBlock, ...]
+    note: str
+    """Where the drawing of the manual is, or from what it is drawn where that is lost."""
+
+    def __post_init__(self) -> None:
+        places = [block.place for block in self.blocks]
+        if places.count("command") != 1 or "chain" not in places:
+            raise ValueError("a diagram of loops has one command and a chain")
+        chain = {block.name for block in self.blocks if block.place == "chain"}
+        for block in self.blocks:
+            if block.into and block.into not in chain:
+                raise ValueError(f"'{block.name}' goes into '{block.into}', which is not in the chain")
+
+
 class PictureRoles(Model):
     """A file ``pictures.yaml``: what each picture of the family is drawn from."""
 
@@ -213,6 +245,7 @@ class PictureRoles(Model):
     gears: GearRoles | None = None
     error: ErrorRoles | None = None
     tables: tuple[TableRoles, ...] = ()
+    loop: LoopRoles | None = None
 
     @property
     def params(self) -> tuple[ParameterId, ...]:
@@ -234,6 +267,9 @@ _NO_PARAMETERS = {
     "outside",
     "group_none",
     "modes",
+    "place",
+    "into",
+    "signal",
 }
 """Fields with texts that name no parameter."""
 
