@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from amp_studio.drawing import FilledArea, Polyline, Scale, Scene, Text
+from amp_studio.drawing import FilledArea, Polyline, Scale, Scene, ShapeSort, Text
 from amp_studio.files import ParameterFile
 from amp_studio.schema import LoopBlock, LoopRoles, convert
 from amp_studio.sim import SimulationError, bind_axis, law_of, steady_signals, value_text
@@ -95,7 +95,7 @@ class LoopDiagram:
             figure = self._figures.figure(parameter, self._axis, quiet=True)
             if figure is not None:
                 text = figure.text if not figure.inactive else f"{figure.text}, inactive"
-                sort = "error" if figure.wrong else "dim" if figure.inactive else "ink"
+                sort: ShapeSort = "error" if figure.wrong else "dim" if figure.inactive else "ink"
                 found.append(Text((NAMES, 0.0), figure.label, text, "left", figure.address, sort))
         if (signal := self._signals.get(block.signal)) is not None:
             name = block.signal.replace("_", " ").removeprefix("steady ")

@@ -224,7 +224,7 @@ class LoopRoles(Model):
     page: Page
     blocks: tuple[LoopBlock, ...]
     note: str
-    """Where the drawing of the manual is, or from what it is drawn where that is lost."""
+    """Where the drawing of the manual is; if our copy has lost it, from what it is drawn."""
 
     def __post_init__(self) -> None:
         places = [block.place for block in self.blocks]
