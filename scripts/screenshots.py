@@ -236,7 +236,7 @@ class Stage:
 
     def compare(self) -> None:
         """Two sources, then three with a conflict."""
-        from amp_studio.ui.merge.model import BASE, A, B
+        from amp_studio.ui.merge.columns import BASE, A, B
         from amp_studio.ui.merge.sources import MergeSource
 
         window = self.window

@@ -22,7 +22,7 @@ from amp_studio.ui.dialogs.file_dialogs import ReportDialog
 from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
 from amp_studio.ui.dialogs.note_dialog import NoteDialog
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.merge.model import B
+from amp_studio.ui.merge.columns import B
 from amp_studio.ui.merge.window import MergeWindow
 from amp_studio.ui.motion.tuning_window import TuningWindow
 from amp_studio.ui.table.block_preview import BlockPreview

@@ -14,7 +14,7 @@ from amp_studio.files import Document, Merge, ParameterFile, SaveError, new_file
 from amp_studio.schema import Value
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.merge import program as merge_program
-from amp_studio.ui.merge.model import BASE
+from amp_studio.ui.merge.columns import BASE
 from amp_studio.ui.merge.program import tool_window
 from amp_studio.ui.merge.window import MergeWindow
 

@@ -13,7 +13,7 @@ from amp_studio.files import open_file
 from amp_studio.schema import MASKED, Value
 from amp_studio.ui.dialogs.file_dialogs import ReportDialog
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.merge.model import A, B
+from amp_studio.ui.merge.columns import A, B
 from amp_studio.ui.merge.sources import MergeSource
 from amp_studio.ui.table.quick_edit import QuickEdit
 

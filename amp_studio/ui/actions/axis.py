@@ -4,6 +4,8 @@ as far as the family can.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from amp_studio.files import (
     add_axis,
     axis_instances,
@@ -23,9 +25,10 @@ from amp_studio.schema import AxisProfile
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.base.workspace import Workspace
-from amp_studio.ui.dialogs.axis_dialogs import AddAxisDialog, AxisDialog
-from amp_studio.ui.merge.axis_comparison import AxisComparison
 from amp_studio.ui.window.studio_window import StudioWindow
+
+if TYPE_CHECKING:
+    from amp_studio.ui.dialogs.axis_dialogs import AxisDialog
 
 # -- what the family can do --------------------------------------------------
 
@@ -89,6 +92,8 @@ def _axis_here(window: StudioWindow) -> str:
 
 def _dialog(window: StudioWindow, title: str, note: str = "") -> AxisDialog:
     """Return a dialog that offers the axis of the selected cell first."""
+    from amp_studio.ui.dialogs.axis_dialogs import AxisDialog
+
     return AxisDialog(window.workspace_in_front, title, _axis_here(window), window, note)
 
 
@@ -141,6 +146,8 @@ def configure_servo(window: StudioWindow) -> None:
 
 def add(window: StudioWindow) -> None:
     """Fit one more axis."""
+    from amp_studio.ui.dialogs.axis_dialogs import AddAxisDialog
+
     workspace = window.workspace_in_front
     dialog = AddAxisDialog(workspace, window)
     if run_dialog(dialog):
@@ -189,5 +196,7 @@ def swap(window: StudioWindow) -> None:
 def compare(window: StudioWindow) -> None:
     """Show where two axes differ, side by side."""
     page, first = window.page_in_front, _axis_here(window)
+    from amp_studio.ui.merge.axis_comparison import AxisComparison
+
     if window.beside.again(AxisComparison, page.workspace, first) is None:
         window.beside.show(AxisComparison(page, first, window), page.workspace, first)

@@ -21,9 +21,6 @@ from amp_studio.ui.base.theme import icon
 from amp_studio.ui.base.translated import Translated, tr
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.control.exchange import ControlExchange
-from amp_studio.ui.control.known_list import ListedControl
-from amp_studio.ui.control.page import ControlPage, ExchangeDirection
-from amp_studio.ui.control.session import ControlSession
 from amp_studio.ui.forms.out_of_range import AskInDialogs
 from amp_studio.ui.window.studio_window import StudioWindow
 from amp_studio.validate import Validator, rules_beside
@@ -34,7 +31,10 @@ from .tuning import tune
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client import Copy
+    from amp_studio.ui.control.known_list import ListedControl
     from amp_studio.ui.control.live import LivePage
+    from amp_studio.ui.control.page import ControlPage, ExchangeDirection
+    from amp_studio.ui.control.session import ControlSession
 
 COPIES = "Backups of a control (*.img *.before-*.amp);;All files (*)"
 
@@ -154,6 +154,8 @@ class ControlDesk(Translated):
     def page(self) -> ControlPage:
         """The page at the control; made when it is first wanted."""
         if self._page is None:
+            from amp_studio.ui.control.page import ControlPage
+
             page = self._page = ControlPage(self.window.save)
             page.left.connect(self.leave)
             page.chosen.connect(self.use)
@@ -216,6 +218,7 @@ class ControlDesk(Translated):
 
     def _use(self, address: str) -> None:
         from amp_studio.transfer.links import parse_endpoint
+        from amp_studio.ui.control.session import ControlSession
 
         parse_endpoint(address)
         if self.page.known.several.isChecked():
@@ -259,6 +262,8 @@ class ControlDesk(Translated):
         return known.name if known is not None and known.name else address.partition("://")[2] or address
 
     def _listed(self, address: str) -> ListedControl:
+        from amp_studio.ui.control.known_list import ListedControl
+
         known = next((c for c in self.window.settings.controls() if c.address == address), None)
         session = next((s for (a, _, _), s in self._sessions.items() if a == address), None)
         state, warns = state_in_words(session)

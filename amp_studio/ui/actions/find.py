@@ -18,7 +18,6 @@ from amp_studio.ui.base.questions import show_message
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.translated import Translated, worded
 from amp_studio.ui.page.file_page import FilePage
-from amp_studio.ui.page.message_page import MessageWindow
 from amp_studio.ui.table.cell_look import prepare_labels
 from amp_studio.ui.window.studio_window import StudioWindow
 from amp_studio.validate import Validator
@@ -284,6 +283,8 @@ class FindSearch(Translated):
             show_message(self.window, hit.title, text, QMessageBox.Icon.Information)
 
     def _show_message(self, schema: Schema, message: str, page: FilePage | None = None) -> None:
+        from amp_studio.ui.page.message_page import MessageWindow
+
         file, beside = page.workspace if page is not None else None, self.window.beside
         asked = (schema.family.family, message)
         if beside.again(MessageWindow, file, asked) is None:

@@ -6,18 +6,20 @@ import sys
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING, cast
 
 from PySide6.QtCore import QObject, QTimer
 from PySide6.QtWidgets import QFileDialog
 
-from amp_studio.drawing import scene_svg
 from amp_studio.files import check_output, write_atomic
 from amp_studio.schema import Address
 from amp_studio.ui.base.loading import load, load_beside
 from amp_studio.ui.page.file_page import FilePage
-from amp_studio.ui.pictures.page import PicturesPage
 from amp_studio.ui.pictures.split import Arrangement, PictureLayout
 from amp_studio.ui.window.studio_window import StudioWindow
+
+if TYPE_CHECKING:
+    from amp_studio.ui.pictures.page import PicturesPage
 
 RAMPS = "amp_studio.pictures.ramps"
 LOAD_MS = 1500
@@ -56,6 +58,8 @@ class Pictures(QObject):
         """Return the pictures of a file, made when they are first asked for."""
         if page.pictures is None:
             load("amp_studio.sim", RAMPS)
+            from amp_studio.ui.pictures.page import PicturesPage
+
             pictures = PicturesPage(page.workspace)
             pictures.parameter_wanted.connect(lambda address: self._to_parameter(page, address))
             pictures.left.connect(lambda: self._focus_table(page))
@@ -68,8 +72,7 @@ class Pictures(QObject):
             page.middle.arranged.connect(self._keep)
             page.middle.rearranged.connect(lambda: pictures.head.show_place(page.middle.arrangement))
             return pictures
-        assert isinstance(page.pictures, PicturesPage)
-        return page.pictures
+        return cast("PicturesPage", page.pictures)
 
     def show(self, page: FilePage, wanted: bool) -> None:
         """Show the pictures of a file, or its table alone."""
@@ -132,6 +135,8 @@ class Pictures(QObject):
 
     def save(self) -> None:
         """Save the picture in front as a drawing."""
+        from amp_studio.drawing import scene_svg
+
         page = self.window.page_in_front
         self.show(page, True)
         card = self.pages(page).chosen_card

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import ParameterFile, open_file
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import facts_in_words, tr
-from amp_studio.ui.control.page import ControlPage
 from amp_studio.validate import rules_beside
+
+if TYPE_CHECKING:
+    from amp_studio.ui.control.page import ControlPage
 
 _FILES = "Parameter files and backups of a control (*.amp *.img);;All files (*)"
 

@@ -28,14 +28,14 @@ from amp_studio.ui.base.side_windows import bring
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.window.studio_window import StudioWindow
 
-from .model import BASE, B
-from .sources import MergeSources, ReadSource
+from .columns import BASE, B
 
 if TYPE_CHECKING:
     from amp_studio.files import ParameterFile
     from amp_studio.ui.base.workspace import Workspace
     from amp_studio.ui.page.file_page import FilePage
 
+    from .sources import MergeSources, ReadSource
     from .window import MergeWindow
 
 FILTER = "Parameter files (*.amp);;All files (*)"
@@ -106,6 +106,7 @@ class Comparisons(QObject):
         """Open the window on a file, which is both of its sources at first, in the place of those in which
         nothing was chosen.
         """
+        from .sources import MergeSources
         from .window import MergeWindow
 
         begun = self._with_choices(page.workspace)

@@ -22,7 +22,8 @@ from amp_studio.files import Row, RowGroup, Typed
 from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.base.theme import ROW, SMALL_ICON, Token, colour, font, paint_icon
 
-from .model import AXIS, BASE, NAME, RESULT, SIDES, A, B, MergeModel
+from .columns import AXIS, BASE, NAME, RESULT, SIDES, A, B
+from .model import MergeModel
 
 _LEFT = 10
 _MARK = 24

@@ -28,7 +28,8 @@ from amp_studio.ui.base.translated import finding_in_words
 from amp_studio.ui.motion.tuning_target import effect_words
 from amp_studio.validate import SEVERITIES, Finding
 
-from .model import BASE, RESULT, A, B, MergeModel
+from .columns import BASE, RESULT, A, B
+from .model import MergeModel
 
 Judge = Callable[[Row, MergeChoice], Iterable[Finding] | None]
 """Returns the findings about a row if that were chosen; None while it is not known."""

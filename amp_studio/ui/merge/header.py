@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QHeaderView, QMenu, QStyle, QStyleOptionToolButton
 
 from amp_studio.ui.base.theme import RADIUS, SMALL_ICON, TWO_LINE_ROW, colour, font, paint_icon
 
-from .model import BASE, NAME, RESULT, SIDES, A, B
+from .columns import BASE, NAME, RESULT, SIDES, A, B
 from .sources import MergeSource, Offer, ReadSource
 
 LETTERS = {BASE: "0", A: "A", B: "B"}

@@ -20,7 +20,6 @@ from amp_studio.files import (
     Row,
     RowGroup,
     RowId,
-    Side,
     Typed,
     axis_letters,
 )
@@ -29,11 +28,8 @@ from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.table.cell_look import THIN
 
 from .cells import MergeCell, cells_of
+from .columns import AXIS, BASE, NAME, RESULT, SIDES, A, B
 
-NAME, AXIS, BASE, A, B, RESULT = range(6)
-"""Columns."""
-SIDES: dict[int, Side] = {BASE: "base", A: "a", B: "b"}
-"""Column -> the source it shows."""
 _TYPABLE = (*HEADER_TEXTS, "value_notes", "group_notes")
 """Entries of the header that are free texts."""
 

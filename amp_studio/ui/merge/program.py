@@ -15,8 +15,8 @@ from amp_studio.ui.base.translated import tr
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.window.settings import UserSettings
 
+from .columns import BASE, A, B
 from .comparisons import FILTER
-from .model import BASE, A, B
 from .sources import MergeSource, MergeSources, Offer, ReadSource
 from .window import MergeWindow
 

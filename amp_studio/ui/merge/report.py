@@ -14,7 +14,7 @@ from amp_studio.ui.base.translated import tr
 from amp_studio.ui.dialogs.file_dialogs import PAPER_KINDS, path_of_kind
 from amp_studio.ui.forms.message_bar import MessageBar
 
-from .model import SIDES
+from .columns import SIDES
 from .sources import MergeSource
 
 

@@ -13,9 +13,10 @@ from PySide6.QtWidgets import QAbstractItemView, QTreeView
 
 from amp_studio.files import Row, Side, text_cell
 
+from .columns import AXIS, BASE, NAME, RESULT, SIDES, A, B
 from .delegate import MergeDelegate
 from .header import MergeHeader
-from .model import AXIS, BASE, NAME, RESULT, SIDES, A, B, MergeModel
+from .model import MergeModel
 
 _MANY = 40
 """From so many rows on a group is folded at first, unless it has conflicts."""

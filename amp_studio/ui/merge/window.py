@@ -20,9 +20,10 @@ from amp_studio.ui.forms.message_bar import MessageBar
 
 from .bars import FindingList, ReadingBar, ResultBar, ViewBar
 from .check import MergeCheck
+from .columns import BASE, SIDES, A, B
 from .detail import MergeDetail
 from .header import MergeHeader
-from .model import BASE, SIDES, A, B, Filter, MergeModel
+from .model import Filter, MergeModel
 from .report import save_merge_report
 from .sources import MergeSource, MergeSources, Offer, ReadSource, is_same_content
 from .tree import MergeTree

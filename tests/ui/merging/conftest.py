@@ -6,7 +6,7 @@ import pytest
 
 from amp_studio.schema import Value
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.merge.model import BASE, A, B
+from amp_studio.ui.merge.columns import BASE, A, B
 from amp_studio.ui.merge.sources import MergeSource
 from amp_studio.ui.merge.window import MergeWindow
 

@@ -14,7 +14,7 @@ from amp_studio.files import content_of, open_file
 from amp_studio.schema import Value
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.merge.model import BASE, NAME, RESULT, A, B
+from amp_studio.ui.merge.columns import BASE, NAME, RESULT, A, B
 from amp_studio.ui.merge.sources import MergeSource
 from amp_studio.ui.merge.window import MergeWindow
 from tests.ui.conftest import WAIT_MS, Person, on_disk

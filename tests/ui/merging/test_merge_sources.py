@@ -9,7 +9,7 @@ import pytest
 from amp_studio.files import Document, backup_path, content_of, new_file, open_file
 from amp_studio.schema import Value
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.merge.model import B
+from amp_studio.ui.merge.columns import B
 from amp_studio.ui.merge.sources import MergeSource
 from amp_studio.ui.merge.window import MergeWindow
 from tests.ui.conftest import WAIT_MS, Person, action

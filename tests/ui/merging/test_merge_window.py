@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QLineEdit
 from amp_studio.files import new_file
 from amp_studio.schema import Value
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.merge.model import AXIS, NAME, RESULT, A, B
+from amp_studio.ui.merge.columns import AXIS, NAME, RESULT, A, B
 from amp_studio.ui.merge.sources import MergeSource
 from amp_studio.ui.merge.window import MergeWindow
 from tests.ui.conftest import WAIT_MS
