@@ -173,4 +173,4 @@ def _is_table_of_response(path: Path) -> bool:
     try:
         return is_response(path)
     except OSError:
-        return False  # whoever reads it next shows why it cannot be read
+        return False  # the fit shows why it cannot be read
