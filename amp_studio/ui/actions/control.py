@@ -330,7 +330,7 @@ class ControlDesk(Translated):
     def _offer_backup(self, path: Path) -> None:
         """Show on the page what putting back a backup changes; raises as ``restore``."""
         from amp_studio.transfer.client import open_copy
-        from amp_studio.ui.control.page import ControlBackup
+        from amp_studio.ui.control.session_words import ControlBackup
 
         copy = in_background(self.window, self.tr("Opening"), partial(open_copy, path))
         check_copy(copy, path)

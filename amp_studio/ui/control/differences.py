@@ -134,7 +134,7 @@ class DifferenceTable(QTreeWidget):
                     machine.number(address) or "",
                     self._file.schema.parameters[address[0]].name,
                     place,
-                    *reversed([self._text(address, value) for value in row.difference.in_one_unit()]),
+                    *reversed([self.text_of(address, value) for value in row.difference.in_one_unit()]),
                     "",
                 ]
             )
@@ -145,7 +145,7 @@ class DifferenceTable(QTreeWidget):
             self._show_side(address)
         head.setExpanded(not title.startswith("\0"))
 
-    def _text(self, address: Address, value: object) -> str:
+    def text_of(self, address: Address, value: object) -> str:
         assert self._file is not None
         return show_value(self._file.schema.parameters[address[0]], value, secrets=self._secrets)  # type: ignore[arg-type]  # a value of the difference
 

@@ -4,64 +4,41 @@ Nothing of it asks in a box.
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable
-from dataclasses import dataclass
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import (
-    QCheckBox,
-    QHBoxLayout,
-    QLabel,
-    QLineEdit,
-    QProgressBar,
-    QPushButton,
-    QSizePolicy,
-    QSplitter,
-    QStackedWidget,
-    QToolButton,
-    QVBoxLayout,
-    QWidget,
-)
 
 from amp_studio.files import ParameterFile, describe
 from amp_studio.schema import Value
-from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, font, icon, scheme
-from amp_studio.ui.base.time_words import in_words
+from amp_studio.ui.base.theme import scheme
 from amp_studio.ui.base.translated import finding_in_words
 from amp_studio.ui.base.workspace import Workspace
-from amp_studio.ui.forms.elided_label import ElidedLabel
-from amp_studio.ui.forms.message_bar import MessageBar, MessageKind
-from amp_studio.ui.forms.segment import Segment
+from amp_studio.ui.forms.message_bar import MessageKind
 
-from .conditions import ConditionLine, conditions_of
-from .differences import DifferenceTable
-from .hand_sheet import HandSheet
-from .history import ExchangeHistory
-from .known_list import KnownList
-from .rows import FOOT, side_by_side
+from .conditions import conditions_of
+from .differences import SideRow
+from .page_parts import ControlPageParts
 from .session import ControlSession
-from .several import SeveralControls
-from .steps import ExchangeSteps
+from .session_words import (
+    ControlBackup,
+    doubts_of,
+    text_of_cancel,
+    text_of_content,
+    text_of_failure,
+    text_of_proof,
+)
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.client import Copy, ImageComparison
-
-
-@dataclass(frozen=True, slots=True)
-class ControlBackup:
-    """What a control contained, and the file in which it is kept."""
-
-    copy: Copy
-    path: Path
+    from amp_studio.transfer.client import ImageComparison
 
 
 ExchangeDirection = Literal["compare", "send", "read", "hand"]
 """What is done with the control; "hand" is the sheet of values that a person keys in at it."""
+DIRECTIONS: dict[str, ExchangeDirection] = {"send": "send", "read": "read", "hand": "hand"}
+"""What the directions are called at the switch; any other name is comparing."""
 BarAnswer = tuple[str, Callable[[], object]]
 BarMessage = tuple[str, MessageKind, tuple[BarAnswer, ...]]
 """What is missing or how it ended, how severe it is, and what can be done about it."""
@@ -69,7 +46,7 @@ ASK_MS = 2000
 """Milliseconds after which a control that must be in E-stop is asked again."""
 
 
-class ControlPage(QWidget):
+class ControlPage(ControlPageParts):
     """The exchanges of the file in front. What is chosen here stays while the page is left."""
 
     left = Signal()
@@ -83,7 +60,7 @@ class ControlPage(QWidget):
     """A backup is to be put back."""
 
     def __init__(self, save: Callable[[], bool]) -> None:
-        super().__init__()
+        super().__init__(save)
         self._save = save
         self.workspace: Workspace | None = None
         self.session: ControlSession | None = None
@@ -94,85 +71,33 @@ class ControlPage(QWidget):
         self._accepted_errors = False
         self._needs_sheet = False
         """Whether the control is being read to make the sheet of values against it."""
-        self._build()
+        self._connect()
         self._asking = QTimer(self)
         self._asking.setInterval(ASK_MS)
         self._asking.timeout.connect(self._ask_again)
         self.hide()
 
-    # -- building ----------------------------------------------------------------
-
-    def _build(self) -> None:
-        self.known = KnownList()
+    def _connect(self) -> None:
         self.known.chosen.connect(self.chosen)
         self.known.several_chosen.connect(self.show_several)
-        self.several = SeveralControls(self._save)
         self.several.changed.connect(self.state_changed)
-        self.hand = HandSheet()
-        self.history = ExchangeHistory()
         self.history.restore_wanted.connect(self.restore_wanted)
-        self.heading = ElidedLabel()
-        self.heading.setFont(font("text", own=True))
-        self.directions = Segment(
-            self.tr("Direction"),
-            [
-                ("compare", self.tr("Compare"), ""),
-                ("send", self.tr("Send to the Control"), "arrow-line-down"),
-                ("read", self.tr("Read From It"), "arrow-line-up"),
-                ("hand", self.tr("By Hand"), "note-pencil"),
-            ],
-        )
         self.directions.chosen.connect(self.turn)
-        self.conditions = ConditionLine()
-        self.bar = MessageBar()
-        self.password = QLineEdit()
-        self.password.setEchoMode(QLineEdit.EchoMode.Password)
-        self.password.setPlaceholderText(self.tr("Password of the control; Enter tries it"))
-        self.password.setAccessibleName(self.tr("Password of the control"))
         self.password.returnPressed.connect(self._enter_password)
-        self.counts = QLabel()
-        self.filter = QLineEdit()
-        self.filter.setPlaceholderText(self.tr("Name or number"))
-        self.filter.setAccessibleName(self.tr("Filter the differences"))
-        self.filter.setMaximumWidth(220)
-        self.table = DifferenceTable()
         self.filter.textChanged.connect(self.table.show_only)
         self.table.sides_changed.connect(self.refresh)
         self.table.currentItemChanged.connect(lambda *_: self._show_detail())
-        self.empty = QLabel()
-        self.empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self.empty.setWordWrap(True)
-        self.middle = QStackedWidget()
-        self.middle.addWidget(self.table)
-        self.middle.addWidget(self.empty)
-        self.steps = ExchangeSteps()
         self.steps.chosen.connect(self.table.select)
-        self.detail = QLabel()
-        self.detail.setWordWrap(True)
-        self.detail.setTextFormat(Qt.TextFormat.RichText)
-        self.detail.setAlignment(Qt.AlignmentFlag.AlignTop)
-        self.detail.setFixedHeight(64)
-        self.detail.setContentsMargins(GAP3, GAP2, GAP3, 0)
-        self.keep = QPushButton()
         self.keep.clicked.connect(self._keep_current)
-        self.one = QPushButton(self.tr("Write This One Now"))
         self.one.clicked.connect(self._write_one)
-        self.checked = QCheckBox()
         self.checked.toggled.connect(self.refresh)
-        self.note = ElidedLabel()
-        self.progress = QProgressBar()
-        self.progress.setMaximumWidth(200)
-        self.cancel = QPushButton()
         self.cancel.clicked.connect(self._cancel)
-        self.proof = QPushButton(self.tr("Save Proof…"))
         self.proof.clicked.connect(lambda: self.show_history(True))
-        self.again = QPushButton(self.tr("Read Again"))
         self.again.clicked.connect(self.connect_again)
-        self.primary = QPushButton()
-        self.primary.setProperty("primary", True)
         self.primary.clicked.connect(self._act)
-        for button in (self.keep, self.one, self.cancel, self.proof, self.again, self.primary):
-            button.setAutoDefault(False)
+        self.back.clicked.connect(self.left)
+        self.past.clicked.connect(self.show_history)
+        scheme().changed.connect(self.refresh)
         for keys, act in (
             ("Esc", self._escape),
             ("Alt+Down", lambda: self._step_dangers(1)),
@@ -181,44 +106,6 @@ class ControlPage(QWidget):
             shortcut = QShortcut(QKeySequence(keys), self)
             shortcut.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
             shortcut.activated.connect(act)
-        self._lay_out()
-
-    def _lay_out(self) -> None:
-        back = _tool("x", self.tr("Back to the values (Escape)"))
-        back.clicked.connect(self.left)
-        self.past = _tool("clock-counter-clockwise", self.tr("Exchanges of This File"))
-        self.past.setCheckable(True)
-        self.past.clicked.connect(self.show_history)
-        parts = QSplitter(Qt.Orientation.Horizontal)
-        parts.addWidget(self.middle)
-        parts.addWidget(self.steps)
-        parts.setStretchFactor(0, 1)
-        parts.setChildrenCollapsible(False)
-        self.one_control = _column(
-            self.conditions,
-            self.bar,
-            self.password,
-            side_by_side(HEAD, self.counts, None, self.filter),
-            parts,
-            self.detail,
-            side_by_side(0, self.keep, self.one, None, self.checked),
-            side_by_side(
-                FOOT, self.note, None, self.progress, self.cancel, self.proof, self.again, self.primary
-            ),
-        )
-        self.states = QStackedWidget()
-        for state in (self.one_control, self.several, self.hand, self.history):
-            self.states.addWidget(state)
-        right = _column(side_by_side(HEAD, self.heading, None, self.directions, self.past, back), self.states)
-        whole = QHBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.setSpacing(0)
-        whole.addWidget(self.known)
-        whole.addWidget(right, 1)
-        self.setFocusProxy(self.states)
-        # Else its width would be taken from the panels beside the table even while it is not in front.
-        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored)
-        scheme().changed.connect(self.refresh)
 
     # -- what is shown -------------------------------------------------------------
 
@@ -235,15 +122,7 @@ class ControlPage(QWidget):
 
     def turn(self, direction: str) -> None:
         """Change the direction; what was read stays."""
-        wanted: ExchangeDirection = (
-            "send"
-            if direction == "send"
-            else "read"
-            if direction == "read"
-            else "hand"
-            if direction == "hand"
-            else "compare"
-        )
+        wanted = DIRECTIONS.get(direction, "compare")
         self.direction = wanted if self.workspace is not None or self.backup is not None else "read"
         self.backup = self.backup if self.direction == "send" else None
         if self.direction in ("read", "hand") or self.workspace is None:
@@ -393,13 +272,7 @@ class ControlPage(QWidget):
         arrow = "←" if self.direction == "read" else "→"
         control = self.tr("several controls") if self.known.several.isChecked() else self.name
         self.heading.setText(f"{self.title}  {arrow}  {control or self.tr('no control chosen')}")
-        several, workspace = self.known.several.isChecked(), self.workspace
-        for direction, button in self.directions.buttons.items():
-            button.setEnabled(
-                (workspace is not None or direction == "read") and not (several and direction == "read")
-            )
-        self.past.setEnabled(workspace is not None)
-        self.known.several.setEnabled(workspace is not None)
+        self._enable_choices()
         own = file or (self.workspace.file if self.workspace is not None else None)
         self.conditions.setVisible(own is not None)
         if own is not None:
@@ -413,6 +286,14 @@ class ControlPage(QWidget):
         dangers = self.table.dangers() if self.direction == "send" else ()
         self.steps.show_plan(self.direction, session, len(self.table.taken(file=True)), dangers)
 
+    def _enable_choices(self) -> None:
+        """Enable what needs a file, and what several controls can do."""
+        has_file, several = self.workspace is not None, self.known.several.isChecked()
+        for direction, button in self.directions.buttons.items():
+            button.setEnabled(not several if direction == "read" else has_file)
+        self.past.setEnabled(has_file)
+        self.known.several.setEnabled(has_file)
+
     def _show_counts(self, same: int, is_read: bool) -> None:
         differ = len(self.table.rows)
         kept = sum(not row.takes_file and not row.is_fixed for row in self.table.rows.values())
@@ -425,51 +306,27 @@ class ControlPage(QWidget):
     def _show_middle(self, summary: str) -> None:
         session = self.session
         if session is not None and session.phase == "done":
-            self.empty.setText(self._proof())
+            self.empty.setText(text_of_proof(session, self.name, self._kept_names()))
             self.middle.setCurrentWidget(self.empty)
             return
         if self.table.rows and session is not None and session.seen is not None:
             self.middle.setCurrentWidget(self.table)
             return
         self.middle.setCurrentWidget(self.empty)
-        if session is None:
-            text = self.tr(
-                "Choose a control at the left, or add one by its address with “+”.\nAn emulated control is in"
-                " the menu Control."
-            )
-        elif session.phase == "connecting":
-            text = self.tr("Reading what {name} contains …").format(name=self.name)
-        elif session.seen is None:
-            text = session.error
-        elif session.seen.why_unreadable:
-            text = session.seen.why_unreadable
-        elif not session.seen.content:
-            text = self.tr("The control contains no parameters.")
-        else:
-            text = summary or self.tr("Read at {time}").format(
-                time=in_words(session.seen.when, datetime.now(UTC).astimezone())
-            )
+        text = text_of_content(session, self.name, summary)
         only = self.workspace.file.schema.family.by_hand if self.workspace is not None else ""
         if only and (session is None or session.seen is None):
             text += "\n\n" + self.tr("{only}: “By Hand” makes the sheet for that.").format(only=only)
         self.empty.setText(text)
 
-    def _proof(self) -> str:
-        """Return what the control contains now, and by what that is proven."""
-        session = self.session
-        assert session is not None
-        assert session.outcome is not None
-        outcome, seen = session.outcome, session.seen
-        lines = [self.tr("{name} contains all new values.").format(name=self.name), outcome.text]
-        kept = [row for row in self.table.rows.values() if not row.takes_file and not row.is_fixed]
-        if kept and self.workspace is not None:
-            names = ", ".join(describe(self.workspace.file, row.difference.address) for row in kept)
-            lines.append(self.tr("Kept as they were: {names}").format(names=names))
-        if seen is not None:
-            before = hashlib.sha256(seen.content).hexdigest()
-            text = self.tr("Checksum before {before}, now {now}")
-            lines.append(text.format(before=before[:12], now=outcome.sha256[:12]))
-        return "\n\n".join(lines)
+    def _kept_names(self) -> list[str]:
+        """Return the values that the control keeps, by name."""
+        workspace = self.workspace
+        if workspace is None:
+            return []
+        rows = self.table.rows.values()
+        kept = [row.difference.address for row in rows if not row.takes_file and not row.is_fixed]
+        return [describe(workspace.file, address) for address in kept]
 
     def _show_bar(self) -> None:
         session = self.session
@@ -495,7 +352,7 @@ class ControlPage(QWidget):
         if session.phase == "away" and session.error:
             return session.error, "warning", ((self.tr("Try Again"), session.read),)
         if session.phase == "failed":
-            return self._failure(), "error", ()
+            return text_of_failure(session), "error", ()
         if session.phase == "done":
             return (" ".join(session.notes), "advice", ()) if session.notes else None
         if self.direction != "send" or session.seen is None:
@@ -506,48 +363,24 @@ class ControlPage(QWidget):
             )
             return text, "warning", ((self.tr("Ask Now"), session.ask),)
         if self.backup is not None:
-            return self._doubts_of(self.backup)
-        if workspace is not None:
-            if workspace.is_dirty and workspace.may_edit:
-                text = self.tr("{name} has unsaved changes. A download sends the saved file.").format(
-                    name=workspace.path.name
-                )
-                return text, "warning", ((self.tr("Save"), self._save_file),)
-            errors = [f for f in workspace.findings if f.severity == "error"]
-            if errors and not self._accepted_errors:
-                text = self.tr("The file has {count}, the first: {message}").format(
-                    count=self.tr("%n errors", "", len(errors)), message=finding_in_words(errors[0])
-                )
-                return text, "error", ((self.tr("Send It With Its Errors"), self._accept_errors),)
+            doubts = doubts_of(self.backup)
+            return (doubts, "warning", ()) if doubts else None
+        return self._message_of_file(workspace) if workspace is not None else None
+
+    def _message_of_file(self, workspace: Workspace) -> BarMessage | None:
+        """Return what keeps a file from being sent, and what to do about it."""
+        if workspace.is_dirty and workspace.may_edit:
+            text = self.tr("{name} has unsaved changes. A download sends the saved file.").format(
+                name=workspace.path.name
+            )
+            return text, "warning", ((self.tr("Save"), self._save_file),)
+        errors = [f for f in workspace.findings if f.severity == "error"]
+        if errors and not self._accepted_errors:
+            text = self.tr("The file has {count}, the first: {message}").format(
+                count=self.tr("%n errors", "", len(errors)), message=finding_in_words(errors[0])
+            )
+            return text, "error", ((self.tr("Send It With Its Errors"), self._accept_errors),)
         return None
-
-    def _doubts_of(self, backup: ControlBackup) -> BarMessage | None:
-        doubts = []
-        if not backup.copy.is_checked:
-            text = self.tr("There is no digest beside {name}, so its content cannot be checked.")
-            doubts.append(text.format(name=backup.path.name))
-        if backup.copy.file is None:
-            text = self.tr("{name} is restored byte for byte, but cannot be shown: {why}.")
-            doubts.append(text.format(name=backup.path.name, why=backup.copy.fault))
-        return (" ".join(doubts), "warning", ()) if doubts else None
-
-    def _failure(self) -> str:
-        """Return one of four sentences about what the control contains, and why."""
-        session = self.session
-        assert session is not None
-        if session.outcome is not None:
-            return session.outcome.text
-        failure = session.failure
-        state = failure.at_control if failure is not None else "old"
-        heads = {
-            "old": self.tr("The control contains all old values."),
-            "": self.tr("The control contains all old values."),
-            "new": self.tr("The control contains all new values."),
-            "mixed": self.tr("The control contains some of both: new and old values."),
-        }
-        head = heads.get(state, self.tr("It is not known what the control contains."))
-        rest = "" if state in ("old", "", "new") else self.tr("Do not move the machine before it was read.")
-        return " ".join(filter(None, (head, rest, session.error)))
 
     def _save_file(self) -> None:
         self._save()
@@ -558,60 +391,46 @@ class ControlPage(QWidget):
         self.refresh()
 
     def _show_detail(self) -> None:
+        """Show the dangers of the current row, and what can be done with it alone."""
         row, session = self.table.current(), self.session
-        is_idle = session is not None and session.phase == "ready" and not session.is_busy
-        sends = self.direction == "send" and is_idle
-        text = ""
-        if row is not None and row.dangers and self.direction == "send":
-            text = " ".join(
-                f"{danger.says} ({self.tr('page {page}').format(page=danger.page)})" for danger in row.dangers
-            )
-        self.detail.setText(text)
-        can_keep = sends and row is not None and not row.is_fixed and row.takes_file
-        self.keep.setVisible(bool(can_keep))
-        if can_keep and row is not None and self.file is not None:
-            address = row.difference.address
-            self.keep.setText(
-                self.tr("Keep {value}").format(value=self.table._text(address, row.difference.b))
-            )
-        one = (
-            sends
-            and self.backup is None
-            and session is not None
-            and session.seen is not None
-            and session.seen.takes_one
-        )
-        self.one.setVisible(bool(one and row is not None and row.takes_file))
-        dangers = len(self.table.dangers()) if self.direction == "send" else 0
-        self.checked.setVisible(dangers > 0 and session is not None and session.phase == "ready")
-        self.checked.setText(self.tr("I have checked what can be dangerous: %n", "", dangers))
+        is_sending = self.direction == "send"
+        dangers = row.dangers if row is not None and is_sending else ()
+        page = self.tr("page {page}")
+        self.detail.setText(" ".join(f"{each.says} ({page.format(page=each.page)})" for each in dangers))
+        is_ready = session is not None and session.phase == "ready"
+        self._show_row_buttons(row if is_sending and is_ready else None)
+        count = len(self.table.dangers()) if is_sending else 0
+        self.checked.setVisible(count > 0 and is_ready)
+        self.checked.setText(self.tr("I have checked what can be dangerous: %n", "", count))
+
+    def _show_row_buttons(self, row: SideRow | None) -> None:
+        """Show what a value that would be sent offers: to keep the control's, to write this one alone."""
+        session = self.session
+        would_send = row is not None and session is not None and not session.is_busy and row.takes_file
+        can_keep = row is not None and would_send and not row.is_fixed
+        self.keep.setVisible(can_keep)
+        if row is not None and can_keep and self.file is not None:
+            value = self.table.text_of(row.difference.address, row.difference.b)
+            self.keep.setText(self.tr("Keep {value}").format(value=value))
+        seen = session.seen if session is not None else None
+        self.one.setVisible(would_send and self.backup is None and seen is not None and seen.takes_one)
 
     def _show_foot(self) -> None:
         session = self.session
-        running = session is not None and session.phase == "running"
-        self.progress.setVisible(running or (session is not None and session.phase == "connecting"))
-        self.cancel.setVisible(
-            session is not None and session.is_busy and session.phase in ("running", "connecting")
-        )
-        self.cancel.setText(self._cancel_text())
-        self.proof.setVisible(session is not None and session.phase == "done")
-        self.again.setVisible(
-            session is not None and not session.is_busy and session.phase in ("ready", "done")
-        )
+        phase = session.phase if session is not None else ""
+        is_busy = session is not None and session.is_busy
+        is_under_way = phase in ("running", "connecting")
+        self.progress.setVisible(is_under_way)
+        self.cancel.setVisible(is_busy and is_under_way)
+        self.cancel.setText(text_of_cancel(session))
+        self.proof.setVisible(phase == "done")
+        self.again.setVisible(not is_busy and phase in ("ready", "done"))
         text, why = self._primary()
         self.primary.setVisible(bool(text))
         self.primary.setText(text)
         self.primary.setEnabled(not why)
         tied = self.tr("Tied to what you see: if the control changes before, nothing is replaced.")
         self.note.setText(why or (tied if self.direction == "send" and text else ""))
-
-    def _cancel_text(self) -> str:
-        session = self.session
-        if session is None or session.phase != "running" or session.seen is None:
-            return self.tr("Cancel")
-        if session.seen.abilities.all_or_nothing:
-            return self.tr("Cancel, Keep All Old Values")
-        return self.tr("Cancel, Leave What Is Confirmed")
 
     # -- the one button ----------------------------------------------------------------
 
@@ -632,11 +451,7 @@ class ControlPage(QWidget):
         if self.direction == "read":
             return self._reading_primary()
         if self.direction == "compare":
-            return (
-                (self.tr("Send %n Values to the Control…", "", self.to_send), "")
-                if self.to_send
-                else ("", "")
-            )
+            return self.tr("Send %n Values to the Control…", "", self.to_send) if self.to_send else "", ""
         if self.backup is not None:
             text = self.tr("Restore {name}").format(name=self.backup.path.name)
             return text, self._why_not()
@@ -787,23 +602,3 @@ class ControlPage(QWidget):
                 if stage == "cut"
                 else self.tr("No answer for {done} s; trying again …").format(done=done)
             )
-
-
-def _tool(icon_name: str, text: str) -> QToolButton:
-    made = QToolButton()
-    made.setIcon(icon(icon_name))
-    made.setAutoRaise(True)
-    made.setToolTip(text)
-    made.setAccessibleName(text)
-    return made
-
-
-def _column(*parts: QWidget) -> QWidget:
-    """Return parts below one another; what can use room gets it."""
-    whole = QWidget()
-    column = QVBoxLayout(whole)
-    column.setContentsMargins(0, 0, 0, 0)
-    column.setSpacing(0)
-    for part in parts:
-        column.addWidget(part, 1 if isinstance(part, (QSplitter, QStackedWidget)) else 0)
-    return whole

@@ -1,0 +1,154 @@
+"""What the page of a control is made of: its widgets and where they lie. What they do is in the page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QProgressBar,
+    QPushButton,
+    QSizePolicy,
+    QSplitter,
+    QStackedWidget,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, font, icon
+from amp_studio.ui.base.translated import tr
+from amp_studio.ui.forms.elided_label import ElidedLabel
+from amp_studio.ui.forms.message_bar import MessageBar
+from amp_studio.ui.forms.segment import Segment
+
+from .conditions import ConditionLine
+from .differences import DifferenceTable
+from .hand_sheet import HandSheet
+from .history import ExchangeHistory
+from .known_list import KnownList
+from .rows import FOOT, side_by_side
+from .several import SeveralControls
+from .steps import ExchangeSteps
+
+
+class ControlPageParts(QWidget):
+    """The widgets of the page: the known controls at the left, and at the right one control, several, the
+    sheet or what was exchanged before.
+    """
+
+    def __init__(self, save: Callable[[], bool]) -> None:
+        super().__init__()
+        self.known = KnownList()
+        self.several = SeveralControls(save)
+        self.hand = HandSheet()
+        self.history = ExchangeHistory()
+        self.heading = ElidedLabel()
+        self.heading.setFont(font("text", own=True))
+        self.directions = Segment(
+            tr("Direction"),
+            [
+                ("compare", tr("Compare"), ""),
+                ("send", tr("Send to the Control"), "arrow-line-down"),
+                ("read", tr("Read From It"), "arrow-line-up"),
+                ("hand", tr("By Hand"), "note-pencil"),
+            ],
+        )
+        self.conditions = ConditionLine()
+        self.bar = MessageBar()
+        self.password = QLineEdit()
+        self.password.setEchoMode(QLineEdit.EchoMode.Password)
+        self.password.setPlaceholderText(tr("Password of the control; Enter tries it"))
+        self.password.setAccessibleName(tr("Password of the control"))
+        self.counts = QLabel()
+        self.filter = QLineEdit()
+        self.filter.setPlaceholderText(tr("Name or number"))
+        self.filter.setAccessibleName(tr("Filter the differences"))
+        self.filter.setMaximumWidth(220)
+        self.table = DifferenceTable()
+        self.empty = QLabel()
+        self.empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.empty.setWordWrap(True)
+        self.middle = QStackedWidget()
+        self.middle.addWidget(self.table)
+        self.middle.addWidget(self.empty)
+        self.steps = ExchangeSteps()
+        self.detail = QLabel()
+        self.detail.setWordWrap(True)
+        self.detail.setTextFormat(Qt.TextFormat.RichText)
+        self.detail.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self.detail.setFixedHeight(64)
+        self.detail.setContentsMargins(GAP3, GAP2, GAP3, 0)
+        self.keep = QPushButton()
+        self.one = QPushButton(tr("Write This One Now"))
+        self.checked = QCheckBox()
+        self.note = ElidedLabel()
+        self.progress = QProgressBar()
+        self.progress.setMaximumWidth(200)
+        self.cancel = QPushButton()
+        self.proof = QPushButton(tr("Save Proof…"))
+        self.again = QPushButton(tr("Read Again"))
+        self.primary = QPushButton()
+        self.primary.setProperty("primary", True)
+        for button in (self.keep, self.one, self.cancel, self.proof, self.again, self.primary):
+            button.setAutoDefault(False)
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        self.back = _tool("x", tr("Back to the values (Escape)"))
+        self.past = _tool("clock-counter-clockwise", tr("Exchanges of This File"))
+        self.past.setCheckable(True)
+        parts = QSplitter(Qt.Orientation.Horizontal)
+        parts.addWidget(self.middle)
+        parts.addWidget(self.steps)
+        parts.setStretchFactor(0, 1)
+        parts.setChildrenCollapsible(False)
+        self.one_control = _column(
+            self.conditions,
+            self.bar,
+            self.password,
+            side_by_side(HEAD, self.counts, None, self.filter),
+            parts,
+            self.detail,
+            side_by_side(0, self.keep, self.one, None, self.checked),
+            side_by_side(
+                FOOT, self.note, None, self.progress, self.cancel, self.proof, self.again, self.primary
+            ),
+        )
+        self.states = QStackedWidget()
+        for state in (self.one_control, self.several, self.hand, self.history):
+            self.states.addWidget(state)
+        head = side_by_side(HEAD, self.heading, None, self.directions, self.past, self.back)
+        right = _column(head, self.states)
+        whole = QHBoxLayout(self)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.setSpacing(0)
+        whole.addWidget(self.known)
+        whole.addWidget(right, 1)
+        self.setFocusProxy(self.states)
+        # Else its width would be taken from the panels beside the table even while it is not in front.
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored)
+
+
+def _tool(icon_name: str, text: str) -> QToolButton:
+    made = QToolButton()
+    made.setIcon(icon(icon_name))
+    made.setAutoRaise(True)
+    made.setToolTip(text)
+    made.setAccessibleName(text)
+    return made
+
+
+def _column(*parts: QWidget) -> QWidget:
+    """Return parts below one another; what can use room gets it."""
+    whole = QWidget()
+    column = QVBoxLayout(whole)
+    column.setContentsMargins(0, 0, 0, 0)
+    column.setSpacing(0)
+    for part in parts:
+        column.addWidget(part, 1 if isinstance(part, (QSplitter, QStackedWidget)) else 0)
+    return whole
