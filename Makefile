@@ -32,7 +32,7 @@ mutants: setup ## change every rule and its findings in every way, and every fac
 
 campaign: setup ## generated cases that no run has tried: every property 25 times as often, with another seed each time
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) -m hypothesis $(TESTS)
-	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) tests/validate/test_any_values.py tests/validate/test_fix_campaign.py tests/validate/test_offered_fixes.py tests/sim/test_solver.py tests/sim/test_engines.py tests/sim/test_frequency_response.py tests/ui/test_memory.py
+	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) tests/validate/test_rules.py tests/validate/test_any_values.py tests/validate/test_fix_campaign.py tests/validate/test_offered_fixes.py tests/sim/test_solver.py tests/sim/test_engines.py tests/sim/test_frequency_response.py tests/ui/test_memory.py
 
 tunings: setup ## tune 300 random machines and search each on a grid: TUNINGS="300 1" (machines, seed)
 	@PYTHONPATH=. $(BIN)/python -m tests.sim.tuning_campaign $(or $(TUNINGS),300 1)
@@ -42,7 +42,7 @@ slips: setup ## plant every slip of one value into the examples and print what s
 
 faults: setup ## fault campaigns: failing calls, kills, damaged contents, hostile peers; FAULTS="--only journal --share 0.1 --seed 7"
 	@PYTHONPATH=.:tests/validate $(BIN)/python -m tests.faults.run $(FAULTS)
-	@$(if $(FAULTS),,AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q tests/faults/test_monkey.py tests/families/grblhal/test_real_control.py)
+	@$(if $(FAULTS),,AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q tests/faults/test_monkey.py tests/families/grblhal/test_real_control.py tests/families/grblhal/test_real_description.py)
 
 monkey: setup ## type and click at random in the window of one family: MONKEY="grblhal 7 60 LOG" (seed, seconds, log), or "grblhal --replay LOG"; make faults does it for ten minutes a family
 	@PYTHONPATH=. $(BIN)/python -m tests.faults.monkey $(or $(MONKEY),9pc 1 60)

@@ -87,7 +87,7 @@ _the_fonts_of_the_tests(_private_folders())
 # same each time, so that a change is judged by what it changed, and what an earlier run found is not
 # remembered; `make campaign` tries new ones and prints how to repeat one.
 _NO_CLOCK: Any = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
-settings.register_profile("fixed", **_NO_CLOCK, derandomize=True, database=None)
+settings.register_profile("fixed", **_NO_CLOCK, derandomize=True, database=None, max_examples=examples(100))
 settings.register_profile("campaign", **_NO_CLOCK, print_blob=True, max_examples=examples(100))
 settings.load_profile("campaign" if CAMPAIGN else "fixed")
 if not CAMPAIGN:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import subprocess
@@ -12,6 +13,7 @@ import pytest
 
 from amp_studio.schema import family_ids
 
+Done = subprocess.CompletedProcess[str]
 STEPPER = Path(__file__).parent / "steps"
 
 
@@ -37,10 +39,20 @@ def site(tmp_path: Path) -> Path:
     return folder
 
 
-def program(site: Path, *arguments: str | Path) -> subprocess.CompletedProcess[str]:
+SEVERAL = """
+import json, sys
+from amp_studio.cli import run
+for arguments in json.loads(sys.argv[1]):
+    if run(arguments) != 0:
+        sys.exit(" ".join(arguments))
+"""
+"""Runs several command lines, and ends at the first that fails."""
+
+
+def program(site: Path, *arguments: str | Path, started: tuple[str, ...] = ("-m", "amp_studio")) -> Done:
     paths = os.pathsep.join([str(site), os.environ.get("PYTHONPATH", "")])
     return subprocess.run(
-        [sys.executable, "-m", "amp_studio", *map(str, arguments)],
+        [sys.executable, *started, *map(str, arguments)],
         env=os.environ | {"PYTHONPATH": paths},
         capture_output=True,
         text=True,
@@ -51,7 +63,7 @@ def program(site: Path, *arguments: str | Path) -> subprocess.CompletedProcess[s
 
 def test_a_package_brings_a_family(site: Path, tmp_path: Path) -> None:
     path, text, back = (tmp_path / name for name in ("bench.amp", "bench.stp", "back.amp"))
-    for arguments in (
+    lines = (
         ("families",),
         ("new", "steps", path),
         ("set", path, "10=50000 BLU", "20=60 mm"),
@@ -60,11 +72,10 @@ def test_a_package_brings_a_family(site: Path, tmp_path: Path) -> None:
         ("export", path, "-o", text),
         ("import", text, "-o", back),
         ("simulate", path, "step", "--set", "model.rapid=6000", "--set", "move.distance=5"),
-    ):
-        done = program(site, *arguments)
-        assert (done.returncode, done.stderr) == (0, ""), f"{arguments}: {done.stdout}{done.stderr}"
-        if arguments == ("families",):
-            assert "Stepper control" in done.stdout
+    )
+    done = program(site, json.dumps([[*map(str, line)] for line in lines]), started=("-c", SEVERAL))
+    assert (done.returncode, done.stderr) == (0, ""), done.stdout + done.stderr
+    assert "Stepper control" in done.stdout
     assert text.read_text("utf-8").startswith("(STEPS)\n"), "by its format"
     assert "steps" in program(site, "new", "--help").stdout
 
@@ -76,28 +87,22 @@ def test_without_the_package_there_is_no_such_family(tmp_path: Path) -> None:
     assert "Unknown family 'steps'" in done.stderr
 
 
-@pytest.mark.parametrize(
-    ("source", "entry", "reason"),
-    [
-        ("raise OSError('no licence')", "broken = other:REGISTRATION", "no licence"),
-        (
-            "REGISTRATION = 1",
-            "broken = other:REGISTRATION",
-            "other:REGISTRATION is no Registration of broken",
-        ),
-        ("", "broken = other:REGISTRATION", "has no attribute 'REGISTRATION'"),
-        ("", "broken = missing:REGISTRATION", "No module named 'missing'"),
-    ],
-)
-def test_a_package_that_cannot_be_loaded_is_named_and_left_out(
-    site: Path, source: str, entry: str, reason: str
-) -> None:
-    install(site, "other", source, entry)
+def test_packages_that_cannot_be_loaded_are_named_and_left_out(site: Path) -> None:
+    reasons = {
+        ("raise OSError('no licence')", "one = other1:REGISTRATION"): "no licence",
+        ("REGISTRATION = 1", "two = other2:REGISTRATION"): "other2:REGISTRATION is no Registration of two",
+        ("", "three = other3:REGISTRATION"): "has no attribute 'REGISTRATION'",
+        ("", "four = missing:REGISTRATION"): "No module named 'missing'",
+    }
+    for n, (source, entry) in enumerate(reasons, 1):
+        install(site, f"other{n}", source, entry)
     done = program(site, "families")
     assert done.returncode == 0
     assert "Stepper control" in done.stdout
-    assert "The family broken of another package cannot be used" in done.stderr
-    assert reason in done.stderr
+    for (_, entry), reason in reasons.items():
+        name = entry.partition(" ")[0]
+        (line,) = (line for line in done.stderr.splitlines() if f"The family {name} of another" in line)
+        assert reason in line
 
 
 def test_a_package_cannot_replace_a_family_of_the_program(site: Path, tmp_path: Path) -> None:

@@ -108,6 +108,10 @@ def _mill() -> ParameterFile:
     return open_file(REPOSITORY / "examples/mill-1394/MILL_1394.amp").file
 
 
+ADVISED = 100
+"""Runs from which on gains are sought too, which takes a second a machine."""
+
+
 def fuzz_machines(folder: Path, seed: int, count: int) -> list[str]:
     """Damage descriptions of machines, and move the axis with what is taken."""
     path = folder / "machine.yaml"
@@ -115,6 +119,6 @@ def fuzz_machines(folder: Path, seed: int, count: int) -> list[str]:
     def look(text: str) -> None:
         path.write_bytes(text.encode("utf-8", "surrogatepass"))
         axis, settings = machine_for(_mill(), read_machine(path), None)
-        simulate(_mill(), "velocity", axis, {**settings, "move.duration": 0.02})
+        simulate(_mill(), "velocity", axis, {**settings, "move.duration": 0.02}, advise=count > ADVISED)
 
     return violations(mutants(MACHINES, seed, count), look, (SimulationError, ParameterFileError))

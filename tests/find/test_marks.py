@@ -106,7 +106,7 @@ def test_after_any_edit_the_counts_are_those_of_a_fresh_start(example: str) -> N
         rows = rows_of_file(file)
         return {mark: marks.counted(mark, rows) for mark in MARKS}
 
-    addresses: list[Address] = [a for a in file.values if not file.schema.parameters[a[0]].secret][::41]
+    addresses: list[Address] = [a for a in file.values if not file.schema.parameters[a[0]].secret][::97]
     for address in addresses:
         for value in (file.default(address), None, kept.saved.get(address)):
             file.set(address, value)

@@ -4,6 +4,7 @@ beforehand.
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 from ruamel.yaml import YAML
@@ -15,10 +16,15 @@ QUERIES: list[list[str]] = YAML(typ="safe").load(Path(__file__).with_name("queri
 KINDS = {"parameter": "p", "choice": "p", "value": "p", "message": "m", "group": "g"}
 
 
+@cache
+def finder_of(family: str) -> Finder:
+    schema = load_schema(family)
+    return Finder(schema, schema.family.default_machine)
+
+
 def place(family: str, query: str, wanted: str) -> int:
     """Return at which place what is wanted was found; 0 for not at all."""
-    schema = load_schema(family)
-    hits = Finder(schema, schema.family.default_machine).find(query)
+    hits = finder_of(family).find(query)
     found = list(dict.fromkeys(f"{KINDS[hit.kind]}:{hit.key}" for hit in hits))
     return found.index(wanted) + 1 if wanted in found else 0
 

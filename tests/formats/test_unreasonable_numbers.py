@@ -87,18 +87,18 @@ TAKEN = (
         ("acromill", "acr", "PPU X" + "1" * 200_000 + "x\n"),
         ("acromill", "acr", "PPU" + " " * 500_000 + "!\n"),
         ("acromill", "acr", "PPU X1 " + " " * 500_000 + "!\n"),
-        ("acromill", "acr", "PPU X4096\n" * 20_000),
+        ("acromill", "acr", "PPU X4096\n" * 6_000),
         ("57c422b", "registers", "! Register table\n" + "4\t" + "0" * 500_000 + "x\n"),
-        ("57c422b", "registers", "! Register table\n" + "".join(f"{n}\t5\n" for n in range(60_000, 100_000))),
+        ("57c422b", "registers", "! Register table\n" + "".join(f"{n}\t5\n" for n in range(60_000, 75_000))),
         ("57c422b", "basic", "10 " + "{" * 200_000 + "\n"),
-        ("57c422b", "basic", "".join(f"{n} REG_4%=5 &\n" for n in range(100_000))),
+        ("57c422b", "basic", "".join(f"{n} REG_4%=5 &\n" for n in range(30_000))),
         ("57c422b", None, "\n" * 500_000 + "10 x"),
         ("9pc", "csv", "id,value,unit\n" + "a" * 2_000_000 + ",,\n"),
         ("num", "num", "%" + "0" * 2_000_000),
-        ("grblhal", "grbl", "$0=1;" * 200_000),
-        ("grblhal", "grbl", "12:00 " * 300_000 + "$0=1"),
-        ("grblhal", None, "$0=1" + "\n#" * 500_000),
-        ("grblhal", None, "M92 X1 " * 200_000),
+        ("grblhal", "grbl", "$0=1;" * 40_000),
+        ("grblhal", "grbl", "12:00 " * 100_000 + "$0=1"),
+        ("grblhal", None, "$0=1" + "\n#" * 100_000),
+        ("grblhal", None, "M92 X1 " * 40_000),
     ],
 )
 def test_a_text_that_is_made_to_cost_time_costs_little(
@@ -109,7 +109,7 @@ def test_a_text_that_is_made_to_cost_time_costs_little(
     begun = time.process_time()
     for keep in (False, True):
         taken(path, family, key, keep)
-    assert time.process_time() - begun < 10
+    assert time.process_time() - begun < 3
 
 
 def test_a_value_of_a_table_without_its_unit_or_with_that_of_something_else_is_refused(

@@ -4,13 +4,13 @@ and what it misses.
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import extract_9pc
 import pytest
-from manual_facts import PrintedChoice, PrintedNumber, PrintedRange, Section, StoredRow, read
+from manual_facts import PrintedChoice, PrintedNumber, PrintedRange, Section, StoredRow, read, write_facts
 
 CONTENTS = [
     ("Chapter Overview", "5-1"),
@@ -25,7 +25,7 @@ Extract = Callable[..., tuple[dict[str, Section], str]]
 
 
 @pytest.fixture
-def extract(checkout: Path, tmp_path: Path) -> Extract:
+def extract(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Extract:
     """Return what gives sections by heading, and stderr, for the text of a manual."""
 
     def run(*body: str) -> tuple[dict[str, Section], str]:
@@ -33,15 +33,9 @@ def extract(checkout: Path, tmp_path: Path) -> Extract:
         text = "\n".join((*contents, "", "Chapter Overview", "", *body, "", "The last page", ""))
         manual, facts = tmp_path / "manual.txt", tmp_path / "facts.yaml"
         manual.write_text(text, encoding="utf-8")
-        command = [
-            sys.executable,
-            str(checkout / "scripts" / "extract_9pc.py"),
-            str(manual),
-            "-o",
-            str(facts),
-        ]
-        done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=True)
-        return {section.heading: section for section in read(facts)}, done.stderr
+        monkeypatch.setattr(sys, "argv", ["extract_9pc.py", str(manual), "-o", str(facts)])
+        assert write_facts(extract_9pc.__doc__, extract_9pc.HEAD, extract_9pc.sections) == 0
+        return {section.heading: section for section in read(facts)}, capsys.readouterr().err
 
     return run
 

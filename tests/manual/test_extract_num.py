@@ -4,13 +4,13 @@ and what it reports as missed.
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import extract_num
 import pytest
-from manual_facts import Section, read
+from manual_facts import Section, read, write_facts
 
 FRONT = (
     "\t4.1\tBarrel Roll\t4 - 2",
@@ -27,17 +27,16 @@ Extract = Callable[..., tuple[Section, str]]
 
 
 @pytest.fixture
-def extract(checkout: Path, tmp_path: Path) -> Extract:
+def extract(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Extract:
     """Return what gives the section of P4, and stderr, for lines of its text."""
 
     def run(*body: str) -> tuple[Section, str]:
         manual, facts = tmp_path / "manual.txt", tmp_path / "facts.yaml"
         manual.write_text("\n".join((*FRONT, *body, "")), encoding="utf-8")
-        script = checkout / "scripts" / "extract_num.py"
-        command = [sys.executable, str(script), str(manual), "-o", str(facts)]
-        done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=True)
+        monkeypatch.setattr(sys, "argv", ["extract_num.py", str(manual), "-o", str(facts)])
+        assert write_facts(extract_num.__doc__, extract_num.HEAD, extract_num.sections) == 0
         (section,) = (section for section in read(facts) if section.parameter == "P4")
-        return section, done.stderr
+        return section, capsys.readouterr().err
 
     return run
 

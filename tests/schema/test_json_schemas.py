@@ -8,6 +8,7 @@ import copy
 import json
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +28,7 @@ SCHEMAS = database_folder() / "schemas"
 FACTS = sorted(database_folder().glob("*/**/*.yaml"))
 
 
+@cache
 def validator(name: str) -> Draft7Validator:
     """Return what checks data against a schema file."""
     return Draft7Validator(json.loads((SCHEMAS / f"{name}.schema.json").read_text("utf-8")))
@@ -71,11 +73,10 @@ def test_the_synonyms_are_valid_by_their_schema() -> None:
 def test_an_editor_offers_the_units_that_a_family_has_alone() -> None:
     register(REGISTRATION)
     try:
-        group, family = (
-            json.loads(write_schemas.schemas()[f"{name}.schema.json"]) for name in ("group", "family")
-        )
+        written = write_schemas.schemas()
     finally:
         unregister(FAMILY)
+    group, family = (json.loads(written[f"{name}.schema.json"]) for name in ("group", "family"))
     offered = group["definitions"]["Parameter"]["properties"]["unit"]["anyOf"][0]["enum"]
     assert {"steps/mm", "steps/in"} <= set(offered)
     assert offered.index("mm") == 1

@@ -35,7 +35,8 @@ def test_backlash_alone_adds_no_oscillation() -> None:
 
 
 def test_what_a_contact_is_taken_as_is_said_and_can_be_set() -> None:
-    trace = simulate(mill(), "step", "1", {"model.backlash": 0.02})
+    short = {"move.duration": 0.05}
+    trace = simulate(mill(), "step", "1", {"model.backlash": 0.02, **short})
     said = [
         text for text in trace.assumptions if text.startswith(("ASSUMED: model.res", "ASSUMED: model.damp"))
     ]
@@ -43,9 +44,9 @@ def test_what_a_contact_is_taken_as_is_said_and_can_be_set() -> None:
         "ASSUMED: model.resonance = 150 Hz",
         "ASSUMED: model.damping = 1",
     ]
-    given = {"model.backlash": 0.02, "model.resonance": 60, "model.damping": 0.3}
+    given = {"model.backlash": 0.02, "model.resonance": 60, "model.damping": 0.3, **short}
     assert not [text for text in simulate(mill(), "step", "1", given).assumptions if "model.damping" in text]
-    ringing = simulate(mill(), "step", "1", {"model.resonance": 60})
+    ringing = simulate(mill(), "step", "1", {"model.resonance": 60, **short})
     assert any(text.startswith("ASSUMED: model.damping = 0.05") for text in ringing.assumptions)
 
 
@@ -61,5 +62,6 @@ def test_a_loop_that_is_too_fast_for_the_motor_alone_chatters_and_is_named() -> 
     trace = simulate(lathe, "step", "1", {"model.backlash": 0.02})
     assert torque_at_rest(trace) > 10.0
     assert CHATTER in trace.assumptions
-    assert CHATTER not in simulate(mill(), "step", "1", {"model.backlash": 0.02}).assumptions
-    assert CHATTER not in simulate(lathe, "step", "1").assumptions
+    short = {"move.duration": 0.05}
+    assert CHATTER not in simulate(mill(), "step", "1", {"model.backlash": 0.02, **short}).assumptions
+    assert CHATTER not in simulate(lathe, "step", "1", short).assumptions

@@ -103,16 +103,18 @@ def test_an_answer_below_half_a_count_is_no_point_of_the_sweep() -> None:
 
 def test_an_axis_that_never_answers_with_more_than_its_command_has_no_resonance_peak() -> None:
     sweep = SCENARIOS["frequency"].run
-    assert sweep(tiny(), {}).result["resonance_peak"] == (None, "dB")
-    peak = sweep(tiny(gain=120.0), {}).result["resonance_peak"][0]
+    few = {"move.points": 2.0, "move.highest": 90.0}
+    assert sweep(tiny(), few).result["resonance_peak"] == (None, "dB")
+    peak = sweep(tiny(gain=120.0), few).result["resonance_peak"][0]
     assert peak > 0.2
-    assert sweep(tiny(gain=120.0), {"move.lowest": 60.0}).result["resonance_peak"][0] == peak, (
+    assert sweep(tiny(gain=120.0), {**few, "move.lowest": 60.0}).result["resonance_peak"][0] == peak, (
         "of the loop, not of the part of it that is drawn"
     )
 
 
 def test_the_damping_ratio_is_that_of_the_position_loop_and_the_least_one_has_its_own_name() -> None:
     axis = tiny(resonance=60.0, damping=0.05, inertia_ratio=0.2)
-    result = SCENARIOS["frequency"].run(axis, {}).result
+    few = {"move.points": 2.0, "move.lowest": 10.0, "move.highest": 40.0}
+    result = SCENARIOS["frequency"].run(axis, few).result
     assert result["damping_ratio"][0] == Loops(axis).damping
     assert result["least_damping_ratio"][0] < 0.3 < result["damping_ratio"][0]

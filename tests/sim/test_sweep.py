@@ -68,7 +68,7 @@ def test_parameters_are_varied_as_the_control_can_have_them() -> None:
 
 
 def test_the_map_without_a_word_shows_two_gains_their_safe_region_and_the_present_point() -> None:
-    trace = simulate(file_of(MILL), "sweep", "1")
+    trace = sweep(file_of(MILL), "1", {}, way=ALONE)
     assert trace.over == ("servo.initial_gain", "servo.velocity_proportional_gain")
     safe = trace.columns["safe"] == 1.0
     assert 0 < safe.sum() < trace.rows

@@ -4,43 +4,34 @@ the same results.
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-PROGRAM = """
-import sys
-from amp_studio.cli import main
-sys.exit(main())
-"""
-WITHOUT = f"""
-import sys
+from amp_studio import cli
+from amp_studio.sim.engine import compiled
+
+WITHOUT = """
+import json, sys
 sys.modules["numba"] = sys.modules["llvmlite"] = None  # an import raises ImportError
-{PROGRAM}"""
+from amp_studio.cli import run
+from amp_studio.sim.engine import compiled
+compiled.PLAIN_STEPS = 0  # machine code is used where it is
+sys.exit(sum(run(arguments) for arguments in json.loads(sys.argv[1])))
+"""
 
 
-def simulated(program: str, path: Path, *arguments: str) -> str:
-    done = subprocess.run(
-        [sys.executable, "-c", program, "simulate", str(path), *arguments, "--json"],
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        check=False,
-    )
+def test_a_simulation_needs_no_machine_code(
+    checkout: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = str(checkout / "examples" / "mill-1394" / "MILL_1394.amp")
+    lines = [["simulate", path, scenario, "--json"] for scenario in ("procedure", "step")]
+    command = [sys.executable, "-c", WITHOUT, json.dumps(lines)]
+    done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
     assert done.returncode == 0, done.stderr
-    return done.stdout
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ["procedure"],  # asks for machine code whatever its length
-        # More than PLAIN_STEPS of the kernel: machine code is used where it is.
-        ["step", "--set", "move.distance=6000"],
-    ],
-)
-def test_a_simulation_needs_no_machine_code(checkout: Path, arguments: list[str]) -> None:
-    path = checkout / "examples" / "mill-1394" / "MILL_1394.amp"
-    assert simulated(WITHOUT, path, *arguments) == simulated(PROGRAM, path, *arguments)
+    monkeypatch.setattr(compiled, "PLAIN_STEPS", 0)
+    assert [cli.run(line) for line in lines] == [0, 0]
+    assert capsys.readouterr().out == done.stdout

@@ -22,6 +22,7 @@ from amp_studio.files.example_files import examples_folder
 from amp_studio.schema import Address, Value, family_ids
 from amp_studio.schema.expression import canonical_value
 from amp_studio.validate import AddressedValue, Finding, Validator
+from tests.campaigns import CAMPAIGN
 
 HERE = Path(__file__).parent
 FAMILIES = tuple(f for f in family_ids() if (HERE / "sound_machines" / f / "machines.yaml").is_file())
@@ -74,7 +75,12 @@ def machines(family: str) -> dict[str, Any]:
 
 
 def sound(family: str, name: str) -> ParameterFile:
-    """Return a machine without a finding: a new one or an example, with its values changed."""
+    """Return a separate machine without a finding: a new one or an example, with its values changed."""
+    return _sound(family, name).copy()
+
+
+@cache
+def _sound(family: str, name: str) -> ParameterFile:
     written = machines(family)
     one = written["machines"][name]
 
@@ -110,6 +116,19 @@ class RulesAlone(Validator):
     def _general(self) -> list[Any]:
         return [] if self.is_alone else super()._general()
 
+    def filed(self, rule: str, changed: Iterable[Address]) -> dict[int, Finding]:
+        """Return what is found of one rule, by the place of its check and before any fix is tried:
+        after edits that no ``update`` has been given yet, without a look at whatever else reads them.
+        """
+        if self._circumstances != self._present_circumstances():
+            self.recheck(changed)
+        read = {c.place: c for address in changed for c in self._plan.rule_readers.get(address, ())}
+        again = {place: check for place, check in read.items() if check.rule.id == rule}
+        found = {p: f for p, (_, f) in self._filed.items() if f.rule == rule and p not in again}
+        self._checks.look_again()
+        found |= {check.place: f for check, f in self._checks.rules.findings(again.values())}
+        return dict(sorted(found.items(), key=lambda each: self._order(each[1], each[0])))
+
 
 class TrialMachine:
     """A machine on which changes are tried and undone."""
@@ -134,7 +153,18 @@ class TrialMachine:
 
     def of(self, rule: str) -> list[Finding]:
         """Return the findings of one rule."""
-        return [finding for finding in self.findings if finding.rule == rule]
+        found = self.filed(rule)
+        if any(finding.fix for finding in found.values()):  # what is offered hangs on all that is found
+            return [finding for finding in self.findings if finding.rule == rule]
+        return list(found.values())
+
+    def filed(self, rule: str) -> dict[int, Finding]:
+        """Return what is found of one rule, by the place of its check and before any fix is tried;
+        a campaign looks at all else that reads what was changed, too.
+        """
+        if CAMPAIGN:
+            _ = self.findings
+        return self.validator.filed(rule, self._changed)
 
     def set(self, values: Mapping[Address, Value]) -> None:
         """Set values, whether they are allowed or not."""

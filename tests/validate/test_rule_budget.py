@@ -70,9 +70,8 @@ def test_a_rule_beyond_its_budget_is_one_finding_and_the_others_run(mill, path: 
     assert len(found[0].message) < 200
 
 
-@pytest.mark.parametrize(
-    "check",
-    [
+def test_what_makes_no_sense_of_its_values_is_not_broken(mill, path: Path) -> None:
+    checks = (
         "field(rapid, 0.0, 1e10) > 0.0",
         "round(rapid, 1e300) > 0.0",
         "1 / 0 > 0",
@@ -82,10 +81,9 @@ def test_a_rule_beyond_its_budget_is_one_finding_and_the_others_run(mill, path: 
         "int(string(rapid) + '9') > 0",
         "double(name) > 0.0",
         "[null][0] < 1.0",
-    ],
-)
-def test_what_makes_no_sense_of_its_values_is_not_broken(mill, path: Path, check: str) -> None:
-    assert {f.rule for f in findings(path, rule(1, check) + rule(2), mill)} == {"works.rule2"}
+    )
+    text = "".join(rule(10 + n, check) for n, check in enumerate(checks))
+    assert {f.rule for f in findings(path, text + rule(2), mill)} == {"works.rule2"}
 
 
 def test_rules_that_together_take_too_long_are_left_out_one_by_one(mill, path: Path) -> None:
@@ -171,7 +169,7 @@ def test_the_work_grows_with_the_number_of_rules_and_not_with_its_square(mill, p
         return len(made)
 
     calls(10)
-    assert calls(400) < 5 * calls(100), "four times as many take four times as much, not sixteen"
+    assert calls(160) < 5 * calls(40), "four times as many take four times as much, not sixteen"
 
 
 @pytest.mark.parametrize("family", FAMILIES)

@@ -1,7 +1,7 @@
 """The tables of cases are sharp: a rule changed in one place no longer gives what they say.
 
 Of every rule of every family the check is negated, the guard left out, every comparison flipped, every "and"
-made an "or", every "or" an "and", and every "not" left out; ``make test`` tries one in three of them beside the
+made an "or", every "or" an "and", and every "not" left out; ``make test`` tries one in eight of them beside the
 first two. The full run (``make mutants``) also replaces
 every choice and number, turns every sum, product, quantifier and truth value into its opposite, and leaves
 out every operand of "and" and "or". What is alive at the end is in ``equivalent_mutants.yaml``, with the
@@ -62,7 +62,7 @@ def changes(rule: Rule) -> Iterator[tuple[str, str, str, str]]:
 
 
 def tried(rule: Rule) -> Iterator[Mutant]:
-    """Yield the check negated, the guard left out, and each of the others or one in three."""
+    """Yield the check negated, the guard left out, and each of the others or one in eight."""
     return (mutant for n, mutant in enumerate(mutants(rule)) if n < 2 or n % EACH == 0)
 
 

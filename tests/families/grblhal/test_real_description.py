@@ -16,6 +16,7 @@ from amp_studio.families.grblhal.driver import GrblDriver
 from amp_studio.files import open_file
 from amp_studio.transfer.links.endpoint import parse_endpoint
 from amp_studio.transfer.links.opening import connect
+from tests.campaigns import CAMPAIGN
 from tests.families.grblhal.real_control import FIRMWARE, RealControl, real_control
 from tests.families.grblhal.recorded import LISTING, THREE_AXES
 
@@ -43,6 +44,7 @@ def test_what_was_recorded_is_what_it_answers(control: RealControl) -> None:
     assert schema_of(content).signature == schema_of(THREE_AXES).signature
 
 
+@pytest.mark.skipif(not CAMPAIGN, reason="make faults: the firmware keeps a processor busy for long")
 def test_a_new_file_and_one_of_another_build_meet_the_control(
     control: RealControl, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

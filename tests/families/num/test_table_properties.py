@@ -11,7 +11,7 @@ from amp_studio.families.num.formats.table import FORMAT
 from amp_studio.families.num.formats.words import words_of
 from amp_studio.formats import FormatError, ReadOptions, file_of
 from amp_studio.schema import Schema
-from tests.campaigns import examples
+from tests.campaigns import CAMPAIGN, examples
 from tests.families.num.small_num import measured, taken
 
 VALUES = {
@@ -24,6 +24,8 @@ VALUES = {
     7: (0, 0xFFFF, "{:X}"),
 }
 """Type of words -> lowest and highest value (page 1-3), and how the example of page 13-14 spells them."""
+
+SIGNS = " 0169AEFaf+-.,;:#%PNtn\t\r\n\0\x13\x1a~"
 
 
 def content(some: Random, code: int, *, alone: bool) -> str:
@@ -135,7 +137,7 @@ def test_every_altered_byte_of_a_table_is_told_or_changes_one_value(num: Schema)
         "#-1.5",
     )
     for at in range(len(table)):
-        for sign in " 0169AEFaf+-.,;:#%PNtn\t\r\n\0\x13\x1a~":
+        for sign in SIGNS if CAMPAIGN else SIGNS[at % 5 :: 5]:
             assert says_one_thing(num, table, at, sign), (at, sign)
 
 

@@ -15,6 +15,7 @@ import pytest
 from amp_studio.cli import run
 from amp_studio.files import Document, new_file, open_file
 from amp_studio.transfer.image import encode_image
+from tests.campaigns import CAMPAIGN
 from tests.transfer.conftest import StartControl
 
 GARBAGE = b"\x00\xff no image\r\n"
@@ -70,7 +71,7 @@ def bench(
     return make
 
 
-@pytest.mark.parametrize("what", HOSTILE)
+@pytest.mark.parametrize("what", HOSTILE if CAMPAIGN else ("garbage", "another schema", "errors"))
 def test_whatever_a_control_holds_is_kept_replaced_and_put_back(
     what: str, bench: Callable[[bytes], Bench], mill: Path
 ) -> None:
