@@ -12,7 +12,7 @@ from amp_studio.files import open_file
 from amp_studio.sim import SimulationError, Trace, identify
 
 MILL = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
-PERIOD = 1e-3
+PERIOD = 2e-3
 SIZE, VISCOUS, COULOMB = 40.0, 0.02, 3.0
 """mm/s² for 1 %, % for 1 mm/s, %."""
 

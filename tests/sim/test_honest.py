@@ -81,9 +81,9 @@ def test_a_sound_file_leaves_no_doubt(mill: ParameterFile) -> None:
 
 
 def test_a_value_outside_its_range_is_said_with_the_result(mill: ParameterFile) -> None:
-    gain = mill.find("servo.initial_gain@1")
-    mill.values[gain] = type(mill.get(gain))(900.0, mill.get(gain).unit)
-    trace = simulate(mill, "step", "1")
+    offset = mill.find("servo.torque_offset@1")
+    mill.values[offset] = type(mill.get(offset))(900.0, mill.get(offset).unit)
+    trace = simulate(mill, "step", "1", {"move.duration": 0.05})
     assert any("is outside" in doubt for doubt in trace.doubts), trace.doubts
     assert trace_summary(trace)["doubts"] == list(trace.doubts)
     assert f"DOUBTFUL: {trace.doubts[0]}" in trace_text(trace)
@@ -92,13 +92,13 @@ def test_a_value_outside_its_range_is_said_with_the_result(mill: ParameterFile) 
 def test_a_file_with_errors_elsewhere_is_said_too(mill: ParameterFile) -> None:
     other = mill.find("servo.initial_gain@3")
     mill.values[other] = type(mill.get(other))(900.0, mill.get(other).unit)
-    (doubt,) = simulate(mill, "step", "1").doubts
+    (doubt,) = simulate(mill, "step", "1", {"move.duration": 0.05}).doubts
     assert "other error" in doubt
 
 
 def test_a_value_that_is_not_set_is_said_where_the_axis_would_have_used_it(mill: ParameterFile) -> None:
     mill.set(mill.find("servo.torque_offset@1"), None)
-    (doubt,) = simulate(mill, "step", "1").doubts
+    (doubt,) = simulate(mill, "step", "1", {"move.duration": 0.05}).doubts
     assert doubt.startswith("Not set, and simulated as if there were none: Torque Offset Percentage")
 
 

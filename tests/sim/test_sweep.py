@@ -125,22 +125,25 @@ def test_a_sweep_of_which_nothing_is_possible_gives_the_reason() -> None:
         sweep(file_of(MILL), "1", {"sweep.over": "model.inertia_ratio=0.5:2:4"}, "metric", way=ALONE)
 
 
-def test_a_sweep_that_was_stopped_goes_on_with_what_it_has(tmp_path: Path) -> None:
+def test_a_sweep_that_was_stopped_goes_on_with_what_it_has(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("amp_studio.sim.variations.running.AT_ONCE", 25)
     seen: list[int] = []
 
     def stop(_stage: str, done: int, _total: int) -> None:
         seen.append(done)
-        if done >= 500:
+        if done >= 50:
             raise Stopped
 
     file, output = file_of("num-1060-mill/MILL_1060.amp"), tmp_path / "map.csv"
-    given = {"sweep.over": "model.delay=1:3:900", "sweep.figure": "Ms"}
+    given = {"sweep.over": "model.delay=1:3:90", "sweep.figure": "Ms"}
     with pytest.raises(Stopped):
         sweep(file, "0", given, way=SweepWay(cores=1, progress=stop, output=output))
     again: list[int] = []
     way = SweepWay(cores=1, progress=lambda _stage, done, _total: again.append(done), output=output)
     trace = sweep(file, "0", given, way=way)
-    assert again[0] == seen[-1] == 500
+    assert again[0] == seen[-1] == 50
     assert not list(tmp_path.iterdir())
     whole = sweep(file, "0", given, way=ALONE)
     assert np.array_equal(trace.columns["Ms"], whole.columns["Ms"])

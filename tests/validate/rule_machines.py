@@ -116,12 +116,15 @@ class RulesAlone(Validator):
     def _general(self) -> list[Any]:
         return [] if self.is_alone else super()._general()
 
+    @property
+    def is_fit(self) -> bool:
+        """Whether the file is still of the machine type, the model and the units that it was checked for."""
+        return self._circumstances == self._present_circumstances()
+
     def filed(self, rule: str, changed: Iterable[Address]) -> dict[int, Finding]:
         """Return what is found of one rule, by the place of its check and before any fix is tried:
         after edits that no ``update`` has been given yet, without a look at whatever else reads them.
         """
-        if self._circumstances != self._present_circumstances():
-            self.recheck(changed)
         read = {c.place: c for address in changed for c in self._plan.rule_readers.get(address, ())}
         again = {place: check for place, check in read.items() if check.rule.id == rule}
         found = {p: f for p, (_, f) in self._filed.items() if f.rule == rule and p not in again}
@@ -142,6 +145,8 @@ class TrialMachine:
         self._findings = self.validator.run()
         self._changed: set[Address] = set()
         """What was changed since the findings were last asked for."""
+        self._looks = 0
+        """How often they were worked out."""
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -149,6 +154,7 @@ class TrialMachine:
         if self._changed:
             self._findings = self.validator.update(self._changed)
             self._changed = set()
+            self._looks += 1
         return self._findings
 
     def of(self, rule: str) -> list[Finding]:
@@ -162,7 +168,7 @@ class TrialMachine:
         """Return what is found of one rule, by the place of its check and before any fix is tried;
         a campaign looks at all else that reads what was changed, too.
         """
-        if CAMPAIGN:
+        if CAMPAIGN or not self.validator.is_fit:
             _ = self.findings
         return self.validator.filed(rule, self._changed)
 
@@ -184,6 +190,7 @@ class TrialMachine:
         """Undo at the end everything that is changed."""
         before: dict[Address, Value | None] = {}
         forced = dict(self.file.forced)
+        changed, looks = set(self._changed), self._looks
 
         def note(made: Edit) -> None:
             before.setdefault(made.address, made.old)
@@ -197,6 +204,8 @@ class TrialMachine:
             for address in touched:
                 self.file.set(address, before[address])
             self._changed |= touched | (forced.keys() ^ self.file.forced.keys())
+            if self._looks == looks:  # nobody has looked: all is as it was
+                self._changed = changed
             self.file.forced.clear()
             self.file.forced.update(forced)
 
