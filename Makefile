@@ -32,7 +32,7 @@ mutants: setup ## change every rule and its findings in every way, and every fac
 
 campaign: setup ## generated cases that no run has tried: every property 25 times as often, with another seed each time
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) -m hypothesis $(TESTS)
-	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) tests/validate/test_rules.py tests/validate/test_any_values.py tests/validate/test_fix_campaign.py tests/validate/test_offered_fixes.py tests/sim/test_solver.py tests/sim/test_engines.py tests/sim/test_frequency_response.py tests/transfer tests/families/num/test_table_properties.py tests/ui/test_memory.py
+	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) $(addprefix tests/validate/test_,rules.py any_values.py fix_campaign.py offered_fixes.py fixes.py explanation.py plausible.py slips.py) $(addprefix tests/sim/test_,solver.py engines.py frequency_response.py) tests/transfer tests/families/num/test_table_properties.py tests/ui/test_memory.py
 
 tunings: setup ## tune 300 random machines and search each on a grid: TUNINGS="300 1" (machines, seed)
 	@PYTHONPATH=. $(BIN)/python -m tests.sim.tuning_campaign $(or $(TUNINGS),300 1)

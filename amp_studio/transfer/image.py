@@ -12,6 +12,7 @@ image, however it came about.
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 from amp_studio.errors import AmpStudioError
 from amp_studio.files import Header, ParameterFile, read_stored
@@ -247,16 +248,21 @@ def _value(schema: Schema, parameter: Parameter, entry: str, field: str) -> Valu
             f"the control image contains {_short(entry)} with {field_text}, which is no value of it"
         )
     try:
-        if is_text:
-            return read_stored(schema, parameter, _unescaped(field[5:]))
-        if not parameter.choices:
-            return read_stored(schema, parameter, field)
-        return _choice(parameter, field)
+        return _meant(schema, parameter.id, field)
     except InvalidValueError as error:
         raise ImageError(
             f"the control image contains {_short(entry)} with a value it cannot have:"
             f" {not_readable(parameter, error)}"
         ) from None
+
+
+@lru_cache(maxsize=16_384)
+def _meant(schema: Schema, parameter_id: str, field: str) -> Value:
+    """Return the value of a field, which an exchange reads several times; raises InvalidValueError."""
+    parameter = schema.parameters[parameter_id]
+    if parameter.type in ("text", "format"):
+        return read_stored(schema, parameter, _unescaped(field[5:]))
+    return _choice(parameter, field) if parameter.choices else read_stored(schema, parameter, field)
 
 
 def _choice(parameter: Parameter, field: str) -> Value:

@@ -12,7 +12,6 @@ from failing_calls import Ended, each_failure
 
 from amp_studio.files import (
     Document,
-    ParameterFile,
     Project,
     ProjectInfo,
     SaveError,
@@ -88,9 +87,9 @@ def test_a_first_save_leaves_no_file_or_the_whole_of_it(tmp_path: Path) -> None:
 
 
 def test_a_new_document_that_fails_leaves_nothing_and_one_that_does_not_is_whole(
-    tmp_path: Path, mill: ParameterFile
+    tmp_path: Path, small: Path
 ) -> None:
-    path = tmp_path / "machine.amp"
+    mill, path = open_file(small).file, tmp_path / "machine.amp"
     for ended in each_failure(
         lambda: empty(tmp_path), lambda: Document.create(mill, path).close(), failures=("EACCES", "interrupt")
     ):

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 
-from amp_studio.sim import SimulationError
+from amp_studio.sim import SimulationError, Trace
 from amp_studio.sim.scenarios import SCENARIOS
 from tests.sim.tiny import changed, tiny
 
@@ -19,8 +21,14 @@ def in_python(monkeypatch: pytest.MonkeyPatch) -> None:
 SETTINGS = {"move.radius": 20.0, "move.feedrate": 3000.0}
 
 
+@cache
+def alike() -> Trace:
+    """Return the circle of two axes that are the same."""
+    return SCENARIOS["circle"].run(tiny(), SETTINGS)
+
+
 def test_the_radius_error_is_that_of_the_linear_model_and_near_the_first_order_figure() -> None:
-    trace = SCENARIOS["circle"].run(tiny(), SETTINGS)
+    trace = alike()
     result = {name: value for name, (value, _) in trace.result.items()}
     assert result["predicted_radius_error"] == pytest.approx(
         20.0 * (1.0 - abs(_lag(20.0, 200.0, 2.5))), rel=0.03
@@ -38,7 +46,7 @@ def _lag(gain: float, velocity_rate: float, rate: float) -> complex:
 
 
 def test_the_measured_turn_is_one_turn_from_angle_0() -> None:
-    trace = SCENARIOS["circle"].run(tiny(), SETTINGS)
+    trace = alike()
     angle = trace.columns["angle_deg"]
     assert angle[0] == pytest.approx(0.0, abs=0.1)
     assert angle[-1] == pytest.approx(360.0, abs=0.1)
@@ -55,10 +63,7 @@ def test_backlash_and_friction_leave_a_spike_at_a_reversal() -> None:
 
 def test_two_unequal_gains_make_an_ellipse() -> None:
     trace = SCENARIOS["circle"].run(tiny(gain=20.0), SETTINGS, tiny(gain=25.0))
-    assert (
-        trace.result["circularity"][0]
-        > 10 * SCENARIOS["circle"].run(tiny(), SETTINGS).result["circularity"][0]
-    )
+    assert trace.result["circularity"][0] > 10 * alike().result["circularity"][0]
 
 
 @pytest.mark.parametrize("gain", [25.0, 40.0])
@@ -70,7 +75,7 @@ def test_unequal_axes_without_friction_have_the_predicted_radius_and_no_spike(ga
 
 
 def test_a_second_axis_that_is_not_given_is_named_as_assumed() -> None:
-    assert any("second axis" in note for note in SCENARIOS["circle"].run(tiny(), SETTINGS).assumptions)
+    assert any("second axis" in note for note in alike().assumptions)
     assert not any(
         "second axis" in note for note in SCENARIOS["circle"].run(tiny(), SETTINGS, tiny()).assumptions
     )

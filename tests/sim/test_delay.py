@@ -54,9 +54,9 @@ def example(family: str, part: float | None, gain: float | None = None) -> AxisL
 @pytest.mark.parametrize(
     ("family", "part", "settings"),
     [
-        ("9pc", 2.37, {}),
+        ("9pc", 2.37, {"move.lowest": 3.0}),
         ("num", 2.37, {}),
-        ("syntec", 2.37, {"move.amplitude": 0.2, "move.highest": 20.0}),
+        ("syntec", 2.37, {"move.amplitude": 0.2, "move.lowest": 2.0, "move.highest": 20.0}),
         ("57c422b", 2.37, {"move.amplitude": 100.0, "move.lowest": 5.0, "move.highest": 22.0}),
         ("acromill", None, {}),
         ("acromill", 0.5, {}),

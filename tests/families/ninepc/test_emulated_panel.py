@@ -226,23 +226,28 @@ def test_update_needs_estop(mill, at) -> None:
     assert decode_image(operator.control.image).get(("servo.excess_error", "1")) == Value(15.0, "mm")
 
 
-@pytest.mark.parametrize(
-    "line", ["search 1030", "search 99999", "search x", "replace 2030 1", "search servo.hardware_type@1"]
-)
-def test_what_patch_amp_does_not_offer_is_not_found(mill, at, line) -> None:
-    assert logged_on(at(mill)).keys(line) == "refused: PARAMETER NUMBER NOT FOUND"  # page 37-2
+def test_what_patch_amp_does_not_offer_is_not_found(mill, at) -> None:
+    operator = logged_on(at(mill))
+    for line in ("search 1030", "search 99999", "search x", "replace 2030 1", "search servo.hardware_type@1"):
+        assert operator.keys(line) == "refused: PARAMETER NUMBER NOT FOUND", line  # page 37-2
 
 
 def test_illegal_values_are_taken_because_patch_amp_checks_no_range(mill, at) -> None:
     assert logged_on(at(mill)).keys("replace 1750 999") == "1750 999.00000"  # page 37-1
 
 
-@pytest.mark.parametrize(
-    "line",
-    ["replace 1750", "replace", "replace 1750 x", "replace 1750 1 mm", "update now", "password", "patch-amp"],
-)
-def test_an_odd_word_at_the_screen_is_refused(mill, at, line) -> None:
-    assert logged_on(at(mill)).keys(line).startswith("refused: ")
+def test_an_odd_word_at_the_screen_is_refused(mill, at) -> None:
+    operator = logged_on(at(mill))
+    for line in (
+        "replace 1750",
+        "replace",
+        "replace 1750 x",
+        "replace 1750 1 mm",
+        "update now",
+        "password",
+        "patch-amp",
+    ):
+        assert operator.keys(line).startswith("refused: "), line
 
 
 @pytest.mark.parametrize(
