@@ -14,12 +14,20 @@ from __future__ import annotations
 
 import argparse
 import re
-import subprocess
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
 
-from amp_studio.schema import load_schema
+from grblhal_sources import (
+    Found,
+    Sources,
+    files_of,
+    read_numbers,
+    read_settings,
+    read_texts,
+    without_comments,
+)
+
+from amp_studio.schema import Parameter, Schema, load_schema
 from amp_studio.schema.units import UnitError, unit_named
 
 GROUPS = Path(__file__).parents[1] / "parameter_db" / "grblhal" / "groups"
@@ -68,18 +76,6 @@ QUANTITIES = {
     "A": "current",
     "deg": "angle",
 }
-AXIS_UNITS = {
-    "axis_steps": "step/mm",
-    "axis_rate": "mm/min",
-    "axis_accel": "mm/sec^2",
-    "axis_dist": "mm",
-    "axis_jerk": "mm/sec^3",
-}
-RUN_TIME = {
-    "netservices": "Telnet,Websocket,HTTP,FTP,DNS,mDNS,SSDP,WebDAV",  # networking.c service_names
-    "PWM_SPINDLE_NO_DELAYS": ",Disable delays",
-}
-"""Labels that the firmware puts together while it runs."""
 NAMES = {"Setting_SpindlePWMBehaviour": "Disable spindle with zero speed (obsolete)"}
 """Settings that the source calls deprecated alone."""
 SETS = {"ESET_OPTS": (5, 10), "MSET_OPTS": (8, 5)}
@@ -90,214 +86,6 @@ CONTROL_INPUTS = 14
 """The number of the mask of control inputs, the widest one."""
 NO_CODES = {0, 253}
 """What no control sends: no error, and what it keeps to itself (``Status_Unhandled``)."""
-GROUP_NAMES = {
-    "Group_UserSettings": "User settings",
-    "Group_AuxPorts": "Aux ports",
-    "Group_ModBusUnit0": "ModBus TCP",
-    "Group_Encoder0": "Encoders",
-    "Group_Kinematics": "Kinematics",
-    "Group_Networking": "Networking",
-    "Group_Networking_Wifi": "WiFi",
-}
-
-
-@dataclass
-class Found:
-    """One setting as one source describes it."""
-
-    number: int
-    constant: str
-    group: str
-    name: str
-    unit: str
-    form: str
-    labels: str
-    least: str
-    most: str
-    options: str
-    source: str
-    """Repository and file."""
-    line: int
-    condition: str
-    count: int = 1
-    """How many there are, ``step`` numbers apart."""
-    step: int = 1
-
-    @property
-    def is_of_axes(self) -> bool:
-        return self.group == "Group_Axis0"
-
-
-@dataclass
-class Sources:
-    """All that was read."""
-
-    numbers: dict[str, int] = field(default_factory=dict)
-    texts: dict[str, str] = field(default_factory=dict)
-    groups: dict[str, str] = field(default_factory=lambda: dict(GROUP_NAMES))
-    settings: list[Found] = field(default_factory=list)
-
-
-def files_of(folder: Path) -> Iterator[tuple[str, str]]:
-    """Yield name and text of every C source of a checkout or a git directory."""
-    if (folder / "HEAD").exists() or (folder / "objects").exists():
-        git = ["git", f"--git-dir={folder}"]
-        names = subprocess.run(
-            [*git, "ls-tree", "-r", "--name-only", "HEAD"], capture_output=True, text=True, check=True
-        )
-        for name in names.stdout.splitlines():
-            if name.endswith((".c", ".h")):
-                shown = subprocess.run([*git, "show", f"HEAD:{name}"], capture_output=True, check=True)
-                yield name, shown.stdout.decode("utf-8", "replace")
-        return
-    for path in sorted((*folder.rglob("*.c"), *folder.rglob("*.h"))):
-        yield str(path.relative_to(folder)), path.read_text("utf-8", "replace")
-
-
-def without_comments(text: str) -> str:
-    """Return C without remarks, with the same lines."""
-    text = re.sub(r"/\*.*?\*/", lambda m: "\n" * m[0].count("\n"), text, flags=re.DOTALL)
-    return re.sub(r'("(?:[^"\\\n]|\\.)*")|//[^\n]*', lambda m: m[1] or "", text)
-
-
-def read_numbers(text: str, numbers: dict[str, int]) -> None:
-    """Take the numbers of enumerations and definitions that name settings."""
-    for body in re.findall(r"enum\s*\w*\s*\{(.*?)\}", text, re.DOTALL):
-        last = -1
-        for entry in body.split(","):
-            found = re.search(
-                r"(?m)^\s*(\w+)\s*(?:=\s*([^\n]+))?\s*$", re.sub(r"(?m)^\s*#.*$", "", entry).strip()
-            )
-            if found is None:
-                continue
-            value = worth(found[2], numbers) if found[2] else last + 1
-            if value is None:
-                continue
-            numbers.setdefault(found[1], value)
-            last = value
-    for name, body in re.findall(
-        r"(?m)^[ \t]*#\s*define\s+(\w+)[ \t]+(\(?\w+(?:\s*[+*]\s*\w+)*\)?)[ \t]*$", text
-    ):
-        value = worth(body, numbers)
-        if value is not None:
-            numbers.setdefault(name, value)
-
-
-def worth(text: str, numbers: dict[str, int]) -> int | None:
-    """Return what a sum of names and numbers is worth; None where a name is not known."""
-    total = 0
-    for part in text.strip("() ").split("+"):
-        product = 1
-        for factor in part.strip("() ").split("*"):
-            name = factor.strip("() ")
-            value = int(name) if name.isdecimal() else numbers.get(name)
-            if value is None:
-                return None
-            product *= value
-        total += product
-    return total
-
-
-def read_texts(text: str, texts: dict[str, str]) -> None:
-    """Take the texts that variables have; the longest where a name has several."""
-    pattern = r"(?:char\s+(?:const\s*)?\*?\s*(\w+)\s*(?:\[\w*\])?\s*=|#\s*define\s+(\w+))\s*((?:\"(?:[^\"\\\n]|\\.)*\"\s*)+)"
-    for variable, macro, quoted in re.findall(pattern, text):
-        name, value = variable or macro, "".join(re.findall(r'"((?:[^"\\]|\\.)*)"', quoted))
-        if len(value) > len(texts.get(name, "")):
-            texts[name] = value
-
-
-def conditions(lines: list[str]) -> list[str]:
-    """Return for each line under which conditions of the preprocessor it is compiled."""
-    found: list[str] = []
-    stack: list[str] = []
-    for line in lines:
-        part = re.match(r"\s*#\s*(if|ifdef|ifndef|elif|else|endif)\b\s*(.*)", line)
-        if part:
-            word, rest = part[1], " ".join(part[2].split())
-            if word == "endif" and stack:
-                stack.pop()
-            elif word == "elif" and stack:
-                stack[-1] = rest
-            elif word == "else" and stack:
-                stack[-1] = f"!({stack[-1]})"
-            elif word not in ("endif", "elif", "else"):
-                stack.append({"ifdef": f"defined({rest})", "ifndef": f"!defined({rest})"}.get(word, rest))
-        found.append(
-            " && ".join(stack[1:] if stack and stack[0].startswith(("!defined(_", "defined(_")) else stack)
-        )
-    return found
-
-
-def read_settings(name: str, text: str, sources: Sources) -> None:
-    """Take the settings that a file describes."""
-    lines = text.split("\n")
-    under = conditions(lines)
-    for table in re.finditer(r"setting_detail_t\s+\w+\s*\[\s*\]\s*=\s*\{", text):
-        end = text.index("\n};", table.end()) if "\n};" in text[table.end() :] else len(text)
-        for entry in re.finditer(
-            r"(?m)^\s*\{\s*((?:Settings?_|TMC)\w+(?:\s*\+\s*\w+)?)\s*,(.*)$", text[table.end() : end]
-        ):
-            line = text.count("\n", 0, table.end() + entry.start(1)) + 1
-            cells = [cell.strip() for cell in split(entry[2])]
-            number = worth(entry[1], sources.numbers)
-            if number is None or len(cells) < 7 or re.search("GANGED|UserDefined", entry[1]):
-                # an axis of two motors; a number that means something else in each plugin
-                continue
-            group, title, unit, form, labels, least, most = cells[:7]
-            sources.settings.append(
-                Found(
-                    number,
-                    entry[1],
-                    group.split("+")[0].strip(),
-                    resolved(title, sources),
-                    resolved(AXIS_UNITS.get(unit, unit), sources),
-                    form,
-                    resolved(labels, sources),
-                    resolved(least, sources),
-                    resolved(most, sources),
-                    ",".join(cells[7:]),
-                    name,
-                    line,
-                    under[line - 1],
-                )
-            )
-
-
-def split(text: str) -> list[str]:
-    """Return the cells between commas that are in no quotes or braces."""
-    cells: list[str] = []
-    depth, quoted, start = 0, False, 0
-    for n, sign in enumerate(text):
-        if sign == '"' and text[n - 1] != "\\":
-            quoted = not quoted
-        elif not quoted and sign in "{(":
-            depth += 1
-        elif not quoted and sign in "})":
-            depth -= 1
-            if depth < 0:
-                return [*cells, text[start:n]]
-        elif not quoted and sign == "," and depth == 0:
-            cells.append(text[start:n])
-            start = n + 1
-    return [*cells, text[start:]]
-
-
-def resolved(cell: str, sources: Sources) -> str:
-    """Return the text of a cell: what is in quotes, and the texts of its names."""
-    if cell == "NULL":
-        return ""
-    found = []
-    for quoted, name in re.findall(r'"((?:[^"\\]|\\.)*)"|(\w+(?:\[\w+\])?(?:\.\w+)*)', cell):
-        found.append(
-            quoted
-            or RUN_TIME.get(name, sources.texts.get(name, f"<{name}>" if '"' not in cell or name else ""))
-        )
-    return "".join(found)
-
-
-# -- as parameters
-# -----------------------------------------------------------------------------------------------------
 
 
 def key_of(text: str) -> str:
@@ -539,30 +327,61 @@ def _lacking(what: str, numbers: set[int]) -> Iterator[str]:
 
 
 def report(by_number: dict[int, list[Found]], sources: Sources, *, write: bool, show: bool) -> None:
+    """Print, or write, a file of parameters for each group of settings that are not described by hand."""
     schema = load_schema("grblhal")
+    by_hand = described_by_hand(schema)
+    files = len({s.source for s in sources.settings})
+    print(f"{len(by_number)} numbers in {files} files; {len(by_hand)} described by hand")
+    for n in sorted(by_hand.keys() & by_number.keys()):
+        print_wider(n, schema.parameters[by_hand[n]], merged(by_number[n]))
+    taken = {p.id for p in schema.parameters.values() if p.in_signature}
+    count = 0
+    known_groups = {g.name: g.key for g in schema.groups if any(p.in_signature for p in g.parameters)}
+    for constant, settings in groups_of(by_number, by_hand, sources).items():
+        title = sources.groups.get(constant, constant.removeprefix("Group_"))
+        title = "Axis" if constant == "Group_Axis0" else title
+        base = known_groups.get(title, key_of(title))
+        key = f"{base}_builds" if title in known_groups else base
+        lines = group_head(key, title, is_of_axes=constant == "Group_Axis0", is_known=title in known_groups)
+        for setting in settings:
+            for nth in range(setting.count):
+                lines += parameter(setting, identifier(setting, nth, base, taken), nth)
+                count += 1
+        if write:
+            (GROUPS / f"{key}.yaml").write_text("\n".join(lines).rstrip() + "\n", "utf-8")
+        print(f"group {key}: {len(settings)}")
+        if show:
+            print("\n".join(lines))
+    print(f"{count} parameters more")
+
+
+def described_by_hand(schema: Schema) -> dict[int, str]:
+    """Return number -> id of the parameters that parameter_db describes by hand."""
     here = schema.on("grblhal")
-    by_hand: dict[int, str] = {}
+    found = {}
     for parameter_id, _instance in here.addresses:
-        layout = here.layout(schema.parameters[parameter_id])
-        if (
-            layout
-            and layout.numbers
-            and layout.numbers.start is not None
-            and schema.parameters[parameter_id].in_signature
-        ):
-            by_hand[layout.numbers.start] = parameter_id
-    print(
-        f"{len(by_number)} numbers in {len({s.source for s in sources.settings})} files; {len(by_hand)}"
-        " described by hand"
-    )
+        known = schema.parameters[parameter_id]
+        layout = here.layout(known)
+        if layout and layout.numbers and layout.numbers.start is not None and known.in_signature:
+            found[layout.numbers.start] = parameter_id
+    return found
+
+
+def print_wider(number: int, known: Parameter, one: Found) -> None:
+    """Print a mask or a choice that has more in some build than parameter_db describes."""
+    labels = [label for label in one.labels.split(",") if label.strip() not in ("", "N/A")]
+    count = len(known.bits or known.choices or ())
+    if TYPES[one.form] in ("bits", "choice") and "<" not in one.labels and len(labels) > count:
+        print(f"wider: ${number} {known.id}: {count} of {one.labels}")
+
+
+def groups_of(
+    by_number: dict[int, list[Found]], by_hand: dict[int, str], sources: Sources
+) -> dict[str, list[Found]]:
+    """Return the settings that are not described by hand by their group, each with how many there are."""
     groups: dict[str, list[Found]] = {}
     for n, settings in sorted(by_number.items()):
         if n in by_hand:
-            known, one = schema.parameters[by_hand[n]], merged(settings)
-            labels = [label for label in one.labels.split(",") if label.strip() not in ("", "N/A")]
-            count = len(known.bits or known.choices or ())
-            if TYPES[one.form] in ("bits", "choice") and "<" not in one.labels and len(labels) > count:
-                print(f"wider: ${n} {known.id}: {count} of {one.labels}")
             continue
         one = merged(settings)
         base = re.sub("Base$", "", one.constant)
@@ -572,56 +391,41 @@ def report(by_number: dict[int, list[Found]], sources: Sources, *, write: bool, 
         elif not one.is_of_axes and ("_OPTS" in one.options or "increment" in one.options):
             one.count = max(1, sum(bool(re.fullmatch(f"{base}[0-9]", c)) for c in sources.numbers))
         groups.setdefault(one.group, []).append(one)
-    taken = {p.id for p in schema.parameters.values() if p.in_signature}
-    count = 0
-    known_groups = {g.name: g.key for g in schema.groups if any(p.in_signature for p in g.parameters)}
-    for constant, settings in groups.items():
-        title = (
-            "Axis"
-            if constant == "Group_Axis0"
-            else sources.groups.get(constant, constant.removeprefix("Group_"))
-        )
-        base = known_groups.get(title, key_of(title))
-        key = f"{base}_builds" if title in known_groups else base
-        lines = [
-            "# yaml-language-server: $schema=../../schemas/group.schema.json",
-            (
-                "# Written by scripts/harvest_grblhal.py from the sources of the firmware and its plugins:"
-                " facts of other builds."
-            ),
-            f"key: {key}",
-            f"name: {yaml_text(title)}",
-            *(["section: Of other builds"] if title in known_groups else []),
-            'chapter: "S"',
-            *(
-                ["states:", "  - {state: hidden, when: absent_axis, scope: axis, page: S3012}"]
-                if constant == "Group_Axis0"
-                else []
-            ),
-            "parameters:",
-            "",
-        ]
-        for setting in settings:
-            for nth in range(setting.count):
-                title_here = (
-                    setting.name.partition("-axis ")[2]
-                    if setting.is_of_axes
-                    else setting.name.replace("?", str(nth + 1))
-                )
-                identifier = f"{base}.{key_of(title_here) or 'setting'}"
-                if not re.match("[a-z]", key_of(title_here)):
-                    identifier = f"{base}.setting_{setting.number + nth * setting.step}"
-                if identifier in taken:
-                    identifier += f"_{setting.number + nth * setting.step}"
-                taken.add(identifier)
-                lines += parameter(setting, identifier, nth)
-                count += 1
-        if write:
-            (GROUPS / f"{key}.yaml").write_text("\n".join(lines).rstrip() + "\n", "utf-8")
-        print(f"group {key}: {len(settings)}")
-        if show:
-            print("\n".join(lines))
-    print(f"{count} parameters more")
+    return groups
+
+
+def group_head(key: str, title: str, *, is_of_axes: bool, is_known: bool) -> list[str]:
+    """Return the head of the file of a group; ``is_known``: parameter_db has one of this name by hand."""
+    return [
+        "# yaml-language-server: $schema=../../schemas/group.schema.json",
+        (
+            "# Written by scripts/harvest_grblhal.py from the sources of the firmware and its plugins:"
+            " facts of other builds."
+        ),
+        f"key: {key}",
+        f"name: {yaml_text(title)}",
+        *(["section: Of other builds"] if is_known else []),
+        'chapter: "S"',
+        *(
+            ["states:", "  - {state: hidden, when: absent_axis, scope: axis, page: S3012}"]
+            if is_of_axes
+            else []
+        ),
+        "parameters:",
+        "",
+    ]
+
+
+def identifier(setting: Found, nth: int, base: str, taken: set[str]) -> str:
+    """Return an id that no other parameter has: by the setting's name, else with its number."""
+    name = setting.name.replace("?", str(nth + 1))
+    key = key_of(setting.name.partition("-axis ")[2] if setting.is_of_axes else name)
+    number = setting.number + nth * setting.step
+    found = f"{base}.{key}" if re.match("[a-z]", key) else f"{base}.setting_{number}"
+    if found in taken:
+        found += f"_{number}"
+    taken.add(found)
+    return found
 
 
 if __name__ == "__main__":
