@@ -150,7 +150,7 @@ class BlockReader:
             for use in listed.uses:
                 codes = {TypedWord(code[0], code[1:], code).code for code in use.codes}
                 if (
-                    (not use.codes or codes & now)
+                    (not use.codes or codes & (here if use.in_block else now))
                     and (not use.mode or use.mode in modes)
                     and (not use.systems or self.codes.system in use.systems)
                 ):
@@ -294,7 +294,7 @@ def code_at_power_up(codes: ControlCodes, key: str) -> str | None:
     """
     group = next(group for group in codes.groups if group.key == key)
     if group.power_up is None:
-        return None
+        return codes.started.get(key)
     address = codes.whole((group.power_up,))[0]
     if not codes.file.evaluation.state(address).is_active:
         return None

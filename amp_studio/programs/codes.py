@@ -5,13 +5,14 @@ and the macro calls of the builder.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import ACTIVE, Address, CodeGroup, MacroCall, ProgramCode
 
-from .words import TypedWord
+from .words import ProgramBlockError, TypedWord, words_of
 
 
 @dataclass(frozen=True)
@@ -72,6 +73,25 @@ class ControlCodes:
             yield from (f"{first[0]}{n}" for n in range(int(first[1:]), int(last[1:]) + 1))
         elif first:
             yield first
+
+    @cached_property
+    def started(self) -> dict[str, str]:
+        """Key of a group -> code without zeros that is active at the start though no parameter chooses it:
+        that of the block that is run then, or of the control itself.
+        """
+        path = self.facts.path
+        if path is None:
+            return {}
+        block = self.file.evaluation.canonical((path.startup, "")) if path.startup else None
+        typed = [TypedWord(code[0], code[1:], code) for code in path.first]
+        with suppress(ProgramBlockError):  # a program ends at this block with its reason
+            typed += words_of(block) if isinstance(block, str) else ()
+        found = {}
+        for word in typed:
+            known = self.known.get(word.code)
+            if known is not None and known.group is not None:
+                found[known.group.key] = word.code
+        return found
 
     @cached_property
     def calls(self) -> dict[str, Call]:

@@ -91,6 +91,7 @@ class Interpreter:
         """Return the path of a program, as far as the control can go."""
         fault = None
         try:
+            self._start_up()
             self._run(lines, progress)
         except BlockError as error:
             block = lines[self.line - 1] if 0 < self.line <= len(lines) else ""
@@ -99,6 +100,13 @@ class Interpreter:
         return self._moves.rows.path(
             self.start, self.blocks, fault, self.notes, zero_known=self._has_zero or self._has_offsets
         )
+
+    def _start_up(self) -> None:
+        """Run the block that the control runs when it starts."""
+        if self._path.startup:
+            value = self.file.evaluation.canonical((self._path.startup, ""))
+            if isinstance(value, str):
+                self._block(value.upper())
 
     def _run(self, lines: Sequence[str], progress: BlockProgress | None) -> None:
         labels: dict[int, int] | None = None
@@ -167,6 +175,8 @@ class Interpreter:
             self._moves.keep(words.roles)
             if "length-offset" in words.roles and codes.once != "set-data":
                 self._at.choose_length(int(words.roles["length-offset"]))
+        if codes.sets_rounding:
+            self._moves.round_corners(words.roles)
         if codes.once:
             self._single.do(codes, words)
         elif words.axes or words.distances or words.centers:

@@ -10,7 +10,7 @@ from amp_studio.schema import Address, ProgramPath
 
 from .block import BlockReader
 from .codes import KnownCode
-from .toolpath import CUTTING, EXACT, SLOW
+from .toolpath import CUTTING, EXACT, KEPT, ROUNDED, SLOW
 from .words import ProgramBlockError as BlockError
 from .words import TypedWord
 
@@ -19,7 +19,7 @@ MOST_SHAPES = 1000
 MOTIONS = ("rapid", "line", "arc-cw", "arc-ccw")
 OFF = {"no-scale": "scale", "no-turn": "turn", "no-length": "length"}
 SELECTS = {"work-system", "machine-system", "length-plus", "length-minus", *OFF}
-_CORNERS = {"cutting": CUTTING, "slow-corners": SLOW, "exact": EXACT}
+_CORNERS = {"cutting": CUTTING, "slow-corners": SLOW, "exact": EXACT, "exact-path": KEPT, "blend": ROUNDED}
 _PLANE_OF = {"plane-xy": 0, "plane-zx": 1, "plane-yz": 2}
 
 
@@ -67,11 +67,15 @@ class BlockCodes:
     codes: tuple[KnownCode, ...]
     modal: ModalState
     """The state from this block on."""
+    feed_in_inch: bool = False
+    """Whether a feed is read in inch."""
     once: str = ""
     """Action of a code that takes the words of the axes for itself; "" without one."""
     motion: str = ""
     is_exact: bool = False
     is_end: bool = False
+    sets_rounding: bool = False
+    """Whether its words set how far corners are rounded."""
     in_machine: bool = False
     """Whether its positions are those of the machine."""
     selects: tuple[KnownCode, ...] = ()
@@ -87,10 +91,8 @@ class ModalCodes:
         self._file, self._reader, self._path, self._notes = file, reader, path, notes
         self._kept: dict[tuple[tuple[str, ...], tuple[str, ...]], BlockCodes] = {}
         self._states: dict[tuple[str, ...], ModalState] = {}
-        for code in path.first:
-            group = reader.codes.known[TypedWord(code[0], code[1:], code).code].group
-            assert group is not None  # the facts are checked
-            reader.active.setdefault(group.key, code)
+        for key, code in reader.codes.started.items():
+            reader.active.setdefault(key, code)
         self.now = self._state_of(reader.active)
 
     def take(self, written: tuple[str, ...]) -> BlockCodes:
@@ -129,7 +131,9 @@ class ModalCodes:
                 groups.add(group.key)
                 active[group.key] = code
             found.append(known[code])
-        codes_here = BlockCodes(tuple(found), self._state_of(active))
+        modal = self._state_of(active)
+        feed_in_inch = self.now.is_inch if self._path.feed_first else modal.is_inch
+        codes_here = BlockCodes(tuple(found), modal, feed_in_inch)
         if codes_here.modal.cycle and codes_here.modal.cycle == self.now.cycle:
             for code_ in found:
                 if code_.facts.does in MOTIONS:
@@ -143,6 +147,8 @@ class ModalCodes:
                 codes_here.selects += (code_,)
             elif does == "exact-once":
                 codes_here.is_exact = True
+            elif does == "blend":
+                codes_here.sets_rounding = True
             elif does == "end":
                 codes_here.is_end = True
             elif does == "machine-once":

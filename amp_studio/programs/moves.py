@@ -10,7 +10,7 @@ from amp_studio.schema import ProgramPath
 from .arcs import Arc, arc_by_center, arc_by_radius
 from .coordinates import ProgramCoordinates
 from .modal import ModalState
-from .toolpath import ARC, DWELL, EXACT, LINE, PLANES, RowsWriter
+from .toolpath import ARC, DWELL, EXACT, LINE, PLANES, Rounding, RowsWriter
 from .word_numbers import BlockNumbers
 from .words import ProgramBlockError as BlockError
 
@@ -38,6 +38,11 @@ class PathMoves:
                 raise BlockError(f"F{feed:g} is no feed: it must be above 0", "no-feed")
             self._feed = feed
         self._speed = roles.get("spindle", self._speed)
+
+    def round_corners(self, roles: dict[str, float]) -> None:
+        """Round corners as the words of a block tell; without them as far as the control likes."""
+        corner, points = roles.get("blend-tolerance"), roles.get("join-tolerance")
+        self.rows.round_by(Rounding(corner or 0.0, corner or 0.0 if points is None else points))
 
     def read_centers(self, mode: str) -> None:
         """Read centers of arcs in another way: as the choice of the file has it."""
@@ -84,6 +89,8 @@ class PathMoves:
         scale = self.at.scale_of(first, second)
         begin, end = self.at.position, self.at.to_machine(target)
         ends = begin[first], begin[second], end[first], end[second]
+        if words.roles.get("turns", 1.0) != 1.0:
+            raise BlockError("An arc of several turns is not simulated")
         if "radius" in words.roles:
             if not self._path.arcs_by_radius:
                 raise BlockError("No page prints arcs by R for this control")

@@ -9,13 +9,18 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
+from .words import ProgramBlockError
+
 RAPID, LINE, ARC, DWELL = range(4)
 """Kinds of rows."""
-CUTTING, SLOW, EXACT = range(3)
-"""At the end of a row the control goes on, slows down in corners, or waits until it is in position."""
+CUTTING, SLOW, EXACT, KEPT, ROUNDED = range(5)
+"""At the end of a row the control goes on, slows down in corners, waits until it is in position, keeps to the
+path, or rounds its corner."""
 PLANES = ((0, 1, 2), (2, 0, 1), (1, 2, 0))
 """Plane XY, ZX, YZ: places of its two axes and of the third one among X, Y, Z."""
 MOST_ROWS = 4_000_000
+MOST_ROUNDINGS = 200
+"""Different ones in a program; a row has a byte for its own."""
 Floats = npt.NDArray[np.float64]
 Bytes = npt.NDArray[np.uint8]
 
@@ -30,6 +35,19 @@ class ProgramFault:
     message: str
     code: str = ""
     """As the control shows it; "" where no source has it."""
+
+
+@dataclass(frozen=True)
+class Rounding:
+    """How far a control may leave the path; mm, 0 where the program gives nothing."""
+
+    corner: float = 0.0
+    """From a corner."""
+    points: float = 0.0
+    """From points that one straight move replaces."""
+
+
+NO_ROUNDING = Rounding()
 
 
 @dataclass(frozen=True)
@@ -59,6 +77,9 @@ class ToolPath:
     """(rows,): what happens at the end."""
     free: Bytes
     """(rows,): 1 where the override of the feed has no effect."""
+    rounding: Bytes
+    """(rows,): place in ``roundings``."""
+    roundings: tuple[Rounding, ...]
     blocks: int
     """How many blocks were read, repeated ones every time."""
     fault: ProgramFault | None
@@ -85,6 +106,10 @@ class RowsWriter:
     seconds: array[float] = field(default_factory=lambda: array("d"))
     corner: array[int] = field(default_factory=lambda: array("B"))
     free: array[int] = field(default_factory=lambda: array("B"))
+    rounding: array[int] = field(default_factory=lambda: array("B"))
+    roundings: list[Rounding] = field(default_factory=lambda: [NO_ROUNDING])
+    active: int = 0
+    """Place of the rounding of the next rows."""
 
     def add(
         self,
@@ -108,6 +133,15 @@ class RowsWriter:
         self.seconds.append(seconds)
         self.corner.append(corner)
         self.free.append(free)
+        self.rounding.append(self.active)
+
+    def round_by(self, rounding: Rounding) -> None:
+        """Round the corners of the next rows by this."""
+        if rounding not in self.roundings:
+            if len(self.roundings) > MOST_ROUNDINGS:
+                raise ProgramBlockError(f"More than {MOST_ROUNDINGS} kinds of G64 in one program")
+            self.roundings.append(rounding)
+        self.active = self.roundings.index(rounding)
 
     def path(
         self,
@@ -134,6 +168,8 @@ class RowsWriter:
             seconds=np.array(self.seconds, np.float64),
             corner=np.array(self.corner, np.uint8),
             free=np.array(self.free, np.uint8),
+            rounding=np.array(self.rounding, np.uint8),
+            roundings=tuple(self.roundings),
             blocks=blocks,
             fault=fault,
             assumptions=tuple(dict.fromkeys(assumptions)),

@@ -83,7 +83,8 @@ class WordNumbers:
         here = {TypedWord(code.code[0], code.code[1:], "").code for code in codes.codes}
         use = self._reader.use(letter, here)
         if use is not None:
-            unit = use.unit if isinstance(use.unit, str) else use.unit["in" if codes.modal.is_inch else "mm"]
+            is_inch = codes.feed_in_inch if use.role == "feed" else codes.modal.is_inch
+            unit = use.unit if isinstance(use.unit, str) else use.unit["in" if is_inch else "mm"]
             scale = (
                 INCH if unit.startswith("in") else 1e-3 if unit == "ms" else 60.0 if unit == "min" else 1.0
             )

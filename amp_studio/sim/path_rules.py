@@ -4,12 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
 from amp_studio.schema import Address
 from amp_studio.sim.command.events import Ramp
+
+if TYPE_CHECKING:
+    from amp_studio.programs import ToolPath
+
+    from .path.geometry import Geometry
 
 PathRows = npt.NDArray[np.float64]
 Causes = npt.NDArray[np.int16]
@@ -40,6 +46,29 @@ class Corners:
     """Direction at the start of the second one."""
     slow: npt.NDArray[np.bool_]
     """Whether the program asks for slower corners."""
+
+
+@dataclass(frozen=True)
+class RowBounds:
+    """What bounds each row: values (rows,), and by which of some limits (rows,)."""
+
+    value: PathRows
+    by: Indices
+
+
+@dataclass(frozen=True)
+class ShapedPath:
+    """The rows that a control itself makes of a program: joined, with rounded corners."""
+
+    path: ToolPath
+    limits: Sequence[PathLimit]
+    speed: RowBounds
+    """u/s along the path."""
+    acceleration: RowBounds
+    """u/s2 along the path."""
+    joint: RowBounds
+    """u/s at the end of a row."""
+    assumptions: tuple[str, ...] = ()
 
 
 CornerRule = Callable[[Corners], Sequence[tuple[PathLimit, PathRows]]]
@@ -73,6 +102,10 @@ class PathRules:
     """u between an arc and the straight pieces that the control makes of it; None for true arcs."""
     look_ahead: PathLimit | None = None
     """Blocks that are known, the present one too; None for all."""
+    shape: Callable[[ToolPath, Geometry], ShapedPath] | None = None
+    """What the control makes of a path; None where it goes along the rows of the program."""
+    pause: float = 0.0
+    """s that it needs at each stop between rows."""
     rapid_rests: bool = False
     """Whether every rapid move begins and ends at rest."""
     waits: bool = False

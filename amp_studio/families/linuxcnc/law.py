@@ -26,6 +26,7 @@ from amp_studio.sim import (
 from . import law_sample as loop
 from .kinematics import joint_letters
 from .law_facts import MOTION, ids
+from .law_path import path_rules
 
 NO_LOOP = (
     "ASSUMED: the file has no P for the joint, so its HAL closes the loop elsewhere: a loop of 100 1/s with"
@@ -211,4 +212,4 @@ def travel(read: AxisParameters) -> Travel:
     return Travel({"the limit of the axis": edges}, "exceed limit", "CM218", (LIMITED,), refuses=True)
 
 
-LAW = Law(bind, axes)
+LAW = Law(bind, axes, path=path_rules)

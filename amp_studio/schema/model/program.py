@@ -22,6 +22,8 @@ CodeAction = Literal[
     "exact-once",
     "exact",
     "slow-corners",
+    "exact-path",
+    "blend",
     "no-override",
     "cutting",
     "plane-xy",
@@ -65,6 +67,9 @@ WordRole = Literal[
     "length-offset",
     "set-kind",
     "set-number",
+    "blend-tolerance",
+    "join-tolerance",
+    "turns",
     "centers",
     "subroutine",
 ]
@@ -148,6 +153,8 @@ class WordUse(Model):
     page: Page
     codes: tuple[str, ...] = ()
     """With one of these codes, in the block or active; without any it is always so."""
+    in_block: bool = False
+    """Whether the code has to be in the block itself."""
     mode: str = ""
     """While this mode is active."""
     systems: tuple[str, ...] = ()
@@ -275,6 +282,10 @@ class ProgramPath(Model):
     """Whether an M code that no page names moves no axis."""
     first: tuple[str, ...] = ()
     """Codes of groups that are active at the start where no parameter chooses one."""
+    startup: ParameterId | None = None
+    """A block that the control runs when it starts."""
+    feed_first: bool = False
+    """Whether a feed in a block that changes the unit of length is read in the unit before it."""
     arcs_by_radius: bool = False
     """Whether R may give the radius of an arc."""
     centers: ParameterId | None = None

@@ -18,7 +18,7 @@ from amp_studio.programs import DWELL, EXACT, RAPID, SLOW, ToolPath
 from amp_studio.sim.command.changes import SYMMETRIC, change_time, change_way, peaks, reached
 from amp_studio.sim.command.events import Ramp
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.path_rules import Causes, Corners, PathLimit, PathRows, PathRules
+from amp_studio.sim.path_rules import Causes, Corners, PathLimit, PathRows, PathRules, RowBounds, ShapedPath
 
 from .geometry import Geometry, geometry_of
 
@@ -114,6 +114,9 @@ def plan_program(
         if ramp.kind not in SYMMETRIC:
             raise SimulationError(f"A path with {ramp.kind} ramps is not simulated")
     geometry = geometry_of(path, rules.chord.value if rules.chord else None)
+    shaped = rules.shape(path, geometry) if rules.shape else None
+    if shaped is not None:
+        path, geometry = shaped.path, geometry_of(shaped.path, None)
     progress(0.1)
     table = CauseTable()
     kind = path.kind[geometry.row]
@@ -124,13 +127,22 @@ def plan_program(
     deceleration, slower_by = _accelerations(path, geometry, rules, table, is_rapid, slower)
     slopes = acceleration, deceleration
     joint, joint_by = _joints(path, geometry, rules, table, top)
+    if shaped is not None:
+        _shape(
+            shaped,
+            table,
+            (top, top_by),
+            (joint, joint_by),
+            (acceleration, ramp_by),
+            (deceleration, slower_by),
+        )
     progress(0.3)
     entry, entry_by = _look_ahead(geometry, rules, table, is_rapid, slopes, joint, joint_by, progress)
     leave = np.append(entry[1:], 0.0)
     leave_by = np.append(entry_by[1:], -1)
     peak, times = _ramps(geometry, rules, is_rapid, entry, leave, top, slopes)
     ahead = table.number(rules.look_ahead) if rules.look_ahead else -1
-    rest, rest_by = _rests(path, geometry, rules, table, waits)
+    rest, rest_by = _rests(path, geometry, rules, table, leave, waits)
     whole = times.sum(axis=1) + rest
     start = np.concatenate([[0.0], np.cumsum(whole)[:-1]]) if len(whole) else whole
     progress(1.0)
@@ -154,6 +166,28 @@ def plan_program(
         is_rapid,
         wanted,
     )
+
+
+def _shape(
+    shaped: ShapedPath,
+    table: CauseTable,
+    speed: tuple[PathRows, Causes],
+    joint: tuple[PathRows, Causes],
+    *ramps: tuple[PathRows, Causes],
+) -> None:
+    """Lower what bounds the rows to what the control made of them."""
+    numbers = np.array([table.number(limit) for limit in shaped.limits], np.int16)
+
+    def lower(values: tuple[PathRows, Causes], bounds: RowBounds) -> None:
+        lower = bounds.value < values[0]
+        values[0][lower], values[1][lower] = bounds.value[lower], numbers[bounds.by[lower]]
+
+    lower(speed, shaped.speed)
+    if len(joint[0]):
+        joint[0][:-1] = np.minimum(joint[0][:-1], np.minimum(speed[0][:-1], speed[0][1:]))
+    lower(joint, shaped.joint)
+    for values in ramps:
+        lower(values, shaped.acceleration)
 
 
 def _lowered(
@@ -289,9 +323,9 @@ def _look_ahead(
     length, rapid = geometry.length.tolist(), is_rapid.tolist()
     faster, slower = (each.tolist() for each in slopes)
     speeds = most.tolist()
-    for n in range(count - 2, -1, -1):
-        can = step(speeds[n + 1], length[n], slower[n], rapid[n])
-        speeds[n] = min(speeds[n], can)
+    after = 0.0
+    for n in range(count - 1, -1, -1):
+        after = speeds[n] = min(speeds[n], step(after, length[n], slower[n], rapid[n]))
         if n % EVERY == 0:
             progress(0.3 + 0.3 * (count - n) / count)
     for n in range(count - 1):
@@ -343,10 +377,19 @@ def _ramps(
 
 
 def _rests(
-    path: ToolPath, geometry: Geometry, rules: PathRules, table: CauseTable, waits: Callable[[int], float]
+    path: ToolPath,
+    geometry: Geometry,
+    rules: PathRules,
+    table: CauseTable,
+    leave: PathRows,
+    waits: Callable[[int], float],
 ) -> tuple[PathRows, Causes]:
+    """Return how long the axes rest at the end of each row, and why."""
     rest = path.seconds[geometry.row].copy()
     by = np.ones(len(rest), np.int16)
+    if rules.pause > 0.0:
+        stops = (leave == 0.0) & (geometry.length > 0.0)
+        rest[stops], by[stops] = rules.pause, table.number(rules.stop)
     if rules.waits:
         last = np.append(geometry.row[:-1] != geometry.row[1:], True)
         exact = (path.corner[geometry.row] == EXACT) & (path.kind[geometry.row] != DWELL) & last

@@ -82,6 +82,7 @@ def run_program(
     axes = _axes(machine, path)
     waits = _Waits(axes, rules.feed_ramp if rules.waits else Ramp())
     plan = plan_program(path, rules, progress=lambda share: progress(0.5 * share))
+    path = plan.path
     notes = [*path.assumptions, *rules.assumptions]
     if rules.waits:
         waits.look(plan)
