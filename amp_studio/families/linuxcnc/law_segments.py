@@ -135,7 +135,7 @@ def _is_mixed(way: np.ndarray, rotary: list[int]) -> bool:
 
 
 def _points(path: ToolPath, geometry: Geometry, row: int, joins: float) -> tuple[Point, ...]:
-    """Return the points of straight moves that stand for a row; none for an arc that stays one (CN1494)."""
+    """Return the points of the straight moves of a row; none for an arc that stays one (CN1494)."""
     end = tuple(path.ends[row].tolist())
     if path.kind[row] == LINE:
         return (end,)
