@@ -40,7 +40,7 @@ class PathMoves:
         self._speed = roles.get("spindle", self._speed)
 
     def round_corners(self, roles: dict[str, float]) -> None:
-        """Round corners as the words of a block tell; without them as far as the control likes."""
+        """Round corners by the words of a block; without them as far as the control likes."""
         corner, points = roles.get("blend-tolerance"), roles.get("join-tolerance")
         self.rows.round_by(Rounding(corner or 0.0, corner or 0.0 if points is None else points))
 

@@ -4,18 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
+from amp_studio.programs import ToolPath
 from amp_studio.schema import Address
 from amp_studio.sim.command.events import Ramp
-
-if TYPE_CHECKING:
-    from amp_studio.programs import ToolPath
-
-    from .path.geometry import Geometry
 
 PathRows = npt.NDArray[np.float64]
 Causes = npt.NDArray[np.int16]
@@ -46,6 +41,25 @@ class Corners:
     """Direction at the start of the second one."""
     slow: npt.NDArray[np.bool_]
     """Whether the program asks for slower corners."""
+
+
+@dataclass(frozen=True)
+class Geometry:
+    """PathRows as the control plans them; (rows,) or (rows, axes)."""
+
+    row: npt.NDArray[np.int64]
+    """Row of the program's path."""
+    begins: PathRows
+    ends: PathRows
+    length: PathRows
+    first: PathRows
+    """Direction at the start; 0 without length."""
+    last: PathRows
+    share: PathRows
+    """Largest share of the speed that an axis has in the row."""
+    radius: PathRows
+    """Infinite on a line."""
+    is_arc: npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -93,6 +107,8 @@ class PathRules:
     """Axis -> its own limit in every move."""
     axis_deceleration: Mapping[str, PathLimit] | None = None
     """Axis -> that of slowing down; None for the acceleration."""
+    axis_rapid_acceleration: Mapping[str, PathLimit] | None = None
+    """That of rapid moves, up and down; None for the same."""
     axis_rapid: Mapping[str, PathLimit] | None = None
     """That of its speed in rapid; None for the same."""
     corner: CornerRule = lambda _corners: ()

@@ -254,3 +254,23 @@ def test_a_program_is_cancelled_by_its_progress(router: ParameterFile) -> None:
 
     with pytest.raises(StopAskedError):
         ProgramJob(ZIGZAG).run(router, stop)
+
+
+def test_a_num_has_other_ramps_for_g0_and_passes_corners_at_its_approach_speed() -> None:
+    """Pages 6-10 and 6-36: the second word of P32 is of fast moves; P33 bounds the speed between blocks."""
+    file = example("num-1060-mill")
+    speeds = (("servo.approach_speed@0", "600 mm/min"), ("servo.approach_speed@1", "600 mm/min"))
+    file.set_checked(read_assignments(file, speeds))
+    job = ProgramJob(["G0 X-10", "G1 X-20 F3000", "Y-20", "G9 X-10"], [0.0] * 4, with_contour=False)
+    plan = job.run(file).plan
+    own = [file.evaluation.canonical((f"servo.acceleration_{kind}", "0")) for kind in ("fast", "work")]
+    assert plan.acceleration[:2].tolist() == pytest.approx(own)
+    assert plan.leave[1] == pytest.approx(10.0)
+    assert plan.rest[-1] > 0.0
+
+
+def test_a_syntec_runs_rapid_moves_from_rest_to_rest_and_names_what_it_does_not() -> None:
+    file = example("syntec-mill")
+    run = ProgramJob(["G91 G00 X-20", "Y-10", "G01 X1"], with_contour=False).run(file)
+    assert run.plan.leave.tolist() == [0.0, 0.0]
+    assert run.alarms[-1].message == "G01 is a code that no page here names"

@@ -26,6 +26,7 @@ from .law_loop import loop
 from .law_machine_tests import machine_tests
 from .law_notes import ALWAYS, NOT_SIMULATED
 from .law_pair import drive_axis, is_synchronised, refuse_chain, synchronised
+from .law_path import path_rules
 from .law_spindle import spindle, tapping
 from .law_words import Words, above, read_words
 
@@ -212,4 +213,6 @@ def _sources(read: AxisParameters, words: Words) -> dict[str, Source]:
     }
 
 
-LAW = Law(bind, axes, advise=advise, spindle=spindle, tapping=tapping, machine_tests=machine_tests)
+LAW = Law(
+    bind, axes, advise=advise, spindle=spindle, tapping=tapping, machine_tests=machine_tests, path=path_rules
+)

@@ -42,6 +42,7 @@ from .formulas.resolution import STANDARD_BLU
 from .law_advice import advise
 from .law_facts import MOTION, ids
 from .law_machine_tests import machine_tests
+from .law_path import path_rules
 from .law_zones import zones
 
 SHORTEST, LONGEST = 1e-4, 0.1
@@ -368,4 +369,4 @@ def _sources(read: AxisParameters, axis: _Axis) -> dict[str, Source]:
     }
 
 
-LAW = Law(bind, axes, advise=advise, zones=zones, machine_tests=machine_tests)
+LAW = Law(bind, axes, advise=advise, zones=zones, machine_tests=machine_tests, path=path_rules)

@@ -3,36 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
 from amp_studio.programs import ARC, PLANES, ToolPath
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.path_rules import PathRows
+from amp_studio.sim.path_rules import Geometry, PathRows
 
 MOST_PIECES = 8_000_000
 """PathRows after arcs have become straight pieces."""
-
-
-@dataclass(frozen=True)
-class Geometry:
-    """PathRows as the control plans them; (rows,) or (rows, axes)."""
-
-    row: npt.NDArray[np.int64]
-    """Row of the program's path."""
-    begins: PathRows
-    ends: PathRows
-    length: PathRows
-    first: PathRows
-    """Direction at the start; 0 without length."""
-    last: PathRows
-    share: PathRows
-    """Largest share of the speed that an axis has in the row."""
-    radius: PathRows
-    """Infinite on a line."""
-    is_arc: npt.NDArray[np.bool_]
 
 
 def places_of(path: ToolPath, row: int) -> tuple[int, int]:

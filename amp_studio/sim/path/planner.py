@@ -18,9 +18,18 @@ from amp_studio.programs import DWELL, EXACT, RAPID, SLOW, ToolPath
 from amp_studio.sim.command.changes import SYMMETRIC, change_time, change_way, peaks, reached
 from amp_studio.sim.command.events import Ramp
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.path_rules import Causes, Corners, PathLimit, PathRows, PathRules, RowBounds, ShapedPath
+from amp_studio.sim.path_rules import (
+    Causes,
+    Corners,
+    Geometry,
+    PathLimit,
+    PathRows,
+    PathRules,
+    RowBounds,
+    ShapedPath,
+)
 
-from .geometry import Geometry, geometry_of
+from .geometry import geometry_of
 
 AS_PROGRAMMED = PathLimit(math.inf, None, "feed as programmed")
 DWELLS = PathLimit(0.0, None, "dwell")
@@ -266,8 +275,10 @@ def _accelerations(
         for limit in limits:
             bound = np.full(count, limit.value if limit.value > 0.0 else math.inf)
             _lowered(value, by, bound, table.number(limit), where)
-    axes = {name: limit for name, limit in of_axes.items() if limit.value > 0.0}
-    _of_axes(value, by, geometry, path, axes, table)
+    rapid = of_axes if rules.axis_rapid_acceleration is None else rules.axis_rapid_acceleration
+    for own, where in ((of_axes, ~is_rapid), (rapid, is_rapid)):
+        axes = {name: limit for name, limit in own.items() if limit.value > 0.0}
+        _of_axes(value, by, geometry, path, axes, table, where)
     return value, by
 
 

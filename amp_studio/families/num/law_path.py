@@ -1,0 +1,100 @@
+"""How a NUM goes along the path of a programme: traverse rates (6-6), accelerations of work and fast moves
+(6-10), approach speeds between blocks (6-36), the in-position window of G9 (6-20).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from amp_studio.sim import (
+    AxisParameters,
+    BoundMachine,
+    CornerRule,
+    Corners,
+    PathLimit,
+    PathRows,
+    PathRules,
+    SimulationError,
+)
+
+from .law_facts import ids
+from .law_words import Words, read_words
+
+STRAIGHT = 1e-9
+"""Change of direction below which an axis goes on evenly."""
+ASSUMED = (
+    (
+        "No axis passes its Maximum Axis Traverse Rate (P30), nor its acceleration (P32): the first word of"
+        " work rates, the second of G0 (6-10)."
+    ),
+    (
+        "ASSUMED: from one block to the next no axis changes its speed by more than its Approach Speed (P33),"
+        " and as many blocks are known as are needed; the programming manual is not among the sources."
+    ),
+    "ASSUMED: the feed is that along the path.",
+)
+
+
+def path_rules(machine: BoundMachine) -> PathRules:
+    """Return the rules of a file; raises SimulationError naming what is missing."""
+    speeds, work, fast, steps = {}, {}, {}, {}
+    notes: list[str] = []
+    for axis in machine.fitted:
+        read, letter = machine.read(axis), machine.letter(axis)
+        if not letter:
+            continue
+        words = read_words(read, [])
+        speeds[letter] = PathLimit(words.top, (ids.max_speed, axis))
+        work[letter] = PathLimit(_work(words, axis), (ids.acceleration_work, axis))
+        fast[letter] = PathLimit(words.acceleration, (ids.acceleration_fast, axis))
+        steps[letter] = _approach(read, words, axis, notes)
+    ramp = next(iter(machine.axis(machine.fitted[0]).ramps.values()))
+    return PathRules(
+        feed_ramp=ramp,
+        rapid_ramp=ramp,
+        axis_speed=speeds,
+        axis_acceleration=work,
+        axis_rapid_acceleration=fast,
+        corner=_corner(steps),
+        waits=True,
+        stop=PathLimit(0.0, (ids.in_position_window, machine.fitted[0])),
+        assumptions=(*ASSUMED, *dict.fromkeys(notes)),
+    )
+
+
+def _work(words: Words, axis: str) -> float:
+    if not words.work_acceleration > 0.0:
+        raise SimulationError(
+            f"{ids.acceleration_work}@{axis} is not set: the acceleration of work rates (P32, 6-10)",
+            ids.acceleration_work,
+        )
+    return words.work_acceleration
+
+
+def _approach(read: AxisParameters, words: Words, axis: str, notes: list[str]) -> PathLimit:
+    """Return by how much an axis may change its speed; with 0 it is P32 times the time constant (6-36)."""
+    own = read.optional(ids.approach_speed)
+    if own:
+        return PathLimit(own / 60.0, (ids.approach_speed, axis))
+    notes.append(
+        "An Approach Speed (P33) that is 0 or not set is acceleration times time constant (6-36, 6-40)."
+    )
+    return PathLimit(words.work_acceleration * words.constant, (ids.approach_speed, axis))
+
+
+def _corner(steps: Mapping[str, PathLimit]) -> CornerRule:
+    """Return the rule of the approach speed of each axis."""
+
+    def rule(corners: Corners) -> Sequence[tuple[PathLimit, PathRows]]:
+        change = np.abs(corners.after - corners.before)
+        found = []
+        for n, axis in enumerate(corners.axes):
+            bound = np.full(len(change), math.inf)
+            np.divide(steps[axis].value, change[:, n], out=bound, where=change[:, n] > STRAIGHT)
+            found.append((steps[axis], bound))
+        return found
+
+    return rule
