@@ -196,10 +196,11 @@ def motion(stage: Stage, path: Path) -> QPixmap:
     window = _shown(stage, path)
     window.go_to(("feedrate.rapid", "1"))
     window.menus["view.motion"].trigger()
-    with stage.beside("MotionView") as view:
-        settle(lambda: getattr(view, "trace", None) is not None and not Task.running)
-        view.resize(*SIZE)
-        return _grab(view)
+    view = window.page.motion
+    settle(lambda: view.trace is not None and not Task.running)
+    taken = _grab(window)
+    window.page.show_motion(False)
+    return taken
 
 
 def record(stage: Stage, path: Path) -> QPixmap:

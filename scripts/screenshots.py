@@ -321,9 +321,12 @@ class Stage:
         """A simulated movement."""
         self.window.go_to(("feedrate.rapid", "1"))
         self.window.menus["view.motion"].trigger()
-        with self.beside("MotionView") as view:
-            settle(lambda: view.trace is not None and not Task.running)
-            self.take("16-motion", view)
+        view = self.window.page.motion
+        settle(lambda: view.trace is not None and not Task.running)
+        self.take("16-motion", self.window, LARGE)
+        self.take("16-motion", self.window, SMALL)
+        self.window.page.show_motion(False)
+        self.window.resize(*LARGE)
 
     def tuning(self) -> None:
         """Every page of the tuning window."""

@@ -146,6 +146,7 @@ class MainWindow(PartsWindow):
         view.apply_options(self, page)
         self.tabs.add(page, instead)
         page.changed.connect(self._update)
+        page.turned.connect(lambda: self._show_page(self.page))
         if instead is not None:
             self.close_page(instead)
         page.table_view.setFocus()
@@ -164,7 +165,7 @@ class MainWindow(PartsWindow):
             self.centre.setCurrentWidget(self.tabs)
             project.notice(self, page.workspace.path.parent)
             self._show_value()
-        self.docks.show_page(page)
+        self.docks.show_page(None if page is None or page.shows_motion else page)
         self.enable()
 
     def leave_control(self, *_: object) -> bool:

@@ -163,6 +163,6 @@ def test_a_compared_parameter_is_shown_in_the_table(opened) -> None:
 def test_the_menu_offers_motion_again_for_a_family_that_has_it(opened) -> None:
     window = opened("syntec", "X")
     assert (window.menus["view.motion"].text(), window.menus["view.motion"].toolTip()) == (
-        "&Motion…",
+        "&Motion",
         "Motion (F9)",
     )

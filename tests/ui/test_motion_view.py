@@ -1,4 +1,4 @@
-"""The motion window follows the file as it is edited."""
+"""The motion page follows the file as it is edited."""
 
 from __future__ import annotations
 
@@ -187,12 +187,22 @@ def test_the_trace_before_an_edit_lies_under_the_one_after_it(
     window.workspace.edit("rapid", {("feedrate.rapid", "2"): Value(5000.0, "mm/min")})
     settled(view, qtbot)
     assert view.before.result["feedrate"] == view.trace.result["feedrate"] == (5000.0, "mm/min")
-    assert "before" in view.figures.toPlainText()
-    view.compare.setChecked(False)
+    assert "saved" in view.figures.toPlainText()
+    view.against.setCurrentIndex(view.against.findData("alone"))
+    settled(view, qtbot)
     assert not view.plot.picture.panels[1].curves[0].is_before
-    view.compare.setChecked(True)
+
+
+def test_what_is_kept_belongs_to_its_scenario(view: MotionView, window: MainWindow, qtbot: QtBot) -> None:
     view.keep.click()
-    assert not view.plot.picture.panels[1].curves[0].is_before
+    window.workspace.edit("gain", {("servo.initial_gain", "2"): Value(0.8)})
+    settled(view, qtbot)
+    assert view.plot.picture.panels[1].curves[0].is_before
+    assert "kept" in view.figures.toPlainText()
+    choose(view, "circle", qtbot)
+    assert view.against.currentData() == "saved", "each scenario has its own"
+    choose(view, "step", qtbot)
+    assert view.against.model().item(view.against.findData("kept")).isEnabled()
 
 
 def test_a_cursor_is_dragged_and_its_values_are_shown(view: MotionView, qtbot: QtBot) -> None:
@@ -295,13 +305,32 @@ def test_a_recommendation_leads_to_its_parameter(view: MotionView, window: MainW
     assert window.selected() == ("servo.gain_break_point", "2")
 
 
-def test_closing_it_while_it_runs_ends_well(view: MotionView, window: MainWindow, qtbot: QtBot) -> None:
-    view.run()
-    assert view._task is not None
-    with qtbot.waitSignal(view.destroyed, timeout=WAIT_MS):
-        view.close()
+def test_leaving_it_runs_nothing_until_somebody_looks_again(
+    view: MotionView, window: MainWindow, qtbot: QtBot
+) -> None:
+    view.left.emit()
+    assert not window.page.shows_motion
+    assert window.table_view.isVisible()
+    old = view.trace
     window.workspace.edit("gain", {("servo.initial_gain", "2"): Value(0.5)})
-    qtbot.waitUntil(lambda: not Task.running, timeout=WAIT_MS)
+    assert view._task is None
+    window.go_to(("servo.excess_error", "3"))
+    action(window, "Motion").trigger()
+    settled(view, qtbot)
+    assert (view.trace.axis, old.axis) == ("3", "2"), "the axis that is selected now"
+    action(window, "Motion").trigger()
+    assert not window.page.shows_motion
+
+
+def test_the_panels_come_back_as_they_were(view: MotionView, window: MainWindow) -> None:
+    view.left.emit()
+    window.workspace.edit("small", {("servo.excess_error", "1"): Value(0.001, "mm")})
+    assert not window.findings.isVisible(), "they were folded, and nobody has opened them"
+    assert window.detail.isVisible()
+    window.page.show_motion(True)
+    assert not window.detail.isVisible()
+    window.go_to(("servo.excess_error", "1"))
+    assert (window.detail.isVisible(), window.findings.isVisible()) == (True, False)
 
 
 def test_closing_the_program_while_it_runs_ends_well(view: MotionView, window: MainWindow) -> None:
@@ -329,5 +358,5 @@ def test_another_scenario_shows_the_fields_of_its_settings(view: MotionView, qtb
     view.show()
     for scenario in ("home", "circle", "travel", "step"):
         choose(view, scenario, qtbot)
-        assert view._above.height() > 60, scenario
+        assert view.settings.height() >= view.settings.sizeHint().height() > 60, scenario
     assert view.trace.scenario == "step"

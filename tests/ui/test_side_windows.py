@@ -20,7 +20,6 @@ COMMANDS = {
     "edit.tables": "TablesDialog",
     "axis.compare": "AxisComparison",
     "view.settings": "SettingsDialog",
-    "view.motion": "MotionView",
     "file.compare": "MergeWindow",
     "file.migrate": "MigrationWindow",
     "control.check": "CheckWindow",
@@ -35,7 +34,6 @@ def quiet(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let nothing be simulated: only the windows count."""
     nothing: Iterator[object] = iter(())
     monkeypatch.setattr("amp_studio.ui.motion.check_window.check_motion", lambda _file: nothing)
-    monkeypatch.setattr("amp_studio.ui.motion.view.MotionView.run", lambda *_: None)
 
 
 def beside(window: MainWindow) -> list[QWidget]:
@@ -61,14 +59,9 @@ def test_what_belongs_to_a_value_follows_the_selection(window: MainWindow, quiet
     window.menus["edit.calculator"].trigger()
     (first,) = beside(window)
     window.go_to(("servo.excess_error", "2"))
-    window.menus["view.motion"].trigger()
     window.menus["edit.calculator"].trigger()
-    motion, second = beside(window)
+    (second,) = beside(window)
     assert second is not first, "its result would go to the value that was selected before"
-    assert motion.axis.currentData() == "2"
-    window.go_to(("servo.excess_error", "3"))
-    window.menus["view.motion"].trigger()
-    assert motion.axis.currentData() == "3"
 
 
 def test_each_file_has_its_windows(window: MainWindow, quiet: None, path: Path) -> None:

@@ -87,7 +87,7 @@ class Work:
         motion = self.window.findChildren(MotionView)[-1]
         self.qtbot.waitUntil(lambda: motion.trace is not None, timeout=WAIT_MS)
         QTest.qWait(50)
-        self.do("motion closed", motion.close)
+        self.choose("motion left", "Motion")
 
 
 def family_of(page: FilePage) -> str:

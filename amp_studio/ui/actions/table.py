@@ -306,11 +306,12 @@ def _view() -> Menu[PartsWindow]:
             None,
             Action(
                 "view.motion",
-                tr("&Motion…"),
+                tr("&Motion"),
                 view.open_motion,
                 "F9",
                 icon="activity",
                 short=tr("Motion"),
+                is_on=lambda w: w.page is not None and w.page.shows_motion and not w.control.is_shown,
                 follows=view.show_motion,
             ),
             Action("view.program", tr("B&locks and Programs…"), view.open_program, "Ctrl+F9", icon="path"),

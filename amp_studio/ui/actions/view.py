@@ -129,26 +129,32 @@ def show_motion(window: StudioWindow, action: QAction) -> None:
     workspace = window.workspace
     family = workspace.file.schema.family if workspace else None
     reason = why_not_simulated(family) if family else ""
-    missing = tr("&Motion… (not for {family})") if reason else tr("&Motion…")
+    missing = tr("&Motion (not for {family})") if reason else tr("&Motion")
     action.setText(missing.format(family=family.short or family.name) if family else missing)
     action.setIconText(tr("Motion"))
     action.setToolTip(reason or tr("Motion (F9)"))
 
 
 def open_motion(window: StudioWindow) -> None:
-    """Open the window in which the machine moves;
+    """Show the page on which the machine moves, or the values again;
     where its family cannot be simulated the page has the reason.
     """
     page = window.page_in_front
+    if not window.leave_control() and page.shows_motion:
+        page.show_motion(False)
+        return
     if reason := why_not_simulated(page.workspace.file.schema.family):
         page.bar.say(reason)
         return
     workspace, address = page.workspace, window.selected()
     kind = in_background(window, tr("Loading the simulator"), partial(_motion_view, workspace.file.copy()))
-    if (opened := window.beside.again(kind, workspace)) is None:
-        window.beside.show(kind(workspace, address, page.go_to, window), workspace)
-    elif address is not None:
-        opened.show_axis(address[1])
+    if page.motion is None:
+        made = kind(workspace, address, page.go_to)
+        made.left.connect(lambda: page.show_motion(False))
+        page.take_motion(made)
+    elif isinstance(page.motion, kind) and address is not None:
+        page.motion.show_axis(address[1])
+    page.show_motion(True)
 
 
 def open_program(window: StudioWindow) -> None:

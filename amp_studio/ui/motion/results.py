@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.schema import Schema, unit_text
 from amp_studio.sim import Recommendation, Trace, value_text
+from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.theme import severity_colour, state_colour
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.forms.pages import LINK
@@ -42,28 +43,30 @@ class FiguresPage(QTextBrowser):
         self.setOpenLinks(False)
         self.anchorClicked.connect(follow)
 
-    def show_trace(self, trace: Trace, before: Trace | None) -> None:
-        """Show the figures of a trace, with those of the trace before a change."""
+    def _at(self, time_s: float) -> str:
+        return html.escape(self.tr("at {time} s").format(time=written(f"{time_s:.4g}")))
+
+    def show_trace(self, trace: Trace, before: Trace | None, kind: str = "saved") -> None:
+        """Show the figures of a trace, with those of the saved file or of what was ``kept``."""
         shade = severity_colour("error").name()
         alarms = "".join(
-            f'<p style="color:{shade}"><b>{html.escape(a.code)}</b> at {a.time_s:.4g} s:'
+            f'<p style="color:{shade}"><b>{html.escape(a.code)}</b> {self._at(a.time_s)}:'
             f" {html.escape(a.message)}</p>"
             for a in trace.alarms
         )
         warn = severity_colour("warning").name()
         doubts = "".join(f'<p style="color:{warn}">{html.escape(text)}</p>' for text in trace.doubts)
+        beside = self.tr("kept") if kind == "kept" else self.tr("saved")
         self.setHtml(
             f"{alarms}{doubts}<table cellspacing=0 cellpadding=2"
-            f" width=100%>{''.join(_rows(trace, before))}</table>"
+            f" width=100%>{''.join(_rows(trace, before, beside))}</table>"
         )
 
 
-def _rows(trace: Trace, before: Trace | None) -> list[str]:
+def _rows(trace: Trace, before: Trace | None, before_name: str) -> list[str]:
     dim = state_colour().name()
     others = [kind for kind in (PREDICTED, SWEPT) if any(name.startswith(kind) for name in trace.result)]
-    heads = [
-        worded(head) for head in (*(kind.rstrip("_") for kind in others), *(["before"] if before else []))
-    ]
+    heads = [*(worded(kind.rstrip("_")) for kind in others), *([before_name] if before else [])]
     head = "".join(f'<td align=right style="color:{dim}">{words}</td>' for words in heads)
     rows = [f"<tr><td></td><td></td>{head}</tr>"] if heads else []
     for name, (value, unit) in trace.result.items():
@@ -86,7 +89,7 @@ def _rows(trace: Trace, before: Trace | None) -> list[str]:
 
 
 def _number(value: float | None) -> str:
-    return "–" if value is None else value_text(value, digits=5).replace("-", "−")
+    return "–" if value is None else written(value_text(value, digits=5)).replace("-", "−")
 
 
 class RecommendationsPage(QScrollArea):
@@ -160,6 +163,9 @@ class AssumptionsPage(QTextBrowser):
     def __init__(self) -> None:
         super().__init__()
         self.setFrameShape(QFrame.Shape.NoFrame)
+
+    def _at(self, time_s: float) -> str:
+        return html.escape(self.tr("at {time} s").format(time=written(f"{time_s:.4g}")))
 
     def show_trace(self, trace: Trace) -> None:
         """Show the assumptions of a trace."""

@@ -1,4 +1,4 @@
-"""The motion window: a scenario on one axis with the values of the file, before and after a change."""
+"""The motion page of a file: a scenario on one axis with the values of the file, and of the saved one."""
 
 from __future__ import annotations
 
@@ -9,10 +9,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from PySide6.QtCore import Qt, QUrl
-from PySide6.QtGui import QCloseEvent, QShortcut
+from PySide6.QtCore import Qt, QUrl, Signal
+from PySide6.QtGui import QShortcut, QShowEvent, QStandardItemModel
 from PySide6.QtWidgets import (
-    QCheckBox,
     QComboBox,
     QFileDialog,
     QHBoxLayout,
@@ -42,7 +41,7 @@ from amp_studio.sim import (
 )
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task, TaskProgress
-from amp_studio.ui.base.theme import severity_colour
+from amp_studio.ui.base.theme import GAP2, GAP3, scheme, severity_colour
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.form import Field, FieldForm, fill_choices
@@ -52,8 +51,8 @@ from .machine_page import MachinePage
 from .results import AssumptionsPage, FiguresPage, RecommendationsPage, name_of
 from .settings import SettingsForm, scrolled
 
-MOST_HEIGHT = 148
-"""Pixels of the settings of a scenario; more of them are scrolled."""
+_LEAST_FIGURES = 280
+"""Height in pixels of the figures below the form, which is there whole; a low window scrolls both."""
 _ASSUMED = re.compile(r"ASSUMED: (model\.\w+) = (.+?)\. ")
 _ENDINGS = "SVG (*.svg);;PNG (*.png);;CSV (*.csv)"
 
@@ -83,9 +82,12 @@ def _same_move(
 
 
 class MotionView(QWidget):
-    """Simulates with the present values, and again after every edit;
-    the trace that was first lies under the new one.
+    """Simulates with the present values, and again after every edit that is seen;
+    the trace of the saved file, or of what was kept for this scenario, lies under it.
     """
+
+    left = Signal()
+    """The values are wanted again."""
 
     def __init__(
         self,
@@ -94,19 +96,20 @@ class MotionView(QWidget):
         show: Callable[[Address], None],
         parent: QWidget | None = None,
     ) -> None:
-        super().__init__(parent, Qt.WindowType.Window)
-        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.setWindowTitle(self.tr("Motion — {name}").format(name=workspace.path.name))
-        self.resize(1220, 800)
-        QShortcut(Qt.Key.Key_Escape, self, self.close)
+        super().__init__(parent)
+        self.setAccessibleName(self.tr("Motion"))
+        leave = QShortcut(Qt.Key.Key_Escape, self, self.left.emit)
+        leave.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
         self._workspace, self._show_parameter = workspace, show
         self._task: Task | None = None
-        self._again = False
+        self._again = self._is_stale = False
         self._asked: tuple[object, ...] = ()
         self._impossible: SimulationError | None = None
         self._counts = False  # whether the axis moves in counts, not in a length or an angle
         self.trace: Trace | None = None
         self.before: Trace | None = None
+        self._kept: dict[tuple[str, str], ParameterFile] = {}
+        """Scenario and axis -> the values that were kept to compare with."""
         # The values of both traces; None until there is one.
         self._file_ran: ParameterFile | None = None
         self._file_before: ParameterFile | None = None
@@ -130,15 +133,23 @@ class MotionView(QWidget):
             QPushButton(self.tr("&Zoom to Settling")),
             QPushButton(self.tr("Show &All")),
         )
-        self.compare, self.keep = QCheckBox(self.tr("&Before")), QPushButton(self.tr("&Keep as Before"))
-        self.compare.setChecked(True)
-        self.compare.setToolTip(self.tr("Draw the trace from before the changes under the present one"))
+        self.against, self.keep = QComboBox(), QPushButton(self.tr("&Keep"))
+        self.against.setAccessibleName(self.tr("Compared with"))
+        self.against.setToolTip(self.tr("What lies under the present motion, making the same move"))
+        for key, name in (
+            ("saved", self.tr("With the saved file")),
+            ("kept", self.tr("With what was kept")),
+            ("alone", self.tr("Alone")),
+        ):
+            self.against.addItem(name, key)
         self.chart = QComboBox()
         self.chart.setAccessibleName(self.tr("Chart"))
         self.chart.setToolTip(self.tr("How the open loop is drawn"))
         for name in CHARTS:
             self.chart.addItem(worded(name.capitalize()), name)
-        self.keep.setToolTip(self.tr("Compare with the present trace from now on"))
+        self.keep.setToolTip(
+            self.tr("Compare this scenario of this axis with the present values from now on")
+        )
         self.summary, self.values = QLabel(), QLabel()
         self.summary.setWordWrap(True)
         self.summary.setTextInteractionFlags(Qt.TextInteractionFlag.TextBrowserInteraction)
@@ -161,7 +172,7 @@ class MotionView(QWidget):
             )
         )
         tools = QHBoxLayout()
-        for widget in (self.chart, self.settling, self.all_of_it, self.compare, self.keep):
+        for widget in (self.chart, self.settling, self.all_of_it, self.against, self.keep):
             tools.addWidget(widget)
         tools.addStretch()
         tools.addWidget(self.run_button)
@@ -181,10 +192,10 @@ class MotionView(QWidget):
             self.tabs.addTab(page, title)
         side = QWidget()
         right = QVBoxLayout(side)
-        right.setContentsMargins(0, 0, 0, 0)
+        right.setContentsMargins(0, 0, GAP2, 0)
         right.addWidget(form)
-        self._above = scrolled(self.settings)
-        right.addWidget(self._above)
+        right.addWidget(self.settings)
+        self.tabs.setMinimumHeight(_LEAST_FIGURES)
         right.addWidget(self.tabs, 1)
         left = QWidget()
         picture = QVBoxLayout(left)
@@ -193,11 +204,13 @@ class MotionView(QWidget):
         picture.addWidget(self.plot, 1)
         middle = QSplitter()
         middle.addWidget(left)
-        middle.addWidget(side)
+        middle.addWidget(scrolled(side))
         middle.setStretchFactor(0, 1)
         middle.setSizes([790, 430])
         outer = QVBoxLayout(self)
+        outer.setContentsMargins(GAP3, GAP2, GAP2, GAP2)
         outer.addWidget(self.summary)
+        self.setFocusProxy(self.scenario)
         outer.addWidget(middle, 1)
 
     def _connect(self) -> None:
@@ -208,12 +221,14 @@ class MotionView(QWidget):
         self.chart.currentIndexChanged.connect(self._redraw)
         self.settling.clicked.connect(self._zoom_to_settling)
         self.all_of_it.clicked.connect(lambda: self.plot.zoom(None))
-        self.compare.toggled.connect(self._redraw)
+        self.against.currentIndexChanged.connect(self.run)
         self.keep.clicked.connect(self._keep_before)
         self.plot.read.connect(self.values.setText)
         self.summary.linkActivated.connect(lambda url: self._follow(QUrl(url)))
         self._workspace.changed.connect(self._after_edit)
-        self._workspace.closed.connect(self.close)
+        self._workspace.saved.connect(self._after_edit)
+        self._workspace.closed.connect(self._end)
+        scheme().changed.connect(self._redraw)
 
     # -- what can be chosen --------------------------------------------------------
 
@@ -233,7 +248,7 @@ class MotionView(QWidget):
         self.scenario.setToolTip(chosen.title if chosen else "")
         self.settings.offer_settings(chosen.settings if chosen else {}, self._units(), others)
         self.machine.offer_settings(found.model, ("", ""))
-        self._above.setFixedHeight(min(MOST_HEIGHT, self.settings.sizeHint().height()))
+        self._offer_kept()
 
     def show_axis(self, axis: str) -> None:
         """Choose an axis where it can be simulated; another instance than of an axis changes nothing."""
@@ -252,14 +267,49 @@ class MotionView(QWidget):
         return (angular(length), angular(velocity)) if turns else (length, velocity)
 
     def _choose(self, *_: object) -> None:
-        """Take another scenario or axis; what was before belongs to the old one."""
+        """Take another scenario or axis, with what was kept for it."""
         self.before = self._file_before = None
         self._fill(str(self.axis.currentData()))
         self.machine_page.leave_axis(str(self.axis.currentData()))
         self.run()
 
-    def _after_edit(self, _: list[Address]) -> None:
-        """Update the choices and simulate again."""
+    def _offer_kept(self) -> None:
+        """Offer what was kept for this scenario and axis, where something was."""
+        is_kept = self._what in self._kept
+        rows = self.against.model()
+        assert isinstance(rows, QStandardItemModel)
+        rows.item(self.against.findData("kept")).setEnabled(is_kept)
+        self.against.blockSignals(True)
+        if not is_kept and self.against.currentData() == "kept":
+            self.against.setCurrentIndex(self.against.findData("saved"))
+        self.against.blockSignals(False)
+
+    @property
+    def _what(self) -> tuple[str, str]:
+        """The scenario and the axis that are chosen."""
+        return str(self.scenario.currentData() or "step"), str(self.axis.currentData())
+
+    def _compared(self, file: ParameterFile) -> ParameterFile | None:
+        """Return the values that those of ``file`` are compared with; None where none differs."""
+        match self.against.currentData():
+            case "kept":
+                return self._kept.get(self._what)
+            case "saved" if self._workspace.document.saved != file.values:
+                saved = self._workspace.document.as_saved()
+                saved.header.units = file.header.units
+                return saved
+        return None
+
+    def showEvent(self, event: QShowEvent) -> None:
+        super().showEvent(event)
+        if self._is_stale:
+            self._after_edit()
+
+    def _after_edit(self, *_: object) -> None:
+        """Update the choices and simulate again; while nobody looks it is only noted."""
+        self._is_stale = not self.isVisible()
+        if self._is_stale:
+            return
         self._fill(str(self.axis.currentData()))
         self.run()
 
@@ -280,12 +330,10 @@ class MotionView(QWidget):
             return
         file, axis = self._workspace.file.copy(), self.axis.currentData()
         scenario = str(self.scenario.currentData() or "step")
-        asked = (scenario, axis, tuple(settings.items()))
-        if asked != self._asked:
-            self.before = self._file_before = None
-            self._asked = asked
-
-        before, file_before = self.before, self._file_before
+        asked, file_before = (scenario, axis, tuple(settings.items())), self._compared(file)
+        is_same = (self._file_before and self._file_before.values) == (file_before and file_before.values)
+        before = self.before if is_same and asked == self._asked else None
+        self._asked, self._file_before = asked, file_before
 
         def work(_: TaskProgress, __: threading.Event) -> _Ran:
             trace = simulate(file, scenario, str(axis) if axis else None, settings)
@@ -328,13 +376,7 @@ class MotionView(QWidget):
     def _show_result(self, ran: _Ran) -> None:
         trace = ran.trace
         self.trace, self._file_ran = trace, ran.file
-        if ran.file_before is self._file_before:
-            self.before = ran.before
-        if self._file_before is None or (self.before and self.before.units != trace.units):
-            self.before, self._file_before = (
-                trace,
-                ran.file,
-            )  # the first one, or the file is in other units now
+        self.before = ran.before if ran.before and ran.before.units == trace.units else None
         counts = trace.units.get("position") == "counts"
         if counts != self._counts:
             self._counts = counts
@@ -357,22 +399,22 @@ class MotionView(QWidget):
         )
         self._redraw()
 
-    def _other(self) -> Trace | None:
-        """Return the trace to compare with, if it is another one and wanted."""
-        return self.before if self.compare.isChecked() and self.before is not self.trace else None
-
     def _redraw(self, *_: object) -> None:
         if self.trace is not None:
             self.chart.setVisible(self.trace.scenario == "frequency")
-            self.plot.draw(picture_of(self.trace, self._other(), str(self.chart.currentData())))
-            self.figures.show_trace(self.trace, self._other())
+            self.plot.draw(picture_of(self.trace, self.before, str(self.chart.currentData())))
+            self.figures.show_trace(self.trace, self.before, str(self.against.currentData()))
 
     def _zoom_to_settling(self) -> None:
         self.plot.zoom(settling_span(self.trace) if self.trace else None)
 
     def _keep_before(self) -> None:
-        self.before, self._file_before = self.trace, self._file_ran
-        self._redraw()
+        if self._file_ran is not None:
+            self._kept[self._what] = self._file_ran
+        self._offer_kept()
+        if self.against.currentData() == "kept":
+            self.run()
+        self.against.setCurrentIndex(self.against.findData("kept"))
 
     # -- recommendations -------------------------------------------------------------
 
@@ -426,19 +468,19 @@ class MotionView(QWidget):
         notes: list[str] = []
         try:
             chart = str(self.chart.currentData())
-            write_trace(self.trace, path, notes.append, before=self._other(), chart=chart)
+            write_trace(self.trace, path, notes.append, before=self.before, chart=chart)
         except (OSError, ValueError) as error:
             self._fail(error)
         else:
             self.summary.setText(html.escape("; ".join([f"{path} written", *notes])))
 
-    def closeEvent(self, event: QCloseEvent) -> None:
+    def _end(self) -> None:
         """Ignore the result of a run that has not finished."""
+        self._workspace.changed.disconnect(self._after_edit)
         if self._task is not None:
             self._task.done.disconnect(self._show_result)
             self._task.failed.disconnect(self._stop)
             self._task.finished.disconnect(self._ended)
-        super().closeEvent(event)
 
 
 def _possible(file: ParameterFile) -> tuple[SimulationListing, SimulationError | None]:

@@ -9,7 +9,7 @@ from functools import partial
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QStackedWidget, QVBoxLayout, QWidget
 
 from amp_studio.files import axis_letter, describe
 from amp_studio.schema import Address, Parameter, unit_text
@@ -45,6 +45,8 @@ class FilePage(QWidget):
     """The address of the current cell."""
     listed = Signal()
     """The table shows another group, step or search."""
+    turned = Signal()
+    """The motion page was shown, or left."""
     noted = Signal(str)
     """A short text for the status bar."""
     conflict = Signal()
@@ -76,6 +78,8 @@ class FilePage(QWidget):
         self._title = ""
         self.pictures: QWidget | None = None
         """Beside the table or in its place, once they were asked for."""
+        self.motion: QWidget | None = None
+        """The motion page, once it was asked for."""
         self.list_title = ListTitle()
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -90,7 +94,9 @@ class FilePage(QWidget):
         self.middle = PictureSplit(sheet)
         self.middle.rearranged.connect(self._note_cover)
         layout.addWidget(self.bar)
-        layout.addWidget(self.middle, 1)
+        self._stack = QStackedWidget()
+        self._stack.addWidget(self.middle)
+        layout.addWidget(self._stack, 1)
         self.setFocusProxy(self.table_view)
         self.left.chosen.connect(self._show_parameters)
         self.left.wanted.connect(self.go_to)
@@ -166,6 +172,7 @@ class FilePage(QWidget):
     def show_not_set(self) -> None:
         """Show the active parameters that are not set."""
         self.front_wanted.emit(self)
+        self.uncover()
         ids = dict.fromkeys(address[0] for address in addresses_not_set(self.workspace.findings))
         self._show_parameters(self.tr("Not set"), [self.workspace.file.schema.parameters[i] for i in ids])
 
@@ -222,8 +229,28 @@ class FilePage(QWidget):
             self.middle.show_pictures(wanted)
             self.changed.emit(self)
 
+    # -- the motion page -----------------------------------------------------------
+
+    @property
+    def shows_motion(self) -> bool:
+        """Whether the motion page is in the place of the values."""
+        return self.motion is not None and self._stack.currentWidget() is self.motion
+
+    def take_motion(self, motion: QWidget) -> None:
+        """Take the motion page in, hidden."""
+        self.motion = motion
+        self._stack.addWidget(motion)
+
+    def show_motion(self, wanted: bool) -> None:
+        """Show the motion page, or the values again."""
+        if self.motion is not None and wanted != self.shows_motion:
+            self._stack.setCurrentWidget(self.motion if wanted else self.middle)
+            self.turned.emit()
+            (self.motion if wanted else self).setFocus()
+
     def uncover(self) -> None:
-        """Show the table where the pictures are in its place."""
+        """Show the table where the pictures or the motion page are in its place."""
+        self.show_motion(False)
         if self.middle.covers:
             self.show_pictures(False)
 

@@ -209,11 +209,12 @@ class Docks(Translated):
         self._bottom.setFocusProxy(self._bottom.currentWidget() or self._stacks["Findings"])
         if self._is_first or self._arranged is not None:
             kept = self._settings.arrangement() if self._is_first else self._arranged
+            was_folded = not self._is_first and self._is_folded
             self._is_first, self._arranged = False, None
             self.reset()
             if kept is not None:
                 self._restore(kept)
-            self.fold(not page.findings.has_findings)
+            self.fold(was_folded or not page.findings.has_findings)
             self.fit(self._size)
         elif not page.findings.has_findings:
             self.fold(True)
