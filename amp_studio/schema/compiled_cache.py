@@ -12,13 +12,18 @@ import logging
 import os
 import re
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeVar
 
+from .model import Model
+from .model.compiled_json import record_text, text_record
 from .regular_file import read_file
 
 _log = logging.getLogger(__name__)
 _PROGRAM = "amp-studio"
 _MOST_BYTES = 64 * 2**20
+R = TypeVar("R", bound=Model)
 
 
 def cache_folder() -> Path:
@@ -43,16 +48,35 @@ def read_cached(path: Path) -> bytes | None:
     except FileNotFoundError:
         return None
     except OSError as error:
-        report_unusable(path, error.strerror or str(error))
+        _report_unusable(path, error.strerror or str(error))
         return None
     digest, _, kept = content.partition(b"\n")
     if digest != _digest(kept):
-        report_unusable(path, "its content is not what was kept there")
+        _report_unusable(path, "its content is not what was kept there")
         return None
     return kept
 
 
-def report_unusable(path: Path, why: str) -> None:
+def cached_record(path: Path, kind: type[R], name: str, make: Callable[[], R]) -> R:
+    """Return the record that is kept at a path; where there is none, ``make`` one and keep it there.
+
+    ``name`` is that of the family, or of its texts in a language: older ones of the same name are removed.
+    """
+    kept = read_cached(path)
+    if kept is not None:
+        try:
+            found = text_record(kept)
+        except ValueError:
+            found = None
+        if isinstance(found, kind):
+            return found
+        _report_unusable(path, "it contains no facts")
+    made = make()
+    write_cached(path, record_text(made).encode(), name)
+    return made
+
+
+def _report_unusable(path: Path, why: str) -> None:
     """Name a cache file that cannot be used."""
     _log.warning("%s cannot be used and is made again: %s", path, why)
 

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple, TypeVar
 
 from amp_studio.errors import AmpStudioError
 
-from .compiled_cache import cache_folder, read_cached, report_unusable, write_cached
+from .compiled_cache import cache_folder, cached_record
 from .consistency import faults_between, faults_of_experience, faults_of_messages, faults_of_order
 from .file_error import FileError, ModelError, Slip, read_yaml_file
 from .folder import database_folder
@@ -39,7 +39,7 @@ from .model import (
     Table,
     Tables,
 )
-from .model.compiled_json import record_text, text_record
+from .model.compiled_json import record_text
 from .model.family import define_units
 from .model.motion import NO_MOTION
 from .nearest import unknown_name
@@ -127,19 +127,9 @@ def load_compiled(family_id: str) -> Compiled:
     """
     folder = folder_of(family_id)
     cached = cache_folder() / f"{family_id}-{content_key(fact_files(folder))}.json"
-    kept = read_cached(cached)
-    if kept is not None:
-        try:
-            found = text_record(kept)
-        except ValueError:
-            found = None
-        if isinstance(found, Compiled):
-            define_units(found.family.own_units)  # what is read without a check defines nothing by itself
-            return found
-        report_unusable(cached, "it contains no facts")
-    compiled = compile_family(folder)
-    write_cached(cached, record_text(compiled).encode(), family_id)
-    return compiled
+    found = cached_record(cached, Compiled, family_id, lambda: compile_family(folder))
+    define_units(found.family.own_units)  # what is read without a check defines nothing by itself
+    return found
 
 
 def fact_files(folder: Path) -> list[Path]:

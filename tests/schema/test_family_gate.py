@@ -47,7 +47,7 @@ def no_other_file(monkeypatch) -> None:
         raise AssertionError(f"{folder} was looked at")
 
     monkeypatch.setattr(loading, "compile_family", looked)
-    monkeypatch.setattr(loading, "read_cached", looked)
+    monkeypatch.setattr(loading, "cached_record", looked)
     monkeypatch.setattr(loading, "content_key", looked)
 
 

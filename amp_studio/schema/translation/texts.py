@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from amp_studio.schema.compiled_cache import cache_folder, read_cached, report_unusable, write_cached
+from amp_studio.schema.compiled_cache import cache_folder, cached_record
 from amp_studio.schema.load import (
     Compiled,
     DatabaseError,
@@ -19,7 +19,7 @@ from amp_studio.schema.load import (
     read_facts,
 )
 from amp_studio.schema.model import FactTexts, FactTranslation
-from amp_studio.schema.model.compiled_json import record_text, text_record
+from amp_studio.schema.model.compiled_json import text_record
 
 from .places import TextPlace, english_texts, figures_in, names_in, own_texts
 
@@ -39,18 +39,7 @@ def fact_texts(family_id: str, language: str) -> FactTexts:
     own = (Path(__file__), Path(__file__).with_name("places.py"))
     name = f"{family_id}.{language}"
     cached = cache_folder() / f"{name}-{content_key([*own, *fact_files(folder), *files])}.json"
-    kept = read_cached(cached)
-    if kept is not None:
-        try:
-            found = text_record(kept)
-        except ValueError:
-            found = None
-        if isinstance(found, FactTexts):
-            return found
-        report_unusable(cached, "it contains no texts")
-    texts = compile_texts(load_compiled(family_id), files)
-    write_cached(cached, record_text(texts).encode(), name)
-    return texts
+    return cached_record(cached, FactTexts, name, lambda: compile_texts(load_compiled(family_id), files))
 
 
 def compile_texts(compiled: Compiled, files: list[Path]) -> FactTexts:
