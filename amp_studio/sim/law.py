@@ -35,6 +35,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -62,6 +63,9 @@ from .scenario import Scenario
 from .spindle import Gear, Spindle, Tapping
 from .trace import Recommendation, Trace
 from .zones import Zone
+
+if TYPE_CHECKING:
+    from .cam import CamForm
 
 Leader = Callable[["AxisLaw"], Mapping[str, npt.NDArray[np.float64]]]
 
@@ -219,6 +223,7 @@ class Law:
     ``machine_tests``  machine_tests(machine, axis) -> programs and procedures that try an axis out
     ``motion``     the facts of ``motion.yaml``, which `law_of` puts here
     ``zones``      zones(machine, axes) -> areas that axes must not enter or leave
+    ``cam``        how files contain cam profiles; None where no page prints one
     ``path``       path(machine) -> how a program goes along its path; None where no page prints enough
     """
 
@@ -232,6 +237,7 @@ class Law:
     zones: Callable[[BoundMachine, Sequence[str]], Iterable[Zone]] | None = None
     machine_tests: Callable[[BoundMachine, AxisLaw], Sequence[MachineTest]] | None = None
     path: Callable[[BoundMachine], PathRules] | None = None
+    cam: CamForm | None = None
     motion: MotionFacts = NO_MOTION
 
 

@@ -70,6 +70,7 @@ PAST_THE_DOOR = {
         "verbs/motion/block.py": "programs",
         "verbs/motion/program.py": "drawing files programs sim",
         "verbs/motion/calibrate.py": "calibration drawing files",
+        "verbs/motion/cam.py": "drawing files sim",
         "verbs/motion/machine_tests.py": "files sim",
         "verbs/motion/picture.py": "drawing files pictures",
         "verbs/motion/simulate.py": "sim",

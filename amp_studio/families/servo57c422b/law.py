@@ -32,6 +32,7 @@ from amp_studio.sim import (
 from . import law_plant as plant
 from . import law_sample as loop
 from .law_axis import ModuleAxis
+from .law_cam_table import CAM
 from .law_commands import COMMANDS
 from .law_facts import MOTION, ids
 from .law_home import homing, travel
@@ -340,4 +341,6 @@ SAME = 5e-4
 """Difference of two feed-forward shares that is not worth a change: 4 of 8192."""
 
 
-LAW = Law(bind=bind, axes=axes, advise=advise, probing=probing, own=COMMANDS, machine_tests=machine_tests)
+LAW = Law(
+    bind=bind, axes=axes, advise=advise, probing=probing, own=COMMANDS, machine_tests=machine_tests, cam=CAM
+)
