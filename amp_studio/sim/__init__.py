@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from .axis.simulated_machine import SimulatedAxis, SimulatedMachine
     from .axis_parameters import AxisParameters, ParameterValue
     from .binding import bind_axis
-    from .cam import CamForm, CamPoints, CamProfile, cam_figures, cam_picture, read_cam_points
+    from .cam import CamForm, CamPoints, CamProfile, cam_figures, cam_picture
+    from .cam_reading import read_cam_points
     from .command.events import CodedScale, Failure, Homing, Jogging, Ramp, Travel
     from .command.pieces import Piece, change, length
     from .command.ramps import end_of, exponential_pieces, leg, move, profile_of

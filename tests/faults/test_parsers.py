@@ -130,7 +130,7 @@ READERS = {
     "sheet/read_back.py": "damaged lists of a control's screen",
     "sheet/ticks.py": "damaged ticks of a sheet",
     "sim/identification/machine_file.py": "damaged machines of an axis",
-    "sim/cam.py": "damaged records of a drive",  # by the same reader of columns
+    "sim/cam_reading.py": "damaged records of a drive",  # by the same reader of columns
     "sim/identification/drive_record.py": "damaged records of a drive",
     "sim/identification/overlay.py": "damaged records of a drive",  # by the same reader of columns
     "sim/identification/response.py": "damaged frequency responses",

@@ -117,7 +117,7 @@ def _position_cam(file: ParameterFile, axis: str, points: CamPoints) -> CamProfi
 
 
 def _table(file: ParameterFile, axis: str, parameter: str, values: list[int]) -> dict[Address, Value | None]:
-    """Return the registers of a table; those of the table before that are beyond it are given up."""
+    """Return the registers of a table; those of the table before that are beyond it are not set."""
     old = {
         address: None
         for address in file.values
