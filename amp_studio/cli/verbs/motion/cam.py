@@ -42,8 +42,8 @@ VERB = Verb(
 def run(options: Options) -> int:
     """Show the cam of one axis, or make one of points; all or nothing."""
     from amp_studio import RangeError, edit
-    from amp_studio.schema import InvalidValueError, load_schema, resolve_axis
-    from amp_studio.sim import SimulationError, law_of, read_cam_points, simulated_axes
+    from amp_studio.schema import InvalidValueError, load_schema
+    from amp_studio.sim import SimulationError, law_of, read_cam_points
 
     if options.scans < 0:
         raise UsageError("--scans is 1 or more")
@@ -54,7 +54,7 @@ def run(options: Options) -> int:
         form = law_of(family).cam
         if form is None:
             raise UsageError(f"{load_schema(family).family.name} has no cams that are printed")
-        axis = resolve_axis(file.evaluation, simulated_axes(file), options.axis)
+        axis = machine.axis(options.axis)
         try:
             cam = (
                 form.make(file, axis, read_cam_points(options.points), options.scans)
