@@ -43,7 +43,7 @@ def present(file: ParameterFile, axis: str) -> CamProfile:
         if None in table or not increment:
             raise SimulationError(f"The position cam of axis {axis} is not set up whole", ids.position_points)
         values = np.array(table, float)
-        return CamProfile("master", np.arange(len(table)) * increment, values - values[0])
+        return CamProfile("master", np.arange(len(table), dtype=float) * float(increment), values - values[0])
     steps = _steps(file, axis, int(count), mode)
     scans = round((_number(file, ids.cam_time, axis) or SCAN * 1000.0) / 1000.0 / SCAN)
     return _profile(file, axis, steps, max(scans, 1), {})
@@ -55,7 +55,7 @@ def _steps(file: ParameterFile, axis: str, count: int, mode: int) -> list[int]:
         found = [_number(file, ids.time_points, f"{axis}.{k}") for k in range(count)]
     else:
         words = [_number(file, ids.byte_points, f"{axis}.{k}") for k in range((count + 1) // 2)]
-        found = [each for word in words if word is not None for each in word_bytes(word)][:count]
+        found = [float(each) for word in words if word is not None for each in word_bytes(word)][:count]
     if None in found or len(found) < count:
         raise SimulationError(f"The cam of axis {axis} has points that are not set", ids.time_points)
     return [int(each) for each in found if each is not None]
@@ -138,7 +138,7 @@ def _profile(
     figures = {"points": (float(len(steps)), ""), "scans": (float(scans), ""), "step": (step, "s")}
     return CamProfile(
         "time",
-        np.arange(len(steps) + 1) * step,
+        np.arange(len(steps) + 1, dtype=float) * step,
         np.concatenate(([0.0], np.cumsum(steps))),
         limits,
         figures,

@@ -100,6 +100,7 @@ def _show(options: Options, cam: CamProfile, changed: int) -> None:
         )
         return
     for name, (value, unit) in figures.items():
+        assert value is not None  # a cam has all of its figures
         print(f"{name.replace('_', ' ')}: {value_text(value, unit)}")
     for doubt in cam.doubts:
         print(f"doubtful: {doubt}")
