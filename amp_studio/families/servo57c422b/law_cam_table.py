@@ -51,6 +51,7 @@ def present(file: ParameterFile, axis: str) -> CamProfile:
 
 def _steps(file: ParameterFile, axis: str, count: int, mode: int) -> list[int]:
     """Return the travel of each step of a time cam, of words or of bytes."""
+    found: list[float | None]
     if mode >> WORDS_BIT & 1:
         found = [_number(file, ids.time_points, f"{axis}.{k}") for k in range(count)]
     else:
