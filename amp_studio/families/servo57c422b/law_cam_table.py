@@ -56,7 +56,8 @@ def _steps(file: ParameterFile, axis: str, count: int, mode: int) -> list[int]:
         found = [_number(file, ids.time_points, f"{axis}.{k}") for k in range(count)]
     else:
         words = [_number(file, ids.byte_points, f"{axis}.{k}") for k in range((count + 1) // 2)]
-        found = [float(each) for word in words if word is not None for each in word_bytes(word)][:count]
+        found = [each for word in words if word is not None for each in word_bytes(word)]
+        del found[count:]
     if None in found or len(found) < count:
         raise SimulationError(f"The cam of axis {axis} has points that are not set", ids.time_points)
     return [int(each) for each in found if each is not None]
