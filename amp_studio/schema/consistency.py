@@ -92,6 +92,10 @@ def faults_of_experience(plausible: Plausible, groups: tuple[Group, ...]) -> Ite
         for n, pattern in enumerate(patterns):
             if not _matches_any(pattern, known):
                 yield (key, n), f"there is no parameter {quoted(pattern)}"
+    printed = {p.id for group in groups for p in group.parameters if p.default is not None}
+    for n, name in enumerate(plausible.seldom):
+        if name in known - printed:
+            yield ("seldom", n), f"{quoted(name)} has no printed default"
     named: list[tuple[KeyPath, str]] = [
         ((key, n), name)
         for key, entries in _named_by_experience(plausible).items()
@@ -116,6 +120,12 @@ def _named_by_experience(plausible: Plausible) -> dict[str, tuple[tuple[str, ...
         "twins": plausible.twins,
         "ladders": plausible.ladders,
         "quotients": tuple((one.of, one.over) for one in plausible.quotients),
+        "among_axes": tuple((one.of, one.over or one.of) for one in plausible.among_axes),
+        "table": tuple((name,) for name in plausible.table),
+        "travels": tuple((one.high, one.low or one.high) for one in plausible.travels),
+        "gears": tuple((one.low, one.high) for one in plausible.gears),
+        "proportions": tuple((*one.part_of, *one.as_of) for one in plausible.proportions),
+        "seldom": tuple((name,) for name in plausible.seldom),
         "needs": tuple(plausible.needs.items()),
         "not_above": tuple((one.limit, *one.are) for one in plausible.not_above),
     }

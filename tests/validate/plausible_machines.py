@@ -10,7 +10,7 @@ so what is found in it is found by experience alone.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from random import Random
 
@@ -37,6 +37,11 @@ class Recipe:
     """Counts or steps of a length."""
     same: tuple[str, ...] = ()
     """What stays, though it is a speed."""
+    together: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    """What changes in proportion when one of ``free`` is chosen."""
+    table: tuple[str, str, str] | None = None
+    """Length, screw and speed of X and Y: no table is five times as long as it is wide (of 43 published machines
+    the longest is 2.7 times), and equal motors with other screws have other speeds."""
     free: tuple[tuple[str, tuple[float | str | bool, ...]], ...] = ()
     """What everybody chooses as he likes, each axis by itself."""
 
@@ -79,6 +84,7 @@ RECIPES = {
     ),
     "syntec": Recipe(
         ("limit.*",),
+        table=("limit.first_positive", "resolution.pitch", "feed.rapid"),
         free=(
             ("home.offset", (0, 500, 1200)),
             ("home.direction", ("positive", "negative")),
@@ -113,6 +119,8 @@ RECIPES = {
     ),
     "grblhal": Recipe(
         ("axis.max_travel",),
+        together={"spindle.max_speed": ("spindle.min_speed",)},  # the inverter's output goes with the share
+        table=("axis.max_travel", "axis.steps", "axis.max_rate"),
         screw=("axis.steps",),
         same=("tool_change.*",),
         free=(
@@ -150,9 +158,22 @@ def plausible_machines(family: str, count: int, seed: int = 1) -> Iterator[Param
         random = Random(f"{family} {seed} {number}")
         file = random.choice(bases).copy()
         remake(file, random)
+        table = RECIPES[family].table
+        if table and not is_table(file, *table):
+            continue
         if all(is_of_experience(finding) for finding in Validator(file).run()):
             made += 1
             yield file
+
+
+def is_table(file: ParameterFile, length: str, screw: str, speed: str) -> bool:
+    """Return whether X and Y belong to one machine."""
+    (a, b), screws, speeds = (
+        [v for _, v in sorted((a[1], v.value) for a, v in file.values.items() if a[0] == name)][:2]
+        for name in (length, screw, speed)
+    )
+    is_one = max(a, b) <= 5 * min(a, b)
+    return is_one and (speeds[0] != speeds[1] or screws[0] == screws[1])
 
 
 def is_of_experience(finding: Finding) -> bool:
@@ -191,7 +212,11 @@ def remake(file: ParameterFile, random: Random) -> None:
             wanted[address] = Value(round(number) if isinstance(value.value, int) else number, value.unit)
         for pattern, choices in recipe.free:
             if address[0] == pattern and random.random() < 0.5:
-                wanted[address] = Value(random.choice(choices), value.unit)
+                wanted[address] = chosen = Value(random.choice(choices), value.unit)
+                for other in recipe.together.get(pattern, ()):
+                    old = file.values[other, address[1]]
+                    number = old.value * chosen.value / value.value
+                    wanted[other, address[1]] = Value(number, old.unit)
     file.set_checked(wanted, force="a plausible machine")
     file.forced.clear()
 

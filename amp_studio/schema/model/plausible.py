@@ -35,6 +35,8 @@ class TravelSpan(Model):
     """The end in the positive direction."""
     inside: tuple[ParameterId, ...]
     """Positions of the same axis."""
+    beyond: float = 0
+    """Part of the travel that a position may be outside, as a switch is."""
 
 
 class SpeedLimit(Model):
@@ -54,6 +56,38 @@ class Quotient(Model):
     between: tuple[float, float]
     """The least and greatest usual quotient in the canonical units: mm/min over mm/s2 is a sixtieth of
     a second."""
+
+
+class AmongAxes(Model):
+    """What the like axes of one machine have in one order of magnitude, each value or a quotient of two."""
+
+    of: ParameterId
+    over: ParameterId | None = None
+    within: float
+    """Times that one is at most away from its nearest like."""
+
+
+class TravelEnds(Model):
+    """The ends of travel of an axis, or its length where the other end is the home position."""
+
+    high: ParameterId
+    low: ParameterId | None = None
+
+
+class Gears(Model):
+    """The least and the greatest speed of each gear of a spindle, gear after gear."""
+
+    low: ParameterId
+    high: ParameterId
+
+
+class Proportion(Model):
+    """Two shares that belong together: the first of a pair is as large a part of the second in both."""
+
+    part_of: tuple[ParameterId, ParameterId]
+    as_of: tuple[ParameterId, ParameterId]
+    within: float
+    """Times that one share is at most the other."""
 
 
 class Plausible(Model):
@@ -87,6 +121,18 @@ class Plausible(Model):
     """Speeds, and what none of them is above."""
     quotients: tuple[Quotient, ...] = ()
     """Values against each other: speeds, the ramps to them, bands within bands."""
+    among_axes: tuple[AmongAxes, ...] = ()
+    """What like axes have in one order of magnitude."""
+    table: tuple[ParameterId, ...] = ()
+    """What X and Y of a table have alike: asked about where they differ in one of these."""
+    travels: tuple[TravelEnds, ...] = ()
+    """Travels, compared among the axes."""
+    gears: tuple[Gears, ...] = ()
+    """Ranges of gears, compared among the gears of a spindle."""
+    proportions: tuple[Proportion, ...] = ()
+    """Shares that are equal as a rule."""
+    seldom: tuple[ParameterId, ...] = ()
+    """Parameters that keep their printed default on nearly every machine."""
     needs: dict[ParameterId, ParameterId] = {}
     """Parameter -> the one without whose value it does nothing, where that one is active."""
     axis_words: tuple[ParameterId, ...] = ()

@@ -7,13 +7,14 @@ Facts of the family name what differs among like axes without any slip.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Iterator
+from collections import Counter
+from collections.abc import Collection, Hashable, Iterable, Iterator
 from fnmatch import filter as matching
 from functools import lru_cache
 from itertools import combinations
 from typing import NamedTuple
 
-from amp_studio.files import ParameterFile, axis_letter
+from amp_studio.files import ParameterFile, are_alike, axis_letter
 from amp_studio.schema import ACTIVE, Address, Parameter, Schema, dimension, show_value
 from amp_studio.validate.finding import Finding
 
@@ -170,6 +171,39 @@ class Alike:
                     asked.setdefault((scope, name), []).append((a, b, compared - count))
         for (scope, name), pairs in asked.items():
             yield self._finding(scope, name, pairs)
+        for scope, rows in self._rows.items():
+            if len(rows) > 2:
+                yield from self._alone(scope, rows, {name for s, name in asked if s == scope})
+
+    def _alone(
+        self, scope: str, rows: dict[str, dict[str, _Seen]], asked: Collection[str]
+    ) -> Iterator[Finding]:
+        """Yield what a slip explains on one axis where all others have one value, however unlike they are.
+
+        Another axis is in several values so many times the others: a slip is in one. It agrees with the
+        others in more values than it differs, and moves as they do.
+        """
+        names = {name for (s, _, _), pair in self._pairs.items() if s == scope for name in pair.differing}
+        slips: dict[tuple[str, str], list[str]] = {}
+        for name in sorted(names - set(asked)):
+            column = {instance: row[name] for instance, row in rows.items() if name in row}
+            counts = Counter(column.values())
+            if len(column) < 3 or len(counts) != 2 or min(counts.values()) != 1:
+                continue
+            usual = max(counts, key=lambda seen: counts[seen])
+            odd = next(instance for instance, seen in column.items() if seen != usual)
+            words = slip_between(column[odd].key, usual.key)
+            is_like = scope != "axis" or all(are_alike(self._file, odd, i) for i in column)
+            if words and is_like and column[odd].measures == usual.measures:
+                slips.setdefault((odd, words), []).append(name)
+        for (odd, _), found in slips.items():
+            if len(found) == 1:
+                others = [i for i, row in rows.items() if i != odd and found[0] in row]
+                agree = [self._pairs.get((scope, odd, i)) or self._pairs[scope, i, odd] for i in others]
+                if all(pair.compared[0] > 2 * len(pair.differing) for pair in agree):
+                    counted = [pair.compared[0] - len(pair.differing) for pair in agree]
+                    pairs = [(odd, i, n) for i, n in zip(others, counted, strict=True)]
+                    yield self._finding(scope, found[0], pairs)
 
     def _slip(self, scope: str, name: str, a: str, b: str) -> bool:
         left, right = self._rows[scope][a][name], self._rows[scope][b][name]

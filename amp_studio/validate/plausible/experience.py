@@ -9,10 +9,12 @@ from amp_studio.schema import Address
 from amp_studio.validate.finding import Finding
 
 from .alike import ALIKE, Alike
+from .axis_relations import AMONG, GEAR, PROPORTION, TABLE, TRAVEL
 from .axis_words import NO_AXIS, AxisWords
 from .earlier import EARLIER, Earlier, EarlierValues
 from .relations import ABOVE, LADDER, NEEDS, QUOTIENT, UNEQUAL, Relations
 from .rows import ROW, EqualRows
+from .seldom import SELDOM, SeldomChanged
 from .smooth import JUMP, SmoothTables, TextCurves
 from .steps import NOT_CLOSED, TURN_BACK, StepTables
 from .usual import USUAL, UsualValues
@@ -21,6 +23,7 @@ from .within import OUTSIDE, WithinTravel
 TITLES = {
     ALIKE: "Like axes that differ in one value",
     USUAL: "A value that is not usual",
+    SELDOM: "A value that is seldom changed",
     JUMP: "A value that jumps out of its table",
     ROW: "A row that is not like the others",
     NO_AXIS: "A bit of an axis that is not there",
@@ -29,6 +32,11 @@ TITLES = {
     UNEQUAL: "Values that are equal as a rule",
     LADDER: "A value that does not fit between its neighbours",
     QUOTIENT: "Two values far from each other",
+    AMONG: "Like axes far from each other",
+    TABLE: "X and Y of a table that differ",
+    TRAVEL: "Travels that are out of proportion",
+    GEAR: "Gears that do not follow each other",
+    PROPORTION: "Shares that are not equal",
     NEEDS: "A value without another one that it needs",
     ABOVE: "A speed above the rapid",
     OUTSIDE: "A position outside the travel",
@@ -43,7 +51,7 @@ class Experience:
     def __init__(self, file: ParameterFile, earlier: Sequence[Earlier] = ()) -> None:
         self._file = file
         tables = SmoothTables(file), TextCurves(file), StepTables(file), EqualRows(file)
-        words = AxisWords(file), WithinTravel(file), Relations(file)
+        words = AxisWords(file), WithinTravel(file), Relations(file), SeldomChanged(file)
         self._parts = (Alike(file), UsualValues(file), *tables, *words)
         self._earlier = EarlierValues(file, earlier)
         self._found: tuple[Finding, ...] | None = None

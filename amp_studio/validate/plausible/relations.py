@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
-from typing import NamedTuple
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, Quotient, canonical, dimension, show_value, unit_text, write_figure
+from amp_studio.schema import Address, Quotient, canonical, unit_text, write_figure
 from amp_studio.validate.finding import Finding
 
+from .active_value import ActiveValue, active_values, sentence
+from .axis_relations import AxisRelations
 from .slip import slip_between
 
 UNEQUAL, LADDER, ABOVE = "plausible.unequal", "plausible.ladder", "plausible.above-rapid"
@@ -26,14 +27,6 @@ _AGREE = 1.3
 """Factors of a ladder that are one up to this."""
 _OFF = 1.9
 """Times the factor of the rest from which a value does not belong in its ladder."""
-
-
-class _Seen(NamedTuple):
-    """One active value."""
-
-    address: Address
-    number: float | str | bool
-    measures: str
 
 
 class Relations:
@@ -56,6 +49,8 @@ class Relations:
             self._add(pair, partial(self._needs, pair))
         for one in facts.not_above:
             self._add((one.limit, *one.are), partial(self._above, one.limit, one.are))
+        for names, check in AxisRelations(file).checks():
+            self._add(names, check)
         self._found: list[list[Finding]] = [[] for _ in self._checks]
 
     def _add(self, names: Sequence[str], check: Callable[[], list[Finding]]) -> None:
@@ -81,25 +76,9 @@ class Relations:
         for found in self._found:
             yield from found
 
-    def _seen(self, name: str) -> dict[str, _Seen]:
-        """Return the active values of a parameter by instance, in the order of the schema."""
-        values, state = self._file.values, self._file.evaluation.state
-        schema, seen = self._file.schema, {}
-        for instance in schema.on(self._file.machine).instances(schema.parameters[name]):
-            value = values.get((name, instance))
-            if value is None or not state((name, instance)).is_active:
-                continue
-            number = (
-                value.value
-                if isinstance(value.value, bool | str)
-                else float(canonical(value.value, value.unit))
-            )
-            seen[instance] = _Seen((name, instance), number, dimension(value.unit))
-        return seen
-
-    def _rows(self, names: Sequence[str]) -> Iterator[list[_Seen]]:
+    def _rows(self, names: Sequence[str]) -> Iterator[list[ActiveValue]]:
         """Yield the values of one instance that measure the same."""
-        columns = [self._seen(name) for name in names]
+        columns = [active_values(self._file, name) for name in names]
         for instance in columns[0]:
             row = [column[instance] for column in columns if instance in column]
             if len({one.measures for one in row}) == 1:
@@ -117,7 +96,7 @@ class Relations:
         return found
 
     def _twins(self, pair: tuple[str, str]) -> list[Finding]:
-        left, right = (list(self._seen(name).values()) for name in pair)
+        left, right = (list(active_values(self._file, name).values()) for name in pair)
         if len(left) != len(right):
             return []
         return [
@@ -135,8 +114,8 @@ class Relations:
         return found
 
     def _above(self, limit: str, names: Sequence[str]) -> list[Finding]:
-        limits, found = self._seen(limit), []
-        for one in (one for name in names for one in self._seen(name).values()):
+        limits, found = active_values(self._file, limit), []
+        for one in (one for name in names for one in active_values(self._file, name).values()):
             own = limits.get(one.address[1])
             all_of = [own] if own is not None else list(limits.values())
             greatest = [each for each in all_of if each.measures == one.measures]
@@ -148,9 +127,9 @@ class Relations:
         return found
 
     def _quotient(self, fact: Quotient) -> list[Finding]:
-        found, others = [], self._seen(fact.over)
+        found, others = [], active_values(self._file, fact.over)
         low, high = fact.between
-        for instance, one in self._seen(fact.of).items():
+        for instance, one in active_values(self._file, fact.of).items():
             own = [others[instance]] if instance in others else list(others.values())
             numbers = [
                 (abs(other.number), other)
@@ -175,38 +154,35 @@ class Relations:
                 NEEDS,
                 "advice",
                 (one.address,),
-                f"{self._text(one)}, and {here.label((needed, instance))} is not set. Is it meant?",
+                f"{sentence(self._file, one)}, and {here.label((needed, instance))} is not set. Is it meant?",
                 compared=((needed, instance),),
                 reason=NEEDS_REASON,
             )
-            for instance, one in self._seen(name).items()
+            for instance, one in active_values(self._file, name).items()
             if (needed, instance) not in values and evaluation.state((needed, instance)).is_active
         ]
 
-    def _text(self, one: _Seen) -> str:
-        """Return ``Rapid (1) is 5 mm/min``, as every finding names a value."""
-        schema = self._file.schema
-        value = show_value(schema.parameters[one.address[0]], self._file.values[one.address])
-        return f"{schema.on(self._file.machine).label(one.address)} is {value}"
-
-    def _unequal(self, causes: Sequence[_Seen], other: _Seen | None) -> Finding:
-        texts = " and ".join(map(self._text, (*causes, *([other] if other else []))))
+    def _unequal(self, causes: Sequence[ActiveValue], other: ActiveValue | None) -> Finding:
+        text = partial(sentence, self._file)
+        texts = " and ".join(map(text, (*causes, *([other] if other else []))))
         message = f"{texts}; as a rule they are equal. Is it meant?"
         compared = (other.address,) if other else ()
         addresses = tuple(one.address for one in causes)
         return Finding(UNEQUAL, "advice", addresses, message, compared=compared, reason=EQUAL_REASON)
 
-    def _out_of_ladder(self, row: Sequence[_Seen], n: int) -> Finding:
+    def _out_of_ladder(self, row: Sequence[ActiveValue], n: int) -> Finding:
         beside = [row[m] for m in (n - 1, n + 1) if 0 <= m < len(row)]
-        texts = " and ".join(map(self._text, beside))
-        message = f"{self._text(row[n])} beside {texts}: the others rise by one factor. Is it meant?"
+        texts = " and ".join(sentence(self._file, one) for one in beside)
+        message = (
+            f"{sentence(self._file, row[n])} beside {texts}: the others rise by one factor. Is it meant?"
+        )
         compared = tuple(one.address for one in beside)
         return Finding(LADDER, "advice", (row[n].address,), message, compared=compared, reason=LADDER_REASON)
 
-    def _out_of_proportion(self, one: _Seen, other: _Seen, usual: tuple[float, float]) -> Finding:
+    def _out_of_proportion(self, one: ActiveValue, other: ActiveValue, usual: tuple[float, float]) -> Finding:
         unit = self._file.values[one.address].unit
         low, high = (write_figure(float(f"{bound / canonical(1.0, unit):.2g}")) for bound in usual)
-        both = f"{self._text(one)}, and {self._text(other)}"
+        both = f"{sentence(self._file, one)}, and {sentence(self._file, other)}"
         message = f"{both}: beside it usual is {low} to {high} {unit_text(unit)}".rstrip()
         return Finding(
             QUOTIENT,
@@ -216,8 +192,9 @@ class Relations:
             reason=QUOTIENT_REASON,
         )
 
-    def _too_fast(self, one: _Seen, most: _Seen) -> Finding:
-        message = f"{self._text(one)}, and {self._text(most)}: it is faster than a rapid move. Is it meant?"
+    def _too_fast(self, one: ActiveValue, most: ActiveValue) -> Finding:
+        both = f"{sentence(self._file, one)}, and {sentence(self._file, most)}"
+        message = f"{both}: it is faster than a rapid move. Is it meant?"
         return Finding(
             ABOVE, "advice", (one.address,), message, compared=(most.address,), reason=ABOVE_REASON
         )

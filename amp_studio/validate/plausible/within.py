@@ -57,13 +57,10 @@ class WithinTravel:
                 continue
             ends = (travel.low, address[1]), (travel.high, address[1])
             at, low, high = map(self._position, (address, *ends))
-            if (
-                at is not None
-                and low is not None
-                and high is not None
-                and not low <= at <= high
-                and low < high
-            ):
+            if at is None or low is None or high is None or low >= high:
+                continue
+            slack = travel.beyond * (high - low)
+            if not low - slack <= at <= high + slack:
                 self._found[address] = self._finding(address, ends)
 
     def _position(self, address: Address) -> float | None:

@@ -1,0 +1,234 @@
+"""Values of like axes that keep to one order of magnitude, their travels, and the gears of a spindle.
+
+Unlike ``alike.py`` this needs no axes that agree: each fact names what motors, screws and tables of one
+machine have in proportion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+
+from amp_studio.files import ParameterFile, are_alike, axis_letter
+from amp_studio.schema import AmongAxes, Gears, Proportion, TravelEnds
+from amp_studio.validate.finding import Finding
+
+from .active_value import ActiveValue, active_values, sentence
+
+AMONG, TABLE, TRAVEL, GEAR, PROPORTION = (
+    "plausible.among-axes",
+    "plausible.table",
+    "plausible.travel",
+    "plausible.gear",
+    "plausible.proportion",
+)
+AMONG_REASON = "ours, not the manual's: like axes of one machine seldom lie so far apart"
+TABLE_REASON = "ours, not the manual's: X and Y of a table have the same motors, screws and ramps as a rule"
+TRAVEL_REASON = "ours, not the manual's: the travels of one machine are in proportion to each other"
+GEAR_REASON = "ours, not the manual's: every gear multiplies the speeds of one and the same motor"
+PROPORTION_REASON = "ours, not the manual's: the two pairs of ends belong to one straight line"
+_NEAR, _SHARE = 8.0, 5.0
+"""Times that the end at the reference point lies farther out than those of all other axes, also
+in proportion to its travel, from which it is asked about."""
+_SPREAD = 4.0
+"""Times that the speeds of one gear are spread wider than those of every other one."""
+_TABLE = 6.0
+"""Times that one side of a table is longer than the other."""
+
+Ends = tuple[ActiveValue, ActiveValue]
+"""The end of a travel at the reference point, and the other one."""
+Check = tuple[tuple[str, ...], Callable[[], list[Finding]]]
+
+
+class AxisRelations:
+    """What the facts of a family compare among the axes of one file."""
+
+    def __init__(self, file: ParameterFile) -> None:
+        self._file = file
+
+    def checks(self) -> Iterator[Check]:
+        """Yield the parameters that a check reads, and the check."""
+        facts = self._file.schema.plausible
+        for one in facts.among_axes:
+            yield (one.of, *((one.over,) if one.over else ())), partial(self._among, one)
+        for travel in facts.travels:
+            yield tuple(filter(None, (travel.low, travel.high))), partial(self._travels, travel)
+        for pair_of in [facts.table] if facts.table else []:
+            yield pair_of, partial(self._same_on_table, pair_of)
+        for gears in facts.gears:
+            yield (gears.low, gears.high), partial(self._gears, gears)
+        for pair in facts.proportions:
+            yield (*pair.part_of, *pair.as_of), partial(self._proportion, pair)
+
+    def _among(self, fact: AmongAxes) -> list[Finding]:
+        over = active_values(self._file, fact.over) if fact.over else {}
+        numbers: list[tuple[float, ActiveValue]] = []
+        for instance, one in active_values(self._file, fact.of).items():
+            under = over[instance].number if instance in over else None if fact.over else 1.0
+            if isinstance(one.number, float) and one.number and isinstance(under, float) and under:
+                numbers.append((abs(one.number / under), one))
+        found = []
+        for number, one in numbers:
+            like = [
+                (other, seen)
+                for other, seen in numbers
+                if seen is not one
+                and seen.measures == one.measures
+                and are_alike(self._file, seen.address[1], one.address[1])
+            ]
+            if like and all(_apart(number, other) > fact.within * (1 + 1e-9) for other, _ in like):
+                found.append((one, min(like, key=lambda pair: _apart(number, pair[0]))[1]))
+        if len(numbers) > 2 and len(found) > 1:
+            return []  # each of several is far from all others: nothing is known of what is usual
+        return [self._finding(AMONG, AMONG_REASON, one, other) for one, other in found[:1]]
+
+    def _travels(self, fact: TravelEnds) -> list[Finding]:
+        lows = active_values(self._file, fact.low) if fact.low else {}
+        ends = []
+        for instance, high in active_values(self._file, fact.high).items():
+            low = lows.get(instance)
+            if not isinstance(high.number, float) or (fact.low and low is None) or self._is_unlimited(high):
+                continue
+            if low is None:
+                ends.append((high, high))
+            elif isinstance(low.number, float) and low.measures == high.measures:
+                near, far = sorted((low, high), key=lambda end: abs(float(end.number)))
+                ends.append((near, far))
+        found = self._table(ends)
+        if fact.low and len(ends) > 2:
+            found += [f for n in range(len(ends)) for f in self._near(ends[n], ends[:n] + ends[n + 1 :])]
+        return found
+
+    def _is_unlimited(self, end: ActiveValue) -> bool:
+        """Return whether an end is the printed default: no limit, as a rule."""
+        default = self._file.schema.parameters[end.address[0]].default
+        return default is not None and self._file.values[end.address].value == default.value
+
+    def _near(self, own: Ends, others: Sequence[Ends]) -> list[Finding]:
+        """Compare the end at the reference point with those of the other axes."""
+        near, far = own
+        like = [pair for pair in others if are_alike(self._file, pair[0].address[1], near.address[1])]
+        if len(like) < 2 or any(pair[0].measures != near.measures for pair in like):
+            return []
+        is_inside = _side(near) * _side(far) <= 0
+        if not is_inside and all(_side(a) * _side(b) < 0 for a, b in like):
+            return [self._finding(TRAVEL, TRAVEL_REASON, near, like[0][0])]
+        sizes = [(_size(a), _size(a) / _size(b)) for a, b in like if _size(b)]
+        least, most = min(size for size, _ in sizes), max(size for size, _ in sizes)
+        if not least or most > 3 * least:
+            return []
+        size, share = _size(near), _size(near) / _size(far) if _size(far) else 0.0
+        if size == 0 and least == most:
+            return [self._finding(TRAVEL, TRAVEL_REASON, near, like[0][0])]
+        is_odd = size and all(
+            _apart(size, other) >= _NEAR and _apart(share, part) >= _SHARE for other, part in sizes
+        )
+        return [self._finding(TRAVEL, TRAVEL_REASON, near, like[0][0])] if is_odd else []
+
+    def _table(self, ends: Sequence[Ends]) -> list[Finding]:
+        """Compare the lengths of the travels of X and Y."""
+        named: dict[str, tuple[float, ActiveValue]] = {}
+        for near, far in ends:
+            length = _size(far) if near is far else abs(float(far.number) - float(near.number))
+            named.setdefault(axis_letter(self._file, far.address[1]), (length, far))
+        x, y = named.get("X"), named.get("Y")
+        if x is None or y is None or not x[0] or not y[0] or x[1].measures != y[1].measures:
+            return []
+        longer, shorter = (x, y) if x[0] > y[0] else (y, x)
+        if longer[0] > _TABLE * shorter[0]:
+            return [self._finding(TRAVEL, TRAVEL_REASON, longer[1], shorter[1])]
+        return []
+
+    def _same_on_table(self, names: Sequence[str]) -> list[Finding]:
+        """Compare X and Y of a table: the motors, screws and ramps of both are of one kind."""
+        differing, compared = [], 0
+        for name in names:
+            seen = active_values(self._file, name)
+            named = {axis_letter(self._file, instance): one for instance, one in seen.items()}
+            x, y = named.get("X"), named.get("Y")
+            if x is None or y is None or x.measures != y.measures:
+                continue
+            compared += 1
+            if x.number != y.number:
+                differing.append((x, y))
+        if (
+            compared < 3
+            or len(differing) != 1
+            or _apart(_size(differing[0][0]), _size(differing[0][1])) < 1.5
+        ):
+            return []
+        return [self._finding(TABLE, TABLE_REASON, *differing[0])]
+
+    def _gears(self, fact: Gears) -> list[Finding]:
+        lows, highs = active_values(self._file, fact.low), active_values(self._file, fact.high)
+        spindles: dict[str, list[tuple[ActiveValue, ActiveValue]]] = {}
+        for instance in highs:
+            if instance in lows:
+                spindles.setdefault(instance.rpartition(".")[0], []).append((lows[instance], highs[instance]))
+        return [finding for gears in spindles.values() for finding in self._of_spindle(gears)]
+
+    def _of_spindle(self, gears: Sequence[Ends]) -> Iterator[Finding]:
+        there = [(low, high) for low, high in gears if _size(high)]
+        used = [n for n, (_, high) in enumerate(gears) if _size(high)]
+        for n, before in zip(used, (-1, *used), strict=False):
+            low, high = gears[n]
+            # The numbering may begin at the second one; a gap is a line that was missed.
+            if n > before + 1 + (before < 0) or (before >= 0 and _size(high) <= _size(gears[before][1])):
+                yield self._finding(GEAR, GEAR_REASON, high, gears[max(before, 0)][1])
+        for n, (low, high) in enumerate(there):
+            others = [_size(b) / _size(a) for m, (a, b) in enumerate(there) if m != n and _size(a)]
+            if not _size(low):
+                if n and len(others) == len(there) - 1 and len(there) > 2:
+                    yield self._finding(GEAR, GEAR_REASON, low, there[0][0])
+            elif len(others) > 1 and all(_apart(_size(high) / _size(low), s) >= _SPREAD for s in others):
+                yield self._finding(GEAR, GEAR_REASON, low, high)
+
+    def _proportion(self, fact: Proportion) -> list[Finding]:
+        rows = []
+        for name in (*fact.part_of, *fact.as_of):
+            seen = next(iter(active_values(self._file, name).values()), None)
+            if seen is None or not isinstance(seen.number, float):
+                return []
+            rows.append(seen)
+        part, whole, other, other_whole = rows
+        if not _size(part) or not _size(whole) or not _size(other_whole):
+            return []
+        share, as_share = _size(part) / _size(whole), _size(other) / _size(other_whole)
+        if as_share and _apart(share, as_share) <= fact.within:
+            return []
+        return [self._finding(PROPORTION, PROPORTION_REASON, part, other)]
+
+    def _finding(self, rule: str, reason: str, one: ActiveValue, other: ActiveValue) -> Finding:
+        message = f"{sentence(self._file, one)}, and {sentence(self._file, other)}: {_WORDS[rule]}"
+        return Finding(
+            rule,
+            "advice",
+            (one.address,),
+            f"{message}. Is it meant?",
+            compared=(other.address,),
+            reason=reason,
+        )
+
+
+_WORDS = {
+    AMONG: "on one machine they are nearer to each other as a rule",
+    TABLE: "in all else X and Y agree",
+    TRAVEL: "the ends of travel of one machine are in proportion as a rule",
+    GEAR: "the ranges of the gears do not follow each other",
+    PROPORTION: "speed and output do not begin on one straight line",
+}
+
+
+def _apart(a: float, b: float) -> float:
+    """Return how many times the greater of two values is the lesser."""
+    least = min(a, b)
+    return max(a, b) / least if least else float("inf")
+
+
+def _size(one: ActiveValue) -> float:
+    return abs(float(one.number))
+
+
+def _side(one: ActiveValue) -> int:
+    number = float(one.number)
+    return (number > 0) - (number < 0)
