@@ -130,7 +130,8 @@ def test_no_verb_says_a_secret(machine: Path, amp, tmp_path: Path, arguments: tu
     ("ending", "sort"), [(".html", "axis"), (".csv", "number"), (".txt", "group"), (".pdf", "axis")]
 )
 def test_no_report_prints_a_secret(machine: Path, amp, tmp_path: Path, ending: str, sort: str) -> None:
-    for changed in ((), ("--changed-only",)):
+    every = ((), ("--changed-only",)) if ending != ".pdf" else (("--changed-only",),)
+    for changed in every:  # a secret is a changed value, and a full PDF takes two seconds to be set
         report = tmp_path / f"report{len(changed)}{ending}"
         assert amp("report", machine, "-o", report, "--sort", sort, *changed).code == 0
         assert SECRET not in text_of(report)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable
 from datetime import UTC, datetime
 from functools import cache
@@ -77,20 +78,28 @@ def printed(
     first_mill: ParameterFile, first_eight_axes: ParameterFile, tmp_path_factory: pytest.TempPathFactory
 ) -> Callable[[str, Sort], Path]:
     """Return what prints the mill, or the one with eight axes, in an order: once for all tests that read
-    it.
+    it, in whatever process of the run they are.
     """
     folder, files = tmp_path_factory.mktemp("printed"), {"mill": first_mill, "eight axes": first_eight_axes}
+    shared = Path(
+        os.environ["AMP_STUDIO_TEST_HOME"],
+        "printed",
+        os.environ.get("PYTEST_XDIST_TESTRUNUID", folder.parent.name),
+    )
+    shared.mkdir(parents=True, exist_ok=True)
 
     @cache
     def path_of(which: str, sort: Sort) -> Path:
-        path = folder / f"{which}-{sort}.pdf"
-        print_report(
-            files[which].copy(),
-            path,
-            Contents(sort, inactive=True, without=frozenset({"pictures"})),
-            source=folder / "mill.amp",
-            date=DATE,
-        )
+        path, own = shared / f"{which}-{sort}.pdf", folder / f"{which}-{sort}.pdf"
+        if not path.exists():
+            print_report(
+                files[which].copy(),
+                own,
+                Contents(sort, inactive=True, without=frozenset({"pictures"})),
+                source=folder / "mill.amp",
+                date=DATE,
+            )
+            own.replace(path)
         return path
 
     return path_of

@@ -87,7 +87,7 @@ def test_a_note_of_any_length_is_printed_whole_once_and_short_beside_its_value(
     note = " ".join(f"w{n}" for n in range(600))
     set_value_note(mill, ("home.calibration", "1"), note)
     path = tmp_path / "r.pdf"
-    print_report(mill, path, Contents(without=BARE))
+    print_report(mill, path, Contents(changed_only=True, without=BARE))
     text = " ".join(said_by("pdftotext", "-raw", path, "-").split())
     assert text.count(" w599") == 1
     assert text.count(" w20 ") == 2
@@ -112,12 +112,10 @@ def test_the_notes_of_a_drawing_stay_on_its_page(tmp_path: Path, mill: Parameter
 
 
 @poppler
-def test_each_changed_value_is_printed_once_in_its_row(
-    printed: Callable[..., Path], mill: ParameterFile
-) -> None:
-    text = "".join(
-        page for page in texts_of(printed("mill", "number"), "-layout") if "Parameters by number" in page
-    )
+def test_each_changed_value_is_printed_once_in_its_row(tmp_path: Path, mill: ParameterFile) -> None:
+    path = tmp_path / "r.pdf"
+    print_report(mill, path, Contents("number", changed_only=True, without=BARE))
+    text = "".join(page for page in texts_of(path, "-layout") if "Parameters by number" in page)
     changed = [
         r
         for r in build_report(mill, Contents("number", changed_only=True)).rows()
@@ -136,7 +134,7 @@ def test_what_one_copies_has_no_invisible_characters(tmp_path: Path, mill: Param
     mill.header.name = "A_machine_with_a_name_of_one_long_word_that_breaks"
     source = tmp_path / "a_file_with_a_name_of_one_long_word_that_breaks.amp"
     save_file(mill, source)
-    report = build_report(mill, Contents(without=BARE), source=source)
+    report = build_report(mill, Contents(changed_only=True, without=BARE), source=source)
     text = said_by("pdftotext", "-raw", set_as(report, tmp_path), "-")
     assert "\u200b" not in text
     (checksum,) = [body for name, body in report.facts if name.startswith("SHA-256")]
@@ -148,7 +146,7 @@ def test_what_one_copies_has_no_invisible_characters(tmp_path: Path, mill: Param
 
 @poppler
 def test_pages_for_america_are_letter(tmp_path: Path, mill: ParameterFile) -> None:
-    print_report(mill, tmp_path / "r.pdf", Contents(paper="letter", without=BARE))
+    print_report(mill, tmp_path / "r.pdf", Contents(paper="letter", changed_only=True, without=BARE))
     assert re.search(r"Page size:\s+612 x 792", said_by("pdfinfo", tmp_path / "r.pdf"))
     with pytest.raises(ValueError, match=r"Unknown paper 'a5'\. Known: a4, letter"):
         Contents(paper="a5")
