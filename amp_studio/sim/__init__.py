@@ -46,7 +46,7 @@ if TYPE_CHECKING:
         VELOCITY_LOOP,
     )
     from .errors import SimulationError
-    from .identification.identify import figure_rows, figure_text, identified_text, identify, machine_settings
+    from .identification.identify import figure_rows, identified_text, identify, machine_settings
     from .identification.identify_response import identify_response
     from .identification.machine_file import machine_for, read_machine, write_machine
     from .identification.overlay import laid_over

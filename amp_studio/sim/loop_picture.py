@@ -143,3 +143,44 @@ def _sensitivity(trace: Trace, before: Trace | None) -> Scene:
     level = NamedPlace(f"Ms {value_text(SOUND.sensitivity)}", 20.0 * math.log10(SOUND.sensitivity))
     along = ("frequency", "Hz")
     return panel_of("sensitivity", curves, along, "dB", levels=(level,), marks=marks, log=True, share=1.2)
+
+
+MOST_MS = 4.0
+"""Where the scale of Ms ends: beyond it a loop is all but unstable."""
+
+
+def tuned(trace: Trace) -> Picture:
+    """Return what `tune` gives: how far a torque moves the load, and Ms over the inertia,
+    with the present gains and with the recommended ones.
+    """
+    sides: tuple[tuple[str, str, ShapeSort], ...] = (
+        ("before", "in the file", "before"),
+        ("after", "recommended", "now"),
+    )
+    time, share = trace.columns["time_s"], trace.columns["inertia_share"]
+    ways, robust = [], []
+    for name, words, sort in sides:
+        way, ms = trace.columns[f"load_way_{name}"], trace.columns[f"Ms_{name}"]
+        known = np.isfinite(way)
+        if known.any():
+            ways.append(Curve(words, time[known], way[known], sort))
+        stable = np.isfinite(ms) & (ms < MOST_MS)
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], stable.astype(np.int8), [0]])))
+        for n, (first, last) in enumerate(zip(edges[::2], edges[1::2], strict=True)):
+            robust.append(Curve(words if n == 0 else _EMPTY, share[first:last], ms[first:last], sort))
+    unit = trace.units["load_way_after"]
+    push = panel_of("way of the load for one unit of torque", ways, ("time", "s"), unit, share=1.5)
+    above = Scene(
+        "robustness",
+        _EMPTY,
+        "Ms over the inertia",
+        _EMPTY,
+        Scale("inertia, 1 as it is taken to be", _EMPTY, float(share[0]), float(share[-1]), log=True),
+        Scale(_EMPTY, _EMPTY, 1.0, MOST_MS),
+        curves=tuple(robust),
+        levels=(NamedPlace(f"Ms {value_text(SOUND.sensitivity)}", SOUND.sensitivity),),
+        marks=(NamedPlace(_EMPTY, 1.0),),
+        look="panel",
+        share=1.5,
+    )
+    return Picture(_EMPTY, (), (push,), above=above)

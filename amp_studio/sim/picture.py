@@ -26,7 +26,7 @@ from amp_studio.drawing import (
 )
 from amp_studio.scenarios import CHARTS
 
-from .loop_picture import nichols, nyquist
+from .loop_picture import nichols, nyquist, tuned
 from .rounding import value_text
 from .series import Series
 from .sweep_picture import sweep_picture
@@ -49,6 +49,8 @@ def picture_of(trace: Trace, before: Trace | None = None, chart: str = CHARTS[0]
         picture = nyquist(trace, before) if chart == "nyquist" else nichols(trace, before)
     elif "frequency_hz" in trace.columns:
         picture = _bode(trace, before)
+    elif "inertia_share" in trace.columns:
+        picture = tuned(trace)
     elif "radius_deviation" in trace.columns:
         picture = _ballbar(trace, before)
     elif trace.over:

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from amp_studio.files import Notify, text_cell
 from amp_studio.report.language import Language, language_of
+from amp_studio.report.model import PrintedFigure
 from amp_studio.report.output.page import filled_page
 from amp_studio.report.output.pdf import filled_template, typeset
 from amp_studio.version import __version__
@@ -53,6 +54,8 @@ class Paper:
     date: datetime
     empty: str = ""
     """What is printed where there is no table."""
+    figures: tuple[PrintedFigure, ...] = ()
+    """Drawings below the tables, in a PDF and a page."""
     signed: tuple[str, ...] = ()
     """Who signs it: a line each."""
     language: str = "en"

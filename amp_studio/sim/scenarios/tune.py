@@ -1,8 +1,8 @@
 """Scenario `tune`: the gains of an axis for an aim in a word, by the one solver; what they give,
 before and after.
 
-The picture is a load of one unit of torque that comes at once,
-by the linear model with the present and with the new gains.
+The picture is a load of one unit of torque that comes at once, by the linear model with the present and with
+the new gains, and Ms over the inertia that the axis may have.
 """
 
 from __future__ import annotations
@@ -21,14 +21,16 @@ from amp_studio.sim.trace import Figure, Recommendation, Trace
 from amp_studio.sim.tuning.advice import NONE_SOUND, gain_recommendations, why_not_sound
 from amp_studio.sim.tuning.aims import AIMS, Aim
 from amp_studio.sim.tuning.linear import LinearModel
-from amp_studio.sim.tuning.loops import Loops
-from amp_studio.sim.tuning.solver import Solved, levels_of, solve
+from amp_studio.sim.tuning.loops import Loops, with_inertia
+from amp_studio.sim.tuning.solver import Candidate, Solved, levels_of, solve
 from amp_studio.sim.tuning.trial import Trial
 
 FOR = "tune.for"
 SETTINGS = {FOR: f"what the axis is tuned for: {', '.join(AIMS)}; default: normal"}
 POINTS = 400
 """Rows of the picture."""
+INERTIAS = np.geomspace(0.4, 2.5, 23)
+"""Shares of the inertia for which Ms is computed; the rows between are on a line."""
 LATER = (
     "the limit for counts is not kept",
     "the inertia is taken as known",
@@ -147,8 +149,23 @@ def _picture(solved: Solved) -> tuple[dict[str, Series], dict[str, str]]:
     columns: dict[str, Series] = {"time_s": time}
     for name, model, good in zip(("before", "after"), models, stable, strict=True):
         columns[f"load_way_{name}"] = _way(model, time) if good else np.full(POINTS, np.nan)
+    columns["inertia_share"] = np.geomspace(INERTIAS[0], INERTIAS[-1], POINTS)
+    for name, each in (("before", solved.before), ("after", solved.after)):
+        columns[f"Ms_{name}"] = np.interp(columns["inertia_share"], INERTIAS, _over_inertia(each))
     unit = f"{axis.unit}/{torque_unit(axis)}"
-    return columns, {"time_s": "s", "load_way_before": unit, "load_way_after": unit}
+    ways = {"load_way_before": unit, "load_way_after": unit}
+    return columns, {"time_s": "s", **ways, "inertia_share": "", "Ms_before": "", "Ms_after": ""}
+
+
+def _over_inertia(tried: Candidate) -> Series:
+    """Return Ms of the loop that has the larger one, for each share of the inertia; nan where one is not
+    stable.
+    """
+    found = []
+    for share in INERTIAS.tolist():
+        loops = Loops(with_inertia(tried.axis, share), tried.law, exact=False)
+        found.append(loops.sensitivity if loops.stable and loops.inner_stable else math.nan)
+    return np.array(found)
 
 
 def _lasts(model: LinearModel) -> float:

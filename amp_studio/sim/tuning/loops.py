@@ -12,7 +12,6 @@ from functools import cached_property
 
 import numpy as np
 
-from amp_studio.sim.engine.machine import Machine
 from amp_studio.sim.law import AxisLaw
 
 from .linear import AxisModel, LawMatrices, LinearModel, Margins, axis_model
@@ -162,22 +161,22 @@ the friction takes phase away from no loop: the campaign of tests/sim/tuning_cam
 
 
 def spread_of(axis: AxisLaw) -> list[AxisLaw]:
-    """Return an axis with other machines: half and twice the inertia, without friction.
+    """Return an axis with other machines: half and twice the inertia, without friction."""
+    others = [with_inertia(axis, inertia, friction) for inertia, friction in SPREAD]
+    return [replace(axis, machine=machine) for machine in dict.fromkeys(each.machine for each in others)]
+
+
+def with_inertia(axis: AxisLaw, inertia: float, friction: float = 1.0) -> AxisLaw:
+    """Return an axis with shares of its inertia and its viscous friction.
 
     A drive with a velocity loop keeps its gains,
     so that its loop is as much faster or slower as the machine is lighter or heavier.
     """
-    return [replace(axis, machine=machine) for machine in dict.fromkeys(_others(axis.machine))]
-
-
-def _others(machine: Machine) -> list[Machine]:
-    found = []
-    for inertia, friction in SPREAD:
-        changes = {
-            "acceleration_per_output": machine.acceleration_per_output / inertia,
-            "viscous_friction": machine.viscous_friction * friction,
-        }
-        if machine.velocity_per_output > 0.0:
-            changes["velocity_bandwidth"] = machine.velocity_bandwidth / inertia
-        found.append(replace(machine, **changes))  # type: ignore[arg-type]  # none of them is the flag
-    return found
+    machine = axis.machine
+    changes = {
+        "acceleration_per_output": machine.acceleration_per_output / inertia,
+        "viscous_friction": machine.viscous_friction * friction,
+    }
+    if machine.velocity_per_output > 0.0:
+        changes["velocity_bandwidth"] = machine.velocity_bandwidth / inertia
+    return replace(axis, machine=replace(machine, **changes))  # type: ignore[arg-type]  # none is the flag

@@ -24,6 +24,7 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.files import ParameterFile, RangeError, axis_title
+from amp_studio.motion_paper import PAPERS, write_motion_paper
 from amp_studio.scenarios import CHARTS
 from amp_studio.schema import Address, Value, angular
 from amp_studio.sim import (
@@ -54,7 +55,7 @@ from .settings import SettingsForm, scrolled
 _LEAST_FIGURES = 280
 """Height in pixels of the figures below the form, which is there whole; a low window scrolls both."""
 _ASSUMED = re.compile(r"ASSUMED: (model\.\w+) = (.+?)\. ")
-_ENDINGS = "SVG (*.svg);;PNG (*.png);;CSV (*.csv)"
+_ENDINGS = "SVG (*.svg);;PNG (*.png);;CSV (*.csv);;PDF (*.pdf)"
 
 
 @dataclass(frozen=True, eq=False)
@@ -468,11 +469,23 @@ class MotionView(QWidget):
         notes: list[str] = []
         try:
             chart = str(self.chart.currentData())
-            write_trace(self.trace, path, notes.append, before=self.before, chart=chart)
+            if path.suffix.lower() in PAPERS:
+                self._write_paper(path, chart, notes)
+            else:
+                write_trace(self.trace, path, notes.append, before=self.before, chart=chart)
         except (OSError, ValueError) as error:
             self._fail(error)
         else:
             self.summary.setText(html.escape("; ".join([f"{path} written", *notes])))
+
+    def _write_paper(self, path: Path, chart: str, notes: list[str]) -> None:
+        """Write the trace as a document, with what the page Machine gives."""
+        trace, file = self.trace, self._file_ran
+        assert trace is not None
+        assert file is not None
+        given = [(name, str(value), self.tr("entered")) for name, value in self.machine.given().items()]
+        name, before = self._workspace.path.name, self.before
+        write_motion_paper(file, name, trace, path, notes.append, before=before, chart=chart, machine=given)
 
     def _end(self) -> None:
         """Ignore the result of a run that has not finished."""

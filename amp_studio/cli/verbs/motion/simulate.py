@@ -133,7 +133,7 @@ VERB = Verb(
     VerbArgument(
         "--units", metavar="SYSTEM", help="metric or inch, for settings and result (default: as the file)"
     ),
-    OUTPUT.but(required=False, help="file to write: .csv, .svg, .png; of identify also .yaml, the machine"),
+    OUTPUT.but(required=False, help="file to write: .csv, .svg, .png, .pdf, .html; identify: .yaml too"),
     JSON,
     writes=("output",),
     sections=("scenarios", "PARAM", "VALUE"),
@@ -158,7 +158,8 @@ VERB = Verb(
 )
 
 
-PICTURES = (".svg", ".png")
+DRAWN = (".svg", ".png", ".pdf", ".html")
+"""Endings of what has a picture in it."""
 SPOKEN = {"speed": ("spindle", "tap", "probe"), "pitch": ("tap",)}
 """Option -> the scenarios that it belongs to."""
 
@@ -175,7 +176,6 @@ def run(options: Options) -> int:
         read_machine,
         trace_summary,
         trace_text,
-        write_trace,
     )
 
     if options.output:
@@ -203,14 +203,40 @@ def run(options: Options) -> int:
     for message in messages:
         note(message)
     if options.output:
-        is_picture = options.output.suffix.lower() in PICTURES
+        is_picture = options.output.suffix.lower() in DRAWN
         earlier = _earlier(machine, trace, settings, system) if own and is_picture else None
-        write_trace(trace, options.output, note, before=earlier, chart=options.chart or CHARTS[0])
+        _write(options, file, trace, earlier)
     if options.json:
         print_json(trace_summary(trace, lambda parameter: named_parameter(file, parameter, trace.axis)))
     else:
         print(trace_text(trace))
     return 1 if trace.alarms else 0
+
+
+def _write(options: Options, file: ParameterFile, trace: Trace, before: Trace | None) -> None:
+    """Write a trace as data, picture or document, by the ending."""
+    from amp_studio.motion_paper import PAPERS, write_motion_paper
+    from amp_studio.sim import write_trace
+
+    chart = options.chart or CHARTS[0]
+    if options.output.suffix.lower() in PAPERS:
+        name = options.path.name
+        given = _given_machine(options)
+        write_motion_paper(file, name, trace, options.output, note, before=before, chart=chart, machine=given)
+    else:
+        write_trace(trace, options.output, note, before=before, chart=chart)
+
+
+def _given_machine(options: Options) -> list[tuple[str, str, str]]:
+    """Return what was given of the machine: figure, value, and where it is from."""
+    from amp_studio.sim import read_machine
+
+    found: dict[str, tuple[str, str, str]] = {}
+    if options.machine_file:
+        settings = read_machine(options.machine_file).settings
+        found = {name: (name, text, options.machine_file.name) for name, text in settings.items()}
+    own = ((name, text) for name, text in assignments(options.assignments) if name.startswith("model."))
+    return list((found | {name: (name, text, "--set") for name, text in own}).values())
 
 
 def _asked_for(options: Options) -> tuple[dict[str, Any], list[str]]:
@@ -286,7 +312,6 @@ def _identify(options: Options, of: MachineParameters) -> int:
         trace_summary,
         with_uncertainty,
         write_machine,
-        write_trace,
     )
 
     if options.record is None and options.response is None:
@@ -307,7 +332,7 @@ def _identify(options: Options, of: MachineParameters) -> int:
     if options.output and options.output.suffix.lower() in (".yaml", ".yml"):
         write_machine(trace, file.schema.family.family, options.output, note)
     elif options.output:
-        write_trace(trace, options.output, note)
+        _write(options, file, trace, None)
     if options.json:
         machine = {"machine": machine_settings(trace)}
         summary = trace_summary(trace, lambda parameter: named_parameter(file, parameter, trace.axis))

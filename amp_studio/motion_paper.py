@@ -1,0 +1,120 @@
+"""The paper of one simulation: tuning record of an axis, machine out of a record, or any other result."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from datetime import datetime
+from pathlib import Path
+
+from amp_studio.files import Notify, ParameterFile, user
+from amp_studio.report import Paper, PaperTable, PrintedFigure, write_paper
+from amp_studio.scenarios import CHARTS
+from amp_studio.sim import Trace, address_of, figure_rows, named_parameter, plot_svg, value_text
+
+PAPERS = (".pdf", ".html")
+_WIDTH, _UNIT = 640, 92
+GivenFigure = tuple[str, str, str]
+"""``model.…``, its value, and where it is from: a file that `identify` wrote, or the command."""
+_KINDS = {"tune": "Tuning record", "identify": "Machine from a record"}
+_BEFORE = "_before"
+
+
+def write_motion_paper(
+    file: ParameterFile,
+    name: str,
+    trace: Trace,
+    path: Path,
+    notify: Notify = lambda _note: None,
+    *,
+    before: Trace | None = None,
+    chart: str = CHARTS[0],
+    machine: Sequence[GivenFigure] = (),
+) -> None:
+    """Write the result of a simulation as a document; ``name`` is the file that it was made with,
+    ``machine`` what was given of the machine. Raises ValueError, SaveError.
+    """
+    write_paper(motion_paper(file, name, trace, before=before, chart=chart, machine=machine), path, notify)
+
+
+def motion_paper(
+    file: ParameterFile,
+    name: str,
+    trace: Trace,
+    *,
+    before: Trace | None = None,
+    chart: str = CHARTS[0],
+    machine: Sequence[GivenFigure] = (),
+) -> Paper:
+    """Return the result of a simulation as a paper: what was recommended, figures, the machine that was taken
+    and how it was found, doubts and assumptions, the picture.
+    """
+    drawn = plot_svg(trace, before, chart=chart, width=_WIDTH, unit=_UNIT, small_print=False)
+    facts = (
+        ("File", name),
+        ("Machine", file.header.name),
+        ("Control", file.schema.family.name),
+        ("Axis", trace.axis_title),
+        ("Model", trace.model),
+        ("Made by", user()),
+    )
+    return Paper(
+        _KINDS.get(trace.scenario, "Simulation"),
+        f"{trace.scenario.capitalize()}, {name}",
+        tuple((head, text) for head, text in facts if text),
+        tuple(table for table in _tables(file, trace, machine) if table.rows),
+        datetime.now().astimezone(),
+        figures=(PrintedFigure("Picture", drawn),),
+        signed=("Checked by", "Released by"),
+    )
+
+
+def _tables(file: ParameterFile, trace: Trace, machine: Sequence[GivenFigure]) -> Iterator[PaperTable]:
+    alarms = tuple((each.code, value_text(each.time_s, "s"), each.message) for each in trace.alarms)
+    yield PaperTable("Alarms", ("Alarm", "Time", "Message"), alarms, (1.0, 1.0, 4.0))
+    yield PaperTable(
+        "Recommended",
+        ("Parameter", "Name", "In the file", "Recommended", "Reason and price"),
+        tuple(_recommended(file, trace)),
+        (1.6, 2.0, 1.2, 1.2, 4.0),
+    )
+    if trace.scenario == "identify":
+        yield PaperTable("Figures", ("Figure", "Value"), tuple(figure_rows(trace)), (1.0, 1.0))
+    elif any(each.endswith(_BEFORE) for each in trace.result):
+        heads = ("Figure", "In the file", "Recommended")
+        yield PaperTable("Figures", heads, tuple(_before_and_after(trace)), (1.0, 1.0, 1.0))
+    else:
+        rows = tuple((_words(key), _figure(trace, key)) for key in trace.result)
+        yield PaperTable("Figures", ("Figure", "Value"), rows, (1.0, 1.0))
+    yield PaperTable("Doubts", ("Doubt",), tuple((text,) for text in trace.doubts))
+    yield PaperTable("Given of the machine", ("Figure", "Value", "From"), tuple(machine), (1.0, 1.0, 1.0))
+    yield PaperTable("Machine and assumptions", ("Assumption",), tuple((t,) for t in trace.assumptions))
+
+
+def _recommended(file: ParameterFile, trace: Trace) -> Iterator[tuple[str, ...]]:
+    for each in trace.recommendations:
+        address = address_of(file, each.parameter, trace.axis)
+        present = file.get(address) if address else None
+        known = file.schema.parameters.get(each.parameter)
+        yield (
+            named_parameter(file, each.parameter, trace.axis),
+            known.name if known else each.parameter,
+            "not set" if present is None else value_text(float(present.value), present.unit, 9),
+            value_text(each.value, each.unit, 9),
+            f"{each.why} {each.price}".strip(),
+        )
+
+
+def _before_and_after(trace: Trace) -> Iterator[tuple[str, str, str]]:
+    for key in trace.result:
+        if not key.endswith(_BEFORE):
+            old = f"{key}{_BEFORE}"
+            yield _words(key), _figure(trace, old) if old in trace.result else "", _figure(trace, key)
+
+
+def _words(key: str) -> str:
+    return key.replace("_", " ")
+
+
+def _figure(trace: Trace, key: str) -> str:
+    value, unit = trace.result[key]
+    return "–" if value is None else value_text(value, unit, 5)
