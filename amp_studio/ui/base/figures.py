@@ -26,9 +26,13 @@ def sentence(text: str) -> str:
     """Return a message that was made below the window (what is allowed, why a value is refused)
     with its numbers as the language writes them.
     """
+    return with_figures(message_in_words(text))
+
+
+def with_figures(text: str) -> str:
+    """Return a text with its numbers as the language writes them; addresses stay."""
     point = tr(".", "decimal sign")
-    sentence = message_in_words(text)
-    return sentence if point == "." else _NUMBER.sub(lambda found: found[0].replace(".", point), sentence)
+    return text if point == "." else _NUMBER.sub(lambda found: found[0].replace(".", point), text)
 
 
 def show_value(parameter: Parameter, value: Value | None, *, secrets: bool = False) -> str:

@@ -34,6 +34,7 @@ from amp_studio.drawing import (
     zoomed,
 )
 
+from .figures import written
 from .scene_painter import ScenePainter, caption_fonts, paint_heading, panel_heading
 from .theme import colour, scheme
 from .translated import worded
@@ -330,7 +331,7 @@ def _shifted(
 
 def _five_digits(value: float) -> str:
     """Return a figure of a curve as it is read at a cursor; a dash where the curve has none."""
-    return figure_text(float(f"{value:.5g}")) if math.isfinite(value) else "–"
+    return written(figure_text(float(f"{value:.5g}"))) if math.isfinite(value) else "–"
 
 
 def _reading(picture: Picture, one: float, two: float) -> Iterator[str]:

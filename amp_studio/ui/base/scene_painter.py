@@ -31,6 +31,7 @@ from amp_studio.drawing import (
 )
 from amp_studio.schema import Address
 
+from .figures import with_figures
 from .theme import Token, colour, font
 
 if TYPE_CHECKING:
@@ -172,7 +173,7 @@ class ScenePainter:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setPen(colour("dim"))
         for y, text in bar_figures(place, cells):
-            painter.drawText(QPointF(left + BAR + 5.0, y + 4.0), text)
+            painter.drawText(QPointF(left + BAR + 5.0, y + 4.0), with_figures(text))
 
     def _area(self, area: FilledArea) -> None:
         box = QRectF(self._at((area.left, area.top)), self._at((area.right, area.bottom))).normalized()
@@ -246,12 +247,13 @@ class ScenePainter:
         base = QPointF(box.left(), box.top() + measure.ascent())
         painter.setFont(named)
         painter.setPen(colour(TEXT_TOKENS.get(label.sort, "text")))
-        painter.drawText(base, label.text)
+        painter.drawText(base, with_figures(label.text))
         painter.setFont(self._caption)
         if label.value:
             painter.setPen(colour("dim"))
             painter.drawText(
-                QPointF(base.x() + measure.horizontalAdvance(label.text), base.y()), f" {label.value}"
+                QPointF(base.x() + measure.horizontalAdvance(label.text), base.y()),
+                f" {with_figures(label.value)}",
             )
 
 
@@ -310,7 +312,7 @@ def paint_heading(painter: QPainter, pieces: Sequence[Heading], top: float) -> N
             x += SAMPLE + 6.0
         painter.setFont(bold if piece.strong else plain)
         painter.setPen(colour("text" if piece.strong or piece.curve else "dim"))
-        painter.drawText(QPointF(x, base), piece.text)
+        painter.drawText(QPointF(x, base), with_figures(piece.text))
 
 
 def caption_fonts() -> tuple[QFont, QFont]:

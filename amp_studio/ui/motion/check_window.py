@@ -24,6 +24,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.files import ParameterFile
 from amp_studio.sim import MotionCheck, SimulationError, check_motion, value_text
+from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import GAP2, GAP3, Token, font, icon
@@ -180,4 +181,4 @@ class CheckWindow(QDialog):
 
 def _figure(name: str, value: float | None, unit: str) -> str:
     words = name.replace("_", " ")
-    return f"{words} –" if value is None else f"{words} {value_text(float(value), unit)}"
+    return f"{words} –" if value is None else f"{words} {written(value_text(float(value), unit))}"

@@ -32,6 +32,7 @@ from amp_studio.sim import (
     value_text,
     write_machine,
 )
+from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import in_background
@@ -127,7 +128,7 @@ class IdentifyDialog(QDialog):
         else:
             self.plot.draw(picture_of(self.trace))
             found = [
-                f"{worded(each.parameter)} {value_text(each.value, each.unit)}: {each.why}"
+                f"{worded(each.parameter)} {written(value_text(each.value, each.unit))}: {each.why}"
                 for each in self.trace.recommendations
             ]
             texts = (*self.trace.doubts, *found, *map(worded, self.trace.assumptions))

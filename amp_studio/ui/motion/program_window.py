@@ -43,6 +43,7 @@ from amp_studio.sim import (
     value_text,
     what_if,
 )
+from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import Task, TaskProgress
@@ -291,11 +292,10 @@ class ProgramWindow(QDialog):
             self.lines,
             [(line, *listed.get(n, ("", ""))) for n, line in enumerate(self._job.lines[:MOST_LINES], 1)],
         )
-        words = [
-            f"{self._name}: {run.plan.path.blocks} {self.tr('blocks')}, {value_text(run.plan.time, 's', 4)}"
-        ]
+        time = written(value_text(run.plan.time, "s", 4))
+        words = [f"{self._name}: {run.plan.path.blocks} {self.tr('blocks')}, {time}"]
         if run.contour is not None:
-            error = value_text(1000.0 * run.contour.largest, "µm", 3)
+            error = written(value_text(1000.0 * run.contour.largest, "µm", 3))
             words.append(self.tr("largest contour error {error}").format(error=error))
         words += [f"{self.tr('Line')} {alarm.line}: {alarm.code} {alarm.message}" for alarm in run.alarms[:2]]
         self._say("; ".join(words))

@@ -133,7 +133,7 @@ class RecommendationsPage(QScrollArea):
         column.setSpacing(2)
         head, shade = QHBoxLayout(), severity_colour("advice").name()
         name = html.escape(name_of(schema, each.parameter))
-        value = html.escape(value_text(each.value, unit_text(each.unit), 9))
+        value = html.escape(written(value_text(each.value, unit_text(each.unit), 9)))
         title = QLabel(f'<a href="{LINK}{each.parameter}" style="color:{shade}">{name}</a> = <b>{value}</b>')
         title.setWordWrap(True)
         title.linkActivated.connect(lambda url: self._follow(QUrl(url)))

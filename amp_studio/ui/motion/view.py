@@ -52,6 +52,8 @@ from .machine_page import MachinePage
 from .results import AssumptionsPage, FiguresPage, RecommendationsPage, name_of
 from .settings import SettingsForm, scrolled
 
+_SCROLL = 16
+"""Width in pixels of the bar that scrolls the form."""
 _LEAST_FIGURES = 280
 """Height in pixels of the figures below the form, which is there whole; a low window scrolls both."""
 _ASSUMED = re.compile(r"ASSUMED: (model\.\w+) = (.+?)\. ")
@@ -121,8 +123,8 @@ class MotionView(QWidget):
         self.run()
 
     def _make_widgets(self) -> None:
-        self.scenario, self.axis = QComboBox(), QComboBox()
-        for box in (self.scenario, self.axis):
+        self.scenario, self.axis, self.against = QComboBox(), QComboBox(), QComboBox()
+        for box in (self.scenario, self.axis, self.against):
             box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.settings = SettingsForm(self.run)
         self.machine_page = MachinePage(
@@ -134,7 +136,7 @@ class MotionView(QWidget):
             QPushButton(self.tr("&Zoom to Settling")),
             QPushButton(self.tr("Show &All")),
         )
-        self.against, self.keep = QComboBox(), QPushButton(self.tr("&Keep"))
+        self.keep = QPushButton(self.tr("&Keep"))
         self.against.setAccessibleName(self.tr("Compared with"))
         self.against.setToolTip(self.tr("What lies under the present motion, making the same move"))
         for key, name in (
@@ -170,10 +172,11 @@ class MotionView(QWidget):
             (
                 Field("scenario", self.tr("S&cenario"), "choice", editor=lambda: self.scenario),
                 Field("axis", self.tr("A&xis"), "choice", editor=lambda: self.axis),
+                Field("against", self.tr("&Under it"), "choice", editor=lambda: self.against),
             )
         )
         tools = QHBoxLayout()
-        for widget in (self.chart, self.settling, self.all_of_it, self.against, self.keep):
+        for widget in (self.chart, self.settling, self.all_of_it):
             tools.addWidget(widget)
         tools.addStretch()
         tools.addWidget(self.run_button)
@@ -195,6 +198,7 @@ class MotionView(QWidget):
         right = QVBoxLayout(side)
         right.setContentsMargins(0, 0, GAP2, 0)
         right.addWidget(form)
+        right.addWidget(self.keep, alignment=Qt.AlignmentFlag.AlignRight)
         right.addWidget(self.settings)
         self.tabs.setMinimumHeight(_LEAST_FIGURES)
         right.addWidget(self.tabs, 1)
@@ -205,7 +209,9 @@ class MotionView(QWidget):
         picture.addWidget(self.plot, 1)
         middle = QSplitter()
         middle.addWidget(left)
-        middle.addWidget(scrolled(side))
+        beside = scrolled(side)
+        beside.setMinimumWidth(side.minimumSizeHint().width() + _SCROLL)
+        middle.addWidget(beside)
         middle.setStretchFactor(0, 1)
         middle.setSizes([790, 430])
         outer = QVBoxLayout(self)
