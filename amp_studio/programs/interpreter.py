@@ -13,6 +13,7 @@ from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema import axis_name
 
 from .block import BlockReader
+from .codes import KnownCode
 from .coordinates import ProgramCoordinates
 from .cycles import CycleRuns
 from .expression import worth
@@ -177,11 +178,18 @@ class Interpreter:
                 self._at.choose_length(int(words.roles["length-offset"]))
         if codes.sets_rounding:
             self._moves.round_corners(words.roles)
+        if codes.zones is not None:
+            self._switch_zones(codes.zones, words)
         if codes.once:
             self._single.do(codes, words)
         elif words.axes or words.distances or words.centers:
             self._move(words, codes)
         self._over = codes.is_end
+
+    def _switch_zones(self, code: KnownCode, words: BlockNumbers) -> None:
+        if words.axes or words.distances or words.centers:
+            raise BlockError(f"{code.code} with places beside it is not simulated: {code.facts.meaning}")
+        self._moves.rows.guard_by(code.facts.zones)
 
     def _move(self, words: BlockNumbers, codes: BlockCodes) -> None:
         modal = codes.modal

@@ -76,6 +76,8 @@ class BlockCodes:
     is_end: bool = False
     sets_rounding: bool = False
     """Whether its words set how far corners are rounded."""
+    zones: KnownCode | None = None
+    """The code that switches zones."""
     in_machine: bool = False
     """Whether its positions are those of the machine."""
     selects: tuple[KnownCode, ...] = ()
@@ -149,6 +151,8 @@ class ModalCodes:
                 codes_here.is_exact = True
             elif does == "blend":
                 codes_here.sets_rounding = True
+            elif does == "zones":
+                codes_here.zones = code_
             elif does == "end":
                 codes_here.is_end = True
             elif does == "machine-once":

@@ -80,6 +80,10 @@ class ToolPath:
     rounding: Bytes
     """(rows,): place in ``roundings``."""
     roundings: tuple[Rounding, ...]
+    zones: Bytes
+    """(rows,): place in ``zone_sets``."""
+    zone_sets: tuple[tuple[str, ...] | None, ...]
+    """Numbers of zones that the program switched on; None for those of power-up."""
     blocks: int
     """How many blocks were read, repeated ones every time."""
     fault: ProgramFault | None
@@ -110,6 +114,10 @@ class RowsWriter:
     roundings: list[Rounding] = field(default_factory=lambda: [NO_ROUNDING])
     active: int = 0
     """Place of the rounding of the next rows."""
+    zones: array[int] = field(default_factory=lambda: array("B"))
+    zone_sets: list[tuple[str, ...] | None] = field(default_factory=lambda: [None])
+    active_zones: int = 0
+    """Place of the zones of the next rows."""
 
     def add(
         self,
@@ -134,6 +142,13 @@ class RowsWriter:
         self.corner.append(corner)
         self.free.append(free)
         self.rounding.append(self.active)
+        self.zones.append(self.active_zones)
+
+    def guard_by(self, zones: tuple[str, ...]) -> None:
+        """Have these zones on in the next rows, and no others."""
+        if zones not in self.zone_sets:
+            self.zone_sets.append(zones)
+        self.active_zones = self.zone_sets.index(zones)
 
     def round_by(self, rounding: Rounding) -> None:
         """Round the corners of the next rows by this."""
@@ -170,6 +185,8 @@ class RowsWriter:
             free=np.array(self.free, np.uint8),
             rounding=np.array(self.rounding, np.uint8),
             roundings=tuple(self.roundings),
+            zones=np.array(self.zones, np.uint8),
+            zone_sets=tuple(self.zone_sets),
             blocks=blocks,
             fault=fault,
             assumptions=tuple(dict.fromkeys(assumptions)),

@@ -10,7 +10,7 @@ import pytest
 
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.machine import read_assignments
-from amp_studio.programs import tool_path
+from amp_studio.programs import path_letters, tool_path
 from amp_studio.sim import PathRules, ProgramJob, Ramp, run_axis
 from amp_studio.sim.axis.motion import Until
 from amp_studio.sim.binding import bind_axis
@@ -274,3 +274,47 @@ def test_a_syntec_runs_rapid_moves_from_rest_to_rest_and_names_what_it_does_not(
     run = ProgramJob(["G91 G00 X-20", "Y-10", "G01 X1"], with_contour=False).run(file)
     assert run.plan.leave.tolist() == [0.0, 0.0]
     assert run.alarms[-1].message == "G01 is a code that no page here names"
+
+
+@pytest.mark.parametrize(
+    ("text", "start", "message"),
+    [
+        (
+            "G00 X-470.",
+            (-200.0, -50.0, -400.0),
+            "programmable zone 2, group 1 is met at X -420, Y -50, Z -400",
+        ),
+        ("G00 X-470.", (-200.0, -50.0, -5.0), ""),  # Z is not in it
+        ("G23|G00 X-470.", (-200.0, -50.0, -400.0), ""),
+        ("G23.1|G00 X-470.", (-200.0, -50.0, -400.0), "zone 2, group 1 is met at X -420"),
+        ("G22.1|G00 X-470.", (-200.0, -50.0, -400.0), ""),
+        ("G00 X-370.", (-200.0, -200.0, -400.0), "zone 3, group 1 is met at X -350"),  # inside where it is on
+        ("G23|G00 X-370.|G22|X-200.", (-200.0, -200.0, -400.0), "zone 3, group 1 is met at X -350"),
+    ],
+)
+def test_zones_of_power_up_and_of_the_program_are_met(
+    text: str, start: tuple[float, ...], message: str
+) -> None:
+    """Pages 6-2 to 6-9 and 18-7: zone 2 keeps out; zone 3 in, or out where the axes are out when it is on."""
+    file = example("mill-1394")
+    places = dict(zip("XYZ", start, strict=True))
+    job = ProgramJob(
+        text.split("|"),
+        [places.get(letter, 0.0) for letter in path_letters(file)],
+        {"X": 0.0},
+        with_contour=False,
+    )
+    met = [alarm.message for alarm in job.run(file).alarms if "zone" in alarm.message]
+    assert len(met) == bool(message)
+    assert all(message in each for each in met)
+
+
+def test_a_zone_of_a_syntec_is_read_ahead() -> None:
+    """Slides 3.2 and 3.3: X 10 to 25, Y 15 to 30, Z 0 to 20 of the example, on by Pr3838; G23 switches it off."""
+    file = example("syntec-mill")
+    start = [{"Y": 20.0, "Z": 10.0}.get(letter, 0.0) for letter in path_letters(file)]
+    for text, code in ((["G00 X30"], "COR-040"), (["G23", "G00 X30"], "")):
+        alarms = ProgramJob(text, start, {"X": 0.0}, with_contour=False).run(file).alarms
+        met = [alarm for alarm in alarms if "software stroke limit 2" in alarm.message]
+        assert [alarm.code for alarm in met] == [code] * bool(code)
+        assert all("X 10, Y 20, Z 10" in alarm.message for alarm in met)

@@ -49,6 +49,7 @@ CodeAction = Literal[
     "no-length",
     "subroutine",
     "end",
+    "zones",
     "nothing",
 ]
 """What a code does to the path of a program; ``nothing`` for one that moves no axis."""
@@ -190,6 +191,8 @@ class ProgramCode(Model):
     """A parameter can make it active, a program cannot."""
     does: CodeAction | None = None
     """None: a program that has it is refused with its name."""
+    zones: tuple[str, ...] = ()
+    """Numbers of the zones that are on from this code of ``zones`` on; those it does not name are off."""
     steps: tuple[CycleStep, ...] = ()
     """What a cycle does, in its order."""
 

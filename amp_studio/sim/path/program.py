@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,11 +17,10 @@ from amp_studio.sim.command.ramps import end_of, move
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, BoundMachine, law_of
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.path_rules import PathRows
 from amp_studio.sim.run import bound_machine
 
 from .contour import ContourError, contour_error
-from .geometry import places_of
+from .limits_met import PathAlarm, limits_met, zones_met
 from .planner import ProgramPlan, plan_program
 
 LONGEST_WAIT = 5.0
@@ -30,18 +28,6 @@ LONGEST_WAIT = 5.0
 NO_ZERO = (
     "Limits of travel are not checked: where the zero of the program is, the file does not have. Give --zero."
 )
-BEYOND = 1e-6
-"""u: an axis on its limit is not beyond it."""
-
-
-@dataclass(frozen=True)
-class PathAlarm:
-    """Where a program meets a limit, or the control stops it."""
-
-    line: int
-    time_s: float
-    code: str
-    message: str
 
 
 @dataclass(frozen=True)
@@ -92,7 +78,7 @@ def run_program(
                 f"An exact stop waits {waits.wait:.3g} s until the axes are in position: that of the largest"
                 " of them, moved by itself."
             )
-    alarms = [*_limits_met(plan, axes, path)]
+    alarms = [*limits_met(plan, axes), *zones_met(plan, machine)]
     if not path.zero_known:
         notes.append(NO_ZERO)
     contour, why = None, "not asked for"
@@ -183,53 +169,3 @@ def _contour(plan: ProgramPlan, axes: list[AxisLaw]) -> tuple[ContourError | Non
         return contour_error(plan, chosen), ""
     except SimulationError as error:
         return None, f"{error}"
-
-
-def _limits_met(plan: ProgramPlan, axes: list[AxisLaw], path: ToolPath) -> Iterator[PathAlarm]:
-    """Yield the first row that leaves each limit of travel."""
-    least, most = _extent(plan, path)
-    for n, axis in enumerate(axes):
-        if axis.travel is None or not len(least) or not path.zero_known:
-            continue
-        try:
-            travel = axis.travel()
-        except SimulationError:
-            continue
-        for title, (low, high) in travel.limits.items():
-            beyond = (least[:, n] < low - BEYOND) | (most[:, n] > high + BEYOND)
-            if not beyond.any():
-                continue
-            row = int(np.argmax(beyond))
-            is_low = bool(least[row, n] < low - BEYOND)
-            edge, place = (low, least[row, n]) if is_low else (high, most[row, n])
-            begun = (
-                "the block is not begun" if travel.refuses or travel.reads_ahead else "the axis stops there"
-            )
-            code = travel.reads_ahead or (travel.alarm_negative if is_low else "") or travel.alarm
-            yield PathAlarm(
-                int(path.line[plan.geometry.row[row]]),
-                float(plan.start[row]),
-                code,
-                f"{path.axes[n]} would go to {place:.6g} {axis.unit}, beyond {title} at {edge:.6g}"
-                f" {axis.unit}: {begun} (page {travel.page})",
-            )
-
-
-def _extent(plan: ProgramPlan, path: ToolPath) -> tuple[PathRows, PathRows]:
-    """Return the least and the greatest place of every axis in every row."""
-    geometry = plan.geometry
-    least, most = np.minimum(geometry.begins, geometry.ends), np.maximum(geometry.begins, geometry.ends)
-    for n in np.flatnonzero(geometry.is_arc).tolist():
-        row = int(geometry.row[n])
-        a, b = places_of(path, row)
-        center, radius, sweep = path.center[row], float(geometry.radius[n]), float(path.sweep[row])
-        begun = math.atan2(geometry.begins[n, b] - center[1], geometry.begins[n, a] - center[0])
-        low, high = min(begun, begun + sweep), max(begun, begun + sweep)
-        for quarter in range(math.ceil(low / (0.5 * math.pi)), math.floor(high / (0.5 * math.pi)) + 1):
-            angle = quarter * 0.5 * math.pi
-            for axis, place in (
-                (a, center[0] + radius * math.cos(angle)),
-                (b, center[1] + radius * math.sin(angle)),
-            ):
-                least[n, axis], most[n, axis] = min(least[n, axis], place), max(most[n, axis], place)
-    return least, most

@@ -1,0 +1,167 @@
+"""Where a program meets limits of travel, and zones that are on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from amp_studio.programs import ToolPath
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.law import AxisLaw, BoundMachine
+from amp_studio.sim.path_rules import PathRows
+from amp_studio.sim.zones import EPSILON, Zone
+
+from .geometry import places_of
+from .planner import ProgramPlan
+from .profiles import path_points
+
+BEYOND = 1e-6
+"""u: an axis on its limit is not beyond it."""
+ON_ARC = 1e-3
+"""u between an arc and the straight pieces that are looked at for zones."""
+
+
+@dataclass(frozen=True)
+class PathAlarm:
+    """Where a program meets a limit, or the control stops it."""
+
+    line: int
+    time_s: float
+    code: str
+    message: str
+
+
+def limits_met(plan: ProgramPlan, axes: Sequence[AxisLaw]) -> Iterator[PathAlarm]:
+    """Yield the first row that leaves each limit of travel."""
+    path = plan.path
+    least, most = _extent(plan, path)
+    for n, axis in enumerate(axes):
+        if axis.travel is None or not len(least) or not path.zero_known:
+            continue
+        try:
+            travel = axis.travel()
+        except SimulationError:
+            continue
+        for title, (low, high) in travel.limits.items():
+            beyond = (least[:, n] < low - BEYOND) | (most[:, n] > high + BEYOND)
+            if not beyond.any():
+                continue
+            row = int(np.argmax(beyond))
+            is_low = bool(least[row, n] < low - BEYOND)
+            edge, place = (low, least[row, n]) if is_low else (high, most[row, n])
+            begun = (
+                "the block is not begun" if travel.refuses or travel.reads_ahead else "the axis stops there"
+            )
+            code = travel.reads_ahead or (travel.alarm_negative if is_low else "") or travel.alarm
+            yield PathAlarm(
+                int(path.line[plan.geometry.row[row]]),
+                float(plan.start[row]),
+                code,
+                f"{path.axes[n]} would go to {place:.6g} {axis.unit}, beyond {title} at {edge:.6g}"
+                f" {axis.unit}: {begun} (page {travel.page})",
+            )
+
+
+def _extent(plan: ProgramPlan, path: ToolPath) -> tuple[PathRows, PathRows]:
+    """Return the least and the greatest place of every axis in every row."""
+    geometry = plan.geometry
+    least, most = np.minimum(geometry.begins, geometry.ends), np.maximum(geometry.begins, geometry.ends)
+    for n in np.flatnonzero(geometry.is_arc).tolist():
+        row = int(geometry.row[n])
+        a, b = places_of(path, row)
+        center, radius, sweep = path.center[row], float(geometry.radius[n]), float(path.sweep[row])
+        begun = math.atan2(geometry.begins[n, b] - center[1], geometry.begins[n, a] - center[0])
+        low, high = min(begun, begun + sweep), max(begun, begun + sweep)
+        for quarter in range(math.ceil(low / (0.5 * math.pi)), math.floor(high / (0.5 * math.pi)) + 1):
+            angle = quarter * 0.5 * math.pi
+            for axis, place in (
+                (a, center[0] + radius * math.cos(angle)),
+                (b, center[1] + radius * math.sin(angle)),
+            ):
+                least[n, axis], most[n, axis] = min(least[n, axis], place), max(most[n, axis], place)
+    return least, most
+
+
+def zones_met(plan: ProgramPlan, machine: BoundMachine) -> Iterator[PathAlarm]:
+    """Yield the first place where the path breaks each zone that is on there."""
+    path = plan.path
+    if machine.law.zones is None or not path.zero_known or not len(path):
+        return
+    zones = tuple(machine.law.zones(machine, machine.fitted))
+    if not zones:
+        return
+    points, rows = path_points(plan, ON_ARC)
+    of_path = plan.geometry.row[rows]
+    for zone in zones:
+        sides = {
+            path.axes.index(letter): side
+            for axis, side in zone.sides.items()
+            if (letter := machine.letter(axis) or axis) in path.axes
+        }
+        is_on = np.array([_is_on(zone, numbers) for numbers in path.zone_sets])[path.zones[of_path]]
+        found = _first_broken(zone, sides, points, is_on) if sides else None
+        if found is not None:
+            piece, place = found
+            where = ", ".join(f"{path.axes[n]} {place[n]:.6g}" for n in sides)
+            row = int(rows[piece])
+            effect = "the block is not begun" if zone.reads_ahead or zone.refuses else "the axes stop there"
+            yield PathAlarm(
+                int(path.line[plan.geometry.row[row]]),
+                float(plan.start[row]),
+                zone.reads_ahead or zone.code,
+                f"{zone.name} is met at {where}: {effect} (page {zone.page})",
+            )
+
+
+def _is_on(zone: Zone, numbers: tuple[str, ...] | None) -> bool:
+    """Return whether a zone is on; without numbers of the program as at power-up."""
+    if numbers is None:
+        return zone.is_on
+    return any(f" {number}" in zone.name.partition(",")[0] for number in numbers)
+
+
+def _first_broken(
+    zone: Zone, sides: dict[int, tuple[float, float]], points: PathRows, is_on: np.ndarray
+) -> tuple[int, PathRows] | None:
+    """Return the end of the first piece that breaks a zone, and where; None without one."""
+    for first, last in _stretches(is_on[1:]):
+        begin = {str(n): float(points[first, n]) for n in sides}
+        named = {str(n): side for n, side in sides.items()}
+        guard = Zone(zone.name, named, zone.guard, True, zone.code).settled(begin).guard
+        enters = _entered(sides, points[first:last], points[first + 1 : last + 1], keeps_in=guard == "inside")
+        hit = np.flatnonzero(enters <= 1.0)
+        if len(hit):
+            piece = int(hit[0])
+            way = points[first + piece + 1] - points[first + piece]
+            return first + piece + 1, points[first + piece] + float(enters[piece]) * way
+    return None
+
+
+def _stretches(is_on: np.ndarray) -> Iterator[tuple[int, int]]:
+    """Yield (first, last) point of each run of pieces in which a zone is on."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], is_on, [False]]).astype(np.int8)))
+    yield from zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True)
+
+
+def _entered(
+    sides: dict[int, tuple[float, float]], begins: PathRows, ends: PathRows, *, keeps_in: bool
+) -> PathRows:
+    """Return at which share of each piece it breaks a box, above 1 where it does not."""
+    low_share, high_share = np.zeros(len(begins)), np.ones(len(begins))
+    left = np.full(len(begins), math.inf)
+    for n, (low, high) in sides.items():
+        begin, way = begins[:, n], ends[:, n] - begins[:, n]
+        moves = np.abs(way) > EPSILON
+        scale = np.where(moves, way, 1.0)
+        one, two = (low + EPSILON - begin) / scale, (high - EPSILON - begin) / scale
+        inside = (begin > low + EPSILON) & (begin < high - EPSILON)
+        enters = np.where(moves, np.minimum(one, two), np.where(inside, 0.0, 2.0))
+        leaves = np.where(moves, np.maximum(one, two), np.where(inside, 1.0, -1.0))
+        low_share, high_share = np.maximum(low_share, enters), np.minimum(high_share, leaves)
+        beyond = (ends[:, n] < low - BEYOND) | (ends[:, n] > high + BEYOND)
+        left = np.where(beyond, np.minimum(left, np.clip(leaves, 0.0, 1.0)), left)
+    found: PathRows = left if keeps_in else np.where(low_share < high_share, low_share, 2.0)
+    return found

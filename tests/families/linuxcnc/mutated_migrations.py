@@ -1,0 +1,226 @@
+"""Examples with other limits, signs, homing and units, migrated and started in the real program: its pins have the
+figures that the old file means, and every joint homes to where its file has it.
+
+``python -m tests.families.linuxcnc.mutated_migrations [NUMBER ...]`` runs them, as root and with a user ``cnc``.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from math import isclose
+from pathlib import Path
+
+from amp_studio import AmpStudioError
+from amp_studio.families.linuxcnc.control.running import pins_of, values_of
+from amp_studio.files import ParameterFile, open_file
+from amp_studio.files.example_files import examples_folder
+from amp_studio.formats import import_file
+from amp_studio.machine import read_assignments
+from amp_studio.meaning import Migration, migrate
+
+from .test_real_program import USER
+
+NO_LIMIT = 1e99
+SECONDS = 60
+ANSWERS = (("feedback.sign.", "+"), ("home.speed.", "600"))
+"""To every question whose id begins so; the axes home one after the other."""
+
+
+@dataclass(frozen=True)
+class Mutation:
+    """An example with other values, and the pins that it must bring."""
+
+    example: str
+    what: str
+    values: dict[str, str] = field(default_factory=dict)
+    pins: dict[str, float] = field(default_factory=dict)
+    homes: bool = True
+
+
+def _limits(low: float, high: float) -> dict[str, float]:
+    return {"ini.0.min_limit": low, "ini.0.max_limit": high, "ini.x.min_limit": low, "ini.x.max_limit": high}
+
+
+def _of_9pc() -> Iterator[Mutation]:
+    mill = "mill-1394"
+    yield Mutation(mill, "as it is", {}, _limits(-500.0, 8.0))
+    yield Mutation(mill, "limits", {"1320": "7 mm", "1330": "-250 mm"}, _limits(-250.0, 7.0))
+    minus = {"1010": "minus", "1002": "positive", "1310": "-490 mm"}
+    yield Mutation(mill, "minus homing", minus, {"ini.0.home": -490.0})
+    yield Mutation(mill, "gain 2", {"1710": "2"}, {"pid.0.Pgain": 100.0 / 3.0})
+    yield Mutation(mill, "no overtravel", {"1020": "no"}, _limits(-NO_LIMIT, NO_LIMIT))
+    yield Mutation(
+        mill, "inch limits", {"1320": "0.25 in", "1330": "-10 in", "1310": "0.2 in"}, _limits(-254.0, 6.35)
+    )
+    yield Mutation(mill, "slow", {"1203": "3000 mm/min"}, {"ini.0.max_velocity": 50.0})
+    yield Mutation(mill, "slower down", {"1211": "300 mm/s2"}, {"ini.0.max_acceleration": 300.0})
+    yield Mutation(mill, "reversal error", {"1340": "0.01 mm"}, {"ini.0.backlash": 0.01})
+    yield Mutation(mill, "calibration", {"1300": "1.5 mm"}, {"ini.0.home": 6.0, "ini.0.home_offset": 4.5})
+    yield Mutation(mill, "wrong signs", {"1320": "-500 mm", "1330": "8 mm"})
+    lathe = "lathe-ls176"
+    yield Mutation(lathe, "as it is", {}, _limits(-8.0, 155.0), homes=False)
+    yield Mutation(lathe, "limits", {"1320": "152 mm"}, _limits(-8.0, 152.0), homes=False)
+
+
+def _of_others() -> Iterator[Mutation]:
+    num = "num-1060-mill"
+    yield Mutation(num, "as it is", {}, _limits(-1.0, 600.0))
+    yield Mutation(num, "limits", {"P17N0": "-5000", "P17N1": "400000"}, _limits(-5.0, 400.0))
+    yield Mutation(num, "plus homing", {"P15N0": "2"}, {"ini.0.home": 0.0})
+    yield Mutation(num, "zero elsewhere", {"P16N0": "5000"}, {"ini.0.home": 5.0})
+    yield Mutation(num, "no limits", {"P17N0": "0", "P17N1": "0"})
+    yield Mutation(num, "error", {"P23N0": "3000"}, {"ini.0.ferror": 3.0})
+    syntec = "syntec-mill"
+    yield Mutation(syntec, "as it is", {}, _limits(-2.0, 400.0))
+    yield Mutation(syntec, "plus homing", {"Pr861": "positive"})
+    yield Mutation(syntec, "limits", {"Pr2401": "300000", "Pr2402": "-1000"}, _limits(-1.0, 300.0))
+    yield Mutation(syntec, "no limits", {"Pr2401": "0", "Pr2402": "0"})
+    yield Mutation(syntec, "rapid", {"Pr461": "6000"}, {"ini.0.max_velocity": 100.0})
+    router = "acromill-router"
+    yield Mutation(router, "as it is", {}, _limits(-711.2, 2.54))
+    yield Mutation(
+        router, "minus homing", {"home.direction@X": "neg", "home.preset@X": "-28 in"}, {"ini.0.home": -711.2}
+    )
+    yield Mutation(router, "no limits", {"axes.disable_limit@X": "true"}, _limits(-NO_LIMIT, NO_LIMIT))
+    yield Mutation(router, "metric limits", {"axes.soft_limit_minus@X": "-500 mm"}, _limits(-500.0, 2.54))
+    grbl = "grblhal-router"
+    yield Mutation(grbl, "as it is", {}, {"ini.0.max_velocity": 133.333333})
+    yield Mutation(grbl, "plus homing", {"$23": "0"})
+    yield Mutation(grbl, "no soft limits", {"$20": "no"}, _limits(-NO_LIMIT, NO_LIMIT))
+    yield Mutation(grbl, "travel", {"$130": "500 mm"})
+
+
+MUTATIONS = (*_of_9pc(), *_of_others())
+SCREEN = f'''#!/usr/bin/python3
+"""Has written what the running program uses, homes all joints, and has written where they are."""
+import pathlib, subprocess, time
+import linuxcnc
+here = pathlib.Path(__file__).parent
+command, status = linuxcnc.command(), linuxcnc.stat()
+def show(name):
+    asked = subprocess.run(["halcmd", "-s", "show", "pin"], capture_output=True, text=True)
+    (here / name).write_text(asked.stdout)
+time.sleep(0.5)
+show("pins.txt")
+command.state(linuxcnc.STATE_ESTOP_RESET); command.wait_complete()
+command.state(linuxcnc.STATE_ON); command.wait_complete()
+command.mode(linuxcnc.MODE_MANUAL); command.wait_complete()
+command.teleop_enable(0); command.wait_complete()
+command.home(-1)
+for _ in range({SECONDS} * 10):
+    status.poll()
+    if all(status.homed[:status.joints]):
+        break
+    time.sleep(0.1)
+time.sleep(1.0)
+show("homed.txt")
+'''
+
+
+def mutated(mutation: Mutation) -> ParameterFile:
+    """Return the example with its other values; a number of a parameter without an axis is its first one's."""
+    file = open_file(next((examples_folder() / mutation.example).glob("*.amp"))).file
+    file.set_checked(read_assignments(file, mutation.values.items()), force="a mutation")
+    return file
+
+
+def migrated(file: ParameterFile) -> Migration:
+    """Return a file migrated, with every question answered."""
+    asked = [question.id for question in migrate(file, "linuxcnc").written.asked]
+    axes = [name.rpartition(".")[2] for name in asked if name.startswith("feedback.sign.")] or list("XYZ")
+    answers = {name: text for name in asked for start, text in ANSWERS if name.startswith(start)}
+    if "home.order" in asked:
+        question = next(q.question for q in migrate(file, "linuxcnc").written.asked if q.id == "home.order")
+        found = re.search(r"\(([A-Z, ]+)\)", question)
+        axes = found[1].split(", ") if found else axes
+        answers["home.order"] = ", ".join(axes)
+    return migrate(file, "linuxcnc", answers)
+
+
+def with_switches(hal: str, texts: str) -> str:
+    """Return the HAL of a migration with a simulated switch and marker at the end to which each joint homes."""
+    joints = re.split(r"\[JOINT_(\d+)\]", texts)[1:]
+    lines: list[str] = []
+    for n, text in zip(joints[::2], joints[1::2], strict=True):
+        search = re.search(r"^HOME_SEARCH_VEL\s*=\s*(-?[\d.]+)", text, re.MULTILINE)
+        at = -5 if search and float(search[1]) < 0.0 else 5
+        lines += [
+            f"addf switch.{n} servo-thread",
+            f"setp switch.{n}.home-pos {at}",
+            f"net feedback.{n} => switch.{n}.cur-pos",
+            f"net home.{n} switch.{n}.home-sw => joint.{n}.home-sw-in",
+            f"net marker.{n} switch.{n}.index-enable <=> joint.{n}.index-enable",
+        ]
+    names = ",".join(f"switch.{n}" for n in joints[::2])
+    return "\n".join((hal, f"loadrt sim_home_switch names={names}", *lines, ""))
+
+
+def faults(mutation: Mutation) -> Iterator[str]:
+    """Yield what the real program does otherwise than the old file means."""
+    file = mutated(mutation)
+    texts = migrated(file).written.texts
+    folder = Path(tempfile.mkdtemp(prefix="amp-studio-mutated-"))
+    try:
+        name = next(each for each in texts if each.endswith(".ini"))
+        for each, text in texts.items():
+            own = with_switches(text, texts[name]) if each == "machine.hal" else text
+            own = re.sub(r"(?m)^DISPLAY *=.*$", "DISPLAY = ./screen.py", own) if each == name else own
+            (folder / each).write_text(own)
+        (folder / "screen.py").write_text(SCREEN)
+        (folder / "screen.py").chmod(0o755)
+        for place in (*folder.iterdir(), folder):
+            shutil.chown(place, USER)
+        command = f"cd '{folder}' && exec env -u DISPLAY linuxcnc {name}"
+        with (folder / "log").open("w") as log:
+            subprocess.run(["su", USER, "-c", command], stdout=log, stderr=log, timeout=200, check=False)
+        if not (folder / "pins.txt").exists():
+            yield f"it did not start: {(folder / 'log').read_text()[-600:]}"
+            return
+        written = import_file(folder / name, "linuxcnc")
+        yield from _pins(mutation, written, pins_of((folder / "pins.txt").read_text()))
+        if mutation.homes and (folder / "homed.txt").exists():
+            yield from _homes(written, pins_of((folder / "homed.txt").read_text()))
+    finally:
+        shutil.rmtree(folder)
+
+
+def _pins(mutation: Mutation, written: ParameterFile, listed: dict[str, str]) -> Iterator[str]:
+    used = values_of(written, listed)
+    for address, value in used.items():
+        if value != written.get(address):
+            yield f"{address[0]}@{address[1]}: the file has {written.get(address)}, the program uses {value}"
+    if len(used) < 20:
+        yield f"only {len(used)} values were compared"
+    for pin, value in mutation.pins.items():
+        found = float(listed.get(pin, "nan"))
+        if not isclose(found, value, rel_tol=2e-6, abs_tol=1e-9):
+            yield f"{pin} is {found:.9g}, and the old file means {value:.9g}"
+
+
+def _homes(written: ParameterFile, listed: dict[str, str]) -> Iterator[str]:
+    for n in range(9):
+        if listed.get(f"joint.{n}.active") != "TRUE" or written.get(("joint.home_sequence", str(n))) is None:
+            continue
+        home = written.evaluation.canonical(("joint.home", str(n)))
+        place = float(listed[f"joint.{n}.pos-fb"])
+        if listed[f"joint.{n}.homed"] != "TRUE":
+            yield f"joint {n} is not homed after {SECONDS} s, at {place:.6g}"
+        elif isinstance(home, float | int) and abs(place - home) > 0.05:
+            yield f"joint {n} is homed at {place:.6g}, not {home:.6g}"
+
+
+if __name__ == "__main__":
+    chosen = [int(each) for each in sys.argv[1:]] or range(len(MUTATIONS))
+    for number in chosen:
+        one = MUTATIONS[number]
+        try:
+            found = list(faults(one))
+        except (AmpStudioError, ValueError) as error:
+            found = [f"refused: {error}"]
+        print(f"{number:2} {one.example}, {one.what}: {'; '.join(found) or 'as meant'}", flush=True)
