@@ -57,11 +57,11 @@ if TYPE_CHECKING:
     from .model import assumptions, with_model
     from .motion_check import MotionCheck, check_motion
     from .parameter_roles import ParameterRoles
-    from .path.job import ProgramJob, WhatIf, what_if
+    from .path.job import ProgramJob, ProgramVersion, WhatIf, versions, what_if
     from .path.picture import path_picture
     from .path.program import ProgramRun
     from .path.result import limited_by, line_rows, program_csv, program_summary, program_text, try_summary
-    from .path.typed import typed_places, typed_values
+    from .path.typed import typed_places, typed_steps, typed_values
     from .path_rules import (
         CornerRule,
         Corners,

@@ -11,7 +11,16 @@ import pytest
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.machine import read_assignments
 from amp_studio.programs import path_letters, tool_path
-from amp_studio.sim import PathRules, ProgramJob, Ramp, run_axis
+from amp_studio.sim import (
+    PathRules,
+    ProgramJob,
+    Ramp,
+    SimulationError,
+    run_axis,
+    typed_steps,
+    versions,
+    what_if,
+)
 from amp_studio.sim.axis.motion import Until
 from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.command.changes import change_time, change_way, peaks, reached
@@ -318,3 +327,23 @@ def test_a_zone_of_a_syntec_is_read_ahead() -> None:
         met = [alarm for alarm in alarms if "software stroke limit 2" in alarm.message]
         assert [alarm.code for alarm in met] == [code] * bool(code)
         assert all("X 10, Y 20, Z 10" in alarm.message for alarm in met)
+
+
+def test_a_program_is_run_over_a_row_of_values_and_under_other_files(router: ParameterFile) -> None:
+    job = ProgramJob(["G21 F600", "X-30", "Y-20"], [0.0] * 3, with_contour=False)
+    steps = typed_steps(router, "speeds.feed_acc_dec=-20%:+20%:3")
+    assert [next(iter(each.values())).value for each in steps] == [80.0, 100.0, 120.0]
+    assert [next(iter(each.values())).value for each in typed_steps(router, "speeds.rapid=50:100:2")] == [
+        50.0,
+        100.0,
+    ]
+    times = [each.run.plan.time for each in what_if(job, router, steps) if each.run]
+    assert times[0] > times[1] > times[2]
+    slower = example("acromill-router", **{"speeds.feed_acc_dec": "80 in/s2"})
+    other = versions(job, {"older": slower, "without": new_file("acromill", "EMPTY")})
+    assert other[0].run is not None
+    assert other[0].run.plan.time == pytest.approx(times[0])
+    assert other[1].run is None or other[1].run.plan.time > 0.0
+    for text in ("speeds.rapid=1:2%", "speeds.rapid=5", "speeds.rapid=1:2:1", "speeds.rapid=1:2:9999"):
+        with pytest.raises(SimulationError):
+            typed_steps(router, text)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from amp_studio.files import ParameterFile
-from amp_studio.programs import path_letters, tool_path
+from amp_studio.programs import ProgramBlockError, path_letters, tool_path
 from amp_studio.schema import Address, Value, fault
 from amp_studio.sim.axis_parameters import ParameterValue
 from amp_studio.sim.errors import SimulationError
@@ -88,6 +88,29 @@ def what_if(
             found.append(WhatIf(changes, job.run(tried, progress), "", wrong))
         except SimulationError as error:
             found.append(WhatIf(changes, None, f"{error}", wrong))
+    return found
+
+
+@dataclass(frozen=True)
+class ProgramVersion:
+    """The program under another file: an older one, or that of another machine."""
+
+    name: str
+    run: ProgramRun | None
+    why_not: str
+    """Why there is none."""
+
+
+def versions(
+    job: ProgramJob, files: Mapping[str, ParameterFile], progress: JobProgress = lambda _what, _share: None
+) -> list[ProgramVersion]:
+    """Return the program under other files, by their names."""
+    found = []
+    for name, file in files.items():
+        try:
+            found.append(ProgramVersion(name, job.run(file, progress), ""))
+        except (SimulationError, ProgramBlockError) as error:
+            found.append(ProgramVersion(name, None, f"{error}"))
     return found
 
 

@@ -13,7 +13,7 @@ from amp_studio.sim.path_rules import Indices, PathLimit
 from amp_studio.sim.rounding import rounded, value_text
 from amp_studio.sim.unit_system import in_text, length_unit
 
-from .job import WhatIf
+from .job import ProgramVersion, WhatIf
 from .planner import ProgramPlan
 from .program import ProgramRun
 
@@ -83,7 +83,9 @@ def limited_by(file: ParameterFile, run: ProgramRun) -> list[dict[str, Any]]:
     return sorted(rows, key=lambda row: -float(row["time_s"]))
 
 
-def program_summary(file: ParameterFile, run: ProgramRun, tries: Sequence[WhatIf] = ()) -> dict[str, Any]:
+def program_summary(
+    file: ParameterFile, run: ProgramRun, tries: Sequence[WhatIf] = (), others: Sequence[ProgramVersion] = ()
+) -> dict[str, Any]:
     """Return a program as JSON; lengths in mm or deg."""
     plan, contour = run.plan, run.contour
     lines = plan.time_of_lines()
@@ -115,6 +117,7 @@ def program_summary(file: ParameterFile, run: ProgramRun, tries: Sequence[WhatIf
         "blocks": [{"line": line, "time_s": rounded(time, 6)} for line, time in lines.items()],
         "read_blocks": plan.path.blocks,
         "what_if": [try_summary(file, run, each) for each in tries],
+        "versions": [{"file": each.name, **_against(run, each.run, each.why_not)} for each in others],
         "assumptions": list(run.assumptions),
     }
 
@@ -133,16 +136,21 @@ def try_summary(file: ParameterFile, before: ProgramRun, each: WhatIf) -> dict[s
         ],
         "not_allowed": list(each.not_allowed),
     }
-    if each.run is None:
-        return {**found, "error": each.why_not}
-    time = each.run.plan.time
-    found["time"] = {"value": rounded(time, 7), "unit": "s"}
+    return found | _against(before, each.run, each.why_not)
+
+
+def _against(before: ProgramRun, run: ProgramRun | None, why_not: str) -> dict[str, Any]:
+    """Return time and error of another run, and by what they differ."""
+    if run is None:
+        return {"error": why_not}
+    time = run.plan.time
+    found: dict[str, Any] = {"time": {"value": rounded(time, 7), "unit": "s"}}
     found["time_change"] = rounded(time / before.plan.time - 1.0, 4) if before.plan.time else 0.0
-    if each.run.contour is not None and before.contour is not None:
-        found["contour_error"] = {"value": rounded(each.run.contour.largest, 5), "unit": "mm"}
-        change = each.run.contour.largest - before.contour.largest
+    if run.contour is not None and before.contour is not None:
+        found["contour_error"] = {"value": rounded(run.contour.largest, 5), "unit": "mm"}
+        change = run.contour.largest - before.contour.largest
         found["contour_error_change"] = {"value": rounded(change, 4), "unit": "mm"}
-    found["alarms"] = len(each.run.alarms)
+    found["alarms"] = len(run.alarms)
     return found
 
 
@@ -153,10 +161,12 @@ def _changes(file: ParameterFile, each: WhatIf) -> Iterator[tuple[Address, str, 
         yield address, show_value(parameter, old), show_value(parameter, new)
 
 
-def program_text(file: ParameterFile, run: ProgramRun, tries: Sequence[WhatIf] = ()) -> str:
+def program_text(
+    file: ParameterFile, run: ProgramRun, tries: Sequence[WhatIf] = (), others: Sequence[ProgramVersion] = ()
+) -> str:
     """Return a program as lines of text, in the unit of the file."""
     length = length_unit(file)
-    return "\n".join(in_text(line, length) for line in _lines(file, run, tries))
+    return "\n".join(in_text(line, length) for line in _lines(file, run, tries, others))
 
 
 def _contour_line(run: ProgramRun) -> str:
@@ -171,7 +181,9 @@ def _contour_line(run: ProgramRun) -> str:
     )
 
 
-def _lines(file: ParameterFile, run: ProgramRun, tries: Sequence[WhatIf]) -> Iterator[str]:
+def _lines(
+    file: ParameterFile, run: ProgramRun, tries: Sequence[WhatIf], others: Sequence[ProgramVersion]
+) -> Iterator[str]:
     plan = run.plan
     yield f"{plan.path.blocks} blocks, {len(plan.path)} moves, {value_text(plan.time, 's', 5)}"
     yield "Where the time goes:"
@@ -184,6 +196,9 @@ def _lines(file: ParameterFile, run: ProgramRun, tries: Sequence[WhatIf]) -> Ite
     if tries:
         yield "What if:"
         yield from (_try_line(file, run, each) for each in tries)
+    if others:
+        yield "Under other files:"
+        yield from (f"  {each.name}: {_other_line(run, each.run, each.why_not)}" for each in others)
     for alarm in run.alarms:
         code = f"{alarm.code}: " if alarm.code else ""
         yield f"Line {alarm.line}: {code}{alarm.message}"
@@ -196,14 +211,19 @@ def _try_line(file: ParameterFile, before: ProgramRun, each: WhatIf) -> str:
         f"{file.machine_schema.short(address)} {before_it} -> {after_it}"
         for address, before_it, after_it in _changes(file, each)
     )
-    if each.run is None:
-        return f"  {changed}: {each.why_not}"
-    share = each.run.plan.time / before.plan.time - 1.0 if before.plan.time else 0.0
-    text = f"  {changed}: {value_text(each.run.plan.time, 's', 5)}, {100.0 * share:+.1f} % time"
-    if each.run.contour is not None and before.contour is not None:
-        text += f", {1000.0 * (each.run.contour.largest - before.contour.largest):+.3g} µm"
-    if each.not_allowed:
+    text = f"  {changed}: {_other_line(before, each.run, each.why_not)}"
+    if each.run is not None and each.not_allowed:
         text += f"; not allowed: {'; '.join(each.not_allowed)}"
+    return text
+
+
+def _other_line(before: ProgramRun, run: ProgramRun | None, why_not: str) -> str:
+    if run is None:
+        return why_not
+    share = run.plan.time / before.plan.time - 1.0 if before.plan.time else 0.0
+    text = f"{value_text(run.plan.time, 's', 5)}, {100.0 * share:+.1f} % time"
+    if run.contour is not None and before.contour is not None:
+        text += f", {1000.0 * (run.contour.largest - before.contour.largest):+.3g} µm"
     return text
 
 

@@ -14,6 +14,10 @@ from amp_studio.validate import read_plain
 from .job import scaled
 
 _PLACE = re.compile(r"([A-Z])([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))")
+_STEPS = re.compile(
+    r"([+-]?[0-9]+(?:\.[0-9]+)?)(%)? ?: ?([+-]?[0-9]+(?:\.[0-9]+)?)(%)?(?: ?: ?([0-9]{1,4}))?"
+)
+MOST_STEPS = 100
 _SHARE = re.compile(r"([+-][0-9]+(?:\.[0-9]+)?) ?%")
 
 
@@ -49,6 +53,25 @@ def typed_values(file: ParameterFile, texts: Sequence[str]) -> dict[Address, Val
         except (InvalidValueError, UnknownParameterError) as error:
             raise SimulationError(f"{error}") from None
     return found
+
+
+def typed_steps(file: ParameterFile, text: str) -> list[dict[Address, Value]]:
+    """Return the values of ``PARAM=FROM:TO:STEPS``, ends included; without steps there are five.
+
+    FROM and TO are numbers, or both shares as -20%. Raises SimulationError.
+    """
+    param, _, wanted = text.partition("=")
+    found = _STEPS.fullmatch(wanted.strip())
+    if found is None or bool(found[2]) != bool(found[4]):
+        raise SimulationError(
+            f"{quoted(text)} is not PARAM=FROM:TO:STEPS, as 1210=200:800:4 or 1210=-20%:+20%"
+        )
+    first, last, count = float(found[1]), float(found[3]), int(found[5] or 5)
+    if not 2 <= count <= MOST_STEPS:
+        raise SimulationError(f"{quoted(text)} has {count} steps; it takes 2 to {MOST_STEPS}")
+    steps = [first + (last - first) * n / (count - 1) for n in range(count)]
+    sign = "+" if found[2] else ""
+    return [typed_values(file, [f"{param}={each:{sign}.9g}{'%' if found[2] else ''}"]) for each in steps]
 
 
 def _unit(file: ParameterFile, address: Address) -> str:

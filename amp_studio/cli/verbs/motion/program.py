@@ -36,6 +36,22 @@ VERB = Verb(
         completes=candidates.assignments,
     ),
     VerbArgument(
+        "--over",
+        action="append",
+        default=[],
+        metavar="PARAM=FROM:TO:STEPS",
+        help="the same program with a row of values, as 1210=200:800:4 or 1210=-20%%:+20%%",
+        completes=candidates.assignments,
+    ),
+    VerbArgument(
+        "--against",
+        action="append",
+        type=path_of,
+        default=[],
+        metavar="FILE",
+        help="the same program under another file: an older one, or that of another machine",
+    ),
+    VerbArgument(
         "--start", metavar="X0,Y0", help="where the axes are at first, in the machine (default: home)"
     ),
     VerbArgument(
@@ -52,6 +68,7 @@ VERB = Verb(
         "amp-studio program plate.nc --machine ROUTER.amp",
         "amp-studio program plate.nc --machine ROUTER.amp --what-if speeds.feed_acc_dec=+20%",
         "amp-studio program plate.nc --machine ROUTER.amp -o path.svg",
+        "amp-studio program plate.nc --machine ROUTER.amp --over speeds.feed_acc_dec=-20%:+20%",
     ),
 )
 ENDINGS = (".csv", ".svg", ".pdf")
@@ -66,6 +83,8 @@ def run(options: Options) -> int:
         program_summary,
         program_text,
         typed_places,
+        typed_steps,
+        versions,
         what_if,
     )
 
@@ -91,15 +110,17 @@ def run(options: Options) -> int:
         )
         changes = _tries(options.what_if, file)
         found = job.run(file, step)
+        changes += [values for text in options.over for values in typed_steps(file, text)]
         tries = what_if(job, file, changes, step)
+        others = versions(job, {f"{path}": opened(path).file for path in options.against}, step)
     except (ProgramBlockError, SimulationError) as error:
         raise UsageError(f"{error}") from None
     if options.output:
         _write(options, file, found)
     if options.json:
-        print_json(program_summary(file, found, tries))
+        print_json(program_summary(file, found, tries, others))
     else:
-        print(program_text(file, found, tries))
+        print(program_text(file, found, tries, others))
     return int(bool(found.alarms))
 
 
