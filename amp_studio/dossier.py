@@ -20,6 +20,7 @@ from amp_studio.files import (
     text_of_name,
 )
 from amp_studio.report import (
+    CheckedMotion,
     Contents,
     ExchangeLine,
     PrintedFigure,
@@ -65,6 +66,7 @@ def write_report(
         notify=notify,
         motion=tuple((motion or motion_figures)(file)) if has_drawings else (),
         exchanges=() if "exchanges" in contents.without or source is None else tuple(exchanges_of(source)),
+        checks=tuple(checks_of(file)) if contents.check else (),
     )
 
 
@@ -90,6 +92,7 @@ def set_dossier(
         notify=notify,
         motion=motion,
         exchanges=() if "exchanges" in contents.without else tuple(exchanges_of(source)),
+        checks=tuple(checks_of(file)) if contents.check else (),
     )
 
 
@@ -121,6 +124,24 @@ def motion_figures(file: ParameterFile) -> Iterator[PrintedFigure]:
         yield PrintedFigure("Not simulated", "", tuple(failed))
     if assumed:
         yield PrintedFigure("What was assumed", "", tuple(assumed))
+
+
+def checks_of(file: ParameterFile) -> Iterator[CheckedMotion]:
+    """Yield what every scenario of a file found; nothing for a family that is not simulated."""
+    from amp_studio.sim import SimulationError, check_motion, value_text
+
+    try:
+        for check in check_motion(file):
+            figures = ", ".join(
+                f"{name.replace('_', ' ')} {value_text(float(value), unit)}"
+                for name, (value, unit) in check.figures.items()
+                if value is not None
+            )
+            alarms = [f"{each.code}: {each.message}" for each in check.alarms if each.message != check.why]
+            text = " ".join(filter(None, (check.why, *alarms)))
+            yield CheckedMotion(check.verdict, check.scenario, check.letter, figures, text)
+    except SimulationError:  # a family without a law, a file without axes
+        return
 
 
 def motion_apart(file: ParameterFile) -> tuple[PrintedFigure, ...]:

@@ -55,6 +55,8 @@ class Contents:
     without: frozenset[Chapter] = frozenset()
     """Chapters that are left out."""
     paper: PaperSize = "a4"
+    check: bool = False
+    """With a chapter of what `check` finds: every scenario is run for it."""
 
     def __post_init__(self) -> None:
         if self.sort not in SORTS:

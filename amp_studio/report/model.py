@@ -262,6 +262,18 @@ class ExchangeLine:
 
 
 @dataclass(frozen=True, slots=True)
+class CheckedMotion:
+    """One scenario of the check in motion."""
+
+    verdict: str
+    scenario: str
+    axis: str
+    figures: str
+    text: str
+    """What is not good, with the control's alarms."""
+
+
+@dataclass(frozen=True, slots=True)
 class ProgramState:
     """A line of what is active in part programs after power-up, and what changes it."""
 
@@ -323,6 +335,8 @@ class Report:
     """Of the file: checksum, signature, unit system, as data."""
     totals: dict[str, int] = field(default_factory=dict)
     """The counts of the cover as data."""
+    checks: tuple[CheckedMotion, ...] = ()
+    """Every scenario that the file allows, where that chapter is asked for."""
     machine_file: str = ""
     """The parameter file that is printed, without its secrets."""
 

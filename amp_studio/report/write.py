@@ -12,7 +12,7 @@ from amp_studio.validate import NO_RULES, BuilderRules
 from .apart import What, made_apart
 from .build import build_report
 from .contents import Contents
-from .model import ExchangeLine, PrintedFigure, Report
+from .model import CheckedMotion, ExchangeLine, PrintedFigure, Report
 from .output.data import render_json
 from .output.everything import render_workbook
 from .output.page import render_html
@@ -47,6 +47,7 @@ def print_report(
     own: BuilderRules = NO_RULES,
     motion: Sequence[PrintedFigure] = (),
     exchanges: Sequence[ExchangeLine] = (),
+    checks: Sequence[CheckedMotion] = (),
     notify: Notify = lambda _note: None,
 ) -> bool:
     """Write the documentation of a file, whole or not at all; the file extension of ``path`` sets the format.
@@ -55,7 +56,7 @@ def print_report(
     is printed (now when left out), ``own`` are the builder's rules; ``notify`` is called with each attribute
     of a replaced file that could not be kept, and with the mistake of a project's template. Returns whether
     the project's own template was used, where it has
-    one: False is the standard report in its place. ``motion`` and ``exchanges`` are those of
+    one: False is the standard report in its place. ``motion``, ``exchanges`` and ``checks`` are those of
     ``build_report``. Raises ValueError for an unknown file extension, ParameterFileError for a project that
     cannot be read, SaveError when it cannot be written.
     """
@@ -65,7 +66,15 @@ def print_report(
     folder = real_path(source).parent if source else None
     project = project_beside(source)
     report = build_report(
-        file, contents, source=source, project=project, date=date, own=own, motion=motion, exchanges=exchanges
+        file,
+        contents,
+        source=source,
+        project=project,
+        date=date,
+        own=own,
+        motion=motion,
+        exchanges=exchanges,
+        checks=checks,
     )
     content, mistake = _rendered(report, path.suffix.lower(), folder)
     write_atomic(path, content, keep_backup=False, notify=notify)
@@ -85,6 +94,7 @@ def set_report(
     own: BuilderRules = NO_RULES,
     motion: Sequence[PrintedFigure] = (),
     exchanges: Sequence[ExchangeLine] = (),
+    checks: Sequence[CheckedMotion] = (),
     notify: Notify = lambda _note: None,
 ) -> SetReport:
     """Return the pages of what ``print_report`` writes as PDF, as pictures with ``ppi`` pixels to the inch:
@@ -100,6 +110,7 @@ def set_report(
         own=own,
         motion=motion,
         exchanges=exchanges,
+        checks=checks,
     )
     template = own_template(real_path(source).parent, "report.typ.j2")
     try:

@@ -76,6 +76,7 @@ def report_data(report: Report) -> dict[str, Any]:
             for danger in report.dangers
         ],
         "power_up": [{name: getattr(each, name) for name in each.__slots__} for each in report.power_up],
+        "checks": [{name: getattr(each, name) for name in each.__slots__} for each in report.checks],
         "exchanges": [{name: getattr(each, name) for name in each.__slots__} for each in report.exchanges],
     }
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.report.model import Report, ReportRow
+from amp_studio.report.model import CheckedMotion, ExchangeLine, ProgramState, Report, ReportRow
 from amp_studio.schema import write_figure
 
 from .table_csv import HEADS, line_of
@@ -35,7 +35,12 @@ def render_workbook(report: Report) -> bytes:
         )
     if report.not_set:
         sheets.append(WorkbookSheet("Not set", ("number", "parameter", "belongs to"), report.not_set))
-    for title, records in (("Power-up", report.power_up), ("Exchanges", report.exchanges)):
+    records: tuple[ProgramState | CheckedMotion | ExchangeLine, ...]
+    for title, records in (
+        ("Power-up", report.power_up),
+        ("Check in motion", report.checks),
+        ("Exchanges", report.exchanges),
+    ):
         if records:
             names = tuple(records[0].__slots__)
             lines = [tuple(getattr(each, name) for name in names) for each in records]

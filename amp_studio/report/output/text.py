@@ -40,6 +40,7 @@ def _lines(report: Report, words: Language) -> Iterator[str]:
                 yield from _wrapped(why, f"  {mark} ")
             yield ""
     yield from _power_up(report, words)
+    yield from _checks(report, words)
     yield from _exchanges(report, words)
     if "signatures" not in report.contents.without:
         yield from _heading(words.text("Signatures").upper())
@@ -55,6 +56,17 @@ def _power_up(report: Report, words: Language) -> Iterator[str]:
     for line in report.power_up:
         yield from _wrapped(f"{line.what}: {line.code} {line.meaning}".replace("  ", " "), "")
         yield from _wrapped(f"{line.numbers} ({words.text('page')} {line.page})".strip(), "    ")
+    yield ""
+
+
+def _checks(report: Report, words: Language) -> Iterator[str]:
+    if not report.checks:
+        return
+    yield from _heading(words.text("Check in motion").upper())
+    for each in report.checks:
+        yield from _wrapped(f"{words.text(each.verdict)}  {each.scenario} {each.axis}  {each.figures}", "")
+        if each.text:
+            yield from _wrapped(each.text, "    ")
     yield ""
 
 

@@ -29,6 +29,11 @@ VERB = Verb(
         choices=("pictures", "motion", "power-up", "exchanges", "signatures"),
         help="leave out a chapter; again for more",
     ),
+    VerbArgument(
+        "--check",
+        action="store_true",
+        help="with a chapter of what check finds in motion (every scenario is run)",
+    ),
     LANGUAGE,
     VerbArgument("--inactive", action="store_true", help="also what the control ignores on this machine"),
     VerbArgument(
@@ -67,6 +72,7 @@ def run(options: Options) -> int:
         language=options.language,
         without=frozenset(options.without or ()),
         paper=options.paper,
+        check=options.check,
         notify=note,
     )
     print(options.output)
