@@ -208,7 +208,7 @@ CAMPAIGNS = (
     Campaign("damaged rules.yaml", partial(_damaged_in, texts.fuzz_rules), MANY, 100, 5_000),
     Campaign("damaged record of exchanges", partial(_damaged_in, texts.fuzz_records), MANY, 30, 2_000),
     Campaign("damaged journal and history", partial(_damaged_in, texts.fuzz_journals), MANY, 30, 2_000),
-    Campaign("damaged texts of controls", partial(_damaged_in, texts.fuzz_imports), MANY, 50, 2_000),
+    Campaign("damaged texts of controls", partial(_damaged_in, texts.fuzz_imports), MANY, 30, 2_000),
     Campaign("odd values", partial(_damaged, texts.fuzz_entries), MANY, 80, 5_000),
     Campaign("damaged control image", _images, MANY, 100, 5_000),
     Campaign(

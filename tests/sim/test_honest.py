@@ -148,10 +148,20 @@ def test_absurd_input_gets_a_sentence_or_finite_figures(
     assert sentence == "" or (len(sentence) > 20 and "\n" not in sentence and "nan" not in sentence[:5])
 
 
-@pytest.mark.parametrize("scenario", ["step", "velocity", "frequency", "circle"])
-def test_an_axis_whose_friction_is_above_the_torque_limit_is_said_not_to_move(scenario: str) -> None:
+@pytest.mark.parametrize(
+    ("scenario", "settings"),
+    [
+        ("step", {}),
+        ("velocity", {}),
+        ("frequency", {"move.points": 2.0, "move.lowest": 10.0, "move.highest": 40.0}),
+        ("circle", {}),
+    ],
+)
+def test_an_axis_whose_friction_is_above_the_torque_limit_is_said_not_to_move(
+    scenario: str, settings: dict[str, float]
+) -> None:
     stuck = tiny(coulomb_friction=120.0, torque_limit_positive=100.0, torque_limit_negative=100.0)
-    alarm = SCENARIOS[scenario].run(stuck, {}).alarms[0]
+    alarm = SCENARIOS[scenario].run(stuck, settings).alarms[0]
     assert alarm.code == "NO MOTION"
     assert alarm.message.startswith(
         "Axis 1 does not move: its friction at rest is 120 %, and the torque was at most"

@@ -179,11 +179,18 @@ def start_control(tmp_path: Path) -> Iterator[StartControl]:
         process.communicate()
 
 
-@pytest.fixture
-def mill(tmp_path: Path) -> Path:
-    """The example's mill, which has no errors, with one speed in inches."""
-    path = tmp_path / "mill.amp"
+@pytest.fixture(scope="session")
+def content_of_mill(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    path = tmp_path_factory.mktemp("made") / "mill.amp"
     file = open_file(EXAMPLE).file
     file.set(file.find("1350"), Value(10.0, "in/min"))
     Document.create(file, path).close()
+    return path.read_bytes()
+
+
+@pytest.fixture
+def mill(tmp_path: Path, content_of_mill: bytes) -> Path:
+    """The example's mill, which has no errors, with one speed in inches."""
+    path = tmp_path / "mill.amp"
+    path.write_bytes(content_of_mill)
     return path

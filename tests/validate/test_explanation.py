@@ -106,9 +106,9 @@ def test_an_inactive_value_is_shown_with_the_word_for_its_state_and_the_reason(m
 
 @pytest.mark.parametrize("family", ["9pc", "num", "syntec", "57c422b", "acromill"])
 def test_every_finding_of_a_machine_with_nothing_right_can_be_explained(family: str) -> None:
-    """Whatever is in a file, each finding has its words."""
+    """Whatever is in a file, each finding has its words; ``make test`` has it in one value of five."""
     file = ParameterFile(load_schema(family))
-    for n, address in enumerate(file.addresses()):
+    for n, address in list(enumerate(file.addresses()))[:: 1 if CAMPAIGN else 5]:
         parameter = file.schema.parameters[address[0]]
         if parameter.access != "read":
             with contextlib.suppress(InvalidValueError):
