@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+
 import numpy as np
 import pytest
 
+from amp_studio.files import open_file
+from amp_studio.files.example_files import examples_folder
+from amp_studio.sim import AxisLaw, law_of
 from amp_studio.sim.axis.motion import Engine, Until, run_axis
 from amp_studio.sim.axis.moving_axis import MovingAxis, Watch, way
+from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.command.ramps import move
 from amp_studio.sim.law import Ramp
 from tests.sim.tiny import tiny
@@ -55,11 +62,21 @@ def test_an_event_of_an_earlier_stage_is_not_seen_again() -> None:
     assert back.position == pytest.approx(3.0, abs=0.05)
 
 
-@pytest.mark.parametrize("engine", ["plain", "compiled"])
-def test_stepped_in_slices_it_is_the_motion_of_one_run(engine: Engine) -> None:
+def of_the_mill() -> AxisLaw:
+    """Return an axis of a law whose machine code other tests need, too."""
+    file = open_file(examples_folder() / "mill-1394" / "MILL_1394.amp").file
+    return bind_axis(file, law_of("9pc"), "1", {"model.delay": 0.7, "model.backlash": 0.05})
+
+
+@pytest.mark.parametrize(
+    ("engine", "made"),
+    [("plain", partial(tiny, delay=0.0007, backlash=0.05)), ("compiled", of_the_mill)],
+    ids=["plain", "compiled"],
+)
+def test_stepped_in_slices_it_is_the_motion_of_one_run(engine: Engine, made: Callable[[], AxisLaw]) -> None:
     """The state that an interruption keeps is all of it, in both engines and with a delay in the drive."""
-    axis, ramp = tiny(delay=0.0007, backlash=0.05), Ramp("linear", 200.0)
-    whole = run_axis(axis, move(5.0, 20.0, ramp), Until(0.4), engine="plain", thin=True).columns
+    axis, ramp = made(), Ramp("linear", 200.0)
+    whole = run_axis(axis, move(5.0, 20.0, ramp), Until(0.4), engine=engine, thin=True).columns
     sliced = MovingAxis(axis, engine=engine)
     sliced.order(way(5.0, 20.0, ramp, axis), 1.0)
     while sliced.time < 0.35:

@@ -8,6 +8,7 @@ import pytest
 from amp_studio.sim.axis.motion import Until, run_axis
 from amp_studio.sim.command.ramps import move
 from amp_studio.sim.scenarios import SCENARIOS
+from tests.campaigns import CAMPAIGN
 from tests.sim.tiny import tiny
 
 
@@ -28,6 +29,7 @@ def test_an_alarm_of_the_law_ends_the_run_and_is_named() -> None:
     assert trace.result["settle_time"][0] is None
 
 
+@pytest.mark.skipif(not CAMPAIGN, reason="seven seconds of compiling; test_engines.py has a law of a family")
 def test_machine_code_and_plain_python_give_the_same_numbers() -> None:
     axis = tiny(
         inertia_ratio=2.0,
