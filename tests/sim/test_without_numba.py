@@ -37,5 +37,5 @@ def test_a_simulation_needs_no_machine_code(
     done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
     assert done.returncode == 0, done.stderr
     monkeypatch.setattr(compiled, "PLAIN_STEPS", 0)
-    assert [cli.run(line) for line in lines] == [0, 0]
+    assert not any(cli.run(line) for line in lines)
     assert capsys.readouterr().out == done.stdout
