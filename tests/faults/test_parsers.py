@@ -186,6 +186,7 @@ READERS = {
     "ui/control/session.py": "damaged control image",
     "transfer/plain/ymodem.py": "hostile ends of plain files",
     "ui/base/theme.py": "",  # a file of the icon package
+    "ui/dialogs/manual_window.py": "",  # pages of the program itself
     "ui/window/settings.py": "damaged settings",
     "validate/beside.py": "damaged record of exchanges",
     "validate/cell_expression.py": "odd expressions in cells",
