@@ -12,8 +12,9 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
+from amp_studio.calibration import Compensation, compensation_of
 from amp_studio.files import Document, new_file
-from amp_studio.schema import Value
+from amp_studio.schema import Value, load_schema, registered_families
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.motion.calibration_page import CalibrationPage
@@ -268,9 +269,21 @@ def test_every_view_has_a_name_and_no_two_texts_of_a_page_share_a_letter(tuning:
     demand_manners(tuning)
 
 
-def test_a_family_whose_manual_tunes_nothing_names_that(open_window, person: Person, tmp_path: Path) -> None:
+def test_a_family_whose_manual_tunes_nothing_names_that(
+    open_window, person: Person, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     path = tmp_path / "syntec.amp"
     Document.create(new_file("syntec"), path).close()
     window = open_window(path)
+    monkeypatch.setattr("amp_studio.calibration.compensation_of", lambda _family: Compensation())
     action(window, "Tuning").trigger()
     assert "tuned on line" in person.reads()
+
+
+def test_each_family_has_pages_of_parameters_that_it_has() -> None:
+    for family in registered_families():
+        pages = compensation_of(family).pages
+        assert pages, family
+        assert len({page.key for page in pages}) == len(pages)
+        known = load_schema(family).parameters
+        assert [name for page in pages for name in page.params if name not in known] == []

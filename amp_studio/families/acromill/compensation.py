@@ -206,5 +206,19 @@ COMPENSATION = Compensation(
             "128",
             ("tuning.lopass_frequency", "tuning.notch_frequency", "tuning.notch_width", "tuning.fbvel"),
         ),
+        TuningPage(
+            "home",
+            "Homing",
+            "65",
+            (
+                "home.fast_speed",
+                "home.slow_speed",
+                "home.marker_speed",
+                "home.acceleration",
+                "home.deceleration",
+                "home.preset",
+            ),
+        ),
+        TuningPage("spindle", "Spindle", "77", ("spindle.scaling",)),
     ),
 )

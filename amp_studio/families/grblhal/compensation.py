@@ -13,5 +13,12 @@ COMPENSATION = Compensation(
         TuningPage(
             "steps", "Steps and Speeds", "S2415", ("axis.steps", "axis.max_rate", "axis.acceleration")
         ),
+        TuningPage("limits", "Travel", "S2418", ("limits.soft", "axis.max_travel")),
+        TuningPage(
+            "home",
+            "Homing",
+            "S2353",
+            ("homing.seek_rate", "homing.locate_rate", "homing.debounce", "homing.pull_off", "homing.passes"),
+        ),
     ),
 )

@@ -15,5 +15,6 @@ REGISTRATION = Registration(
         "LinuxCNC configuration 1": "amp_studio.families.linuxcnc.control.content:ConfigurationContent"
     },
     law="amp_studio.families.linuxcnc.law:LAW",
+    compensation="amp_studio.families.linuxcnc.compensation:COMPENSATION",
     migrate="amp_studio.families.linuxcnc.migration:migrate",
 )

@@ -24,6 +24,20 @@ COMPENSATION = Compensation(
             "6-14",
             ("servo.loop_gain", "servo.in_position_window", "servo.max_following_error"),
         ),
+        TuningPage("travel", "Travel", "7-12", ("travel.limit_min", "travel.limit_max")),
+        TuningPage("home", "Homing", "7-10", ("travel.switch_position",)),
+        TuningPage(
+            "spindle",
+            "Spindle",
+            "8-16",
+            (
+                "spindle.range_min",
+                "spindle.range_max",
+                "spindle.indexing_speed",
+                "spindle.window",
+                "spindle.gain",
+            ),
+        ),
     ),
 )
 """The axis calibration of a 1020, 1040 or 1060 is written with utility UT2 at the control, not by

@@ -9,4 +9,5 @@ REGISTRATION = Registration(
     formulas="amp_studio.families.syntec.formulas:FORMULAS",
     sheet="amp_studio.families.syntec.sheet:KEYING",
     law="amp_studio.families.syntec.law:LAW",
+    compensation="amp_studio.families.syntec.compensation:COMPENSATION",
 )
