@@ -34,7 +34,9 @@ from amp_studio.transfer.plain.line import ByteLine
 from amp_studio.transfer.plain.receiver import BlockReceiver
 from amp_studio.transfer.plain.sender import BlockSender
 from amp_studio.transfer.plain.ymodem import PlainFile, send_batch
-from tests.docs.stage import Stage
+from tests.campaigns import CAMPAIGN
+from tests.docs.pages import lines_of
+from tests.docs.stage import Stage, leave_out_what_takes_long
 
 KNOWN = ", ".join(family_ids())
 
@@ -196,8 +198,25 @@ def offline() -> Iterator[str]:
     )
 
 
-@pytest.mark.parametrize("line", [line for line in offline() if " demo " not in line])
-def test_an_example_works_word_for_word(line: str, here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def examples_alone() -> list[str]:
+    """Return the examples without those that the page of commands has too, where they are run
+    (tests/docs/test_commands.py); all of them in a campaign.
+    """
+    on_the_page = () if CAMPAIGN else {*lines_of("docs/commands.md")}
+    files = {MILL: "mill.amp", "ROUTER.amp": "router.amp"}
+    as_there = re.compile("|".join(map(re.escape, files)))
+    return [
+        line
+        for line in offline()
+        if " demo " not in line and as_there.sub(lambda found: files[found[0]], line) not in on_the_page
+    ]
+
+
+@pytest.mark.parametrize("line", examples_alone())
+def test_an_example_works_word_for_word(
+    line: str, here: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    leave_out_what_takes_long(monkeypatch)
     program, *arguments = shlex.split(line)
     differs = arguments[0] in ("diff", "compare")
     assert (program, cli.run(arguments)) == ("amp-studio", 1 if differs else 0), capsys.readouterr().err

@@ -11,13 +11,27 @@ from collections.abc import Callable
 from pathlib import Path
 from urllib.parse import urlsplit
 
+import pytest
+
 from amp_studio import cli
 from amp_studio.schema import load_schema
 from amp_studio.schema.load import load_compiled
 from amp_studio.schema.registration import Registration, register, unregister
+from tests.campaigns import CAMPAIGN
 from tests.forked import Program, start_program
 
 from .pages import PROGRAMS, ROOT
+
+
+def leave_out_what_takes_long(patch: pytest.MonkeyPatch) -> None:
+    """Outside of a campaign set no PDF, draw no frequency response in a report, and let a scenario recommend
+    no other gains: tests/report, tests/test_dossier.py and tests/sim/test_advice.py do so.
+    """
+    if not CAMPAIGN:
+        patch.setattr("amp_studio.report.output.pdf.set_pdf", lambda source, options: (b"%PDF-1.7", ""))
+        patch.setattr("amp_studio.dossier._SCENARIOS", ("step",))
+        patch.setattr("amp_studio.sim.run.recommendations", lambda trial, scenario, own: (tuple(own), ()))
+
 
 OF_A_PLANT = "192.168.0.5"
 """Host of a document's control that listens for a whole network."""
