@@ -81,7 +81,7 @@ if TYPE_CHECKING:
     from .scenarios.step import SCENARIO as STEP
     from .spindle import Gear, Orient, SpeedWatch, Spindle, Tapping
     from .steady import error_at_speed, steady_signals
-    from .trace import Figure, Recommendation, Trace, titled
+    from .trace import Alarm, Figure, Recommendation, Trace, titled
     from .tuning.linear import linear_model
     from .tuning.trial import address_of, named_parameter
     from .variations.scenario import Way as SweepWay

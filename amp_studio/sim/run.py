@@ -65,7 +65,7 @@ def simulate(
         **{name: value for name, value in given.items() if name not in model},
     }
     read: list[Address] = []
-    whole = _whole_run(scenario, axis)
+    whole = _whole_run(law, scenario, axis)
     if whole is not None:
         names = tuple(each.strip() for each in (axis or "").split(",") if each.strip())
         trace = whole(bound_machine(file, law, names, model, read.append), own)
@@ -119,11 +119,11 @@ def _of_one_axis(
     return replace(trace, recommendations=found, assumptions=(*trace.assumptions, *notes))
 
 
-def _whole_run(scenario: str, axis: str | None) -> Callable[[BoundMachine, Settings], Trace] | None:
+def _whole_run(law: Law, scenario: str, axis: str | None) -> Callable[[BoundMachine, Settings], Trace] | None:
     """Return how a scenario is run that is not about one axis; None for one that is.
     Raises SimulationError for several axes of such a one.
     """
-    chosen = SCENARIOS.get(scenario)
+    chosen = law.own.get(scenario) or SCENARIOS.get(scenario)
     if chosen is not None and chosen.of_machine:
         return chosen.run
     if axis is None or "," not in axis:

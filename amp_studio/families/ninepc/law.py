@@ -33,6 +33,7 @@ from .law_drives import FILTER_OFF, Parts, analog, digital, third_party
 from .law_facts import ids
 from .law_feedback import Feedback, feedback_of
 from .law_figures import Loop, predictions
+from .law_hard_stop import SCENARIO as HARD_STOP
 from .law_machine_tests import machine_tests
 from .law_path import path_rules
 from .law_probing import probing
@@ -280,7 +281,7 @@ def _bounded(source: Source, unit: str) -> Source:
 LAW = Law(
     bind,
     advise=advise,
-    own={PROCEDURE.name: PROCEDURE},
+    own={each.name: each for each in (PROCEDURE, HARD_STOP)},
     spindle=spindle,
     tapping=tapping,
     probing=probing,
