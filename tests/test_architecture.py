@@ -98,13 +98,13 @@ def lint_of_astray_imports(checkout: Path, tmp_path_factory: pytest.TempPathFact
 def test_an_import_against_the_plan_is_found(lint_of_astray_imports: str, n: int) -> None:
     room, _, contract = ASTRAY[n]
     assert f"{contract} BROKEN" in lint_of_astray_imports
-    told = lint_of_astray_imports.partition(f"\n{contract}\n---")[2]
-    told = re.split(r"\n[^\n]+\n-{4,}\n", told)[0]
-    assert re.search(rf"amp_studio\.{room}\.astray_{n}\b".replace("/", r"\."), told), told
+    reported = lint_of_astray_imports.partition(f"\n{contract}\n---")[2]
+    reported = re.split(r"\n[^\n]+\n-{4,}\n", reported)[0]
+    assert re.search(rf"amp_studio\.{room}\.astray_{n}\b".replace("/", r"\."), reported), reported
 
 
 @pytest.mark.parametrize("room", ROOMS)
-def test_a_room_says_what_it_is_for(checkout: Path, room: str) -> None:
+def test_a_room_shows_what_it_is_for(checkout: Path, room: str) -> None:
     source = (checkout / "amp_studio" / room / "__init__.py").read_text(encoding="utf-8")
     assert ast.get_docstring(ast.parse(source)), f"amp_studio/{room}/__init__.py has no docstring"
 
@@ -250,7 +250,7 @@ def walks(checkout: Path) -> list[tuple[str, str]]:
     return re.findall(r"`([a-z_/]+\.py)`\s+`([\w.]+)`", text.partition("## Four walks")[2])
 
 
-def test_every_function_of_a_walk_is_where_the_page_says(checkout: Path) -> None:
+def test_every_function_of_a_walk_is_where_the_page_shows(checkout: Path) -> None:
     steps = walks(checkout)
     assert len(steps) >= 30
     lost = []
@@ -445,7 +445,7 @@ def test_no_room_takes_a_name_past_a_front_page() -> None:
     assert [f"{name.where}: {name.module} {name.name}" for name in past] == []
 
 
-def test_a_front_page_gives_what_another_room_takes_and_no_more(checkout: Path) -> None:
+def test_a_front_page_gives_what_another_room_takes_and_nothing_else(checkout: Path) -> None:
     """What no other room asks for is private to its room, and a test takes it from its module."""
     taken: dict[str, set[str]] = {}
     for name in names_between_rooms():

@@ -11,7 +11,7 @@ def test_the_demonstration_in_the_terminal_succeeds(capsys: pytest.CaptureFixtur
     """Open, validate, print, download, verify, upload, compare: exit code 0."""
     assert run_demo(terminal=True) == 0
 
-    said = capsys.readouterr().out
-    assert "0 errors" in said
-    assert "read back equal" in said
-    assert "0 values differ" in said
+    message = capsys.readouterr().out
+    assert "0 errors" in message
+    assert "read back equal" in message
+    assert "0 values differ" in message

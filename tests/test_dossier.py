@@ -23,7 +23,7 @@ def mill(tmp_path: Path) -> Path:
     return Path(shutil.copy(MILL, tmp_path / "mill.amp"))
 
 
-def test_each_axis_has_its_responses_and_what_they_assume_is_said_once() -> None:
+def test_each_axis_has_its_responses_and_what_they_assume_is_shown_once() -> None:
     figures = tuple(motion_figures(open_file(MILL).file))
     assert motion_apart(open_file(MILL).file) == figures
     assert [f.title for f in figures[:2]] == ["Step, axis 1 (X)", "Frequency, axis 1 (X)"]
@@ -64,14 +64,14 @@ def test_the_contents_have_the_page_of_each_chapter(mill: Path, tmp_path: Path) 
     pages = done.stdout.split("\f")
     first = next(n for n, page in enumerate(pages) if "Marks" in page)
     contents = "\n".join(pages[1:first])
-    told = dict(
+    reported = dict(
         line.strip().rsplit(None, 1)
         for line in contents.splitlines()
         if line.strip() and line.split()[-1].isdigit()
     )
-    told = {title: number for title, number in told.items() if not title.startswith("AMP Studio")}
+    reported = {title: number for title, number in reported.items() if not title.startswith("AMP Studio")}
     assert {"Machine", "Findings", "Pictures", "Home Parameters", "Motion, simulated", "Signatures"} <= set(
-        told
+        reported
     )
-    for title, number in told.items():
+    for title, number in reported.items():
         assert title in " ".join(pages[int(number) - 1].split()), (title, number)

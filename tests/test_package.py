@@ -89,7 +89,7 @@ def for_users(name: str) -> bool:
     return parts[0].endswith(".md") or parts[0] in ("howto", "simulation", "protocols", "images")
 
 
-def test_the_wheel_holds_the_package_the_facts_and_the_examples(checkout: Path, wheel: Path) -> None:
+def test_the_wheel_contains_the_package_the_facts_and_the_examples(checkout: Path, wheel: Path) -> None:
     expected = {
         *files_below(checkout / "amp_studio", within=checkout),
         *(f"amp_studio/{name}" for name in files_below(checkout / "parameter_db", within=checkout)),

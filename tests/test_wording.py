@@ -210,6 +210,33 @@ def test_an_identifier_uses_the_words_of_the_field() -> None:
     assert found == ALLOWED_NAMES.keys()
 
 
+NAMED_AS_THE_FACTS = {
+    "says": "a key of the facts",
+    "incarnation": "the frozen protocol names it so",
+    "as_wear": "the wear offset of a tool",
+    "test_wear_is_added_to_the_radius": "the wear offset of a tool",
+}
+HELPERS_LEFT = {
+    *("conversation.py", "faulty_grbl.py", "bench.py", "small_module.py", "own_contents.py", "persons.py"),
+    *("stored.py", "verbs.py", "wire.py", "family.py", "patch_9pc.py", "statements.py", "checks_57c422b.py"),
+    *("checks_9pc.py", "checks_acromill.py", "checks_num.py", "checks_syntec.py", "hostile_clients.py"),
+    *("hostile_controls.py", "steps.py"),
+}
+"""Helpers of several tests whose names are as they were."""
+
+
+def test_a_test_uses_the_words_of_the_field_for_its_names() -> None:
+    """Not in a module that generates its cases: they are made of its text, and another name makes others."""
+    found = {
+        (path.relative_to(ROOT).as_posix(), name)
+        for path in sorted((ROOT / "tests").rglob("*.py"))
+        if path.name not in HELPERS_LEFT and "hypothesis" not in (text := path.read_text("utf-8"))
+        for name in banned_names_in(text)
+        if name not in NAMED_AS_THE_FACTS
+    }
+    assert not found, "\n".join(f"{path}: {name}" for path, name in sorted(found))
+
+
 @pytest.mark.parametrize(
     ("source", "found"),
     [

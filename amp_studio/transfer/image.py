@@ -248,7 +248,7 @@ def _value(schema: Schema, parameter: Parameter, entry: str, field: str) -> Valu
             f"the control image contains {_short(entry)} with {field_text}, which is no value of it"
         )
     try:
-        return _meant(schema, parameter.id, field)
+        return _value_of_field(schema, parameter.id, field)
     except InvalidValueError as error:
         raise ImageError(
             f"the control image contains {_short(entry)} with a value it cannot have:"
@@ -257,7 +257,7 @@ def _value(schema: Schema, parameter: Parameter, entry: str, field: str) -> Valu
 
 
 @lru_cache(maxsize=16_384)
-def _meant(schema: Schema, parameter_id: str, field: str) -> Value:
+def _value_of_field(schema: Schema, parameter_id: str, field: str) -> Value:
     """Return the value of a field, which an exchange reads several times; raises InvalidValueError."""
     parameter = schema.parameters[parameter_id]
     if parameter.type in ("text", "format"):

@@ -120,7 +120,7 @@ def test_degrees_of_a_laser_are_asked_and_not_taken_for_lengths() -> None:
     assert measurement.assumed == ("unit", "error_unit", "sign")
 
 
-def test_what_nobody_has_answered_is_listed() -> None:
+def test_what_has_no_answer_is_listed() -> None:
     assert read_measurement("0,0\n100,4\n", MeasurementAnswers()).assumed == ("unit", "error_unit", "sign")
     assert read_measurement("position [mm],error [um]\n0,0\n100,4\n", MeasurementAnswers()).assumed == (
         "sign",
@@ -161,7 +161,7 @@ def test_arc_seconds_belong_to_degrees() -> None:
         "position;error\n0,0;0,001\n100,0;0,004\n",
     ],
 )
-def test_a_decimal_comma_is_refused_until_somebody_confirms_it(text: str) -> None:
+def test_a_decimal_comma_is_refused_until_a_user_confirms_it(text: str) -> None:
     with pytest.raises(MeasurementError, match="decimal"):
         read_measurement(text, KNOWN)
     confirmed = read_measurement(text, MeasurementAnswers("mm", "mm", "measured-target", "comma"))

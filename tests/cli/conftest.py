@@ -15,7 +15,7 @@ from amp_studio import cli
 
 
 @dataclass(frozen=True)
-class Said:
+class Outcome:
     """How one run ended."""
 
     code: int
@@ -29,19 +29,19 @@ class Said:
 
 
 @pytest.fixture
-def amp(capsys: pytest.CaptureFixture[str]) -> Callable[..., Said]:
+def amp(capsys: pytest.CaptureFixture[str]) -> Callable[..., Outcome]:
     """Return what runs one verb; whatever is refused is refused in one line that names the program."""
 
-    def run(*arguments: object) -> Said:
+    def run(*arguments: object) -> Outcome:
         capsys.readouterr()
         code = cli.run([str(argument) for argument in arguments])
-        said = Said(code, *capsys.readouterr())
-        assert "Traceback" not in said.err
+        message = Outcome(code, *capsys.readouterr())
+        assert "Traceback" not in message.err
         if code == 2:
-            assert said.out == ""
-            assert len(said.err.splitlines()) == 1, said.err
-            assert said.err.startswith("amp-studio: ")
-        return said
+            assert message.out == ""
+            assert len(message.err.splitlines()) == 1, message.err
+            assert message.err.startswith("amp-studio: ")
+        return message
 
     return run
 

@@ -53,17 +53,17 @@ def set_while_stopped(path: Path, *, seed: int, rounds: int) -> list[str]:
     for number in range(rounds):
         before, delay = path.read_bytes(), chance.uniform(0, LONGEST)
         again = chance.random() < 0.3
-        code, said = _stopped(path, f"1300={number + 1}.125", delay, again)
+        code, message = _stopped(path, f"1300={number + 1}.125", delay, again)
         changed = path.read_bytes() != before
         # By the signal itself (-2) where it comes before anything is loaded.
         fits = {0: changed, 2: not changed, 3: changed, -signal.SIGINT: not changed}.get(code, False)
         if (
             not fits
-            or "Traceback" in said
-            or "ignored" in said
-            or (code == 3) != ("has been changed" in said)
+            or "Traceback" in message
+            or "ignored" in message
+            or (code == 3) != ("has been changed" in message)
         ):
-            faults.append(f"seed {seed}, round {number}, after {delay:.3f} s: {code}, {changed}, {said!r}")
+            faults.append(f"seed {seed}, round {number}, after {delay:.3f} s: {code}, {changed}, {message!r}")
         if left := [p.name for p in path.parent.iterdir() if p.suffix in (".tmp", ".lock", ".holder")]:
             faults.append(f"seed {seed}, round {number}, after {delay:.3f} s: left {left}")
     return faults
@@ -76,5 +76,5 @@ def _stopped(path: Path, assignment: str, delay: float, again: bool) -> tuple[in
         if again:
             time.sleep(0.01)
             program.send_signal(signal.SIGINT)
-        _, said = program.communicate(timeout=120)
-    return program.returncode, said
+        _, message = program.communicate(timeout=120)
+    return program.returncode, message

@@ -20,15 +20,15 @@ def num(amp, tmp_path: Path) -> Path:
 
 def test_axes_are_listed_with_name_type_and_group(amp, num: Path) -> None:
     assert amp("axis", num).out.splitlines() == ["0 X linear", "1 Y linear", "2 B rotary", "3 of 32 axes"]
-    said = json.loads(amp("axis", num, "list", "--json").out)
-    assert said["axes"][2] == {"axis": "2", "name": "B", "type": "rotary", "group": "Group 1"}
+    message = json.loads(amp("axis", num, "list", "--json").out)
+    assert message["axes"][2] == {"axis": "2", "name": "B", "type": "rotary", "group": "Group 1"}
 
 
 def test_values_are_copied_and_compared_by_letter(amp, num: Path) -> None:
     amp("set", num, "travel.limit_max@X=5000 iu", "P15N0=1")
-    said = amp("axis", num, "compare", "x", "Y")
-    assert said.code == 1
-    assert said.out.splitlines()[-1] == "0 X linear and 1 Y linear: 2 differ"
+    message = amp("axis", num, "compare", "x", "Y")
+    assert message.code == 1
+    assert message.out.splitlines()[-1] == "0 X linear and 1 Y linear: 2 differ"
     rows = json.loads(amp("axis", num, "compare", "X", "Y", "--json").out)["differences"]
     assert rows == [
         {"param": "P15N0.0", "a": "yes", "b": "no"},
@@ -49,7 +49,7 @@ def test_axes_are_named_added_swapped_and_removed(amp, num: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "message"),
     [
         (["copy", "X"], "axis copy takes 2 arguments"),
         (["list", "X"], "axis list takes no argument"),
@@ -61,11 +61,11 @@ def test_axes_are_named_added_swapped_and_removed(amp, num: Path) -> None:
         (["turn", "X"], "turn"),
     ],
 )
-def test_what_cannot_be_done_changes_nothing(amp, num: Path, arguments: list[str], said: str) -> None:
+def test_what_cannot_be_done_changes_nothing(amp, num: Path, arguments: list[str], message: str) -> None:
     before = num.read_bytes()
     refused = amp("axis", num, *arguments)
     assert refused.code == 2
-    assert said in refused.err
+    assert message in refused.err
     assert num.read_bytes() == before
 
 

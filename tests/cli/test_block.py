@@ -13,7 +13,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 MILL = str(EXAMPLES / "mill-1394" / "MILL_1394.amp")
 
 
-def test_each_word_is_told_with_its_number_and_parameters(capsys: pytest.CaptureFixture[str]) -> None:
+def test_each_word_is_reported_with_its_number_and_parameters(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["block", MILL, "G01 X10 F200", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert [(w["word"], w["number"], w["unit"]) for w in found["words"]] == [

@@ -20,7 +20,7 @@ SENTENCE = "A Syntec control takes values at its parameter screens only"
 
 
 @pytest.fixture
-def nobody() -> str:
+def silent_address() -> str:
     """Return an address at which nothing listens."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
@@ -29,20 +29,20 @@ def nobody() -> str:
 
 @pytest.mark.parametrize("verb", ["download", "verify", "identify"])
 def test_who_reaches_no_syntec_control_is_offered_the_sheet_in_the_one_line_of_the_error(
-    amp, tmp_path: Path, nobody: str, verb: str
+    amp, tmp_path: Path, silent_address: str, verb: str
 ) -> None:
     path = shutil.copy(next(EXAMPLE.parent.glob("*.amp")), tmp_path / "mill.amp")
     line = {
-        "download": (path, "--to", nobody, "--accept-errors"),
-        "verify": (path, "--with", nobody),
-        "identify": (nobody, "--family", "syntec"),
+        "download": (path, "--to", silent_address, "--accept-errors"),
+        "verify": (path, "--with", silent_address),
+        "identify": (silent_address, "--family", "syntec"),
     }[verb]
-    said = amp(verb, *line)
-    assert said.code == 2
-    assert "no connection to the control" in said.err
+    message = amp(verb, *line)
+    assert message.code == 2
+    assert "no connection to the control" in message.err
     assert (
         f"({SENTENCE}, because no protocol of it is published: print what to key in with amp-studio sheet "
-        in said.err
+        in message.err
     )
 
 
@@ -75,8 +75,8 @@ def test_an_error_of_a_control_that_answers_is_about_that_control_alone() -> Non
         raise NotInEmergencyStopError("please place the control in E-stop", "")
 
 
-def test_other_families_hear_nothing_of_it(amp, tmp_path: Path, nobody: str) -> None:
-    assert "sheet" not in amp("identify", nobody, "--family", "num").err
+def test_other_families_hear_nothing_of_it(amp, tmp_path: Path, silent_address: str) -> None:
+    assert "sheet" not in amp("identify", silent_address, "--family", "num").err
 
 
 def test_a_family_to_whose_controls_no_way_is_known_is_keyed_in_and_not_downloaded(

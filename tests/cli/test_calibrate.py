@@ -33,9 +33,9 @@ def table(amp, mill: Path, axis: str = "X"):
 
 
 def test_measured_points_become_a_table_and_a_reversal_error(amp, mill: Path, laser: Path) -> None:
-    said = amp("calibrate", mill, "--axis", "X", "--from", laser, "--sign", "measured-target", "--json")
-    assert said.code == 0
-    found = said.json
+    message = amp("calibrate", mill, "--axis", "X", "--from", laser, "--sign", "measured-target", "--json")
+    assert message.code == 0
+    found = message.json
     assert [(p["position"], p["figure"]) for p in found["table"]["points"]] == [
         (0, 0),
         (100, 0.004),
@@ -50,13 +50,13 @@ def test_measured_points_become_a_table_and_a_reversal_error(amp, mill: Path, la
     assert "calibration" not in amp("validate", mill).out
 
 
-def test_what_nobody_has_answered_is_shown_and_never_written(amp, mill: Path, laser: Path) -> None:
+def test_what_has_no_answer_is_shown_and_never_written(amp, mill: Path, laser: Path) -> None:
     dry = amp("calibrate", mill, "--axis", "X", "--from", laser, "--dry-run")
     assert dry.code == 0
     assert "--sign measured-target" in dry.err
-    said = amp("calibrate", mill, "--axis", "X", "--from", laser)
-    assert said.code == 2
-    assert "confirm with --sign measured-target" in said.err
+    message = amp("calibrate", mill, "--axis", "X", "--from", laser)
+    assert message.code == 2
+    assert "confirm with --sign measured-target" in message.err
     assert mill.read_bytes() == MILL.read_bytes()
 
 
@@ -133,9 +133,9 @@ def test_points_are_changed_by_hand_as_at_the_screen(amp, mill: Path) -> None:
 def test_what_cannot_be_done_is_refused_in_one_line(
     amp, mill: Path, arguments: list[str], named: str
 ) -> None:
-    said = amp("calibrate", mill, "--axis", "X", *arguments)
-    assert said.code == 2
-    assert named in said.err
+    message = amp("calibrate", mill, "--axis", "X", *arguments)
+    assert message.code == 2
+    assert named in message.err
     assert mill.read_bytes() == MILL.read_bytes()
 
 
@@ -177,11 +177,11 @@ def test_a_circle_of_a_ball_bar_needs_to_know_which_axis(amp, mill: Path, tmp_pa
     points.write_text("angle [deg],deviation [um]\n" + "".join(f"{n},{by:.4f}\n" for n, by in rows))
     sign = ("--sign", "measured-target")
     assert "first or the second" in amp("calibrate", mill, "--axis", "X", "--from", points, *sign).err
-    said = amp(
+    message = amp(
         "calibrate", mill, "--axis", "X", "--from", points, *sign, "--circle", "first", "--dry-run", "--json"
     )
-    assert [change["param"] for change in said.json["changes"]] == ["1340"]
-    assert "residual" not in said.json
+    assert [change["param"] for change in message.json["changes"]] == ["1340"]
+    assert "residual" not in message.json
 
 
 def test_a_table_that_cannot_be_used_is_named_deleted_or_replaced(amp, mill: Path, laser: Path) -> None:
@@ -222,8 +222,8 @@ def test_a_turn_whose_net_correction_is_not_zero_is_taken_with_the_message_of_th
 ) -> None:
     assert amp("set", mill, "axis.rollover@4=360").code == 0
     points = ("--insert", "0=0", "--insert", "180=0.004", "--insert", "360=0.001")
-    said = amp("calibrate", mill, "--axis", "4", "--input", "deviation", "--start", "negative", *points)
-    assert said.code == 0
-    assert "NET CORRECTION IS NOT ZERO: it is 0.00100 deg" in said.err
+    message = amp("calibrate", mill, "--axis", "4", "--input", "deviation", "--start", "negative", *points)
+    assert message.code == 0
+    assert "NET CORRECTION IS NOT ZERO: it is 0.00100 deg" in message.err
     assert "9pc.calibration.net" in amp("validate", mill, "--json").out
     assert amp("calibrate", mill, "--axis", "4", "--replace", "360=0", "--json").json["remarks"] == []

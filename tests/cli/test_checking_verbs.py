@@ -24,16 +24,16 @@ def plain(amp, tmp_path: Path) -> Path:
 
 
 def test_a_file_without_errors_ends_with_0(amp, plain: Path) -> None:
-    said = amp("validate", plain, "--json")
-    assert (0, 0, "", str(plain)) == (said.code, said.json["errors"], said.err, said.json["file"])
-    assert [finding for finding in said.json["findings"] if finding["severity"] == "error"] == []
+    message = amp("validate", plain, "--json")
+    assert (0, 0, "", str(plain)) == (message.code, message.json["errors"], message.err, message.json["file"])
+    assert [finding for finding in message.json["findings"] if finding["severity"] == "error"] == []
 
 
 def test_a_finding_has_the_promised_shape_and_ends_with_1(amp, mill: Path) -> None:
     amp("set", mill, "1300=1e6", "--force")
-    said = amp("validate", mill, "--json")
-    assert said.code == 1
-    found = said.json
+    message = amp("validate", mill, "--json")
+    assert message.code == 1
+    found = message.json
     assert {"file", "errors", "warnings", "findings"} <= found.keys()
     counted = {s: sum(f["severity"] == s for f in found["findings"]) for s in ("error", "warning", "advice")}
     assert (counted["error"], counted["warning"]) == (found["errors"], found["warnings"])
@@ -60,8 +60,11 @@ def test_the_fix_of_a_finding_can_be_given_to_set(amp, mill: Path) -> None:
 
 def test_several_files_are_checked_in_one_go(amp, mill: Path, plain: Path) -> None:
     amp("set", mill, "1310=1 mm")
-    said = amp("validate", plain, mill, "--json")
-    assert (1, [str(plain), str(mill)]) == (said.code, [document["file"] for document in said.json["files"]])
+    message = amp("validate", plain, mill, "--json")
+    assert (1, [str(plain), str(mill)]) == (
+        message.code,
+        [document["file"] for document in message.json["files"]],
+    )
     totals = [line for line in amp("validate", plain, mill).out.splitlines() if " errors, " in line]
     assert [totals[0].startswith(f"{plain}: 0 errors"), totals[1].startswith(f"{mill}: ")] == [True, True]
 
@@ -79,11 +82,11 @@ def machines(tmp_path: Path, plain: Path, mill: Path) -> Path:
 
 
 def test_the_files_of_a_folder_are_checked_in_the_order_of_their_names(amp, machines: Path) -> None:
-    said = amp("validate", machines, "--json")
-    assert [document["file"] for document in said.json["files"]] == [
+    message = amp("validate", machines, "--json")
+    assert [document["file"] for document in message.json["files"]] == [
         str(path) for path in sorted(machines.rglob("*.amp"))
     ]
-    assert len(said.json["files"]) == 20
+    assert len(message.json["files"]) == 20
 
 
 def test_a_folder_gives_a_list_even_of_one_file(amp, tmp_path: Path, mill: Path) -> None:
@@ -102,7 +105,7 @@ def test_several_processes_say_the_same_in_the_same_order(amp, machines: Path, m
         assert (alone.code, alone.out) == (shared.code, shared.out)
 
 
-def test_how_far_it_is_stands_on_standard_error(amp, machines: Path, mill: Path) -> None:
+def test_how_far_it_is_is_on_standard_error(amp, machines: Path, mill: Path) -> None:
     assert amp("validate", machines, "--json").err == "checked 100 %\n"
     assert amp("validate", mill, "--json").err == ""
 
@@ -119,8 +122,8 @@ def test_a_file_that_cannot_be_read_does_not_hide_the_others(
         line for line in err.splitlines() if line.startswith(f"amp-studio: {broken}, line ")
     ]
     assert str(broken) in err
-    told = json.loads(out)["files"]
-    assert (len(told), [one for one in told if "error" in one]) == (
+    reported = json.loads(out)["files"]
+    assert (len(reported), [one for one in reported if "error" in one]) == (
         20,
         [
             {
@@ -156,15 +159,15 @@ def test_rules_of_one_s_own_are_checked_too(amp, plain: Path, tmp_path: Path) ->
         '    page: "1"\n'
     )
     amp("set", plain, "20=1")
-    said = amp("validate", plain, "--rules", rules, "--json")
-    assert (said.code, [f["message"] for f in said.json["findings"] if f["rule"] == "ours.calibration"]) == (
-        1,
-        ["Zone groups are 1."],
-    )
+    message = amp("validate", plain, "--rules", rules, "--json")
+    assert (
+        message.code,
+        [f["message"] for f in message.json["findings"] if f["rule"] == "ours.calibration"],
+    ) == (1, ["Zone groups are 1."])
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "said"),
+    ("old", "new", "message"),
     [
         ("severity: error", "severity: fatal", "ours.yaml, line 4: ours.one: severity: "),
         ("zone.group_count", "zone.nothing", "ours.yaml, line 5: ours.one: reads groups: 'zone.nothing' is"),
@@ -173,7 +176,7 @@ def test_rules_of_one_s_own_are_checked_too(amp, plain: Path, tmp_path: Path) ->
     ],
 )
 def test_rules_that_cannot_be_used_are_a_finding_beside_the_others(
-    amp, plain: Path, tmp_path: Path, old: str, new: str, said: str
+    amp, plain: Path, tmp_path: Path, old: str, new: str, message: str
 ) -> None:
     text = (
         "rules:\n  - id: ours.one\n    title: One\n    severity: error\n    reads: {groups:"
@@ -183,11 +186,11 @@ def test_rules_that_cannot_be_used_are_a_finding_beside_the_others(
     assert old in text
     rules.write_text(text.replace(old, new))
     without = amp("validate", plain, "--json").json["findings"]
-    told = amp("validate", plain, "--rules", rules, "--json")
-    assert told.code == 1
-    first, *others = told.json["findings"]
+    reported = amp("validate", plain, "--rules", rules, "--json")
+    assert reported.code == 1
+    first, *others = reported.json["findings"]
     assert (first["rule"], first["severity"]) == ("rules.unusable", "error")
-    assert first["message"].startswith(said)
+    assert first["message"].startswith(message)
     assert others == without
 
 
@@ -204,9 +207,9 @@ def test_findings_are_suppressed_with_a_reason_and_a_name_beside_the_file(amp, p
         " groups > 5.0, message: \"Groups: {groups}.\"}\nsuppressions:\n  - {rule: ours.one, params: ['20'],"
         " reason: no zones here, by: J. Doe}\n"
     )
-    told = amp("validate", plain, "--json")
-    assert told.code == 0
-    (left,) = told.json["suppressed"]
+    reported = amp("validate", plain, "--json")
+    assert reported.code == 0
+    (left,) = reported.json["suppressed"]
     assert (left["rule"], left["by"], left["reason"]) == ("ours.one", "J. Doe", "no zones here")
     assert "1 suppressed" in amp("validate", plain).out
     report = plain.with_suffix(".txt")
@@ -226,27 +229,27 @@ def twin(mill: Path) -> Path:
 
 
 def test_files_that_are_the_same_do_not_differ(amp, mill: Path, twin: Path) -> None:
-    said = amp("diff", mill, twin, "--json")
-    assert (said.code, said.json["differences"], said.err) == (0, [], "")
+    message = amp("diff", mill, twin, "--json")
+    assert (message.code, message.json["differences"], message.err) == (0, [], "")
     assert "0 differ" in amp("diff", mill, twin).out
 
 
 def test_a_difference_has_the_promised_shape_and_ends_with_1(amp, mill: Path, twin: Path) -> None:
     amp("set", twin, "1300=1.5", "1020=yes", "2300=0 in", "20=1", "1013=not-set")
-    said = amp("diff", mill, twin, "--json")
-    assert said.code == 1
-    shown = [{key: d[key] for key in ("param", "a", "b")} for d in said.json["differences"]]
-    assert shown == [
+    message = amp("diff", mill, twin, "--json")
+    assert message.code == 1
+    displayed = [{key: d[key] for key in ("param", "a", "b")} for d in message.json["differences"]]
+    assert displayed == [
         {"param": "1300", "a": "0 mm", "b": "1.5 mm"},
         {"param": "20", "a": None, "b": "1"},
         {"param": "1020", "a": "False", "b": "True"},
         {"param": "servo.velocity_gear_teeth@1", "a": "1", "b": None},
     ], "0 in is 0 mm"
     back = amp("diff", twin, mill, "--json").json["differences"]
-    assert [(d["param"], d["b"], d["a"]) for d in shown] == [(d["param"], d["a"], d["b"]) for d in back]
+    assert [(d["param"], d["b"], d["a"]) for d in displayed] == [(d["param"], d["a"], d["b"]) for d in back]
 
 
-def test_differences_for_a_person_are_one_line_each_and_counted(amp, mill: Path, twin: Path) -> None:
+def test_differences_for_a_user_are_one_line_each_and_counted(amp, mill: Path, twin: Path) -> None:
     amp("set", twin, "1300=1.5", "20=1", "1013=not-set")
     *lines, total = amp("diff", mill, twin).out.splitlines()
     assert len(lines) == 3
@@ -258,12 +261,12 @@ def test_differences_for_a_person_are_one_line_each_and_counted(amp, mill: Path,
 
 def test_what_the_manual_calls_dangerous_about_a_difference_is_one_line(amp, mill: Path, twin: Path) -> None:
     assert amp("set", twin, "1300=1.5", "1595=Minus", "2595=Minus").code == 0
-    said = amp("diff", mill, twin)
+    message = amp("diff", mill, twin)
     assert (
-        said.err
+        message.err
         == "danger: Sign of Position Feedback (X, Y): A wrong sign can make the axis run away. (page 7-36)\n"
     )
-    assert len(said.out.splitlines()) == 4, "three differences and their count"
+    assert len(message.out.splitlines()) == 4, "three differences and their count"
 
 
 def test_diff_writes_nothing(amp, mill: Path, twin: Path, folder) -> None:
@@ -287,8 +290,8 @@ def three(amp, mill: Path, twin: Path) -> tuple[Path, Path, Path]:
 
 def test_a_merge_without_conflicts_ends_with_0(amp, three, tmp_path: Path, folder) -> None:
     before, out = folder(), tmp_path / "merged.amp"
-    said = amp("merge", *three, "-o", out)
-    assert (0, f"{out}: 0 conflicts\n") == (said.code, said.out)
+    message = amp("merge", *three, "-o", out)
+    assert (0, f"{out}: 0 conflicts\n") == (message.code, message.out)
     file = open_file(out).file
     values = [Value(1.0, "mm"), Value(2.0, "mm"), Value(3.0, "mm")]
     addresses = [("home.calibration", "1"), ("zone.overtravel_positive", "1"), ("home.calibration", "2")]
@@ -299,23 +302,23 @@ def test_a_merge_without_conflicts_ends_with_0(amp, three, tmp_path: Path, folde
 def test_conflicts_are_listed_and_end_with_1(amp, three, tmp_path: Path) -> None:
     amp("set", three[2], "1300=7")
     out = tmp_path / "merged.amp"
-    said = amp("merge", *three, "-o", out)
+    message = amp("merge", *three, "-o", out)
     expected = "conflict at 1300 Home Calibration: base 0 mm, ours 1 mm, theirs 7 mm; ours is kept"
-    assert (1, [expected, f"{out}: 1 conflict"]) == (said.code, said.out.splitlines())
+    assert (1, [expected, f"{out}: 1 conflict"]) == (message.code, message.out.splitlines())
     assert Value(1.0, "mm") == open_file(out).file.get(("home.calibration", "1"))
 
 
-def test_a_conflict_over_an_entry_nobody_understands_is_listed_too(amp, three, tmp_path: Path) -> None:
+def test_a_conflict_over_an_unknown_entry_is_listed_too(amp, three, tmp_path: Path) -> None:
     for path, number in zip(three, "123", strict=True):
         path.write_text(path.read_text().replace("\n...", f"\n  future.thing@1: '{number}'\n..."))
-    said = amp("merge", *three, "-o", tmp_path / "merged.amp")
-    assert (said.code, "conflict at future.thing@1: ours is kept" in said.out) == (1, True)
+    message = amp("merge", *three, "-o", tmp_path / "merged.amp")
+    assert (message.code, "conflict at future.thing@1: ours is kept" in message.out) == (1, True)
 
 
 def test_a_merge_does_not_overwrite(amp, three, folder) -> None:
     before = folder()
-    said = amp("merge", *three, "-o", three[0])
-    assert (said.code, "exists already" in said.err) == (2, True)
+    message = amp("merge", *three, "-o", three[0])
+    assert (message.code, "exists already" in message.err) == (2, True)
     assert before == folder()
 
 
@@ -329,8 +332,8 @@ def test_a_report_follows_the_ending_and_leaves_the_file_alone(
     amp, mill: Path, ending: str, start: bytes
 ) -> None:
     before, out = mill.read_bytes(), mill.with_suffix(ending)
-    said = amp("report", mill, "-o", out)
-    assert (0, f"{out}\n") == (said.code, said.out)
+    message = amp("report", mill, "-o", out)
+    assert (0, f"{out}\n") == (message.code, message.out)
     assert out.read_bytes().startswith(start)
     assert b"Home Calibration" in out.read_bytes() or ending == ".pdf"
     assert before == mill.read_bytes()
@@ -345,7 +348,7 @@ def test_a_template_that_fails_ends_with_1_and_the_standard_report(amp, mill: Pa
     assert b"Home Calibration" in mill.with_suffix(".html").read_bytes()
 
 
-def test_a_report_in_a_format_nobody_knows_is_refused(amp, mill: Path, folder) -> None:
+def test_a_report_in_an_unknown_format_is_refused(amp, mill: Path, folder) -> None:
     before = folder()
     assert amp("report", mill, "-o", mill.with_suffix(".doc")).code == 2
     assert amp("report", mill, "-o", mill.with_suffix(".txt"), "--sort", "colour").code == 2
@@ -355,17 +358,17 @@ def test_a_report_in_a_format_nobody_knows_is_refused(amp, mill: Path, folder) -
 def test_a_simulation_has_the_promised_shape(amp, mill: Path, folder) -> None:
     amp("set", mill, "1030=sercos", "1031=digital")
     before = folder()
-    said = amp("simulate", mill, "step", "--axis", "1", "--json")
-    assert said.code == (1 if said.json["alarms"] else 0)
-    assert {"scenario", "axis", "model", "result", "alarms", "advice", "trace"} <= said.json.keys()
-    assert (said.json["scenario"], said.json["axis"]) == ("step", "1")
-    assert {"columns", "rows"} <= said.json["trace"].keys()
-    assert all({"param", "value", "why"} <= advice.keys() for advice in said.json["advice"])
+    message = amp("simulate", mill, "step", "--axis", "1", "--json")
+    assert message.code == (1 if message.json["alarms"] else 0)
+    assert {"scenario", "axis", "model", "result", "alarms", "advice", "trace"} <= message.json.keys()
+    assert (message.json["scenario"], message.json["axis"]) == ("step", "1")
+    assert {"columns", "rows"} <= message.json["trace"].keys()
+    assert all({"param", "value", "why"} <= advice.keys() for advice in message.json["advice"])
     assert before == folder()
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "message"),
     [
         (("juggle",), "juggle"),
         (("step", "--axis", "Q"), "there is no axis 'Q'"),
@@ -373,11 +376,11 @@ def test_a_simulation_has_the_promised_shape(amp, mill: Path, folder) -> None:
         (("step", "--set", "1300"), "'1300' is not PARAM=VALUE"),
     ],
 )
-def test_a_simulation_that_cannot_be_is_refused(amp, mill: Path, folder, arguments, said: str) -> None:
+def test_a_simulation_that_cannot_be_is_refused(amp, mill: Path, folder, arguments, message: str) -> None:
     amp("set", mill, "1030=sercos", "1031=digital")
     before = folder()
     refused = amp("simulate", mill, *arguments)
-    assert (refused.code, said in refused.err) == (2, True), refused.err
+    assert (refused.code, message in refused.err) == (2, True), refused.err
     assert before == folder()
 
 
@@ -404,7 +407,9 @@ def test_what_is_drawn_below_a_changed_value_is_the_same_move(
 ) -> None:
     amp("set", mill, "1030=sercos", "1031=digital")
     drawn = []
-    monkeypatch.setattr("amp_studio.sim.write_trace", lambda trace, *_, before: drawn.append((before, trace)))
+    monkeypatch.setattr(
+        "amp_studio.sim.write_trace", lambda trace, *_, before, **_others: drawn.append((before, trace))
+    )
     amp(
         "simulate", mill, "step", "--axis", "1", "--set", "servo.initial_gain@1=0.4", "-o", tmp_path / "a.svg"
     )

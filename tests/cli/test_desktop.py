@@ -35,7 +35,7 @@ def test_a_verb_goes_before_files(capsys: pytest.CaptureFixture[str]) -> None:
 
 @pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="there is always a display")
 @pytest.mark.parametrize("line", ["", "MILL_1394.amp", "merge a.amp a.amp a.amp -o b.amp --window"])
-def test_without_a_display_one_line_says_so(
+def test_without_a_display_one_line_shows_it(
     line: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for name in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"):
@@ -43,6 +43,6 @@ def test_without_a_display_one_line_says_so(
     monkeypatch.chdir(tmp_path)
     shutil.copy(Path(__file__).parents[2] / "examples/mill-1394/MILL_1394.amp", "a.amp")
     assert run_verb(line.split()) == 2
-    shown = capsys.readouterr().err
-    assert shown.count("\n") == 1
-    assert shown.startswith("amp-studio: There is no display for the desktop program")
+    displayed = capsys.readouterr().err
+    assert displayed.count("\n") == 1
+    assert displayed.startswith("amp-studio: There is no display for the desktop program")

@@ -17,7 +17,7 @@ from amp_studio.transfer.client.drift import ControlWithFile, known_controls
 from amp_studio.transfer.client.record import RecordedExchange, add_exchange
 from tests.forked import emulated
 
-from .conftest import Said
+from .conftest import Outcome
 
 DEAD = "tcp://127.0.0.1:1"
 """Nothing listens there."""
@@ -45,7 +45,7 @@ def project(folder: Path, control: str) -> Path:
     return folder
 
 
-def shown(found: list[ControlWithFile]) -> list[tuple[str, str]]:
+def displayed(found: list[ControlWithFile]) -> list[tuple[str, str]]:
     return [(known.address, known.fault or known.path.name) for known in found]
 
 
@@ -59,7 +59,7 @@ def test_a_control_is_known_with_the_file_that_was_last_put_into_it(tmp_path: Pa
         exchange(4, "verify", "old.amp", "tcp://10.0.0.3:9600", "44"),
         files=("old.amp", "new.amp", "two.amp"),
     )
-    assert shown(known_controls(tmp_path)) == [
+    assert displayed(known_controls(tmp_path)) == [
         ("tcp://10.0.0.1:9600", "new.amp"),
         ("tcp://10.0.0.2:9600", "two.amp"),
     ]
@@ -72,13 +72,13 @@ def test_a_control_of_two_folders_belongs_to_the_later_download(tmp_path: Path) 
             exchange(day, "download", f"{name}.amp", "tcp://10.0.0.1:9600", "11"),
             files=(f"{name}.amp",),
         )
-    assert shown(known_controls(tmp_path)) == [("tcp://10.0.0.1:9600", "b.amp")]
+    assert displayed(known_controls(tmp_path)) == [("tcp://10.0.0.1:9600", "b.amp")]
 
 
 def test_a_project_names_the_control_of_its_one_file(tmp_path: Path) -> None:
     folder_with(project(tmp_path / "a", "tcp://10.0.0.1:9600"), files=("one.amp",))
     folder_with(project(tmp_path / "b", "tcp://10.0.0.2:9600"), files=("one.amp", "two.amp"))
-    second, first = shown(known_controls(tmp_path))
+    second, first = displayed(known_controls(tmp_path))
     assert first == (
         "tcp://10.0.0.2:9600",
         f"no download to it is recorded, and {tmp_path / 'b'} has 2 parameter files",
@@ -87,7 +87,7 @@ def test_a_project_names_the_control_of_its_one_file(tmp_path: Path) -> None:
 
 
 def test_a_file_that_is_gone_is_a_fault(
-    amp: Callable[..., Said], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    amp: Callable[..., Outcome], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     folder_with(tmp_path / "a", exchange(1, "download", "gone.amp", DEAD, "11"))
     assert cli.run(["verify", "--all", str(tmp_path)]) == 2
@@ -105,7 +105,7 @@ def control(tmp_path: Path) -> Iterator[str]:
 
 @pytest.fixture
 def hall(
-    amp: Callable[..., Said], checkout: Path, control: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    amp: Callable[..., Outcome], checkout: Path, control: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Path:
     """Return a folder whose mill.amp went to the control on 1 March; each record after it is a day later."""
     days = iter(f"2026-03-{day:02}T11:00:00+00:00" for day in range(1, 30))
@@ -118,7 +118,7 @@ def hall(
 
 
 def test_what_drifted_at_the_control_is_known_with_its_days(
-    amp: Callable[..., Said], control: str, hall: Path, tmp_path: Path
+    amp: Callable[..., Outcome], control: str, hall: Path, tmp_path: Path
 ) -> None:
     same = amp("verify", "--all", hall)  # 2 March
     assert (same.code, same.out.splitlines()[-1]) == (0, "1 control: 1 same")
@@ -139,7 +139,7 @@ def test_what_drifted_at_the_control_is_known_with_its_days(
 
 
 def test_what_drifted_in_the_file_and_what_is_not_reached_is_one_page(
-    amp: Callable[..., Said], control: str, hall: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    amp: Callable[..., Outcome], control: str, hall: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert amp("download", hall / "mill.amp", "--to", control).code == 0  # 2 March: the last exchange counts
     amp("set", hall / "mill.amp", "1300=2 mm")
@@ -171,8 +171,8 @@ def test_what_drifted_in_the_file_and_what_is_not_reached_is_one_page(
         (("--all",), " knows no control: no download is recorded there"),
     ],
 )
-def test_what_cannot_be_meant_is_refused(
-    amp: Callable[..., Said],
+def test_what_cannot_be_understood_is_refused(
+    amp: Callable[..., Outcome],
     mill: Path,
     monkeypatch: pytest.MonkeyPatch,
     arguments: tuple[str, ...],

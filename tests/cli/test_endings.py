@@ -18,7 +18,7 @@ from amp_studio.cli import stopping
 from tests.cli.stopped import set_while_stopped
 
 PROGRAM = [sys.executable, "-m", "amp_studio.cli"]
-NOBODY = "amp-studio: nobody reads the results any more"
+NOT_READ = "amp-studio: nobody reads the results any more"
 
 
 def start(*arguments: object, before: Callable[[], object] | None = None, **streams: int) -> tuple[int, str]:
@@ -52,27 +52,27 @@ def unread():
 def test_a_value_that_is_in_the_file_is_no_refusal_where_the_result_cannot_be_printed(
     mill: Path, full: int
 ) -> None:
-    code, said = start("set", mill, "1300=1.5", stdout=full)
+    code, message = start("set", mill, "1300=1.5", stdout=full)
     assert (code, b"home.calibration@1: 1.5 mm" in mill.read_bytes()) == (3, True)
     assert (
-        said
+        message
         == f"amp-studio: the results cannot be written: No space left on device; {mill} has been changed and"
         f" contains the new content; its previous content is in {mill}.bak\n"
     )
 
 
-def test_a_value_that_is_in_the_file_is_no_refusal_where_nobody_reads_the_result(
+def test_a_value_that_is_in_the_file_is_no_refusal_where_the_result_is_not_read(
     mill: Path, unread: int
 ) -> None:
-    code, said = start("set", mill, "1300=1.5", stdout=unread)
+    code, message = start("set", mill, "1300=1.5", stdout=unread)
     assert (code, b"home.calibration@1: 1.5 mm" in mill.read_bytes()) == (3, True)
-    assert said.startswith(f"{NOBODY}; {mill} has been changed")
+    assert message.startswith(f"{NOT_READ}; {mill} has been changed")
 
 
-def test_a_new_file_is_said_to_be_there(mill: Path, tmp_path: Path, full: int) -> None:
-    code, said = start("report", mill, "-o", tmp_path / "mill.txt", stdout=full)
+def test_a_new_file_is_shown_to_be_there(mill: Path, tmp_path: Path, full: int) -> None:
+    code, message = start("report", mill, "-o", tmp_path / "mill.txt", stdout=full)
     assert code == 3
-    assert f"{tmp_path / 'mill.txt'} has been written and is complete" in said
+    assert f"{tmp_path / 'mill.txt'} has been written and is complete" in message
 
 
 @pytest.mark.parametrize(
@@ -81,15 +81,15 @@ def test_a_new_file_is_said_to_be_there(mill: Path, tmp_path: Path, full: int) -
 def test_results_that_cannot_be_printed_are_a_refusal_where_nothing_was_changed(
     mill: Path, full: int, arguments: tuple[str, ...]
 ) -> None:
-    code, said = start(*(text.format(mill=mill) for text in arguments), stdout=full)
-    assert (code, said) == (2, "amp-studio: the results cannot be written: No space left on device\n")
+    code, message = start(*(text.format(mill=mill) for text in arguments), stdout=full)
+    assert (code, message) == (2, "amp-studio: the results cannot be written: No space left on device\n")
 
 
-def test_a_reader_that_has_enough_is_not_told_so(mill: Path, unread: int) -> None:
+def test_a_reader_that_has_enough_gets_no_error(mill: Path, unread: int) -> None:
     assert start("get", mill, stdout=unread) == (2, "")
 
 
-def test_notes_that_nobody_can_read_stop_nothing(mill: Path, full: int, unread: int) -> None:
+def test_notes_that_cannot_be_read_stop_nothing(mill: Path, full: int, unread: int) -> None:
     for stream in (full, unread):  # 1300=0 mm is so already, which is a note
         assert start("set", mill, "1300=0", stderr=stream)[0] == 0
         assert start("set", mill, "1300=1e9", stderr=stream)[0] == 2
@@ -111,7 +111,7 @@ def test_streams_that_the_shell_has_closed_stop_nothing_and_spoil_no_file(
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a signal cannot be sent to a process there")
-def test_it_can_be_stopped_at_any_moment_and_says_what_holds(mill: Path) -> None:
+def test_it_can_be_stopped_at_any_moment_and_shows_the_state(mill: Path) -> None:
     assert set_while_stopped(mill, seed=1, rounds=12) == []
 
 
@@ -128,11 +128,15 @@ def test_a_file_that_cannot_be_examined_was_not_changed_by_a_verb_that_wrote_not
         return stat(path, **how)
 
     monkeypatch.setattr(Path, "stat", failing)
-    said = amp("set", mill, "1300=1")
-    assert (said.code, "Permission denied" in said.err, "may have been" in said.err) == (2, True, False)
+    message = amp("set", mill, "1300=1")
+    assert (message.code, "Permission denied" in message.err, "may have been" in message.err) == (
+        2,
+        True,
+        False,
+    )
 
 
-def test_a_file_that_was_written_is_said_to_be_where_it_cannot_be_examined(
+def test_a_file_that_was_written_is_shown_to_be_where_it_cannot_be_examined(
     amp, mill: Path, monkeypatch
 ) -> None:
     stat = Path.stat
@@ -144,8 +148,8 @@ def test_a_file_that_was_written_is_said_to_be_where_it_cannot_be_examined(
 
     monkeypatch.setattr(Path, "stat", failing)
     monkeypatch.setattr("amp_studio.cli.program.flush_results", lambda: os.write(-1, b""))
-    said = amp("set", mill, "1300=1.75")
-    assert (said.code, f"{mill} has been written, and cannot be examined" in said.err) == (3, True)
+    message = amp("set", mill, "1300=1.75")
+    assert (message.code, f"{mill} has been written, and cannot be examined" in message.err) == (3, True)
 
 
 def test_an_interrupt_that_an_expression_has_swallowed_is_not_forgotten(amp, mill: Path, monkeypatch) -> None:
@@ -157,7 +161,7 @@ def test_an_interrupt_that_an_expression_has_swallowed_is_not_forgotten(amp, mil
     assert (amp("get", mill).code, amp("get", mill).err) == (2, "amp-studio: stopped\n")
 
 
-def test_an_interrupt_while_a_refusal_is_worded_says_what_holds(amp, mill: Path, monkeypatch) -> None:
+def test_an_interrupt_while_a_refusal_is_worded_shows_the_state(amp, mill: Path, monkeypatch) -> None:
     def stop(*_: object) -> str:
         raise KeyboardInterrupt
 
@@ -168,23 +172,21 @@ def test_an_interrupt_while_a_refusal_is_worded_says_what_holds(amp, mill: Path,
 
     monkeypatch.setattr("amp_studio.cli.program._sentence", stop)
     monkeypatch.setattr("amp_studio.cli.verbs.files.set.run", fail)
-    said = amp("set", mill, "1300=1")
-    assert (said.code, said.err) == (
+    message = amp("set", mill, "1300=1")
+    assert (message.code, message.err) == (
         3,
         f"amp-studio: stopped; {mill} has been changed and contains the new content\n",
     )
 
 
-def test_what_nobody_has_foreseen_is_one_line_with_the_place_of_the_details(
-    amp, mill: Path, monkeypatch
-) -> None:
+def test_what_is_unforeseen_is_one_line_with_the_place_of_the_details(amp, mill: Path, monkeypatch) -> None:
     def fail(_: object) -> int:
         raise KeyError("never")
 
     monkeypatch.setattr("amp_studio.cli.verbs.files.get.run", fail)
-    said = amp("get", mill)
-    assert (said.code, "should not have happened (KeyError: 'never')" in said.err) == (2, True)
-    place = Path(said.err.rpartition("the details are in ")[2].strip())
+    message = amp("get", mill)
+    assert (message.code, "should not have happened (KeyError: 'never')" in message.err) == (2, True)
+    place = Path(message.err.rpartition("the details are in ")[2].strip())
     assert 'raise KeyError("never")' in place.read_text(encoding="utf-8")
 
 

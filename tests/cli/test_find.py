@@ -18,9 +18,9 @@ def mill(tmp_path: Path) -> Path:
 
 
 def test_a_message_without_a_family_is_found_in_the_one_that_has_it(amp) -> None:
-    said = amp("find", "SERVO AMP FE LIMITS")
-    lines = said.out.splitlines()
-    assert (said.code, lines[0]) == (0, "9pc      SERVO AMP FE LIMITS CORRECTED")
+    sentence = amp("find", "SERVO AMP FE LIMITS")
+    lines = sentence.out.splitlines()
+    assert (sentence.code, lines[0]) == (0, "9pc      SERVO AMP FE LIMITS CORRECTED")
     assert "    - 1750 Excess Error" in lines
     assert "  Page 7-20, 7-21, 7-22, 7-24" in lines
 
@@ -54,10 +54,10 @@ def test_a_value_leads_to_the_number_of_its_parameter(amp, mill: Path) -> None:
 
 
 def test_a_question_without_an_answer_names_the_other_families_and_where_everything_is(amp) -> None:
-    said = amp("find", "syntec", "debounce")
-    assert said.out == "Nothing found for 'debounce'\n"
-    assert "In another family: grblhal: $26 Homing switch debounce delay" in said.err
-    assert "amp-studio guide syntec" in said.err
+    sentence = amp("find", "syntec", "debounce")
+    assert sentence.out == "Nothing found for 'debounce'\n"
+    assert "In another family: grblhal: $26 Homing switch debounce delay" in sentence.err
+    assert "amp-studio guide syntec" in sentence.err
     first, *_ = json.loads(amp("find", "syntec", "debounce", "--json").out)["elsewhere"]
     assert first == {
         "family": "grblhal",
@@ -77,8 +77,8 @@ def test_where_nothing_is_found_the_nearest_is_offered(amp) -> None:
 
 
 def test_what_steers_a_terminal_is_shown_and_not_obeyed(amp) -> None:
-    said = amp("find", "num", "qq\x1b[31mqqqq")
-    assert (said.code, "\x1b" in said.out) == (0, False)
+    sentence = amp("find", "num", "qq\x1b[31mqqqq")
+    assert (sentence.code, "\x1b" in sentence.out) == (0, False)
     assert amp("find", "num", "q" * 9000).code == 0
 
 

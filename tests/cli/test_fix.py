@@ -38,13 +38,14 @@ def broken(checkout: Path, tmp_path: Path, amp) -> Path:
     return path
 
 
-def test_a_fix_is_made_saved_and_told_with_its_rule(broken: Path, amp) -> None:
+def test_a_fix_is_made_saved_and_reported_with_its_rule(broken: Path, amp) -> None:
     before = broken.read_bytes()
-    said = amp("fix", broken, "--rule", "9pc.servo.excess-below-following-error")
+    message = amp("fix", broken, "--rule", "9pc.servo.excess-below-following-error")
     assert (
-        "1750 Excess Error: 8 mm -> 11 mm (9pc.servo.excess-below-following-error)" in said.out.splitlines()
+        "1750 Excess Error: 8 mm -> 11 mm (9pc.servo.excess-below-following-error)"
+        in message.out.splitlines()
     )
-    assert "1740 Feedrate Suppression Point: 8 mm -> 11 mm" in said.out, "what was off stays off"
+    assert "1740 Feedrate Suppression Point: 8 mm -> 11 mm" in message.out, "what was off stays off"
     assert b"servo.excess_error@1: 11 mm" in broken.read_bytes()
     assert broken.with_name("mill.amp.bak").read_bytes() == before
     how = {json.loads(line)[2] for line in broken.with_name("mill.amp.history").read_text().splitlines()[-2:]}
@@ -52,10 +53,10 @@ def test_a_fix_is_made_saved_and_told_with_its_rule(broken: Path, amp) -> None:
 
 
 def test_the_json_has_the_changes_and_what_is_left(broken: Path, amp) -> None:
-    said = amp("fix", broken, "--rule", "9pc.servo.excess-below-following-error", "--json")
+    message = amp("fix", broken, "--rule", "9pc.servo.excess-below-following-error", "--json")
     checked = amp("validate", broken, "--json").json
     rule = "9pc.servo.excess-below-following-error"
-    assert said.json == {
+    assert message.json == {
         "file": str(broken),
         "changes": [
             {
@@ -78,10 +79,10 @@ def test_the_json_has_the_changes_and_what_is_left(broken: Path, amp) -> None:
         "left": {key: checked[key] for key in ("errors", "warnings", "advice")},
         "dry_run": False,
     }
-    assert said.code == int(checked["errors"] > 0)
+    assert message.code == int(checked["errors"] > 0)
 
 
-def test_a_dry_run_says_the_same_and_touches_nothing(broken: Path, amp, folder) -> None:
+def test_a_dry_run_shows_the_same_and_touches_nothing(broken: Path, amp, folder) -> None:
     before = folder()
     tried = amp("fix", broken, "--dry-run", "--json").json
     assert folder() == before
@@ -113,8 +114,8 @@ def test_no_error_comes_that_was_not_there(broken: Path, amp) -> None:
 
 def test_the_more_severe_finding_comes_first_and_the_builders_rules_count(broken: Path, amp) -> None:
     broken.with_name("rules.yaml").write_text(RULES)
-    said = amp("fix", broken, "--param", "1203", "--json").json
-    assert [(c["param"], c["new"], c["rule"]) for c in said["changes"]] == [
+    message = amp("fix", broken, "--param", "1203", "--json").json
+    assert [(c["param"], c["new"], c["rule"]) for c in message["changes"]] == [
         ("1203", "9000 mm/min", "own.rapid")
     ]
 
@@ -124,8 +125,8 @@ def test_a_fix_that_breaks_a_rule_of_the_builder_is_not_made(broken: Path, amp) 
         "rules:\n  - {id: own.excess, title: Excess, severity: error, reads: {excess: servo.excess_error@1},"
         " check: excess <= 10.0, message: Too much.}\n"
     )
-    said = amp("fix", broken, "--rule", "9pc.servo.excess-below-following-error", "--json")
-    assert (said.code, said.json["changes"]) == (1, [])
+    message = amp("fix", broken, "--rule", "9pc.servo.excess-below-following-error", "--json")
+    assert (message.code, message.json["changes"]) == (1, [])
     assert b"servo.excess_error@1: 8 mm" in broken.read_bytes()
 
 
@@ -138,13 +139,13 @@ def test_only_fixes_that_set_a_parameter(broken: Path, amp) -> None:
 
 def test_only_safe_fixes_leave_the_motion_alone(broken: Path, amp) -> None:
     amp("set", broken, "oci.connections=2", "--force")
-    said = amp("fix", broken, "--safe", "--json")
-    assert [(c["id"], c["new"]) for c in said.json["changes"]] == [("oci.connections", "1")]
-    assert said.code == 1, "errors are left"
+    message = amp("fix", broken, "--safe", "--json")
+    assert [(c["id"], c["new"]) for c in message.json["changes"]] == [("oci.connections", "1")]
+    assert message.code == 1, "errors are left"
 
 
 @pytest.mark.parametrize(
-    ("option", "text", "told"),
+    ("option", "text", "reported"),
     [
         (
             "--rule",
@@ -157,12 +158,12 @@ def test_only_safe_fixes_leave_the_motion_alone(broken: Path, amp) -> None:
     ],
 )
 def test_an_unknown_name_is_refused_with_the_nearest(
-    broken: Path, amp, folder, option: str, text: str, told: str
+    broken: Path, amp, folder, option: str, text: str, reported: str
 ) -> None:
     before = folder()
-    said = amp("fix", broken, option, text)
-    assert said.code == 2
-    assert told in said.err
+    message = amp("fix", broken, option, text)
+    assert message.code == 2
+    assert reported in message.err
     assert folder() == before
 
 
@@ -170,8 +171,8 @@ def test_a_sound_file_has_nothing_to_fix(mill: Path, amp, tmp_path: Path) -> Non
     path = tmp_path / "module.amp"
     amp("new", "57c422b", path)
     before = path.read_bytes()
-    said = amp("fix", path, "--json")
-    assert said.json["changes"] == []
+    message = amp("fix", path, "--json")
+    assert message.json["changes"] == []
     assert path.read_bytes() == before
 
 

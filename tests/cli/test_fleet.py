@@ -19,7 +19,7 @@ from amp_studio.transfer.errors import TransferError
 from amp_studio.transfer.exchange import Exchange
 from tests.forked import emulated
 
-from .conftest import Said
+from .conftest import Outcome
 
 DEAD = "tcp://127.0.0.1:1"
 """Nothing listens there."""
@@ -44,7 +44,7 @@ def start_control(tmp_path: Path) -> Iterator[Callable[[], str]]:
 
 
 def test_a_file_goes_to_several_controls_and_is_verified_in_all(
-    amp: Callable[..., Said], mill: Path, start_control: Callable[[], str]
+    amp: Callable[..., Outcome], mill: Path, start_control: Callable[[], str]
 ) -> None:
     one, two = start_control(), start_control()
 
@@ -59,7 +59,7 @@ def test_a_file_goes_to_several_controls_and_is_verified_in_all(
 
 
 def test_a_control_that_does_not_answer_is_in_the_table_and_the_others_go_on(
-    amp: Callable[..., Said], mill: Path, start_control: Callable[[], str], tmp_path: Path
+    amp: Callable[..., Outcome], mill: Path, start_control: Callable[[], str], tmp_path: Path
 ) -> None:
     control = start_control()
     table = tmp_path / "results.csv"
@@ -76,7 +76,10 @@ def test_a_control_that_does_not_answer_is_in_the_table_and_the_others_go_on(
 
 
 def test_after_a_failure_no_other_control_is_begun_where_that_was_asked_for(
-    amp: Callable[..., Said], mill: Path, start_control: Callable[[], str], capsys: pytest.CaptureFixture[str]
+    amp: Callable[..., Outcome],
+    mill: Path,
+    start_control: Callable[[], str],
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     control = start_control()
     before = amp("identify", control, "--json").json["sha256"]
@@ -91,7 +94,7 @@ def test_after_a_failure_no_other_control_is_begun_where_that_was_asked_for(
 
 
 def test_an_upload_from_several_controls_writes_a_file_for_each(
-    amp: Callable[..., Said], mill: Path, start_control: Callable[[], str], tmp_path: Path
+    amp: Callable[..., Outcome], mill: Path, start_control: Callable[[], str], tmp_path: Path
 ) -> None:
     one, two = start_control(), start_control()
     amp("download", mill, "--to", one, "--to", two)
@@ -119,7 +122,7 @@ def test_an_upload_from_several_controls_writes_a_file_for_each(
     ],
 )
 def test_what_cannot_be_used_is_refused_before_anything_is_begun(
-    amp: Callable[..., Said],
+    amp: Callable[..., Outcome],
     mill: Path,
     folder: Callable[[], dict[str, bytes]],
     arguments: tuple[str, ...],
@@ -152,7 +155,7 @@ def test_one_exchange_that_breaks_does_not_end_the_others() -> None:
 
 
 def test_every_exchange_is_recorded_with_what_it_changed_and_is_restored_from(
-    amp: Callable[..., Said], mill: Path, start_control: Callable[[], str]
+    amp: Callable[..., Outcome], mill: Path, start_control: Callable[[], str]
 ) -> None:
     control = start_control()
     amp("download", mill, "--to", control)
@@ -176,7 +179,7 @@ def test_every_exchange_is_recorded_with_what_it_changed_and_is_restored_from(
 
 
 def test_a_secret_is_not_in_the_record(
-    amp: Callable[..., Said], mill: Path, start_control: Callable[[], str]
+    amp: Callable[..., Outcome], mill: Path, start_control: Callable[[], str]
 ) -> None:
     file = open_file(mill).file
     secret = next(p for p in file.schema.parameters.values() if p.secret)
@@ -187,7 +190,7 @@ def test_a_secret_is_not_in_the_record(
 
 
 def test_an_exchange_that_cannot_be_recorded_has_happened_anyway(
-    amp: Callable[..., Said], mill: Path, start_control: Callable[[], str]
+    amp: Callable[..., Outcome], mill: Path, start_control: Callable[[], str]
 ) -> None:
     (mill.parent / "exchanges.jsonl").mkdir()
     sent = amp("download", mill, "--to", start_control())
@@ -196,7 +199,7 @@ def test_an_exchange_that_cannot_be_recorded_has_happened_anyway(
 
 
 def test_an_exchange_by_a_link_is_one_of_the_file(
-    amp: Callable[..., Said], mill: Path, start_control: Callable[[], str], tmp_path: Path
+    amp: Callable[..., Outcome], mill: Path, start_control: Callable[[], str], tmp_path: Path
 ) -> None:
     link = tmp_path / "here" / "link.amp"
     link.parent.mkdir()
@@ -206,20 +209,20 @@ def test_an_exchange_by_a_link_is_one_of_the_file(
         assert [e["file"] for e in amp("history", path, "--json").json["exchanges"]] == ["mill.amp"]
 
 
-def test_the_record_is_no_output(amp: Callable[..., Said], mill: Path) -> None:
+def test_the_record_is_no_output(amp: Callable[..., Outcome], mill: Path) -> None:
     refused = amp("merge", mill, mill, mill, "-o", mill.with_name("exchanges.jsonl"))
     assert refused.code == 2
     assert "choose another name" in refused.err
     assert not (mill.parent / "exchanges.jsonl").exists()
 
 
-def test_an_exchange_that_reached_nothing_is_not_recorded(amp: Callable[..., Said], mill: Path) -> None:
+def test_an_exchange_that_reached_nothing_is_not_recorded(amp: Callable[..., Outcome], mill: Path) -> None:
     assert amp("download", mill, "--to", DEAD).code == 2
     assert read_exchanges(mill.parent) == []
     assert "No exchange is recorded" in amp("history", mill).out
 
 
-def test_an_exchange_there_is_not_is_refused(amp: Callable[..., Said], mill: Path) -> None:
+def test_an_exchange_there_is_not_is_refused(amp: Callable[..., Outcome], mill: Path) -> None:
     refused = amp("history", mill, "--show", 7)
     assert refused.code == 2
     assert "there is no exchange 7" in refused.err

@@ -18,9 +18,9 @@ def fresh(amp, tmp_path: Path) -> Path:
 def test_the_overview_has_each_step_with_its_counts_and_the_open_values_of_the_present_one(
     amp, fresh: Path
 ) -> None:
-    said = amp("guide", fresh)
-    assert said.code == 0
-    lines = said.out.splitlines()
+    message = amp("guide", fresh)
+    assert message.code == 0
+    lines = message.out.splitlines()
     assert lines[0] == f"{fresh}: 0 of 19 steps done, 3 of 339 values set"
     assert lines[1] == "[~]  1  Control, axes and servos            3-1  3 of 3 set"
     assert lines[2].startswith("[ ]  2  Axis names and rollover             4-1  0 of ")
@@ -34,21 +34,21 @@ def test_what_guide_leaves_out_validate_lists(amp, fresh: Path) -> None:
     listed = amp("guide", fresh, "--json").json["steps"]
     found = amp("validate", fresh, "--json").json
     for key, severity in (("errors", "error"), ("warnings", "warning")):
-        shown = {f["message"] for step in listed for f in step["findings"] if f["severity"] == severity}
+        displayed = {f["message"] for step in listed for f in step["findings"] if f["severity"] == severity}
         every = {f["message"] for f in found["findings"] + found["delivered"] if f["severity"] == severity}
-        assert shown <= every
+        assert displayed <= every
         assert len([f for f in found["delivered"] if f["severity"] == severity]) >= later[key]
         assert found[key] == 0, "nobody has set anything yet"
     assert later["warnings"] > 0
 
 
 def test_the_json_has_every_step_with_its_parameters_and_open_values(amp, fresh: Path) -> None:
-    said = amp("guide", fresh, "--json").json
-    assert (said["family"], said["order"], said["page"]) == ("9pc", "manual", "1-1")
-    assert [step["step"] for step in said["steps"]] == list(range(1, 24))
-    assert sum(len(step["open"]) for step in said["steps"]) == said["total"] - said["set"]
-    first = next(value for step in said["steps"] for value in step["open"])
-    assert said["next"] == first
+    message = amp("guide", fresh, "--json").json
+    assert (message["family"], message["order"], message["page"]) == ("9pc", "manual", "1-1")
+    assert [step["step"] for step in message["steps"]] == list(range(1, 24))
+    assert sum(len(step["open"]) for step in message["steps"]) == message["total"] - message["set"]
+    first = next(value for step in message["steps"] for value in step["open"])
+    assert message["next"] == first
     assert first == {
         "param": "185",
         "id": "axis.integrand_name",
@@ -59,15 +59,15 @@ def test_the_json_has_every_step_with_its_parameters_and_open_values(amp, fresh:
         "allowed": "I / J / K / None",
         "page": "4-3",
     }
-    tuning = next(step for step in said["steps"] if step["id"] == "tuning")
+    tuning = next(step for step in message["steps"] if step["id"] == "tuning")
     assert "servo.reversal_error" in tuning["again"]
 
 
 def test_a_step_is_shown_by_number_and_by_id(amp, fresh: Path) -> None:
-    said = amp("guide", fresh, "home").out
-    assert said == amp("guide", fresh, "3").out == amp("guide", fresh, "--step", "3").out
-    assert said.startswith("Step 3: Homing (page 5-1)\n")
-    assert "1010 G28 Direction to Home                           not set  plus / minus" in said
+    message = amp("guide", fresh, "home").out
+    assert message == amp("guide", fresh, "3").out == amp("guide", fresh, "--step", "3").out
+    assert message.startswith("Step 3: Homing (page 5-1)\n")
+    assert "1010 G28 Direction to Home                           not set  plus / minus" in message
     only = amp("guide", fresh, "home", "--json").json["steps"]
     assert [step["id"] for step in only] == ["home"]
     values = {value["param"]: value["value"] for value in only[0]["values"]}
@@ -76,11 +76,11 @@ def test_a_step_is_shown_by_number_and_by_id(amp, fresh: Path) -> None:
 
 
 def test_the_next_value_comes_with_its_help_and_the_one_after_it_on_request(amp, fresh: Path) -> None:
-    said = amp("guide", fresh, "--next").out
-    assert said.startswith(
+    message = amp("guide", fresh, "--next").out
+    assert message.startswith(
         "Step 2 Axis names and rollover: 185 Axis Integrand Name X (I / J / K / None; page 4-3)\n"
     )
-    assert said.endswith("Set it with: 185=…\n")
+    assert message.endswith("Set it with: 185=…\n")
     assert amp("guide", fresh, "--next", "--after", "185", "--json").json["next"]["param"] == "186"
 
 
@@ -100,8 +100,8 @@ def test_a_walk_of_next_and_set_comes_to_the_end_of_a_step(amp, fresh: Path) -> 
 
 
 def test_a_step_is_ticked_in_the_file_and_the_tick_taken_away(amp, fresh: Path) -> None:
-    said = amp("guide", fresh, "--done", "dual", "--done", "5")
-    assert [line[:6] for line in said.out.splitlines()] == ["[x] 19", "[x]  5"]
+    message = amp("guide", fresh, "--done", "dual", "--done", "5")
+    assert [line[:6] for line in message.out.splitlines()] == ["[x] 19", "[x]  5"]
     assert set(open_file(fresh).file.header.done) == {"dual", "servo"}
     assert amp("guide", fresh, "--not-done", "dual", "--not-done", "servo").code == 0
     assert open_file(fresh).file.header.done == {}
@@ -109,15 +109,15 @@ def test_a_step_is_ticked_in_the_file_and_the_tick_taken_away(amp, fresh: Path) 
 
 def test_the_defaults_of_a_step_are_kept(amp, fresh: Path) -> None:
     amp("set", fresh, "feedrate.rapid@X=not-set", "feedrate.rapid@Y=not-set")
-    said = amp("guide", fresh, "--keep-defaults", "feedrate")
+    message = amp("guide", fresh, "--keep-defaults", "feedrate")
     file = open_file(fresh).file
-    assert said.err.startswith("Feedrates: 2 values set to the default")
+    assert message.err.startswith("Feedrates: 2 values set to the default")
     assert file.is_default(("feedrate.rapid", "1"))
 
 
 def test_a_family_has_its_steps_without_a_file(amp) -> None:
-    said = amp("guide", "num").out
-    assert said.startswith(
+    message = amp("guide", "num").out
+    assert message.startswith(
         "Chapter 3 of the manual is this order. (page 3-1)\n  1  Axis Declaration (3.1) (page 3-3)\n"
     )
     assert amp("guide", "grblhal", "--json").json["order"] == "ours"
@@ -147,8 +147,8 @@ def test_get_has_what_is_not_set_step_by_step(amp, fresh: Path) -> None:
     assert [row["step"] for row in rows] == sorted(row["step"] for row in rows)
     assert {row["value"] for row in rows} == {None}
     assert {row["state"] for row in rows} == {"in-force"}
-    said = amp("get", fresh, "--not-set").out
-    assert said.startswith("Step 2: Axis names and rollover\n  185 Axis Integrand Name ")
+    message = amp("get", fresh, "--not-set").out
+    assert message.startswith("Step 2: Axis names and rollover\n  185 Axis Integrand Name ")
     assert amp("get", fresh, "1011", "--not-set").out.splitlines()[0] == "Step 3: Homing"
     assert amp("get", fresh, "control.type", "--not-set").out == "Every active value is set.\n"
 
@@ -163,10 +163,10 @@ def test_the_check_list_is_written_in_the_format_of_its_ending(amp, fresh: Path,
 
 
 def test_a_file_is_started_like_an_example_and_what_it_lacks_is_named(amp, tmp_path: Path) -> None:
-    said = amp("new", "9pc", tmp_path / "second.amp", "--like", "mill-1394")
-    assert said.code == 0
+    message = amp("new", "9pc", tmp_path / "second.amp", "--like", "mill-1394")
+    assert message.code == 0
     assert (
-        said.err
+        message.err
         == "Not taken over, because true of that machine alone: Probe Length Compensation, Probe Radius"
         " Compensation, Characters of the Password\n"
     )
@@ -175,8 +175,8 @@ def test_a_file_is_started_like_an_example_and_what_it_lacks_is_named(amp, tmp_p
 
 def test_a_file_is_started_like_another_on_other_axes(amp, tmp_path: Path) -> None:
     assert amp("new", "9pc", tmp_path / "a.amp", "--like", "mill-1394", "--axes", "X,Y,Z,S").code == 0
-    said = amp("new", "9pc", tmp_path / "b.amp", "--like", tmp_path / "a.amp", "--axes", "X,Z,C")
-    assert said.err.splitlines()[-2:] == [
+    message = amp("new", "9pc", tmp_path / "b.amp", "--like", tmp_path / "a.amp", "--axes", "X,Z,C")
+    assert message.err.splitlines()[-2:] == [
         "At the printed defaults, because the other file has no such axis: C",
         "Axes of the other file that the new one does not have: Y, S",
     ]
@@ -190,7 +190,7 @@ def test_what_cannot_be_alike_is_refused_and_nothing_is_written(amp, tmp_path: P
         (("9pc", path, "--like", "mill-1394", "--machine", "lathe"), "a lathe cannot be made like it"),
         (("num", path, "--like", "num-1060-mill", "--axes", "X,Y"), "leave the axes out"),
     ):
-        said = amp("new", *arguments)
-        assert said.code == 2
-        assert why in said.err
+        message = amp("new", *arguments)
+        assert message.code == 2
+        assert why in message.err
         assert not path.exists()

@@ -95,10 +95,10 @@ def test_neither_the_version_nor_help_loads_a_schema(arguments: str) -> None:
         "import sys; from amp_studio import cli; cli.run(sys.argv[1:]);print([m for m in ('pydantic',"
         " 'ruamel.yaml', 'amp_studio.schema', 'amp_studio.sim') if m in sys.modules])"
     )
-    told = subprocess.run(
+    reported = subprocess.run(
         [sys.executable, "-c", code, *arguments.split()], capture_output=True, text=True, check=True
     )
-    assert told.stdout.splitlines()[-1] == "[]"
+    assert reported.stdout.splitlines()[-1] == "[]"
 
 
 def test_checking_a_file_loads_nothing_of_printing_saving_and_explaining() -> None:
@@ -180,9 +180,9 @@ def test_the_file_in_contributing_is_all_that_a_new_verb_needs(
 
 
 def test_help_names_the_text_formats_that_there_are() -> None:
-    shown = dict(sections(VERBS["import"]))["FORMAT"]
-    assert dict(sections(VERBS["export"]))["FORMAT"] == shown
-    for line, each in zip(sorted(shown), sorted(all_formats(), key=lambda each: each.key), strict=True):
+    displayed = dict(sections(VERBS["import"]))["FORMAT"]
+    assert dict(sections(VERBS["export"]))["FORMAT"] == displayed
+    for line, each in zip(sorted(displayed), sorted(all_formats(), key=lambda each: each.key), strict=True):
         assert line.split()[0] == each.key
         assert each.title in line
         assert line.endswith(f"({' '.join((each.ending, *each.other_endings))})")
@@ -258,7 +258,7 @@ def test_the_examples_of_plain_files_work_word_for_word(here: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("line", "said"),
+    ("line", "message"),
     [
         ("vaildate x.amp", "Unknown verb 'vaildate'. Did you mean: validate"),
         ("validate --jsn x.amp", "Unknown option '--jsn'."),
@@ -285,17 +285,17 @@ def test_the_examples_of_plain_files_work_word_for_word(here: Path) -> None:
         (f"simulate {MILL} setp", "Did you mean: step"),
     ],
 )
-def test_a_wrong_name_is_answered_with_the_nearest(amp, here: Path, line: str, said: str) -> None:
+def test_a_wrong_name_is_answered_with_the_nearest(amp, here: Path, line: str, message: str) -> None:
     refused = amp(*line.split())
-    assert (refused.code, said in refused.err) == (2, True), refused.err
+    assert (refused.code, message in refused.err) == (2, True), refused.err
 
 
-def test_all_slips_of_a_set_are_told_at_once_and_nothing_is_changed(amp, here: Path) -> None:
+def test_all_slips_of_a_set_are_reported_at_once_and_nothing_is_changed(amp, here: Path) -> None:
     before = Path(MILL).read_bytes()
     refused = amp("set", MILL, "1300=abc", "home.calibratio@X=1", "350=drill", "2300=9999999 mm", "3300=1")
     assert refused.code == 2
-    for said in ("'abc'", "Unknown parameter 'home.calibratio@X'", "'drill'", "2300"):
-        assert said in refused.err, said
+    for message in ("'abc'", "Unknown parameter 'home.calibratio@X'", "'drill'", "2300"):
+        assert message in refused.err, message
     assert Path(MILL).read_bytes() == before
     assert "'1300' is not PARAM=VALUE; '=5' is not PARAM=VALUE" in amp("set", MILL, "1300", "=5").err
 
@@ -303,18 +303,24 @@ def test_all_slips_of_a_set_are_told_at_once_and_nothing_is_changed(amp, here: P
 # -- findings and counts
 
 
-def test_what_is_said_alike_of_several_axes_is_said_once_and_json_has_each(amp, here: Path) -> None:
+def test_what_is_shown_alike_of_several_axes_is_shown_once_and_json_has_each(amp, here: Path) -> None:
     assert amp("set", MILL, "1740=0.1", "2740=0.1", "3740=0.1").code == 0
-    told = amp("validate", MILL)
+    reported = amp("validate", MILL)
     found = amp("validate", MILL, "--json").json["findings"]
     rule = found[0]["rule"]
     assert [f["rule"] for f in found].count(rule) == 3
     assert [found.count(f) for f in found] == [1] * 6
     assert (
-        len([line for line in told.out.splitlines() if line.startswith("warning  axes X, Y, Z: 1740, 2740")])
+        len(
+            [
+                line
+                for line in reported.out.splitlines()
+                if line.startswith("warning  axes X, Y, Z: 1740, 2740")
+            ]
+        )
         == 1
     )
-    assert told.out.endswith(f"{MILL}: 0 errors, 6 warnings, 0 recommendations\n")
+    assert reported.out.endswith(f"{MILL}: 0 errors, 6 warnings, 0 recommendations\n")
 
 
 def test_one_is_one_and_two_are_several(amp, here: Path) -> None:
@@ -424,5 +430,5 @@ def test_completion_of_what_cannot_be_read_is_silent(here: Path, capsys: pytest.
         "set MILL_1394.amp zz=1",
     ):
         cli.run(["__complete", *line.split()])
-        told = capsys.readouterr()
-        assert (told.out, told.err) == ("", ""), line
+        reported = capsys.readouterr()
+        assert (reported.out, reported.err) == ("", ""), line

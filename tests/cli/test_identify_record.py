@@ -46,9 +46,9 @@ def record(mill: Path, homing: str) -> Path:
 
 def test_the_machine_is_written_and_simulated_with(amp, mill: Path, record: Path) -> None:
     machine = mill.with_name("machine.yaml")
-    said = amp("simulate", mill, "identify", record, "--axis", "X", "-o", machine)
-    assert said.code == 0
-    assert re.search(r"Coulomb friction +3\.000", said.out)
+    message = amp("simulate", mill, "identify", record, "--axis", "X", "-o", machine)
+    assert message.code == 0
+    assert re.search(r"Coulomb friction +3\.000", message.out)
     assert machine.read_text().startswith("# The machine of axis X")
     given = amp("simulate", mill, "step", *GIVEN, "--json").json["result"]["peak_torque"]["value"]
     found = amp("simulate", mill, "step", "--machine", machine, "--json").json["result"]["peak_torque"][
@@ -110,15 +110,15 @@ def test_the_fit_is_a_picture_or_a_table(amp, mill: Path, record: Path, name: st
         (["step", "--machine", "gone.yaml"], "gone.yaml"),
     ],
 )
-def test_what_cannot_be_used_is_told_in_one_line_and_nothing_is_written(
+def test_what_cannot_be_used_is_reported_in_one_line_and_nothing_is_written(
     amp, mill: Path, record: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str], words: str
 ) -> None:
     monkeypatch.chdir(mill.parent)
     before = sorted(path.name for path in mill.parent.iterdir()), record.read_bytes()
-    said = amp("simulate", "mill.amp", *arguments)
-    assert said.code == 2
-    assert words in said.err
-    assert len(said.err.splitlines()) == 1
+    message = amp("simulate", "mill.amp", *arguments)
+    assert message.code == 2
+    assert words in message.err
+    assert len(message.err.splitlines()) == 1
     assert (sorted(path.name for path in mill.parent.iterdir()), record.read_bytes()) == before
 
 
@@ -133,8 +133,8 @@ def test_options_may_come_before_the_scenario_and_the_record(
 
 
 def test_what_is_too_much_is_still_refused(amp, mill: Path) -> None:
-    said = amp("simulate", mill, "--axis", "X", "step", "record.csv", "more.csv")
-    assert (said.code, "Unexpected argument: more.csv" in said.err) == (2, True)
+    message = amp("simulate", mill, "--axis", "X", "step", "record.csv", "more.csv")
+    assert (message.code, "Unexpected argument: more.csv" in message.err) == (2, True)
 
 
 def test_the_list_names_it(amp, mill: Path) -> None:

@@ -67,8 +67,8 @@ def test_a_program_is_written_as_the_control_reads_it(
 
     target = tmp_path / "tuning.nc"
     assert run(["machine-tests", str(MILL), "tuning", "--axis", "X", "-o", str(target), "--json"]) == 0
-    said = json.loads(capsys.readouterr().out)
-    assert target.read_text("ascii").splitlines() == said["tests"][0]["lines"]
-    assert said["tests"][0]["steps"][0]["see"]
+    message = json.loads(capsys.readouterr().out)
+    assert target.read_text("ascii").splitlines() == message["tests"][0]["lines"]
+    assert message["tests"][0]["steps"][0]["see"]
     assert run(["machine-tests", str(MILL), "warp"]) == 2
     assert "Known: tuning" in capsys.readouterr().err

@@ -25,8 +25,8 @@ def mill(tmp_path: Path) -> Path:
     return Path(shutil.copy(EXAMPLE, tmp_path))
 
 
-def numbers(said) -> set[str]:
-    return {row["param"] for row in said.json["values"]}
+def numbers(message) -> set[str]:
+    return {row["param"] for row in message.json["values"]}
 
 
 def test_changed_values_are_those_that_are_not_the_default(amp, mill: Path) -> None:
@@ -93,5 +93,5 @@ def test_values_with_a_note_are_listed(amp, mill: Path) -> None:
 
 
 def test_without_a_download_nothing_can_be_newer_than_it(amp, mill: Path) -> None:
-    said = amp("get", mill, "--since-download")
-    assert (said.code, "No download of MILL_1394.amp is recorded" in said.err) == (2, True)
+    message = amp("get", mill, "--since-download")
+    assert (message.code, "No download of MILL_1394.amp is recorded" in message.err) == (2, True)

@@ -32,8 +32,8 @@ def three(amp, mill: Path) -> tuple[Path, Path, Path]:
 def test_a_conflict_is_settled_by_taking_a_side(amp, three, take: list[str], value: float) -> None:
     out = three[0].with_name("merged.amp")
     options = [text for side in take for text in ("--take", side)]
-    said = amp("merge", *three, "-o", out, *options)
-    assert (said.code, said.out.splitlines()[-1]) == (0, f"{out}: 0 conflicts")
+    sentence = amp("merge", *three, "-o", out, *options)
+    assert (sentence.code, sentence.out.splitlines()[-1]) == (0, f"{out}: 0 conflicts")
     assert open_file(out).file.get(CALIBRATION) == Value(value, "mm")
 
 
@@ -55,24 +55,24 @@ def test_a_side_that_is_none_is_refused_and_nothing_is_written(
     amp, three, folder, options: list[str], message: str
 ) -> None:
     before = folder()
-    said = amp("merge", *three, "-o", three[0].with_name("merged.amp"), *options)
-    assert (said.code, message in said.err) == (2, True)
+    sentence = amp("merge", *three, "-o", three[0].with_name("merged.amp"), *options)
+    assert (sentence.code, message in sentence.err) == (2, True)
     assert before == folder()
 
 
 def test_a_dry_run_lists_the_conflicts_and_writes_nothing(amp, three, folder) -> None:
     before = folder()
-    said = amp("merge", *three, "--dry-run")
-    assert said.out.splitlines() == [
+    sentence = amp("merge", *three, "--dry-run")
+    assert sentence.out.splitlines() == [
         "conflict at 1300 Home Calibration: base 0 mm, ours 1 mm, theirs 7 mm; ours is kept",
         "nothing written: 1 conflict",
     ]
-    assert (said.code, folder()) == (1, before)
+    assert (sentence.code, folder()) == (1, before)
 
 
 def test_a_merge_as_json_has_conflicts_changes_and_new_findings(amp, three) -> None:
     out = three[0].with_name("merged.amp")
-    said = amp("merge", *three, "-o", out, "--json")
+    sentence = amp("merge", *three, "-o", out, "--json")
     conflict = {
         "param": "1300",
         "id": "home.calibration",
@@ -83,10 +83,10 @@ def test_a_merge_as_json_has_conflicts_changes_and_new_findings(amp, three) -> N
         "taken": None,
         "result": "1 mm",
     }
-    assert (said.code, said.json["conflicts"], said.json["output"]) == (1, [conflict], str(out))
-    changes = {each["param"]: each["taken"] for each in said.json["changes"]}
+    assert (sentence.code, sentence.json["conflicts"], sentence.json["output"]) == (1, [conflict], str(out))
+    changes = {each["param"]: each["taken"] for each in sentence.json["changes"]}
     assert changes == {"1320": "theirs", "1350": "theirs"}
-    assert said.json["findings"] == []
+    assert sentence.json["findings"] == []
 
 
 def test_a_finding_that_only_the_result_has_is_named(amp, checkout: Path, tmp_path: Path) -> None:
@@ -95,9 +95,9 @@ def test_a_finding_that_only_the_result_has_is_named(amp, checkout: Path, tmp_pa
         path.write_bytes((checkout / "examples/mill-1394/MILL_1394.amp").read_bytes())
         amp("set", path, f"1730={gain_break}", f"1740={suppression}", "1750=14")
     out = tmp_path / "merged.amp"
-    said = amp("merge", base, ours, theirs, "-o", out)
-    assert (said.code, said.out) == (0, f"{out}: 0 conflicts\n")
-    assert "new in the result: warning 1730 Gain Break Point" in said.err
+    sentence = amp("merge", base, ours, theirs, "-o", out)
+    assert (sentence.code, sentence.out) == (0, f"{out}: 0 conflicts\n")
+    assert "new in the result: warning 1730 Gain Break Point" in sentence.err
     (finding,) = amp("merge", base, ours, theirs, "--dry-run", "--json").json["findings"]
     assert set(finding["params"]) == {"1730", "1740"}
 
@@ -105,8 +105,8 @@ def test_a_finding_that_only_the_result_has_is_named(amp, checkout: Path, tmp_pa
 def test_values_whose_unit_follows_their_axis_are_named(amp, three) -> None:
     base, ours, theirs = three
     amp("set", theirs, "axis.type@X=rotary")
-    said = amp("merge", base, ours, theirs, "-o", base.with_name("merged.amp"), "--take", "ours")
-    assert "the unit follows with the same figure: 1300 Home Calibration" in said.err
+    sentence = amp("merge", base, ours, theirs, "-o", base.with_name("merged.amp"), "--take", "ours")
+    assert "the unit follows with the same figure: 1300 Home Calibration" in sentence.err
     assert open_file(base.with_name("merged.amp")).file.get(CALIBRATION) == Value(1.0, "deg")
 
 
@@ -153,8 +153,8 @@ def test_git_merges_parameter_files_by_parameter_and_leaves_nothing_behind(amp, 
     git("checkout", "-q", "main")
     amp("set", mill, "1300=1 mm", "1320=2")  # beside the line that the other branch changes
     git("commit", "-qam", "ours")
-    said = git("merge", "-q", "-m", "merged", "spindle")
-    assert (said.returncode, said.stderr) == (0, ""), said.stdout
+    sentence = git("merge", "-q", "-m", "merged", "spindle")
+    assert (sentence.returncode, sentence.stderr) == (0, ""), sentence.stdout
     file = open_file(mill).file
     values = [file.get(file.find(number)) for number in ("1300", "2300", "1320")]
     assert values == [Value(1.0, "mm"), Value(3.0, "mm"), Value(2.0, "mm")]
@@ -162,17 +162,20 @@ def test_git_merges_parameter_files_by_parameter_and_leaves_nothing_behind(amp, 
     assert file.header.name == "mill"
 
 
-def test_git_is_told_of_a_conflict_and_the_file_stays_readable(amp, git, mill: Path) -> None:
+def test_git_gets_a_conflict_and_the_file_stays_readable(amp, git, mill: Path) -> None:
     git("checkout", "-qb", "spindle")
     amp("set", mill, "1300=1")
     git("commit", "-qam", "theirs")
     git("checkout", "-q", "main")
     amp("set", mill, "1300=2")
     git("commit", "-qam", "ours")
-    said = git("merge", "spindle")
-    assert said.returncode == 1
-    assert "conflict at 1300 Home Calibration: base 0 mm, ours 2 mm, theirs 1 mm; ours is kept" in said.stdout
-    assert "mill: 1 conflict\n" in said.stdout, "not the name that git gives its copy"
+    sentence = git("merge", "spindle")
+    assert sentence.returncode == 1
+    assert (
+        "conflict at 1300 Home Calibration: base 0 mm, ours 2 mm, theirs 1 mm; ours is kept"
+        in sentence.stdout
+    )
+    assert "mill: 1 conflict\n" in sentence.stdout, "not the name that git gives its copy"
     assert git("status", "--porcelain").stdout == "UU mill.amp\n"
     assert open_file(mill).file.get(CALIBRATION) == Value(2.0, "mm")
 
@@ -187,10 +190,10 @@ def test_a_file_that_both_branches_added_is_merged_without_a_base(amp, git, mill
         amp("set", mill, setting)
         git("add", "mill.amp")
         git("commit", "-qm", branch)
-    said = git("merge", "one")
-    assert said.returncode == 1
-    assert "conflict at 1320" in said.stdout
-    assert "1300" not in said.stdout
+    sentence = git("merge", "one")
+    assert sentence.returncode == 1
+    assert "conflict at 1320" in sentence.stdout
+    assert "1300" not in sentence.stdout
 
 
 # -- diff
@@ -237,13 +240,13 @@ def test_a_difference_of_three_shows_who_changed_it(amp, three) -> None:
 
 @pytest.mark.parametrize("sides", [(), ("--defaults", "--backup"), ("B", "--defaults")])
 def test_a_comparison_has_one_other_side(amp, mill: Path, sides: tuple[str, ...]) -> None:
-    said = amp("diff", mill, *(str(mill) if side == "B" else side for side in sides))
-    assert (said.code, "diff takes one other side" in said.err) == (2, True)
+    sentence = amp("diff", mill, *(str(mill) if side == "B" else side for side in sides))
+    assert (sentence.code, "diff takes one other side" in sentence.err) == (2, True)
 
 
 def test_a_file_that_was_never_downloaded_has_no_last_download(amp, mill: Path) -> None:
-    said = amp("diff", mill, "--last-download")
-    assert (said.code, "No download of mill.amp is recorded" in said.err) == (2, True)
+    sentence = amp("diff", mill, "--last-download")
+    assert (sentence.code, "No download of mill.amp is recorded" in sentence.err) == (2, True)
 
 
 def test_many_machines_are_compared_by_groups_that_agree(amp, mill: Path, tmp_path: Path) -> None:

@@ -44,9 +44,9 @@ def test_a_command_line_that_cannot_be_used(
     monkeypatch.chdir(mill.parent)
     Path("notes.txt").write_text("nothing of a control\n")
     before = sorted(mill.parent.iterdir())
-    said = amp(*line.split())
-    assert said.code == 2
-    assert said.err.startswith("amp-studio: ")
-    assert message in said.err
-    assert said.out == ""
+    sentence = amp(*line.split())
+    assert sentence.code == 2
+    assert sentence.err.startswith("amp-studio: ")
+    assert message in sentence.err
+    assert sentence.out == ""
     assert sorted(mill.parent.iterdir()) == before

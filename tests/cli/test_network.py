@@ -61,16 +61,16 @@ def test_the_password_opens_the_line_and_is_shown_nowhere(
     assert "the password is wrong" in wrong.err
     monkeypatch.setenv(passwords.ENVIRONMENT, PASSWORD)
     code = run(["identify", control])
-    told = capsys.readouterr()
-    assert code == 0 or "too many wrong passwords" in told.err
-    assert PASSWORD not in wrong.err + told.out + told.err
+    reported = capsys.readouterr()
+    assert code == 0 or "too many wrong passwords" in reported.err
+    assert PASSWORD not in wrong.err + reported.out + reported.err
     assert not any(
         PASSWORD.encode() in path.read_bytes() for path in (tmp_path / "state").rglob("*") if path.is_file()
     )
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "message"),
     [
         (["--listen", "tls://127.0.0.1:0"], "needs a certificate"),
         (
@@ -89,10 +89,10 @@ def test_the_password_opens_the_line_and_is_shown_nowhere(
     ],
 )
 def test_security_that_cannot_be_had_is_refused_at_the_start(
-    arguments: list[str], said: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
+    arguments: list[str], message: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     assert run(["emulate", "57c422b", "--state", str(tmp_path), *arguments]) == 2
-    assert said in capsys.readouterr().err
+    assert message in capsys.readouterr().err
 
 
 def test_who_listens_for_the_network_is_warned(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

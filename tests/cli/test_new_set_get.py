@@ -20,9 +20,9 @@ from amp_studio.schema import Value, family_ids, load_schema
 
 def test_a_new_file_is_of_the_machine_and_axes_asked_for(amp, tmp_path: Path) -> None:
     path = tmp_path / "bench.amp"
-    said = amp("new", "9pc", path, "--machine", "mill", "--axes", "X, Y,C")
-    assert (said.code, said.err) == (0, "")
-    assert re.fullmatch(rf"{re.escape(str(path))}: Allen-Bradley 9/PC AMP, mill, \d+ values\n", said.out)
+    message = amp("new", "9pc", path, "--machine", "mill", "--axes", "X, Y,C")
+    assert (message.code, message.err) == (0, "")
+    assert re.fullmatch(rf"{re.escape(str(path))}: Allen-Bradley 9/PC AMP, mill, \d+ values\n", message.out)
     file = open_file(path).file
     assert (file.machine, file.header.name) == ("mill", "bench")
     assert [Value("x"), Value("y"), Value("c"), None] == [file.get(("axis.name", axis)) for axis in "1234"]
@@ -30,13 +30,13 @@ def test_a_new_file_is_of_the_machine_and_axes_asked_for(amp, tmp_path: Path) ->
 
 def test_a_new_file_does_not_overwrite(amp, mill: Path, folder) -> None:
     before = folder()
-    said = amp("new", "9pc", mill)
-    assert (said.code, f"{mill} exists already" in said.err) == (2, True)
+    message = amp("new", "9pc", mill)
+    assert (message.code, f"{mill} exists already" in message.err) == (2, True)
     assert before == folder()
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "message"),
     [
         (("fanuc", "x.amp"), "Unknown family 'fanuc'. Known: "),
         (("9pc", "x.amp", "--machine", "grinder"), "Unknown machine type 'grinder'. Known: lathe, mill"),
@@ -48,11 +48,11 @@ def test_a_new_file_does_not_overwrite(amp, mill: Path, folder) -> None:
     ],
 )
 def test_a_new_file_that_cannot_be_is_not_made(
-    amp, tmp_path: Path, folder, monkeypatch, arguments, said: str
+    amp, tmp_path: Path, folder, monkeypatch, arguments, message: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
     refused = amp("new", *arguments)
-    assert (refused.code, said in refused.err) == (2, True), refused.err
+    assert (refused.code, message in refused.err) == (2, True), refused.err
     assert folder() == {}
     assert list(tmp_path.iterdir()) == []
 
@@ -113,14 +113,14 @@ def test_what_was_asked_for_comes_in_the_order_it_was_asked_for(amp, mill: Path)
 
 
 def test_without_parameters_everything_that_exists_is_given(amp, mill: Path) -> None:
-    shown = {(row["id"], row["instance"]) for row in amp("get", mill, "--json").json["values"]}
+    displayed = {(row["id"], row["instance"]) for row in amp("get", mill, "--json").json["values"]}
     every = {(row["id"], row["instance"]): row for row in amp("get", mill, "--all", "--json").json["values"]}
     assert set(load_schema("9pc").on("mill").addresses) == set(every)
     is_set = {a for a, row in every.items() if row.get("set", row["value"] is not None)}
-    assert shown == {a for a, row in every.items() if a in is_set and row["state"] != "hidden"}
+    assert displayed == {a for a, row in every.items() if a in is_set and row["state"] != "hidden"}
 
 
-def test_a_person_sees_what_was_changed_and_what_is_inactive(amp, mill: Path) -> None:
+def test_a_user_sees_what_was_changed_and_what_is_inactive(amp, mill: Path) -> None:
     amp("set", mill, "1300=2")
     lines = amp("get", mill, "1300", "2300", "1320", "1009").out.splitlines()
     assert re.fullmatch(r"1300 Home Calibration +2 mm \*", lines[0])
@@ -134,8 +134,8 @@ def test_a_person_sees_what_was_changed_and_what_is_inactive(amp, mill: Path) ->
 
 def test_a_value_is_set_and_the_previous_file_becomes_the_backup(amp, mill: Path) -> None:
     before = mill.read_bytes()
-    said = amp("set", mill, "1300=2.5")
-    assert (said.code, said.out, said.err) == (0, "1300 Home Calibration: 0 mm -> 2.5 mm\n", "")
+    message = amp("set", mill, "1300=2.5")
+    assert (message.code, message.out, message.err) == (0, "1300 Home Calibration: 0 mm -> 2.5 mm\n", "")
     assert before == backup_path(mill).read_bytes()
     assert Value(2.5, "mm") == open_file(mill).file.get(("home.calibration", "1"))
     (row,) = amp("get", mill, "1300", "--json").json["values"]
@@ -200,8 +200,8 @@ def test_no_choice_of_any_family_is_spelled_like_the_word_that_clears_a_value() 
 
 def test_assignments_count_one_after_the_other(amp, mill: Path) -> None:
     """Axis 1 is a spindle by the time its 1013 is read, and its lengths are angles."""
-    said = amp("set", mill, "360=spindle", "1013=9", "1300=5")
-    assert said.code == 0
+    message = amp("set", mill, "360=spindle", "1013=9", "1300=5")
+    assert message.code == 0
     file = open_file(mill).file
     assert (Value(9), Value(1)) == (
         file.get(("servo.spindle_motor_teeth", "1")),
@@ -215,8 +215,8 @@ def test_assignments_count_one_after_the_other(amp, mill: Path) -> None:
 )
 def test_a_parameter_that_is_given_two_values_gets_neither(amp, mill: Path, second: str) -> None:
     before = mill.read_bytes()
-    said = amp("set", mill, "1300=5", second)
-    assert (said.code, "it is given two values" in said.err, mill.read_bytes()) == (2, True, before)
+    message = amp("set", mill, "1300=5", second)
+    assert (message.code, "it is given two values" in message.err, mill.read_bytes()) == (2, True, before)
     assert amp("set", mill, "1300=5", "1300=5.0 mm").code == 0, "the same one twice is no doubt"
 
 
@@ -229,9 +229,9 @@ def test_a_pair_that_bounds_each_other_is_set_together(amp, mill: Path) -> None:
     )
 
 
-def test_who_sets_what_is_inactive_is_told(amp, mill: Path) -> None:
-    said = amp("set", mill, "1320=5")
-    assert (said.code, said.err) == (
+def test_who_sets_what_is_inactive_is_reported(amp, mill: Path) -> None:
+    message = amp("set", mill, "1320=5")
+    assert (message.code, message.err) == (
         0,
         (
             "1320 Positive Software Overtravel is inactive (ignored): software overtravel is not used on this"
@@ -252,7 +252,7 @@ def test_a_history_is_kept_of_what_was_set(amp, mill: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("assignments", "said"),
+    ("assignments", "message"),
     [
         (["1300=2", "9999=1"], "Unknown parameter '9999'. Did you mean: "),
         (["1300=2", "home.nothing@1=1"], "Unknown parameter 'home.nothing@1'"),
@@ -286,18 +286,18 @@ def test_a_history_is_kept_of_what_was_set(amp, mill: Path) -> None:
     ],
 )
 def test_one_fault_among_the_assignments_changes_nothing(
-    amp, mill: Path, folder, assignments, said: str
+    amp, mill: Path, folder, assignments, message: str
 ) -> None:
     before = folder()
     refused = amp("set", mill, *assignments)
-    assert (refused.code, said in refused.err) == (2, True), refused.err
+    assert (refused.code, message in refused.err) == (2, True), refused.err
     assert before == folder()
 
 
 def test_force_takes_a_value_out_of_range_and_marks_it(amp, mill: Path) -> None:
-    said = amp("set", mill, "1300=1e6", "2300=5", "--force")
-    assert said.code == 0
-    assert "1300 Home Calibration: 0 mm -> 1000000 mm" in said.out
+    message = amp("set", mill, "1300=1e6", "2300=5", "--force")
+    assert message.code == 0
+    assert "1300 Home Calibration: 0 mm -> 1000000 mm" in message.out
     rows = amp("get", mill, "1300", "2300", "--json").json["values"]
     assert [(row["value"], row["forced"]) for row in rows] == [(1e6, True), (5.0, False)]
     assert re.search(r"forced:\n  home\.calibration@1: on 20\S+ by 'set --force'", mill.read_text())
@@ -339,8 +339,8 @@ def test_a_file_in_use_is_not_changed(amp, mill: Path, folder) -> None:
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as other:
         assert other.stdout.readline().strip() == "open"
         before = folder()
-        said = amp("set", mill, "1300=2")
-        assert (said.code, "mill.amp is open in another program (" in said.err) == (2, True)
+        message = amp("set", mill, "1300=2")
+        assert (message.code, "mill.amp is open in another program (" in message.err) == (2, True)
         assert before == folder()
         other.communicate("\n")
     assert amp("set", mill, "1300=2").code == 0
@@ -354,6 +354,9 @@ def test_a_disk_that_is_full_changes_nothing(amp, mill: Path, folder, monkeypatc
 
     with monkeypatch.context() as patch:
         patch.setattr(os, "fsync", full)
-        said = amp("set", mill, "1300=2")
-    assert (2, f"amp-studio: {mill} cannot be written: No space left on device\n") == (said.code, said.err)
+        message = amp("set", mill, "1300=2")
+    assert (2, f"amp-studio: {mill} cannot be written: No space left on device\n") == (
+        message.code,
+        message.err,
+    )
     assert before == folder()

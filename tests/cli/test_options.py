@@ -62,7 +62,7 @@ def test_points_without_units_get_them(amp, example: Path, tmp_path: Path, optio
     assert (last["position"], last["figure"]) == (pytest.approx(point[0]), pytest.approx(point[1]))
 
 
-def test_a_decimal_comma_is_read_where_it_is_said_to_be_one(amp, example: Path, tmp_path: Path) -> None:
+def test_a_decimal_comma_is_read_where_it_is_shown_to_be_one(amp, example: Path, tmp_path: Path) -> None:
     laser = tmp_path / "laser.csv"
     laser.write_text("position [mm];error [mm]\n0;0\n100,500;0,004\n")
     line = (

@@ -63,8 +63,8 @@ def words(amp, tmp_path: Path, monkeypatch):
 
 
 def test_a_bit_of_a_word_is_set_by_itself(amp, words: Path) -> None:
-    said = amp("set", words, "P3N0.5=yes", "P3N0.0=0", "p3n1.8=mask")
-    assert (said.code, said.out) == (
+    message = amp("set", words, "P3N0.5=yes", "P3N0.0=0", "p3n1.8=mask")
+    assert (message.code, message.out) == (
         0,
         "P3N0 Displayed Axes: 0x0001 -> 0x0020\nP3N1 Displayed Axes: 0x0001 -> 0x0201\n",
     )
@@ -77,7 +77,7 @@ def test_a_bit_of_a_word_is_set_by_itself(amp, words: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("assignment", "said"),
+    ("assignment", "message"),
     [
         ("P3N0.16=1", "Displayed Axes has the bits 0 to 15, not 16"),
         ("P3N0.5=2", "'2' does not fit Axis 5, which takes 0 to 1"),
@@ -87,8 +87,8 @@ def test_a_bit_of_a_word_is_set_by_itself(amp, words: Path) -> None:
         ("P3N9.5=1", "Unknown parameter 'P3N9.5'"),
     ],
 )
-def test_a_bit_that_cannot_be_is_refused(amp, words: Path, assignment: str, said: str) -> None:
+def test_a_bit_that_cannot_be_is_refused(amp, words: Path, assignment: str, message: str) -> None:
     before = words.read_bytes()
     refused = amp("set", words, "P3N1=3", assignment)
-    assert (refused.code, said in refused.err) == (2, True), refused.err
+    assert (refused.code, message in refused.err) == (2, True), refused.err
     assert before == words.read_bytes()

@@ -17,8 +17,8 @@ def other(mill: Path, amp) -> Path:
 
 
 def test_differences_are_written_as_a_document(amp, mill: Path, other: Path, tmp_path: Path) -> None:
-    said = amp("diff", mill, other, "-o", tmp_path / "d.html")
-    assert said.code == 1, "they differ"
+    message = amp("diff", mill, other, "-o", tmp_path / "d.html")
+    assert message.code == 1, "they differ"
     assert "Home Calibration" in (tmp_path / "d.html").read_text("utf-8")
     assert amp("diff", mill, mill, "-o", tmp_path / "same.csv").code == 0
     assert amp("diff", mill, other, "-o", tmp_path / "d.doc").code == 2
@@ -26,9 +26,9 @@ def test_differences_are_written_as_a_document(amp, mill: Path, other: Path, tmp
 
 
 def test_machines_are_compared_value_by_value(amp, mill: Path, other: Path, tmp_path: Path) -> None:
-    said = amp("compare", mill, other, mill, "--json")
-    assert said.code == 1
-    (row,) = json.loads(said.out)["rows"]
+    message = amp("compare", mill, other, mill, "--json")
+    assert message.code == 1
+    (row,) = json.loads(message.out)["rows"]
     assert (row["param"], row["values"][1]) == ("1300", "1.5 mm")
     assert row["values"][0] == row["values"][2] != row["values"][1]
     assert "1 listed" in amp("compare", mill, other).out

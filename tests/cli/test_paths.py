@@ -57,9 +57,9 @@ def odd(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
 def test_a_path_that_is_no_file_is_no_input(amp, mill: Path, odd: Path, folder, verb: str) -> None:
     before = folder()
     words = {"IT": odd, "MILL": mill, "NEW": mill.with_name("new.amp"), "NEW.csv": mill.with_name("new.csv")}
-    said = amp(*[words.get(word, word) for word in verb.split()])
-    assert said.code == 2
-    assert odd.name in said.err
+    message = amp(*[words.get(word, word) for word in verb.split()])
+    assert message.code == 2
+    assert odd.name in message.err
     assert folder() == before
 
 
@@ -77,9 +77,9 @@ def test_a_path_that_is_no_file_is_no_input(amp, mill: Path, odd: Path, folder, 
 )
 def test_a_path_that_is_no_file_is_no_output(amp, mill: Path, odd: Path, folder, verb: str) -> None:
     before, kind = folder(), odd.lstat().st_mode
-    said = amp(*[{"IT": odd, "MILL": mill}.get(word, word) for word in verb.split()])
-    assert said.code == 2
-    assert odd.name in said.err
+    message = amp(*[{"IT": odd, "MILL": mill}.get(word, word) for word in verb.split()])
+    assert message.code == 2
+    assert odd.name in message.err
     assert (folder(), odd.lstat().st_mode) == (before, kind)
 
 
@@ -96,14 +96,14 @@ def test_an_output_that_is_the_input_by_another_name_is_refused(
     other = mill.with_name("other.csv")
     link(other, mill)
     before = folder()
-    said = amp(*[{"IT": other, "MILL": mill}.get(word, word) for word in verb.split()])
-    assert said.code == 2
-    assert "is the input" in said.err
+    message = amp(*[{"IT": other, "MILL": mill}.get(word, word) for word in verb.split()])
+    assert message.code == 2
+    assert "is the input" in message.err
     assert (folder(), other.is_symlink()) == (before, link is not hard)
 
 
 @pytest.mark.parametrize(
-    ("name", "said"),
+    ("name", "message"),
     [
         ("mill.amp", "is the input"),
         ("./mill.amp", "is the input"),
@@ -115,27 +115,27 @@ def test_an_output_that_is_the_input_by_another_name_is_refused(
     ],
 )
 def test_an_export_onto_the_file_itself_or_what_is_kept_beside_it_is_refused(
-    amp, mill: Path, folder, name: str, said: str
+    amp, mill: Path, folder, name: str, message: str
 ) -> None:
     (mill.parent / "below").mkdir()
     before = folder()
     refused = amp("export", mill, "-o", f"{mill.parent}/{name}", "--format", "csv")
     assert (refused.code, folder()) == (2, before)
-    assert said in refused.err
+    assert message in refused.err
 
 
 def test_an_export_whose_backup_would_replace_the_input_is_refused(amp, mill: Path, folder) -> None:
     backup = mill.rename(mill.with_name("table.csv.bak"))
     mill.with_name("table.csv").write_bytes(b"older")
     before = folder()
-    said = amp("export", backup, "-o", mill.with_name("table.csv"))
-    assert (said.code, folder()) == (2, before)
-    assert "in the place of the input" in said.err
+    message = amp("export", backup, "-o", mill.with_name("table.csv"))
+    assert (message.code, folder()) == (2, before)
+    assert "in the place of the input" in message.err
 
 
 def test_results_are_not_printed_into_the_output(amp, mill: Path, folder) -> None:
-    said = amp("report", mill, "-o", "/dev/stdout")
-    assert (said.code, set(folder())) == (2, {"mill.amp"})
+    message = amp("report", mill, "-o", "/dev/stdout")
+    assert (message.code, set(folder())) == (2, {"mill.amp"})
 
 
 def test_a_report_that_does_not_fit_on_the_disk_leaves_the_old_one(
@@ -148,25 +148,29 @@ def test_a_report_that_does_not_fit_on_the_disk_leaves_the_old_one(
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(atomic.os, "write", full)
-    said = amp("report", mill, "-o", report)
+    message = amp("report", mill, "-o", report)
     monkeypatch.undo()
-    assert (said.code, set(folder()), report.read_bytes()) == (2, {"mill.amp", "mill.csv"}, b"old")
-    assert said.err == f"amp-studio: {report} cannot be written: No space left on device\n"
+    assert (message.code, set(folder()), report.read_bytes()) == (2, {"mill.amp", "mill.csv"}, b"old")
+    assert message.err == f"amp-studio: {report} cannot be written: No space left on device\n"
 
 
 # -- folders
 
 
-def test_what_is_no_file_in_a_folder_is_told_and_the_rest_is_checked(amp, mill: Path, tmp_path: Path) -> None:
+def test_what_is_no_file_in_a_folder_is_reported_and_the_rest_is_checked(
+    amp, mill: Path, tmp_path: Path
+) -> None:
     os.mkfifo(tmp_path / "a-pipe.amp")
     (tmp_path / "endless.amp").symlink_to("/dev/zero")
     (tmp_path / "loop.amp").symlink_to("loop.amp")
-    said = _validated(tmp_path)
-    assert (said[0], said[1]) == (2, ["a-pipe.amp", "endless.amp", "loop.amp"])
-    assert "mill.amp: " in said[2]
+    message = _validated(tmp_path)
+    assert (message[0], message[1]) == (2, ["a-pipe.amp", "endless.amp", "loop.amp"])
+    assert "mill.amp: " in message[2]
 
 
-def test_a_folder_that_cannot_be_read_is_told_after_the_rest(mill: Path, tmp_path: Path, monkeypatch) -> None:
+def test_a_folder_that_cannot_be_read_is_reported_after_the_rest(
+    mill: Path, tmp_path: Path, monkeypatch
+) -> None:
     """As root reads every folder, the system reports it here by itself."""
     shut = tmp_path / "shut"
     shut.mkdir()
@@ -195,8 +199,8 @@ def _validated(folder: Path) -> tuple[int, list[str], str]:
     out, err = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
         code = cli.run(["validate", str(folder)])
-    told = [line for line in err.getvalue().splitlines() if line.startswith("amp-studio: ")]
-    return code, [Path(line.split(": ")[1]).name for line in told], out.getvalue()
+    reported = [line for line in err.getvalue().splitlines() if line.startswith("amp-studio: ")]
+    return code, [Path(line.split(": ")[1]).name for line in reported], out.getvalue()
 
 
 # -- names
@@ -219,16 +223,16 @@ def test_a_name_that_is_no_text_is_worked_with_and_shown(tmp_path: Path) -> None
     assert (code, json.loads(out)["values"][0]["value"]) == (0, 2.0)
 
 
-def test_a_name_too_long_to_be_edited_can_be_read_and_is_told(amp, mill: Path) -> None:
+def test_a_name_too_long_to_be_edited_can_be_read_and_is_reported(amp, mill: Path) -> None:
     long = mill.rename(mill.with_name(f"{'x' * 250}.amp"))
     assert amp("get", long, "1300").code == 0
     assert amp("report", long, "-o", long.with_suffix(".txt")).code == 0
-    said = amp("set", long, "1300=2 mm")
-    assert said.code == 2
-    assert "The name is too long for the files kept beside it" in said.err
+    message = amp("set", long, "1300=2 mm")
+    assert message.code == 2
+    assert "The name is too long for the files kept beside it" in message.err
 
 
-def test_a_path_that_nobody_can_look_at_and_an_empty_folder_end_no_other_check(
+def test_a_path_that_cannot_be_read_and_an_empty_folder_end_no_other_check(
     mill: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "empty").mkdir()
@@ -239,7 +243,7 @@ def test_a_path_that_nobody_can_look_at_and_an_empty_folder_end_no_other_check(
 
 
 @pytest.mark.parametrize("verb", ["validate", "get", "set", "export"])
-def test_an_empty_path_is_not_the_folder_one_stands_in(amp, verb: str) -> None:
+def test_an_empty_path_is_not_the_folder_one_is_in(amp, verb: str) -> None:
     more = {"set": ["1300=1 mm"], "export": ["-o", "out.csv"]}.get(verb, [])
     assert "the path is empty" in amp(verb, "", *more).err
 
@@ -268,9 +272,13 @@ def test_nothing_is_written_under_a_name_that_the_program_keeps_for_itself(
         ("new", "9pc", output),
         ("simulate", mill, "step", "-o", output),
     ):
-        said = amp(*words)
-        assert (said.code, said.out) == (2, "")
-        assert "choose another name" in said.err or "written to such a name" in said.err or "-o" in said.err
+        message = amp(*words)
+        assert (message.code, message.out) == (2, "")
+        assert (
+            "choose another name" in message.err
+            or "written to such a name" in message.err
+            or "-o" in message.err
+        )
     assert sorted(mill.parent.iterdir()) == before
 
 
@@ -284,7 +292,7 @@ def test_a_name_that_ends_like_a_folder_is_not_the_file_before_it(amp, mill: Pat
         ("report", mill, "-o", f"{mill.parent}/new.txt{ending}"),
         ("new", "9pc", f"{mill.parent}/new.amp{ending}"),
     ):
-        said = amp(*words)
-        assert (said.code, "ends like a folder, and there is no such folder" in said.err) == (2, True)
+        message = amp(*words)
+        assert (message.code, "ends like a folder, and there is no such folder" in message.err) == (2, True)
     assert (mill.read_bytes(), (mill.parent / "new.txt").exists()) == (content, False)
     assert amp("validate", f"{mill.parent}{ending}").code in (0, 1), "a folder may be written so"

@@ -18,9 +18,9 @@ def machine(tmp_path: Path, checkout: Path) -> Path:
 
 
 def test_the_pictures_of_a_file_are_listed_with_their_parts(amp, machine: Path) -> None:
-    said = amp("picture", machine)
-    assert said.code == 0
-    assert "travel       Travel: X Y, X Z, Y Z" in said.out.splitlines()
+    message = amp("picture", machine)
+    assert message.code == 0
+    assert "travel       Travel: X Y, X Z, Y Z" in message.out.splitlines()
     listed = amp("picture", machine, "--json").json["pictures"]
     assert [each["picture"] for each in listed] == [
         "travel",
@@ -35,26 +35,28 @@ def test_the_pictures_of_a_file_are_listed_with_their_parts(amp, machine: Path) 
 
 def test_a_picture_is_written_as_svg_and_the_file_left_alone(amp, machine: Path) -> None:
     before, out = machine.read_bytes(), machine.with_name("travel.svg")
-    said = amp("picture", machine, "travel", "--part", "x,z", "-o", out)
-    assert (said.code, said.out) == (0, "")
+    message = amp("picture", machine, "travel", "--part", "x,z", "-o", out)
+    assert (message.code, message.out) == (0, "")
     assert "Limit 3" in "".join(ET.fromstring(out.read_text("utf-8")).itertext())
     assert machine.read_bytes() == before
 
 
 def test_a_picture_as_data_has_its_handles_in_the_unit_of_the_file(amp, machine: Path) -> None:
-    told = amp("picture", machine, "travel", "--json").json
-    moves = {(m["id"], m["instance"]): h for h in told["handles"] if len(h["moves"]) == 1 for m in h["moves"]}
+    reported = amp("picture", machine, "travel", "--json").json
+    moves = {
+        (m["id"], m["instance"]): h for h in reported["handles"] if len(h["moves"]) == 1 for m in h["moves"]
+    }
     handle = moves["zone.overtravel_negative", "1"]
     assert (handle["value"], handle["at"][0], handle["moves"][0]["range"]) == (
         "-500 mm",
         -500.0,
         [-2540000.0, 8.0],
     )
-    assert json.dumps(told)
+    assert json.dumps(reported)
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "message"),
     [
         (("nothing",), "has no picture 'nothing'. Pictures: travel, ramps"),
         (("travel", "--part", "Q"), "There is no part 'Q': X Y, X Z, Y Z"),
@@ -63,11 +65,13 @@ def test_a_picture_as_data_has_its_handles_in_the_unit_of_the_file(amp, machine:
         (("travel", "-o", "mill.amp"), ""),
     ],
 )
-def test_a_picture_that_cannot_be_drawn_is_refused(amp, machine: Path, folder, arguments, said: str) -> None:
+def test_a_picture_that_cannot_be_drawn_is_refused(
+    amp, machine: Path, folder, arguments, message: str
+) -> None:
     arguments = [machine.parent / a if "." in a else a for a in arguments]
     before = machine.read_bytes()
     refused = amp("picture", machine, *arguments)
-    assert (refused.code, said in refused.err) == (2, True), refused.err
+    assert (refused.code, message in refused.err) == (2, True), refused.err
     assert len(refused.err.splitlines()) == 1
     assert (machine.read_bytes(), [p.name for p in machine.parent.iterdir() if p.suffix == ".svg"]) == (
         before,

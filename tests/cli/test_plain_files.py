@@ -68,9 +68,9 @@ def test_a_file_is_sent_and_received(
     address, _ = other_end(send)
     assert run(["receive", "--from", address, "-o", str(tmp_path / "back.txt")]) == 0
     assert (tmp_path / "back.txt").read_bytes() == b"N1 G0\n" * 50
-    told = capsys.readouterr()
-    assert told.out == f"{tmp_path / 'back.txt'}: 300 bytes\n"
-    assert "84 bytes 1Ah at its end were taken for padding" in told.err
+    reported = capsys.readouterr()
+    assert reported.out == f"{tmp_path / 'back.txt'}: 300 bytes\n"
+    assert "84 bytes 1Ah at its end were taken for padding" in reported.err
     assert run(["receive", "--from", address, "-o", str(tmp_path / "back.txt")]) == 2, (
         "nothing is overwritten"
     )
@@ -106,7 +106,7 @@ def test_ymodem_carries_several_files_into_a_folder_under_harmless_names(
     assert got == [[PlainFile("evil.txt", b"one"), PlainFile("b.txt", b"")]]
 
 
-def test_a_broken_transfer_says_how_much_has_arrived(
+def test_a_broken_transfer_shows_how_much_has_arrived(
     other_end: Callable[[Serve], tuple[str, list[object]]], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "plan.txt").write_bytes(bytes(300))
@@ -120,10 +120,10 @@ def test_a_broken_transfer_says_how_much_has_arrived(
 
     address, _ = other_end(leave)
     assert run(["send", str(tmp_path / "plan.txt"), "--to", address]) == 4
-    told = capsys.readouterr().err
+    reported = capsys.readouterr().err
     assert (
         "the other end has given the transfer up; 128 of 300 bytes were acknowledged: look at the control"
-        in told
+        in reported
     )
 
     address, _ = other_end(lambda line: line.put(b"C") and line.get(133, 5) and line.put(b"\x18\x18"))
@@ -151,7 +151,7 @@ def test_raw_text_goes_with_marks_and_leader(
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "message"),
     [
         (["send", "missing", "--to", "tcp://127.0.0.1:1"], "missing"),
         (["send", "plan.txt", "--to", "here"], "no address"),
@@ -172,7 +172,7 @@ def test_raw_text_goes_with_marks_and_leader(
 )
 def test_what_cannot_be_sent_is_refused_before_anything_is_opened(
     arguments: list[str],
-    said: str,
+    message: str,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
@@ -182,7 +182,7 @@ def test_what_cannot_be_sent_is_refused_before_anything_is_opened(
     Path("x" * 120).write_bytes(b"x")
     Path("odd.txt").write_bytes(b"N1\n10 \xb5m\n")
     assert run(arguments) == 2
-    assert said in capsys.readouterr().err
+    assert message in capsys.readouterr().err
 
 
 def test_the_parser_offers_every_protocol_of_plain_files() -> None:

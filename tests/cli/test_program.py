@@ -35,24 +35,24 @@ def test_exit_codes_and_streams_are_those_of_the_contract(mill: Path) -> None:
     assert refused.stderr.count(b"\n") == 1
 
 
-def test_the_version_and_the_help_are_told() -> None:
-    told = start("--version")
-    assert (0, f"amp-studio {__version__}\n".encode()) == (told.returncode, told.stdout)
-    told = start("set", "--help")
-    assert (told.returncode, b"PARAM=VALUE" in told.stdout) == (0, True)
+def test_the_version_and_the_help_are_reported() -> None:
+    reported = start("--version")
+    assert (0, f"amp-studio {__version__}\n".encode()) == (reported.returncode, reported.stdout)
+    reported = start("set", "--help")
+    assert (reported.returncode, b"PARAM=VALUE" in reported.stdout) == (0, True)
 
 
 @pytest.mark.parametrize(("encoding", "degrees"), [("ascii", r"0\xb0"), ("cp1252", "0°")])
 def test_a_terminal_that_lacks_signs_still_shows_everything(mill: Path, encoding: str, degrees: str) -> None:
-    shown = start("get", mill, "3300", "3207", PYTHONIOENCODING=encoding)
-    assert (shown.returncode, shown.stderr) == (0, b"")
-    assert degrees in shown.stdout.decode(encoding)
+    displayed = start("get", mill, "3300", "3207", PYTHONIOENCODING=encoding)
+    assert (displayed.returncode, displayed.stderr) == (0, b"")
+    assert degrees in displayed.stdout.decode(encoding)
 
 
 def test_a_document_for_another_program_is_json_in_any_encoding(mill: Path) -> None:
-    shown = start("schema", "9pc", "--json", PYTHONIOENCODING="ascii")
-    assert (shown.returncode, shown.stderr) == (0, b"")
-    assert json.loads(shown.stdout)["parameters"][0]["name"] == "Control Type"
+    displayed = start("schema", "9pc", "--json", PYTHONIOENCODING="ascii")
+    assert (displayed.returncode, displayed.stderr) == (0, b"")
+    assert json.loads(displayed.stdout)["parameters"][0]["name"] == "Control Type"
 
 
 def test_a_reader_that_has_enough_is_no_fault_to_be_shown() -> None:
@@ -65,7 +65,7 @@ def test_a_reader_that_has_enough_is_no_fault_to_be_shown() -> None:
 
 
 def test_a_message_is_one_line_that_can_be_read_whatever_it_repeats(amp) -> None:
-    said = amp("verify", "nothing.amp", "--with", "x" * 1_000_000).err
-    assert len(said) < 3100
-    said = amp("calculate", "9pc", "x" * 1_000_000).err
-    assert len(said) < 3100
+    message = amp("verify", "nothing.amp", "--with", "x" * 1_000_000).err
+    assert len(message) < 3100
+    message = amp("calculate", "9pc", "x" * 1_000_000).err
+    assert len(message) < 3100

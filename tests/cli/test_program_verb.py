@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 if TYPE_CHECKING:
-    from .conftest import Said
+    from .conftest import Outcome
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ROUTER = EXAMPLES / "acromill-router" / "ROUTER.amp"
@@ -24,10 +24,10 @@ def plate(tmp_path: Path) -> Path:
     return path
 
 
-def test_a_program_as_json_has_time_limits_and_error(amp: Callable[..., Said], plate: Path) -> None:
-    said = amp("program", plate, "--machine", ROUTER, "--json", "--what-if", "speeds.feed_acc_dec=+20%")
-    assert said.code == 0
-    found = json.loads(said.out)
+def test_a_program_as_json_has_time_limits_and_error(amp: Callable[..., Outcome], plate: Path) -> None:
+    message = amp("program", plate, "--machine", ROUTER, "--json", "--what-if", "speeds.feed_acc_dec=+20%")
+    assert message.code == 0
+    found = json.loads(message.out)
     assert found["time"]["unit"] == "s"
     assert sum(row["share"] for row in found["limited_by"]) == pytest.approx(1.0, abs=0.002)
     assert {"speeds.rapid", "speeds.feed_acc_dec"} <= {row["param"] for row in found["limited_by"]}
@@ -40,10 +40,10 @@ def test_a_program_as_json_has_time_limits_and_error(amp: Callable[..., Said], p
     assert tried["time_change"] < 0.0
 
 
-def test_text_csv_and_picture(amp: Callable[..., Said], plate: Path, tmp_path: Path) -> None:
-    said = amp("program", plate, "--machine", ROUTER, "--no-contour", "-o", tmp_path / "a.csv")
-    assert said.code == 0
-    assert "Where the time goes:" in said.out
+def test_text_csv_and_picture(amp: Callable[..., Outcome], plate: Path, tmp_path: Path) -> None:
+    message = amp("program", plate, "--machine", ROUTER, "--no-contour", "-o", tmp_path / "a.csv")
+    assert message.code == 0
+    assert "Where the time goes:" in message.out
     rows = (tmp_path / "a.csv").read_text().splitlines()
     assert rows[0].startswith("line,start_s,time_s")
     assert len(rows) == 7
@@ -54,19 +54,19 @@ def test_text_csv_and_picture(amp: Callable[..., Said], plate: Path, tmp_path: P
 
 
 def test_a_block_that_cannot_be_used_ends_with_1_and_is_named(
-    amp: Callable[..., Said], tmp_path: Path
+    amp: Callable[..., Outcome], tmp_path: Path
 ) -> None:
     path = tmp_path / "a.nc"
     path.write_text("G20\nG1 X-1 F10\nG41 X-2\n")
-    said = amp("program", path, "--machine", ROUTER, "--no-contour")
-    assert said.code == 1
-    assert "Line 3: G41 is not simulated" in said.out
+    message = amp("program", path, "--machine", ROUTER, "--no-contour")
+    assert message.code == 1
+    assert "Line 3: G41 is not simulated" in message.out
 
 
-def test_two_changes_are_tried_each_and_together(amp: Callable[..., Said], plate: Path) -> None:
+def test_two_changes_are_tried_each_and_together(amp: Callable[..., Outcome], plate: Path) -> None:
     changes = ("--what-if", "speeds.rapid=150", "--what-if", "speeds.min_corner=20")
-    said = amp("program", plate, "--machine", ROUTER, "--no-contour", "--json", *changes)
-    tries = json.loads(said.out)["what_if"]
+    message = amp("program", plate, "--machine", ROUTER, "--no-contour", "--json", *changes)
+    tries = json.loads(message.out)["what_if"]
     assert [len(each["changes"]) for each in tries] == [1, 1, 2]
     assert tries[2]["time"]["value"] <= min(each["time"]["value"] for each in tries[:2])
 
@@ -85,19 +85,19 @@ def test_two_changes_are_tried_each_and_together(amp: Callable[..., Said], plate
     ],
 )
 def test_what_is_no_option_ends_with_2(
-    amp: Callable[..., Said], plate: Path, arguments: tuple[str, ...], sentence: str
+    amp: Callable[..., Outcome], plate: Path, arguments: tuple[str, ...], sentence: str
 ) -> None:
-    said = amp("program", plate, "--machine", ROUTER, *arguments)
-    assert said.code == 2
-    assert sentence in said.err
+    message = amp("program", plate, "--machine", ROUTER, *arguments)
+    assert message.code == 2
+    assert sentence in message.err
 
 
 def test_a_family_without_printed_paths_and_a_file_that_is_none_end_with_2(
-    amp: Callable[..., Said], plate: Path, tmp_path: Path
+    amp: Callable[..., Outcome], plate: Path, tmp_path: Path
 ) -> None:
-    said = amp("program", plate, "--machine", EXAMPLES / "57c422b-label-press" / "LABEL_PRESS.amp")
-    assert (said.code, "no page here prints" in said.err) == (2, True)
+    message = amp("program", plate, "--machine", EXAMPLES / "57c422b-label-press" / "LABEL_PRESS.amp")
+    assert (message.code, "no page here prints" in message.err) == (2, True)
     binary = tmp_path / "a.nc"
     binary.write_bytes(bytes(1000))
-    said = amp("program", binary, "--machine", ROUTER)
-    assert (said.code, "is no text" in said.err) == (2, True)
+    message = amp("program", binary, "--machine", ROUTER)
+    assert (message.code, "is no text" in message.err) == (2, True)

@@ -9,7 +9,7 @@ import pytest
 
 from amp_studio import cli
 
-from .conftest import Said
+from .conftest import Outcome
 
 LISTING = "".join(
     f"${n}={value}\n"
@@ -55,7 +55,7 @@ def other(tmp_path: Path) -> Path:
     return path
 
 
-def test_a_listing_is_checked_and_read(amp: Callable[..., Said], listing: Path) -> None:
+def test_a_listing_is_checked_and_read(amp: Callable[..., Outcome], listing: Path) -> None:
     checked = amp("validate", listing, "--json")
     assert (checked.code, checked.json["errors"]) == (0, 0)
     assert "machine type Grbl 1.1" in checked.err
@@ -65,7 +65,7 @@ def test_a_listing_is_checked_and_read(amp: Callable[..., Said], listing: Path) 
 
 
 def test_listings_and_parameter_files_are_compared(
-    amp: Callable[..., Said], listing: Path, other: Path, tmp_path: Path
+    amp: Callable[..., Outcome], listing: Path, other: Path, tmp_path: Path
 ) -> None:
     made = tmp_path / "made.amp"
     assert amp("import", listing, "-o", made).code == 0
@@ -81,7 +81,7 @@ def test_listings_and_parameter_files_are_compared(
 
 
 def test_listings_are_merged_and_printed(
-    amp: Callable[..., Said], listing: Path, other: Path, tmp_path: Path
+    amp: Callable[..., Outcome], listing: Path, other: Path, tmp_path: Path
 ) -> None:
     ours, merged, printed = tmp_path / "ours.grbl", tmp_path / "merged.amp", tmp_path / "report.txt"
     ours.write_text(LISTING.replace("$120=250", "$120=90"), "utf-8")
@@ -94,7 +94,7 @@ def test_listings_are_merged_and_printed(
 
 
 def test_what_cannot_be_read_names_its_line_and_what_writes_needs_a_parameter_file(
-    amp: Callable[..., Said], listing: Path, tmp_path: Path
+    amp: Callable[..., Outcome], listing: Path, tmp_path: Path
 ) -> None:
     broken, text = tmp_path / "broken.nc", tmp_path / "letter.txt"
     broken.write_text(LISTING.replace("$0=10", "$0=1e-5"), "utf-8")
@@ -155,7 +155,7 @@ def test_every_verb_takes_the_machine_type_of_a_text(
 
 
 def test_the_machine_type_of_a_text_is_the_one_that_is_named(
-    amp: Callable[..., Said], few: Path, tmp_path: Path
+    amp: Callable[..., Outcome], few: Path, tmp_path: Path
 ) -> None:
     merged = tmp_path / "merged.amp"
     assert amp("merge", few, few, few, "-o", merged, "--machine", "grbl-1.1").code == 0

@@ -137,7 +137,7 @@ def test_every_verb_reads_a_text(
 
 
 @pytest.mark.parametrize("verb", WRITES)
-def test_a_verb_that_writes_wants_a_parameter_file(
+def test_a_verb_that_writes_needs_a_parameter_file(
     texts: dict[str, Path], verb: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for path in texts.values():

@@ -70,7 +70,7 @@ def test_the_good_file_of_these_stories_is_good(amp, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("kind", "said"),
+    ("kind", "message"),
     [
         ("duplicate", "bad.amp, line 5: 'axis.type@1' occurs twice"),
         ("newer", "bad.amp, line 1: was written by a newer AMP Studio (file format 9, known: 1)"),
@@ -80,12 +80,12 @@ def test_the_good_file_of_these_stories_is_good(amp, tmp_path: Path) -> None:
         ("not text", "bad.amp, line 3: is not UTF-8 text"),
     ],
 )
-def test_the_line_says_what_is_wrong_and_where(amp, tmp_path: Path, kind: str, said: str) -> None:
+def test_the_line_shows_what_is_wrong_and_where(amp, tmp_path: Path, kind: str, message: str) -> None:
     (tmp_path / "bad.amp").write_bytes(BAD[kind])
-    assert said in amp("get", tmp_path / "bad.amp").err
+    assert message in amp("get", tmp_path / "bad.amp").err
 
 
-def test_a_fault_in_the_facts_is_told_in_one_line(amp, mill: Path, tmp_path: Path, monkeypatch) -> None:
+def test_a_fault_in_the_facts_is_reported_in_one_line(amp, mill: Path, tmp_path: Path, monkeypatch) -> None:
     from amp_studio.schema import DatabaseError
 
     def broken(_: str) -> None:
@@ -97,7 +97,7 @@ def test_a_fault_in_the_facts_is_told_in_one_line(amp, mill: Path, tmp_path: Pat
         assert (refused.code, "family.yaml, line 3: colour" in refused.err) == (2, True)
 
 
-def test_stopping_it_is_told_and_ends_with_2(amp, mill: Path, monkeypatch) -> None:
+def test_stopping_it_is_reported_and_ends_with_2(amp, mill: Path, monkeypatch) -> None:
     def stop(*_: object) -> int:
         raise KeyboardInterrupt
 

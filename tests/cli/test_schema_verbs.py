@@ -11,9 +11,9 @@ SCOPES = {"global", "axis", "spindle", "process", "group", "word", "register"}
 
 
 def test_families_are_listed_with_their_size(amp) -> None:
-    said = amp("families", "--json")
-    assert (said.code, said.err) == (0, "")
-    rows = {row["id"]: row for row in said.json["families"]}
+    message = amp("families", "--json")
+    assert (message.code, message.err) == (0, "")
+    rows = {row["id"]: row for row in message.json["families"]}
     schema = load_schema("9pc")
     assert {"id", "name", "parameters", "values"} <= rows["9pc"].keys()
     values = max(len(schema.on(machine).addresses) for machine in ("mill", "lathe"))
@@ -21,18 +21,18 @@ def test_families_are_listed_with_their_size(amp) -> None:
     assert expected == (rows["9pc"]["name"], rows["9pc"]["parameters"], rows["9pc"]["values"])
 
 
-def test_families_for_a_person_are_one_line_each(amp) -> None:
-    said = amp("families")
-    assert len(amp("families", "--json").json["families"]) == len(said.out.splitlines())
-    assert "9pc        Allen-Bradley 9/PC AMP" in said.out
+def test_families_for_a_user_are_one_line_each(amp) -> None:
+    message = amp("families")
+    assert len(amp("families", "--json").json["families"]) == len(message.out.splitlines())
+    assert "9pc        Allen-Bradley 9/PC AMP" in message.out
 
 
 @pytest.fixture
 def definitions(amp):
     """Return every definition of the 9/PC by id, as another program reads it."""
-    said = amp("schema", "9pc", "--json")
-    assert (said.code, said.err, said.json["family"]) == (0, "", "9pc")
-    return {row["id"]: row for row in said.json["parameters"]}
+    message = amp("schema", "9pc", "--json")
+    assert (message.code, message.err, message.json["family"]) == (0, "", "9pc")
+    return {row["id"]: row for row in message.json["parameters"]}
 
 
 def test_a_definition_has_the_promised_shape(definitions) -> None:
@@ -103,9 +103,9 @@ def test_one_group_can_be_asked_for(amp) -> None:
 
 
 @pytest.mark.parametrize("param", ["1300", "home.calibration", "home.calibration@1", " 1300 "])
-def test_a_parameter_is_shown_as_a_person_reads_it(amp, param: str) -> None:
-    said = amp("show", "9pc", param)
-    assert (said.code, said.err) == (0, "")
+def test_a_parameter_is_shown_as_a_user_reads_it(amp, param: str) -> None:
+    message = amp("show", "9pc", param)
+    assert (message.code, message.err) == (0, "")
     for part in (
         "Home Calibration",
         "home.calibration",
@@ -113,55 +113,57 @@ def test_a_parameter_is_shown_as_a_person_reads_it(amp, param: str) -> None:
         "page 5-10",
         "How to find its value",
     ):
-        assert part in said.out
+        assert part in message.out
 
 
 def test_a_number_of_two_parameters_shows_both(amp) -> None:
-    said = amp("show", "9pc", "1013")
-    assert said.code == 0
-    assert "Teeth on Motor Gear for Velocity Feedback" in said.out
-    assert "No of Teeth on Motor Gear" in said.out
+    message = amp("show", "9pc", "1013")
+    assert message.code == 0
+    assert "Teeth on Motor Gear for Velocity Feedback" in message.out
+    assert "No of Teeth on Motor Gear" in message.out
 
 
 def test_the_numbers_are_drawn_together_and_those_of_a_gear_are_named(amp) -> None:
     assert "Number         1750, 2750 … 8750 (Axis 1 to Axis 8)" in amp("show", "9pc", "1750").out
-    said = amp("show", "9pc", "912").out
-    assert "900" not in said.partition("Id ")[0]
-    assert "910, 911 … 917 (Spindle 1, Gear 1 to Spindle 1, Gear 8); 930, 931 … 937" in " ".join(said.split())
-    assert "page 12-8 and 13-8" in said
+    message = amp("show", "9pc", "912").out
+    assert "900" not in message.partition("Id ")[0]
+    assert "910, 911 … 917 (Spindle 1, Gear 1 to Spindle 1, Gear 8); 930, 931 … 937" in " ".join(
+        message.split()
+    )
+    assert "page 12-8 and 13-8" in message
 
 
-def test_a_number_that_a_mill_and_a_lathe_do_not_share_says_so(amp) -> None:
-    said = amp("show", "9pc", "powerup.plane").out
-    assert "522 on a mill" in said
-    assert "564 on a lathe" in said
-    assert amp("show", "9pc", "564").out == amp("show", "9pc", "522").out == said
+def test_a_number_that_a_mill_and_a_lathe_do_not_share_shows_it(amp) -> None:
+    message = amp("show", "9pc", "powerup.plane").out
+    assert "522 on a mill" in message
+    assert "564 on a lathe" in message
+    assert amp("show", "9pc", "564").out == amp("show", "9pc", "522").out == message
 
 
-def test_a_printed_table_stands_on_the_page_of_what_is_looked_up_in_it(amp) -> None:
-    said = amp("show", "9pc", "1801").out
-    assert "Velocity Proportional Gain Values for Standard Motors (page 7-55)" in said
-    (row,) = [line.split() for line in said.splitlines() if line.strip().startswith("1 : 2  ")]
+def test_a_printed_table_is_on_the_page_of_what_is_looked_up_in_it(amp) -> None:
+    message = amp("show", "9pc", "1801").out
+    assert "Velocity Proportional Gain Values for Standard Motors (page 7-55)" in message
+    (row,) = [line.split() for line in message.splitlines() if line.strip().startswith("1 : 2  ")]
     assert row[3:] == ["3000", "6000", "9000", "22500", "26214", "18000", "30000", "10800", "66000"]
 
 
 def test_the_steps_of_the_guides_stand_on_the_page_of_what_they_set(amp) -> None:
-    said = amp("show", "num", "P21N0").out
-    assert "\n  Integration 3.3 Servo-Control Settings, step 5 of 16: P21 Servo-System Loop Gain" in said
+    message = amp("show", "num", "P21N0").out
+    assert "\n  Integration 3.3 Servo-Control Settings, step 5 of 16: P21 Servo-System Loop Gain" in message
     assert (
         "\n  Integration, procedures with the machine, step 10 of 12: 11.2.1 Time constant (page 11-6)\n"
-        in said
+        in message
     )
     assert "\nGuides\n" not in amp("show", "9pc", "1801").out
 
 
 def test_the_step_of_commissioning_is_on_the_page_and_the_one_that_looks_again(amp) -> None:
-    said = amp("show", "9pc", "servo.velocity_integral_gain").out
+    message = amp("show", "9pc", "servo.velocity_integral_gain").out
     steps = (
         "\nCommissioning\n  Step 7 of 23: Velocity loop (page 7-46)\n  Step 22 of 23: Tuning at the machine"
         " (page 36-1)\n"
     )
-    assert steps in said
+    assert steps in message
 
 
 def test_the_bits_of_a_word_are_shown_and_those_that_count_up_share_a_line(amp) -> None:
@@ -175,7 +177,7 @@ def test_the_bits_of_a_word_are_shown_and_those_that_count_up_share_a_line(amp) 
     assert "0 to 7: Bit 0 to Bit 7 (not legible in the manual: keep the present value)" in lost
 
 
-def test_bits_that_one_lost_figure_would_name_are_told_once(amp) -> None:
+def test_bits_that_one_lost_figure_would_name_are_reported_once(amp) -> None:
     word = amp("show", "57c422b", "setup.drive").out
     assert (
         "               2 to 15: Unnamed (figure 4.2) (not legible in the manual: keep the present value)\n"
@@ -193,21 +195,23 @@ def test_no_line_of_any_page_is_wider_than_a_terminal(amp) -> None:
 
 
 def test_a_choice_a_rule_and_a_contradiction_are_shown(amp) -> None:
-    said = amp("show", "9pc", "1020", "--machine", "mill")
+    message = amp("show", "9pc", "1020", "--machine", "mill")
     for part in ("(a) True, stored as 1", "Software Overtravel Used", "Contradiction in the manual"):
-        assert part in said.out
-    assert "Velocity Loop Feedback Port\n---" not in said.out, "1020 belongs to the other one"
+        assert part in message.out
+    assert "Velocity Loop Feedback Port\n---" not in message.out, "1020 belongs to the other one"
     assert "Rules that use it" in amp("show", "9pc", "1730").out
 
 
 def test_the_formulas_of_a_parameter_are_shown_with_their_page(amp) -> None:
-    said = " ".join(amp("show", "9pc", "1750").out.split())
-    assert "Formulas minimum_excess_error(rapid, gain, break_ratio): Smallest sensible Excess Error" in said
-    assert "(page 7-20)" in said
+    message = " ".join(amp("show", "9pc", "1750").out.split())
+    assert (
+        "Formulas minimum_excess_error(rapid, gain, break_ratio): Smallest sensible Excess Error" in message
+    )
+    assert "(page 7-20)" in message
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "message"),
     [
         (("schema", "fanuc"), "Unknown family 'fanuc'. Known: "),
         (("schema", "9pc", "--group", "Tools"), "Unknown group 'Tools'"),
@@ -219,9 +223,9 @@ def test_the_formulas_of_a_parameter_are_shown_with_their_page(amp) -> None:
         (("frobnicate",), "frobnicate"),
     ],
 )
-def test_what_does_not_exist_is_refused(amp, arguments, said: str) -> None:
+def test_what_does_not_exist_is_refused(amp, arguments, message: str) -> None:
     refused = amp(*arguments)
-    assert (refused.code, said in refused.err) == (2, True), refused.err
+    assert (refused.code, message in refused.err) == (2, True), refused.err
 
 
 # -- tables
@@ -231,10 +235,10 @@ def test_tables_are_listed_and_one_is_printed_with_its_parameters(amp) -> None:
     listed = amp("tables", "syntec").out
     assert "mot-019" in listed
     assert "MOT-019 Following error exceed (page 1.5.3)" in listed
-    said = amp("tables", "syntec", "mot-019")
-    assert said.out.startswith("MOT-019 Following error exceed (page 1.5.3)\n")
-    assert "Cause 1" in said.out
-    assert said.out.rstrip().splitlines()[-1].startswith("Parameters: servo.loop_gain, feed.rapid")
+    message = amp("tables", "syntec", "mot-019")
+    assert message.out.startswith("MOT-019 Following error exceed (page 1.5.3)\n")
+    assert "Cause 1" in message.out
+    assert message.out.rstrip().splitlines()[-1].startswith("Parameters: servo.loop_gain, feed.rapid")
 
 
 def test_tables_as_json_are_all_there(amp) -> None:
@@ -260,10 +264,10 @@ def test_a_number_that_belongs_to_another_parameter_is_listed_under_that_one(amp
     though page 7-46 prints it for the velocity port.
     """
     owners = {n: i for i, d in definitions.items() for n in d["numbers"].values()}
-    said = amp("get", mill, "1020", "--json")
-    assert said.json["values"][0]["id"] == owners["1020"] == "zone.overtravel_used"
+    message = amp("get", mill, "1020", "--json")
+    assert message.json["values"][0]["id"] == owners["1020"] == "zone.overtravel_used"
     assert (
-        said.err
+        message.err
         == "1020 is printed for two parameters: taken is Software Overtravel Used (zone.overtravel_used@1); "
         "the other is Velocity Loop Feedback Port (servo.velocity_port@1)\n"
     )
@@ -273,20 +277,22 @@ def test_a_number_that_belongs_to_another_parameter_is_listed_under_that_one(amp
     assert definitions["zone.overtravel_used"]["numbers_also_printed_for"] == ["servo.velocity_port"]
 
 
-def test_every_verb_takes_the_same_one_and_says_so(amp, mill) -> None:
-    said = amp("set", mill, "1020=True")
-    assert (said.code, "taken is Software Overtravel Used" in said.err) == (0, True)
-    assert said.out == "1020 Software Overtravel Used: False -> True\n"
-    shown = " ".join(amp("show", "9pc", "1020").out.split())
-    assert "(Axis 1 to Axis 8); also printed for Velocity Loop Feedback Port (servo.velocity_port)" in shown
-    shown = " ".join(amp("show", "9pc", "servo.velocity_port@X").out.split())
-    assert "printed, but they address Software Overtravel Used (zone.overtravel_used)" in shown
-    assert "servo.velocity_port@1 to servo.velocity_port@8 (Axis 1 to Axis 8)" in shown
+def test_every_verb_takes_the_same_one_and_shows_it(amp, mill) -> None:
+    message = amp("set", mill, "1020=True")
+    assert (message.code, "taken is Software Overtravel Used" in message.err) == (0, True)
+    assert message.out == "1020 Software Overtravel Used: False -> True\n"
+    displayed = " ".join(amp("show", "9pc", "1020").out.split())
+    assert (
+        "(Axis 1 to Axis 8); also printed for Velocity Loop Feedback Port (servo.velocity_port)" in displayed
+    )
+    displayed = " ".join(amp("show", "9pc", "servo.velocity_port@X").out.split())
+    assert "printed, but they address Software Overtravel Used (zone.overtravel_used)" in displayed
+    assert "servo.velocity_port@1 to servo.velocity_port@8 (Axis 1 to Axis 8)" in displayed
 
 
 def test_the_other_one_is_set_by_its_id_and_named_with_it(amp, mill) -> None:
-    said = amp("set", mill, "servo.velocity_port@X=b")
-    assert said.out.startswith("Velocity Loop Feedback Port Axis 1 (servo.velocity_port@1): ")
+    message = amp("set", mill, "servo.velocity_port@X=b")
+    assert message.out.startswith("Velocity Loop Feedback Port Axis 1 (servo.velocity_port@1): ")
     assert (
         amp("get", mill, "servo.velocity_port@1", "--json").json["values"][0]["value"]
         == "Feedback Connector J1"
@@ -299,9 +305,9 @@ def test_a_finding_names_what_has_no_number_by_its_address(amp, tmp_path) -> Non
     amp("set", path, "axes.handwheel_ratio@X=0", "home.priority@X=-1", "--force")
     found = amp("validate", path, "--json").json["findings"]
     ids = {p for f in found if f["severity"] == "error" for p in f["params"]}
-    said = amp("validate", path).out
+    message = amp("validate", path).out
     assert ids
-    assert all(f"({p})" in said for p in ids if "@" in p)
+    assert all(f"({p})" in message for p in ids if "@" in p)
 
 
 def test_values_of_one_parameter_are_named_once_by_their_numbers(amp, tmp_path) -> None:
@@ -322,8 +328,8 @@ def test_defaults_of_instances_are_whole_where_the_parameter_is(amp, definitions
     assert default == {"": 65, "instances": {"2": 66, "3": 45, "4": 68, "5": 52, "6": 32}}
     assert all(isinstance(v, int) for v in default["instances"].values())
     assert "66.0" not in amp("schema", "9pc", "--json").out.replace(" ", "")
-    shown = amp("show", "9pc", "101").out
-    assert "65, 66 for Character 2, 45 for Character 3" in shown
+    displayed = amp("show", "9pc", "101").out
+    assert "65, 66 for Character 2, 45 for Character 3" in displayed
 
 
 @pytest.mark.parametrize("family", family_ids())
@@ -364,7 +370,7 @@ def test_instances_without_a_number_are_seen(amp, param: str, span: str, instanc
         ("Pr410", "ms"),
     ],
 )
-def test_a_speed_of_syntec_says_its_unit_where_a_person_looks(amp, tmp_path, param: str, unit: str) -> None:
+def test_a_speed_of_syntec_shows_its_unit_where_a_user_looks(amp, tmp_path, param: str, unit: str) -> None:
     """Page 4.1 prints mm/min; an axis that turns has degrees."""
     assert f"Range          no bounds printed, in {unit}\n" in amp("show", "syntec", param).out
     path = tmp_path / "mill.amp"

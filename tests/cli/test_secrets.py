@@ -96,7 +96,7 @@ def test_the_nine_pc_has_a_password_and_its_signature_is_what_it_was() -> None:
     ],
     ids=" ".join,
 )
-def test_no_verb_says_a_secret(machine: Path, amp, tmp_path: Path, arguments: tuple[str, ...]) -> None:
+def test_no_verb_shows_a_secret(machine: Path, amp, tmp_path: Path, arguments: tuple[str, ...]) -> None:
     file = open_file(machine).file
     first = secret_values(file)[0]
     named = {
@@ -116,10 +116,12 @@ def test_no_verb_says_a_secret(machine: Path, amp, tmp_path: Path, arguments: tu
     if "FOLDER" in arguments:
         named["UNREADABLE"].unlink()
     number = file.machine_schema.short(first)
-    said = amp(*(named.get(a) or a.replace("NUMBER", number) for a in arguments))
-    told = said.out + said.err
-    assert SECRET not in told, told[max(0, told.index(SECRET) - 200) : told.index(SECRET) + 50]
-    assert OTHER not in told
+    message = amp(*(named.get(a) or a.replace("NUMBER", number) for a in arguments))
+    reported = message.out + message.err
+    assert SECRET not in reported, reported[
+        max(0, reported.index(SECRET) - 200) : reported.index(SECRET) + 50
+    ]
+    assert OTHER not in reported
     for beside in tmp_path.rglob("*.history"):
         history = beside.read_text("utf-8")
         assert SECRET not in history
@@ -152,16 +154,16 @@ def text_of(report: Path) -> str:
     return typst_source(build_report(open_file(report.with_name("machine.amp")).file))
 
 
-def test_no_export_holds_a_secret_and_what_is_masked_comes_back_as_not_set(
+def test_no_export_contains_a_secret_and_what_is_masked_comes_back_as_not_set(
     machine: Path, amp, tmp_path: Path
 ) -> None:
     file = open_file(machine).file
     secret = set(secret_values(file))
     for text_format in formats_of(file.schema.family.family):
         out = tmp_path / f"out{text_format.ending}"
-        said = amp("export", machine, "-o", out, "--format", text_format.key)
-        assert said.code == 0
-        assert "secret values are left out" in said.err
+        message = amp("export", machine, "-o", out, "--format", text_format.key)
+        assert message.code == 0
+        assert "secret values are left out" in message.err
         assert SECRET not in out.read_text(text_format.encoding)
     assert amp("export", machine, "-o", tmp_path / "clear.csv", "--secrets").code == 0
     assert SECRET in (tmp_path / "clear.csv").read_text("utf-8")
@@ -176,7 +178,7 @@ def test_no_export_holds_a_secret_and_what_is_masked_comes_back_as_not_set(
         assert len(back.values) > 100
 
 
-def test_what_is_masked_is_told_apart_from_what_is_not_set(machine: Path, amp, tmp_path: Path) -> None:
+def test_what_is_masked_is_distinguished_from_what_is_not_set(machine: Path, amp, tmp_path: Path) -> None:
     file = open_file(machine).file
     first = file.machine_schema.short(secret_values(file)[0])
     (row,) = amp("get", machine, first, "--json").json["values"]
@@ -189,13 +191,13 @@ def test_what_is_masked_is_told_apart_from_what_is_not_set(machine: Path, amp, t
     assert (row["value"], row["secret"], row["set"]) == (None, True, False)
 
 
-def test_a_difference_of_secrets_is_told_without_them(machine: Path, amp, tmp_path: Path) -> None:
+def test_a_difference_of_secrets_is_reported_without_them(machine: Path, amp, tmp_path: Path) -> None:
     other = tmp_path / "other.amp"
     shutil.copy(machine, other)
     with_password(other, OTHER)
-    said = amp("diff", machine, other)
-    assert said.code == 1
-    assert said.out.count(f"{MASK}  |  {MASK}") == len(secret_values(open_file(machine).file))
+    message = amp("diff", machine, other)
+    assert message.code == 1
+    assert message.out.count(f"{MASK}  |  {MASK}") == len(secret_values(open_file(machine).file))
     assert {
         (d["a"], d["b"], d["secret"]) for d in amp("diff", machine, other, "--json").json["differences"]
     } == {(MASK, MASK, True)}
@@ -204,18 +206,18 @@ def test_a_difference_of_secrets_is_told_without_them(machine: Path, amp, tmp_pa
 
 def test_the_mask_itself_is_no_value(machine: Path, amp) -> None:
     before = machine.read_bytes()
-    said = amp("set", machine, f"101={MASK}")
-    assert (said.code, "is no value" in said.err) == (2, True)
+    message = amp("set", machine, f"101={MASK}")
+    assert (message.code, "is no value" in message.err) == (2, True)
     assert machine.read_bytes() == before
 
 
 def test_the_printed_password_is_warned_of_and_not_written(amp, tmp_path: Path) -> None:
     path = tmp_path / "new.amp"
     amp("new", "9pc", path)
-    said = amp("validate", path, "--why", "--json").out
-    assert "9pc.password.factory-setting" in said
-    assert "AB-D4" not in said
-    assert "[65" not in said
+    message = amp("validate", path, "--why", "--json").out
+    assert "9pc.password.factory-setting" in message
+    assert "AB-D4" not in message
+    assert "[65" not in message
     assert all(row["default"] for row in amp("get", path, "101", "106", "--json").json["values"])
     amp("set", path, "103=46")  # which five signs are the printed ones is hidden
     rows = amp("get", path, *(str(n) for n in range(101, 107)), "--json").json["values"]
@@ -229,12 +231,12 @@ def control(tmp_path: Path) -> Iterator[str]:
         yield address
 
 
-def test_no_exchange_with_a_control_says_a_secret(amp, tmp_path: Path, control: str) -> None:
+def test_no_exchange_with_a_control_shows_a_secret(amp, tmp_path: Path, control: str) -> None:
     path = tmp_path / "machine.amp"
     amp("new", "9pc", path)
     amp("set", path, "101=90")
-    said = amp("verify", path, "--with", control)
-    assert (said.code, said.out.count(f"{MASK}  |  {MASK}")) == (1, 1)
+    message = amp("verify", path, "--with", control)
+    assert (message.code, message.out.count(f"{MASK}  |  {MASK}")) == (1, 1)
     (difference,) = amp("verify", path, "--with", control, "--json").json["differences"]
     assert (difference["a"], difference["b"]) == (MASK, MASK)
     (difference,) = amp("verify", path, "--with", control, "--json", "--secrets").json["differences"]

@@ -27,12 +27,12 @@ def sides(tmp_path: Path, amp) -> tuple[Path, Path]:
 
 def test_the_sheet_is_printed_in_a_safe_order_and_nothing_is_written(amp, sides, tmp_path: Path) -> None:
     before = sorted(tmp_path.iterdir())
-    said = amp("sheet", sides[0], "--against", sides[1])
-    assert said.code == 0
-    assert said.out.index("1750 ") < said.out.index("1740 ")
+    message = amp("sheet", sides[0], "--against", sides[1])
+    assert message.code == 0
+    assert message.out.index("1750 ") < message.out.index("1740 ")
     assert (
         "[ ]    1  1750                      40 mm                  11  Excess Error Axis 1 (page 7-20)"
-        in said.out
+        in message.out
     )
     assert sorted(tmp_path.iterdir()) == before
 
@@ -51,8 +51,8 @@ def test_a_kept_copy_is_a_side_as_good_as_a_file(amp, sides, tmp_path: Path) -> 
 @pytest.mark.parametrize("ending", [".pdf", ".html", ".txt", ".csv"])
 def test_the_sheet_is_written_in_the_format_of_its_ending(amp, sides, tmp_path: Path, ending: str) -> None:
     output = tmp_path / f"sheet{ending}"
-    said = amp("sheet", sides[0], "--against", sides[1], "-o", output)
-    assert (said.code, said.out) == (0, f"{output}: 2 values to key in, 0 ticked\n")
+    message = amp("sheet", sides[0], "--against", sides[1], "-o", output)
+    assert (message.code, message.out) == (0, f"{output}: 2 values to key in, 0 ticked\n")
     content = output.read_bytes()
     assert content.startswith(b"%PDF") if ending == ".pdf" else b"1750" in content
 
@@ -71,9 +71,9 @@ def test_ticks_are_kept_beside_the_file_and_the_work_goes_on_where_it_ended(amp,
 def test_what_the_screen_shows_is_compared_and_each_difference_is_named(amp, sides, tmp_path: Path) -> None:
     screen = tmp_path / "screen.txt"
     screen.write_text("1750 40.00000\n1740 11.00000\n")
-    said = amp("sheet", sides[0], "--against", sides[1], "--check", screen)
-    assert said.code == 1
-    assert said.out.splitlines() == [
+    message = amp("sheet", sides[0], "--against", sides[1], "--check", screen)
+    assert message.code == 1
+    assert message.out.splitlines() == [
         (
             "1740 Feedrate Suppression Point Axis 1: still the old value: the screen shows 11.00000, it"
             " should be 39 mm"
@@ -84,15 +84,15 @@ def test_what_the_screen_shows_is_compared_and_each_difference_is_named(amp, sid
     assert amp("sheet", sides[0], "--against", sides[1], "--check", screen).code == 0
 
 
-def test_a_value_that_nobody_read_back_is_not_proved(amp, sides, tmp_path: Path) -> None:
+def test_a_value_that_was_not_read_back_is_not_proved(amp, sides, tmp_path: Path) -> None:
     screen = tmp_path / "screen.txt"
     screen.write_text("1750 40\n")
-    said = amp("sheet", sides[0], "--against", sides[1], "--check", screen, "--json")
-    assert (said.code, [entry["state"] for entry in said.json["entries"]]) == (1, ["same", "not read"])
+    message = amp("sheet", sides[0], "--against", sides[1], "--check", screen, "--json")
+    assert (message.code, [entry["state"] for entry in message.json["entries"]]) == (1, ["same", "not read"])
 
 
 @pytest.mark.parametrize(
-    ("more", "said"),
+    ("more", "message"),
     [
         (("--tick", "1350"), "1350 is not on this sheet"),
         (("--tick", "nonsense"), "Unknown parameter 'nonsense'"),
@@ -100,15 +100,17 @@ def test_a_value_that_nobody_read_back_is_not_proved(amp, sides, tmp_path: Path)
         (("-o", "sheet.doc"), "unknown format of a sheet"),
     ],
 )
-def test_what_cannot_be_meant_is_refused_in_one_line(amp, sides, monkeypatch, more, said) -> None:
+def test_what_cannot_be_understood_is_refused_in_one_line(amp, sides, monkeypatch, more, message) -> None:
     monkeypatch.chdir(sides[0].parent)
     refused = amp("sheet", sides[0], "--against", sides[1], *more)
     assert refused.code == 2
-    assert said in refused.err
+    assert message in refused.err
 
 
 @pytest.mark.parametrize("content", ["1750", "1750 40\n1750 40", "9 9"])
-def test_a_list_of_the_screen_that_cannot_be_meant_names_file_and_line(amp, sides, tmp_path, content) -> None:
+def test_a_list_of_the_screen_that_cannot_be_understood_names_file_and_line(
+    amp, sides, tmp_path, content
+) -> None:
     screen = tmp_path / "screen.txt"
     screen.write_text(content)
     refused = amp("sheet", sides[0], "--against", sides[1], "--check", screen)
@@ -126,7 +128,7 @@ def test_neither_the_file_nor_its_ticks_are_overwritten_by_the_sheet(amp, sides)
     assert json.loads(ticks.read_bytes())["ticks"][0]["number"] == "1750"
 
 
-def test_errors_that_are_there_afterwards_are_told_though_patch_amp_does_not(amp, sides) -> None:
+def test_errors_that_are_there_afterwards_are_reported_though_patch_amp_does_not(amp, sides) -> None:
     assert amp("set", sides[0], "1740=not-set", "1750=1 mm").code == 0
-    said = amp("sheet", sides[0], "--against", sides[1])
-    assert "Error when all is keyed in" in said.err
+    message = amp("sheet", sides[0], "--against", sides[1])
+    assert "Error when all is keyed in" in message.err

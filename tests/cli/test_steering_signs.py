@@ -72,11 +72,11 @@ def test_no_sign_of_a_file_steers_the_terminal(tmp_path: Path) -> None:
         assert set(written).isdisjoint("\x1b\x07\x9b\r\x08\x7f\u202e\u2028"), arguments
 
 
-def test_a_json_document_says_the_same_with_its_signs_made_visible() -> None:
+def test_a_json_document_shows_the_same_with_its_signs_made_visible() -> None:
     document = {"\u202e": ["\x9b", "\U000e0001", "ü\n\t"]}
-    shown = visible(json.dumps(document, ensure_ascii=False), keep="\n\t")
-    assert json.loads(shown) == document
-    assert shown.isprintable()
+    displayed = visible(json.dumps(document, ensure_ascii=False), keep="\n\t")
+    assert json.loads(displayed) == document
+    assert displayed.isprintable()
 
 
 def test_what_does_not_steer_stays_as_it_is() -> None:

@@ -24,7 +24,7 @@ def test_a_download_stopped_at_any_moment_ends_with_the_truth(mill: Path, tmp_pa
     assert campaign.download_while_stopped(mill, tmp_path, seed=3, rounds=2) == []
 
 
-def test_an_emulated_control_stopped_at_any_moment_says_goodbye(tmp_path: Path) -> None:
+def test_an_emulated_control_stopped_at_any_moment_shows_goodbye(tmp_path: Path) -> None:
     assert campaign.control_while_stopped(tmp_path, seed=2, rounds=2) == []
 
 
@@ -38,8 +38,8 @@ def test_ctrl_c_while_the_control_is_silent_stops_at_once_and_the_silence_was_sh
         program.send_signal(signal.SIGINT)
         begun = time.monotonic()
         _, err = program.communicate(timeout=60)
-    said = err.splitlines()[-1]  # before it the silence may have been shown again
-    assert (program.returncode, said) == (2, "amp-studio: stopped; nothing was replaced in the control")
+    message = err.splitlines()[-1]  # before it the silence may have been shown again
+    assert (program.returncode, message) == (2, "amp-studio: stopped; nothing was replaced in the control")
     assert time.monotonic() - begun < campaign.LATEST
 
 
@@ -55,13 +55,13 @@ def test_ctrl_c_twice_while_a_commit_is_not_answered_ends_at_once_with_not_known
         program.send_signal(signal.SIGINT)
         _, err = program.communicate(timeout=60)
     assert program.returncode == 4, err
-    said = err.splitlines()[-1]
-    assert "stopped before the control has answered" in said
-    assert "amp-studio verify FILE --with ADDRESS" in said
-    assert "kept in" in said
+    message = err.splitlines()[-1]
+    assert "stopped before the control has answered" in message
+    assert "amp-studio verify FILE --with ADDRESS" in message
+    assert "kept in" in message
 
 
-def test_an_emulated_control_whose_output_nobody_reads_serves_on_and_ends_well(
+def test_an_emulated_control_whose_output_is_not_read_serves_on_and_ends_well(
     mill: Path, tmp_path: Path
 ) -> None:
     """Its first line is read, then the reader is gone."""
@@ -79,7 +79,7 @@ def test_an_emulated_control_whose_output_nobody_reads_serves_on_and_ends_well(
         assert control.wait(120) == 0
 
 
-def test_the_result_of_a_download_that_cannot_be_printed_is_told_and_is_no_full_success(
+def test_the_result_of_a_download_that_cannot_be_printed_is_reported_and_is_no_full_success(
     mill: Path, tmp_path: Path
 ) -> None:
     assert cli.run(["set", str(mill), "1300=2.5"]) == 0
@@ -90,7 +90,7 @@ def test_the_result_of_a_download_that_cannot_be_printed_is_told_and_is_no_full_
     assert "the result cannot be printed; Download complete and read back equal" in done.stderr
 
 
-def test_a_restore_is_complete_where_nobody_reads_its_result(mill: Path, tmp_path: Path) -> None:
+def test_a_restore_is_complete_where_its_result_is_not_read(mill: Path, tmp_path: Path) -> None:
     reading, writing = os.pipe()
     os.close(reading)
     with campaign.emulated(tmp_path / "control") as (_, address):

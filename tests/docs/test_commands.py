@@ -189,8 +189,8 @@ def prepare(page: str, stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
         )
     if page.startswith("examples/"):
         os.chdir(Path(page).parent)
-    for shown in (*BEGINS_WITH.get(page, ()), page):
-        stage.write(files_of(shown))
+    for displayed in (*BEGINS_WITH.get(page, ()), page):
+        stage.write(files_of(displayed))
     if page == "docs/merging.md":
         make_sides(stage)
     if page == "docs/protocols/password.md":
@@ -210,10 +210,10 @@ def make_sides(stage: Stage) -> None:
 
 def press_what_is_shown(press: Callable[[str], None], monkeypatch: pytest.MonkeyPatch) -> None:
     """Be the person at the keys of a NUM control, who does what the program shows."""
-    shown = console.print_notice
+    displayed = console.print_notice
 
     def read(text: str, end: str = "\n") -> None:
-        shown(text, end=end)
+        displayed(text, end=end)
         for item, keys in (("3 UNLOAD", "exit unload enter start"), ("2 LOAD", "exit load enter")):
             if item in text:
                 for key in keys.split():
@@ -233,9 +233,9 @@ def test_the_commands_of_a_document_work_word_for_word_one_after_the_other(
             continue
         may_be_1 = (page, line) in FINDS or line.removeprefix("amp-studio ").startswith(DIFFERS)
         code = stage.run(line)
-        shown = capsys.readouterr()
-        assert code == 0 or (code == 1 and may_be_1), (line, code, shown.err)
-        printed.append(shown.out)
+        displayed = capsys.readouterr()
+        assert code == 0 or (code == 1 and may_be_1), (line, code, displayed.err)
+        printed.append(displayed.out)
     everything = "".join(printed)
     assert re.search(".*".join(SEEN.get(page, ())), everything, re.DOTALL), everything
     if page == "docs/howto/write-template.md":

@@ -31,12 +31,12 @@ def test_a_capability_is_shown_by_its_command(
     examples = ROOT / "examples"
     words = [str(examples / word) if (examples / word).is_file() else word for word in words]
     code = run([verb, *words, *([] if verb == "calculate" else ["--json"])])
-    said = capsys.readouterr()
-    assert code in (0, 1), said.err
+    message = capsys.readouterr()
+    assert code in (0, 1), message.err
     if answer := what.partition(" → ")[2]:
-        assert answer in said.out.strip().split(", ")
+        assert answer in message.out.strip().split(", ")
     for alarm in re.findall(r"MOT-0\d\d|ALARM:\d", what.rsplit(",", maxsplit=1)[-1]):
-        assert alarm in said.out, family
+        assert alarm in message.out, family
 
 
 def test_the_page_has_all_of_its_rows() -> None:

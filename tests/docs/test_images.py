@@ -20,7 +20,7 @@ PALETTE = 3
 """Type of colours in the head of a PNG."""
 
 
-def shown() -> dict[str, str]:
+def displayed() -> dict[str, str]:
     """Return picture -> a page that shows it."""
     pages = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
     texts = ((page.relative_to(ROOT).as_posix(), page.read_text(encoding="utf-8")) for page in pages)
@@ -30,7 +30,7 @@ def shown() -> dict[str, str]:
 
 
 def test_every_picture_that_a_page_shows_is_there_and_every_one_that_is_there_is_shown() -> None:
-    found = {((ROOT / page).parent / name).resolve() for name, page in shown().items()}
+    found = {((ROOT / page).parent / name).resolve() for name, page in displayed().items()}
     assert found == {path.resolve() for path in IMAGES.iterdir()}
     assert len(found) > 5
 

@@ -69,7 +69,7 @@ def test_every_link_leads_to_an_anchor(pages: dict[str, str], tmp_path: Path) ->
 
 
 @pytest.mark.parametrize("family", family_ids())
-def test_every_message_says_how_to_find_its_cause_or_that_nothing_is_printed(
+def test_every_message_shows_how_to_find_its_cause_or_that_nothing_is_printed(
     family: str, pages: dict[str, str]
 ) -> None:
     schema = load_schema(family)
@@ -78,12 +78,12 @@ def test_every_message_says_how_to_find_its_cause_or_that_nothing_is_printed(
         assert len(sections) == len(every.messages)
         for message, section in zip(every.messages, sections, strict=True):
             steps = re.findall("<li>(.+)</li>", section)
-            said = [
+            sentence = [
                 *message.causes,
                 *message.cures,
                 *(name for name in message.params if name in schema.parameters),
             ]
-            assert len(steps) >= len(said), message.id
+            assert len(steps) >= len(sentence), message.id
             for name in (*message.params, *message.rules):
                 assert f'#{escape(name)}"' in section, (message.id, name)
             assert (ONLY_PRINTED in section) == (not steps), message.id
@@ -104,13 +104,13 @@ def test_a_message_without_a_printed_cause_leads_to_its_parameters_and_their_rul
 
 def test_a_page_of_the_printed_manual_leads_to_what_is_taken_from_it(pages: dict[str, str]) -> None:
     (row,) = re.findall(' id="page-7-20">.*?(?= id=)', pages["9pc/pages.md"], re.DOTALL)
-    for said in (
+    for sentence in (
         "servo.excess_error",
         "messages-amp-messages.html#excess-following-error",
         "9pc.servo.excess-margin",
         "e-1750-range",
     ):
-        assert said in row
+        assert sentence in row
     assert 'page <a href="pages.html#page-7-20">7-20</a>' in pages["9pc/group-servo_position.md"]
 
 
@@ -165,7 +165,7 @@ def test_the_section_of_each_parameter_has_all_that_is_known_of_it(
             notes = [n.says for n in (*helped.danger, *helped.warning, *helped.note)]
             errata = [r.says for e in parameter.errata for r in schema.errata[e].readings]
             labels = [choice.label for choice in parameter.choices or ()]
-            for said in (
+            for sentence in (
                 helped.what,
                 helped.find,
                 helped.wrong,
@@ -174,7 +174,7 @@ def test_the_section_of_each_parameter_has_all_that_is_known_of_it(
                 *labels,
                 f">{parameter.page}</a>",
             ):
-                assert " ".join(said.split()) in text, (parameter.id, said)
+                assert " ".join(sentence.split()) in text, (parameter.id, sentence)
             reading = [
                 r.id
                 for r in schema.rules
@@ -190,7 +190,7 @@ def test_a_number_leads_to_its_parameter(pages: dict[str, str]) -> None:
     assert "2750</td><td>" in pages["9pc/numbers.md"]  # the search drops a word that is only a number
     position = pages["9pc/group-servo_position.md"]
     (section,) = re.findall(r"^## 1750 Excess Error\n.*?(?=^## )", position, re.MULTILINE | re.DOTALL)
-    for said in (
+    for sentence in (
         "0 to 214.1 mm",
         "page 7-20",
         "messages-amp-messages.html#excess-following-error",
@@ -198,7 +198,7 @@ def test_a_number_leads_to_its_parameter(pages: dict[str, str]) -> None:
         "commissioning.html#step-6",
         "minimum_excess_error(",
     ):
-        assert said in section, said
+        assert sentence in section, sentence
 
 
 @pytest.mark.parametrize(

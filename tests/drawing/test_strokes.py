@@ -19,7 +19,7 @@ def test_one_row_of_an_extreme_is_drawn_however_long_the_trace_is() -> None:
     assert np.all(np.diff(x) > 0)
 
 
-def test_a_held_command_is_drawn_through_its_samples_not_as_stairs() -> None:
+def test_a_constant_command_is_drawn_through_its_samples_not_as_stairs() -> None:
     x = np.arange(400.0)
     is_stepped = np.floor(x / 4) * 4
     corners, values = unheld(x, is_stepped)
@@ -28,7 +28,7 @@ def test_a_held_command_is_drawn_through_its_samples_not_as_stairs() -> None:
     assert len(x) == 400 > 3 * len(corners)
 
 
-def test_a_held_command_that_pauses_stays_level_until_it_goes_on() -> None:
+def test_a_constant_command_that_pauses_stays_level_until_it_goes_on() -> None:
     is_stepped = np.concatenate(
         [np.repeat(np.arange(10.0), 4), np.full(400, 9.0), np.repeat(np.arange(10.0, 20.0), 4)]
     )

@@ -67,7 +67,7 @@ def test_every_parameter_in_force_has_a_value(example: Path) -> None:
     assert [a for a in needed if a not in file.values] == []
 
 
-def test_nothing_stands_in_it_that_the_control_would_not_look_at(example: Path) -> None:
+def test_nothing_is_in_it_that_the_control_would_not_look_at(example: Path) -> None:
     file = open_file(example).file
     idle = {a for a in file.values if a not in in_force(file) and not file.is_default(a)}
     assert {a for a in idle if a[1] in fitted_axes(file) or not a[1]} == set()
@@ -75,17 +75,19 @@ def test_nothing_stands_in_it_that_the_control_would_not_look_at(example: Path) 
     assert file.forced == {}
 
 
-def test_a_value_that_is_not_the_printed_default_says_where_it_comes_from(example: Path) -> None:
+def test_a_value_that_is_not_the_printed_default_shows_where_it_comes_from(example: Path) -> None:
     file = open_file(example).file
-    told = entries(example)
-    assert len(told) == len(file.values)
+    reported = entries(example)
+    assert len(reported) == len(file.values)
     silent = [
-        key for key, comment in told if not SOURCE.search(comment) and not file.is_default(read_address(key))
+        key
+        for key, comment in reported
+        if not SOURCE.search(comment) and not file.is_default(read_address(key))
     ]
     assert silent == []
 
 
-def test_the_project_says_the_same_of_the_machine_as_the_file(example: Path) -> None:
+def test_the_project_shows_the_same_of_the_machine_as_the_file(example: Path) -> None:
     project, file = Project.open(example.parent), open_file(example).file
     assert [example] == project.files()
     assert (file.schema.family.family, file.machine, file.header.application) == (

@@ -62,9 +62,9 @@ def test_the_list_is_complete() -> None:
 def test_it_is_refused_with_one_clear_line(copy: Path, name: str, capsys: pytest.CaptureFixture[str]) -> None:
     path = copy / f"{name}.amp"
     assert run(["validate", str(path)]) == 2
-    said = capsys.readouterr()
-    assert said.out == ""
-    assert said.err == f"amp-studio: {path}{REFUSED[name]}\n"
+    message = capsys.readouterr()
+    assert message.out == ""
+    assert message.err == f"amp-studio: {path}{REFUSED[name]}\n"
 
 
 @pytest.mark.parametrize("name", sorted(REFUSED))

@@ -90,7 +90,7 @@ class BadLine:
 
     def _pass(self, data: bytes) -> bytes:
         passed = bytearray()
-        held = b""
+        content = b""
         for byte in data:
             self._passed += 1
             if self._is_due("cut"):
@@ -105,12 +105,12 @@ class BadLine:
             piece = bytes((byte ^ 1 << self._chance.randrange(8) if self._strikes("change") else byte,))
             if self._strikes("repeat"):
                 piece *= 2
-            if not held and self._strikes("swap"):
-                held = piece
+            if not content and self._strikes("swap"):
+                content = piece
                 continue
-            passed += piece + held
-            held = b""
-        return bytes(passed + held)
+            passed += piece + content
+            content = b""
+        return bytes(passed + content)
 
 
 def choose_faults(chance: random.Random, size: int, without: tuple[str, ...] = ()) -> dict[str, int]:

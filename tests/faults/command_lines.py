@@ -127,14 +127,14 @@ def fuzz_command_lines(folder: Path, seed: int, count: int) -> list[str]:
         out, err = io.StringIO(), io.StringIO()
         with contextlib.chdir(work), contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
             code = cli.run(words)
-        said = err.getvalue()
-        assert code in (0, 1, 2), f"{code}: {said}"
-        assert "Traceback" not in said, said
-        assert "should not have happened" not in said, said
+        message = err.getvalue()
+        assert code in (0, 1, 2), f"{code}: {message}"
+        assert "Traceback" not in message, message
+        assert "should not have happened" not in message, message
         if code == 2 and not words[0].startswith("validate"):
             assert contents(folder) == whole, "a refusal has changed files"
-            assert said.splitlines()[-1].startswith("amp-studio: "), said
-            assert len(said) < 4000, said
+            assert message.splitlines()[-1].startswith("amp-studio: "), message
+            assert len(message) < 4000, message
         if code < 2 and "--json" in words and "--help" not in words and out.getvalue()[:1] == "{":
             json.loads(out.getvalue())
 

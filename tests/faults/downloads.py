@@ -69,8 +69,8 @@ def download_under_faults(
     bench: FaultBench, file: ParameterFile, faults: Mapping[str, int], chance: random.Random, folder: Path
 ) -> list[str]:
     """Download a file; returns what was not true. ``folder`` is where the copy is kept."""
-    present, held = bench.present(), bench.driver.fetch(Exchange(bench.progress))
-    wanted = bench.names(bench.driver.encode(file, held))
+    present, stored = bench.present(), bench.driver.fetch(Exchange(bench.progress))
+    wanted = bench.names(bench.driver.encode(file, stored))
     bench.driver.close()
     folder.mkdir()
     on_line, unsafe, disk = dict(faults), list[str](), Disk()

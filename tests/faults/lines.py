@@ -87,12 +87,12 @@ def _one(chance: random.Random, work: Path) -> list[str]:
                 timeout=180,
                 env=os.environ | ({"AMP_STUDIO_PASSWORD": PASSWORD} if secured else {}),
             )
-            held = (state / "active.img").read_bytes()
+            content = (state / "active.img").read_bytes()
         finally:
             control.kill()
             if kept is not None:
                 os.close(kept)
-    return _untrue(ended.returncode, ended.stdout + ended.stderr, old, held, work, f"{listen} {faults}")
+    return _untrue(ended.returncode, ended.stdout + ended.stderr, old, content, work, f"{listen} {faults}")
 
 
 def _kept_name(address: str) -> int | None:
@@ -104,17 +104,19 @@ def _kept_name(address: str) -> int | None:
     return os.open(address.removeprefix("serial:").partition("?")[0], os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
 
 
-def _untrue(code: int, said: str, old: bytes, held: bytes, work: Path, how: str) -> list[str]:
+def _untrue(code: int, message: str, old: bytes, content: bytes, work: Path, how: str) -> list[str]:
     """Return what does not fit: the exit code and what the control contains, which is whole;
     what it contained is kept.
     """
     found = []
-    if not held.endswith(b"\n") or b"\nend " not in held:
+    if not content.endswith(b"\n") or b"\nend " not in content:
         found.append("the control holds half an image")
-    fits = {0: held != old, 2: held == old, 3: held != old, 4: True}.get(code, False)
-    if not fits or "Traceback" in said:
-        found.append(f"exit {code}, the control holds the {'old' if held == old else 'new'} image: {said}")
+    fits = {0: content != old, 2: content == old, 3: content != old, 4: True}.get(code, False)
+    if not fits or "Traceback" in message:
+        found.append(
+            f"exit {code}, the control holds the {'old' if content == old else 'new'} image: {message}"
+        )
     copies = [path.read_bytes() for path in work.glob("*.before-*.img")]
-    if held != old and copies != [old]:
+    if content != old and copies != [old]:
         found.append("what the control contained was not kept")
     return [f"{how}: {what}" for what in found]

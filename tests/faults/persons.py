@@ -312,16 +312,16 @@ def fuzz_commands(folder: Path, seed: int, count: int) -> list[str]:
     file.evaluation.forget()
     identity = Identity("57c422b", file.schema.signature)
     control = Control(folder / "control", identity, encode_image(file), accept=decode_image)
-    said: list[str] = []
-    emulator = Emulator(control, mock.Mock(), patch=patch_image, say=said.append)
+    message: list[str] = []
+    emulator = Emulator(control, mock.Mock(), patch=patch_image, say=message.append)
 
     def look(text: str) -> None:
-        said.clear()
+        message.clear()
         before = control.image
         emulator.operate(text)
         emulator._obey()
-        assert len(said) <= 1
-        assert all(line == visible(line) and len(line) < 1500 for line in said), said
+        assert len(message) <= 1
+        assert all(line == visible(line) and len(line) < 1500 for line in message), message
         if control.image != before:
             decode_image(control.image)
 

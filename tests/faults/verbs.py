@@ -85,7 +85,7 @@ def fail_each_call(
             "FAULT_LOG": str(log),
         } | ({"FAULT_FOREVER": "1"} if for_ever else {})
         before = contents(work)
-        code, said = _run(verb, work, env)
+        code, message = _run(verb, work, env)
         lines = log.read_text(encoding="utf-8").splitlines() if log.exists() else []
         failed = [(call, Path(path).name) for _, call, path in (line.split(" ", 2) for line in lines)]
         how = (
@@ -93,7 +93,7 @@ def fail_each_call(
             f" {for_ever})"
         )
         found += [
-            f"{how}: {what}" for what in _violations(code, said, before, contents(work), wanted, failed)
+            f"{how}: {what}" for what in _violations(code, message, before, contents(work), wanted, failed)
         ]
         shutil.rmtree(work)
         if not failed:
@@ -159,14 +159,14 @@ def contents(work: Path) -> dict[str, bytes]:
 def _wanted(verb: tuple[str, ...], work: Path) -> dict[str, bytes]:
     """Return what the folder contains after the verb when nothing fails."""
     lay_out(work)
-    code, said = _run(verb, work, {})
-    assert code in (0, 1), said
+    code, message = _run(verb, work, {})
+    assert code in (0, 1), message
     return contents(work)
 
 
 def _violations(
     code: int,
-    said: str,
+    message: str,
     before: dict[str, bytes],
     after: dict[str, bytes],
     wanted: dict[str, bytes],
@@ -175,8 +175,8 @@ def _violations(
     """Yield what is not as promised."""
     target = target_of(before, wanted)
     assert target is not None
-    if "Traceback" in said or "ignored" in said:
-        yield said
+    if "Traceback" in message or "ignored" in message:
+        yield message
     changed = after.get(target) != before.get(target)
     # A report has a note where the rules of the builder, or for the checksum the file once more, cannot be
     # read.
@@ -186,15 +186,15 @@ def _violations(
     if changed and not said_so and not _alike(after.get(target, b""), wanted[target]):
         yield f"{target} is neither the old nor the new one"
     if code == 2 and changed:
-        yield f"exit 2, and {target} was changed: {said}"
+        yield f"exit 2, and {target} was changed: {message}"
     if code == 3 and before == after:
-        yield f"exit 3, and nothing was changed: {said}"
+        yield f"exit 3, and nothing was changed: {message}"
     if code in (0, 1) and not changed:
         yield f"exit {code}, and {target} was not changed"
     if code not in (0, 1, 2, 3):
-        yield f"exit {code}: {said}"
-    if code in (2, 3) and len(said.strip().splitlines()) != 1:
-        yield f"not one line: {said!r}"
+        yield f"exit {code}: {message}"
+    if code in (2, 3) and len(message.strip().splitlines()) != 1:
+        yield f"not one line: {message!r}"
     for name, content in before.items():
         if name != target and after.get(name) != content:
             yield f"{name} was changed"

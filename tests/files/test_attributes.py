@@ -29,7 +29,7 @@ def saved(path: Path) -> list[str]:
 
 
 @as_root
-def test_the_owner_of_a_file_keeps_it_when_somebody_else_saves(small: Path) -> None:
+def test_the_owner_of_a_file_keeps_it_when_a_user_else_saves(small: Path) -> None:
     os.chown(small, 12_345, 23_456)
     small.chmod(0o2640)
     assert saved(small) == []
@@ -38,7 +38,7 @@ def test_the_owner_of_a_file_keeps_it_when_somebody_else_saves(small: Path) -> N
         assert (found.st_uid, found.st_gid, stat.S_IMODE(found.st_mode)) == (12_345, 23_456, 0o2640)
 
 
-def test_an_owner_that_cannot_be_kept_is_told_and_his_group_gets_no_more_than_others(
+def test_an_owner_that_cannot_be_kept_is_reported_and_his_group_gets_only_what_others_get(
     small: Path, monkeypatch
 ) -> None:
     def not_permitted(*_: object) -> None:
@@ -61,12 +61,12 @@ def test_an_owner_that_cannot_be_kept_is_told_and_his_group_gets_no_more_than_ot
     assert stat.S_IMODE(small.stat().st_mode) == 0o644
 
 
-def test_other_names_of_a_file_are_told_that_they_keep_the_old_content(small: Path, capsys) -> None:
+def test_that_other_names_of_a_file_keep_the_old_content_is_reported(small: Path, capsys) -> None:
     old, other = small.read_bytes(), small.with_name("other")
     other.hardlink_to(small)
     assert cli.run(["set", str(small), "1300=7 mm"]) == 0
-    said = "small.amp: 1 other name of this file (a hard link) still has the old content"
-    assert said in capsys.readouterr().err
+    message = "small.amp: 1 other name of this file (a hard link) still has the old content"
+    assert message in capsys.readouterr().err
     assert other.read_bytes() == old != small.read_bytes()
     third = small.with_name("third")
     third.hardlink_to(small)
@@ -74,7 +74,7 @@ def test_other_names_of_a_file_are_told_that_they_keep_the_old_content(small: Pa
     assert saved(small) == ["small.amp: 2 other names of this file (hard links) still have the old content"]
 
 
-def test_attributes_that_a_person_gave_a_file_are_kept(small: Path, monkeypatch) -> None:
+def test_attributes_that_a_user_gave_a_file_are_kept(small: Path, monkeypatch) -> None:
     try:
         os.setxattr(small, "user.approved", b"by Ann")
     except OSError:
@@ -91,7 +91,7 @@ def test_attributes_that_a_person_gave_a_file_are_kept(small: Path, monkeypatch)
     assert notes == ["small.amp: user.approved could not be kept"]
 
 
-def test_permissions_that_a_file_system_does_not_have_are_told(small: Path, monkeypatch) -> None:
+def test_permissions_that_a_file_system_does_not_have_are_reported(small: Path, monkeypatch) -> None:
     def refused(*_: object) -> None:
         raise OSError(errno.EPERM, os.strerror(errno.EPERM))
 
@@ -110,7 +110,7 @@ def test_what_is_kept_beside_a_private_file_is_private(small: Path) -> None:
         assert stat.S_IMODE(path.stat().st_mode) == 0o600
 
 
-def test_the_mask_of_the_user_is_asked_of_nobody(tmp_path: Path, monkeypatch) -> None:
+def test_the_mask_of_the_user_is_not_read(tmp_path: Path, monkeypatch) -> None:
     """To ask for it is to set it, for all threads of the program."""
     before = os.umask(0o027)
     try:

@@ -106,15 +106,17 @@ def test_a_copied_axis_is_the_same_in_all_but_its_name(mill: ParameterFile) -> N
 
 
 @pytest.mark.parametrize(
-    ("source", "target", "said"),
+    ("source", "target", "message"),
     [
         ("1", "4", "axis 1 is linear and axis 4 is unfitted: only axes of the same type"),
         ("1", "1", "copied to itself"),
     ],
 )
-def test_only_axes_of_one_type_are_copied(mill: ParameterFile, source: str, target: str, said: str) -> None:
+def test_only_axes_of_one_type_are_copied(
+    mill: ParameterFile, source: str, target: str, message: str
+) -> None:
     before = dict(mill.values)
-    with pytest.raises(AxisError, match=said):
+    with pytest.raises(AxisError, match=message):
         copy_axis(mill, source, target)
     assert before == mill.values
 
@@ -134,7 +136,7 @@ def test_a_deleted_axis_is_unfitted_and_back_at_its_defaults(mill: ParameterFile
     assert before == taken_back(mill, changes)
 
 
-def test_a_family_without_axes_says_so(family) -> None:
+def test_a_family_without_axes_shows_it(family) -> None:
     family(
         """
         family: plain

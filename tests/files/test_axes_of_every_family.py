@@ -75,7 +75,7 @@ def test_an_axis_of_a_num_may_be_put_into_a_group() -> None:
     assert axis_head(file, "3") == ("Z", "3 linear, Group 2")
 
 
-def test_the_number_of_axes_says_which_an_acromill_has() -> None:
+def test_the_number_of_axes_shows_which_an_acromill_has() -> None:
     file = new_file("acromill", None, ["X", "Y", "C"])
     assert file.get(("view.number_of_axes", "")) == Value(3)
     assert titles(file) == ["Axis X", "Axis Y", "Z C"]
@@ -100,7 +100,7 @@ def test_every_other_family_takes_axes_too(family: str, axes: list[str], heads: 
 
 
 @pytest.mark.parametrize(
-    ("family", "axes", "said"),
+    ("family", "axes", "message"),
     [
         ("num", ["X", "S"], "'S' is no name for an axis: X, Y, Z, U, V, W, A, B, C"),
         ("num", ["X", "none"], "'none' is no name for an axis"),
@@ -120,8 +120,8 @@ def test_every_other_family_takes_axes_too(family: str, axes: list[str], heads: 
         ("grblhal", ["X", "Z"], "in this order"),
     ],
 )
-def test_axes_that_a_family_cannot_have_are_refused(family: str, axes: list[str], said: str) -> None:
-    with pytest.raises(AxisError, match=said):
+def test_axes_that_a_family_cannot_have_are_refused(family: str, axes: list[str], message: str) -> None:
+    with pytest.raises(AxisError, match=message):
         new_file(family, None, axes)
 
 
@@ -233,7 +233,7 @@ def key_of(file: ParameterFile, parameter: str, label: str) -> str:
     return next(c.key for c in file.schema.parameters[parameter].choices if c.label == label)
 
 
-def test_a_full_control_takes_no_more_axes(mill: ParameterFile) -> None:
+def test_a_full_control_takes_no_further_axes(mill: ParameterFile) -> None:
     for name in ("A", "B", "C", "U", "V"):
         add_axis(mill, name)
     with pytest.raises(AxisError, match="no axis that is free: all 8 are fitted"):

@@ -150,7 +150,7 @@ def test_a_file_that_cannot_be_used_is_not_left_locked(on_disk: Path) -> None:
 # -- two programs --------------------------------------------------------------------------------------------
 
 
-def test_a_second_program_is_told_who_has_the_file(on_disk: Path, other) -> None:
+def test_a_second_program_is_reported_who_has_the_file(on_disk: Path, other) -> None:
     program = other(OPEN, on_disk)
     assert program.says() == "open"
     with pytest.raises(
@@ -206,7 +206,7 @@ def test_giving_up_the_lock_twice_does_not_take_it_from_the_next(on_disk: Path) 
             Document.open(on_disk)
 
 
-def test_a_holder_that_left_no_details_still_holds(on_disk: Path) -> None:
+def test_a_holder_that_left_no_details_still_locks(on_disk: Path) -> None:
     with Document.open(on_disk):
         on_disk.with_name(".bench.amp.holder").unlink()
         with pytest.raises(InUseError, match="it left no details"):
@@ -218,12 +218,12 @@ def test_the_file_is_read_again_when_it_changed_before_the_lock_was_given(
 ) -> None:
     take = locking.EditLock.take
 
-    def somebody_was_faster(self: locking.EditLock) -> None:
+    def another_was_faster(self: locking.EditLock) -> None:
         take(self)
         if mill.set(CALIBRATION, Value(6.0, "mm")):
             save_file(mill, on_disk, Document.view(on_disk).digest)
 
-    monkeypatch.setattr(locking.EditLock, "take", somebody_was_faster)
+    monkeypatch.setattr(locking.EditLock, "take", another_was_faster)
     with Document.open(on_disk) as document:
         assert Value(6.0, "mm") == document.file.get(CALIBRATION)
         assert digest_of(on_disk) == document.digest
@@ -231,10 +231,10 @@ def test_the_file_is_read_again_when_it_changed_before_the_lock_was_given(
 
 
 def test_a_system_that_has_no_name_for_the_user_is_no_reason_to_stop(on_disk: Path, monkeypatch) -> None:
-    def nobody() -> str:
+    def no_user() -> str:
         raise KeyError("getpwuid(): uid not found: 4711")
 
-    monkeypatch.setattr(getpass, "getuser", nobody)
+    monkeypatch.setattr(getpass, "getuser", no_user)
     with Document.open(on_disk) as document:
         document.file.set(CALIBRATION, Value(2.0, "mm"))
         document.keep_unsaved()
@@ -286,13 +286,13 @@ def test_work_that_is_not_wanted_is_thrown_away(left: Path) -> None:
     assert set() == hidden(left.parent)
 
 
-def test_work_that_nobody_answered_for_waits_for_the_next_time(left: Path) -> None:
+def test_unsaved_work_without_an_answer_waits_for_the_next_time(left: Path) -> None:
     Document.open(left).close()
     with Document.open(left) as document:
         assert set(EXPECTED) == set(document.find_unsaved().changes)
 
 
-def test_a_change_from_the_command_line_leaves_the_offer_and_says_it_may_not_fit(left: Path, capsys) -> None:
+def test_a_change_from_the_command_line_leaves_the_offer_and_shows_it_may_not_fit(left: Path, capsys) -> None:
     assert cli.run(["set", str(left), "1330=-5"]) == 0
     capsys.readouterr()
     with Document.open(left) as document:

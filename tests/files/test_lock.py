@@ -41,7 +41,7 @@ def test_a_file_system_without_locks_is_noted_and_the_file_saved(on_disk: Path, 
 
 
 @pytest.mark.usefixtures("no_locks")
-def test_a_verb_on_a_file_system_without_locks_does_its_work_and_says_so(tmp_path: Path, capsys) -> None:
+def test_a_verb_on_a_file_system_without_locks_does_its_work_and_shows_it(tmp_path: Path, capsys) -> None:
     path = tmp_path / "new.amp"
     assert cli.run(["new", "9pc", str(path)]) == 0
     assert "new.amp could not be locked" in capsys.readouterr().err
@@ -142,7 +142,7 @@ def test_a_holder_who_writes_anything_is_shown_in_bounds(on_disk: Path) -> None:
             Document.open(on_disk)
 
 
-def test_a_name_too_long_for_its_companions_is_told(tmp_path: Path) -> None:
+def test_a_name_too_long_for_its_companions_is_reported(tmp_path: Path) -> None:
     """Names have 255 bytes; a backup and a lock have longer ones."""
     short, long = tmp_path / f"{'x' * 240}.amp", tmp_path / f"{'x' * 248}.amp"
     mill = new_file("9pc", "mill", ["X"])

@@ -63,20 +63,20 @@ def test_diff_lists_what_only_one_control_has(tmp_path: Path, capsys: pytest.Cap
     assert run(["diff", str(b), str(a)]) == 1
     assert "1 differ, 1 are the same, 0 not set in A, 1 not set in B" in capsys.readouterr().out
     assert run(["diff", str(a), str(b)]) == 1
-    shown = capsys.readouterr().out
-    assert "$350 Arc voltage" in shown
-    assert "1 differ, 1 are the same, 1 not set in A, 0 not set in B" in shown
+    displayed = capsys.readouterr().out
+    assert "$350 Arc voltage" in displayed
+    assert "1 differ, 1 are the same, 1 not set in A, 0 not set in B" in displayed
 
 
 def test_diff_of_a_new_file_and_one_of_a_control_is_by_parameter(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    told = of_control(THREE_AXES)
+    reported = of_control(THREE_AXES)
     made = new_file("grblhal", None, "XYZ")
-    told.take(made.values)
+    reported.take(made.values)
     a, b = tmp_path / "a.amp", tmp_path / "b.amp"
     save_file(made, a)
-    save_file(told, b)
+    save_file(reported, b)
     assert run(["diff", str(a), str(b)]) == 0
     assert run(["set", str(b), "$22=Enable"]) == 0
     capsys.readouterr()

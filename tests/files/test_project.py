@@ -83,7 +83,7 @@ def test_a_folder_that_is_a_project_is_not_made_one_again(project: Project) -> N
 
 
 @pytest.mark.parametrize(
-    ("info", "said"),
+    ("info", "message"),
     [
         (ProjectInfo(" ", "9pc"), "a project needs a name"),
         (ProjectInfo("x", "9pd"), "Unknown family '9pd'. Known: .*9pc"),
@@ -91,12 +91,12 @@ def test_a_folder_that_is_a_project_is_not_made_one_again(project: Project) -> N
     ],
 )
 def test_a_project_that_cannot_be_is_not_made(
-    tmp_path: Path, project: Project, info: ProjectInfo, said: str
+    tmp_path: Path, project: Project, info: ProjectInfo, message: str
 ) -> None:
-    with pytest.raises(InvalidNameError, match=said):
+    with pytest.raises(InvalidNameError, match=message):
         Project.create(tmp_path / "other", info)
     assert not (tmp_path / "other").exists()
-    with pytest.raises(InvalidNameError, match=said):
+    with pytest.raises(InvalidNameError, match=message):
         project.change(name=info.name, family=info.family, machine=info.machine)
     assert "Bench" == project.info.name == Project.open(project.folder).info.name
 
@@ -118,7 +118,7 @@ def test_comments_and_unknown_keys_of_a_project_survive(project: Project) -> Non
 
 
 @pytest.mark.parametrize(
-    ("text", "line", "said"),
+    ("text", "line", "message"),
     [
         ("", None, "is not an AMP Studio project"),
         ("[1]", None, "is not an AMP Studio project"),
@@ -149,14 +149,14 @@ def test_comments_and_unknown_keys_of_a_project_survive(project: Project) -> Non
     ],
 )
 def test_a_project_file_that_is_not_understood_is_refused(
-    project: Project, text: str, line: int | None, said: str
+    project: Project, text: str, line: int | None, message: str
 ) -> None:
     path = project.folder / "project.yaml"
     path.write_text(text)
     with pytest.raises(ParameterFileError) as refused:
         Project.open(project.folder)
     assert (path, line) == (refused.value.path, line and refused.value.line)
-    assert said in refused.value.what
+    assert message in refused.value.what
     assert text == path.read_text()
 
 

@@ -168,11 +168,11 @@ def test_a_file_that_is_gone_or_has_come_counts_as_changed(old: Path) -> None:
 def test_a_change_while_the_file_is_being_saved_is_seen(old: Path, monkeypatch) -> None:
     opened, sync = digest_of(old), os.fsync
 
-    def somebody_saves(handle: int) -> None:
+    def another_saves(handle: int) -> None:
         sync(handle)
         old.write_bytes(b"theirs")
 
-    monkeypatch.setattr(os, "fsync", somebody_saves)
+    monkeypatch.setattr(os, "fsync", another_saves)
     with pytest.raises(ChangedOnDiskError, match="while it was saved"):
         write_atomic(old, NEW, opened)
     assert (b"theirs", {"machine.amp"}) == (old.read_bytes(), names(old.parent))
@@ -270,7 +270,7 @@ def test_a_file_that_grows_too_large_for_the_disk_is_not_saved(old: Path) -> Non
 
 
 @pytest.mark.parametrize("place", ["no/such/folder/machine.amp", "machine.amp/below"])
-def test_a_place_that_does_not_exist_is_told_in_one_line(old: Path, place: str) -> None:
+def test_a_place_that_does_not_exist_is_reported_in_one_line(old: Path, place: str) -> None:
     with pytest.raises(SaveError) as fault:
         write_atomic(old.parent / place, NEW, None)
     assert f"{old.parent / place} cannot be written: " in str(fault.value)

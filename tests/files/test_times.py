@@ -27,7 +27,7 @@ def in_helsinki(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 
 
 @pytest.mark.parametrize(
-    ("stored", "shown"),
+    ("stored", "displayed"),
     [
         ("2026-11-22T18:21:04+00:00", "2026-11-22 20:21"),
         ("2026-12-31T23:30:00+00:00", "2027-01-01 01:30"),
@@ -36,8 +36,8 @@ def in_helsinki(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
         ("9999-12-31T23:59:59+00:00", "9999-12-31T23:59:59+00:00"),
     ],
 )
-def test_a_stored_time_is_local_to_the_minute(stored: str, shown: str) -> None:
-    assert local_time(stored) == shown
+def test_a_stored_time_is_local_to_the_minute(stored: str, displayed: str) -> None:
+    assert local_time(stored) == displayed
 
 
 def test_only_times_of_a_text_are_changed() -> None:
@@ -57,9 +57,9 @@ def test_the_finding_of_a_forced_value_shows_when_in_local_time() -> None:
     assert file.forced == {("zone.group_count", ""): "on 2026-11-22T18:21:04+00:00 by 'set --force'"}
 
 
-def test_a_time_is_said_as_a_person_says_it() -> None:
+def test_a_time_is_shown_as_a_user_shows_it() -> None:
     zone = datetime(2026, 11, 22, 15, 0).astimezone()
-    said = [
+    message = [
         day_and_time(f"{stamp}", zone)
         for stamp in (
             zone.replace(hour=14, minute=35).isoformat(),
@@ -70,5 +70,5 @@ def test_a_time_is_said_as_a_person_says_it() -> None:
             "0001-01-01T00:00:00+00:00",
         )
     ]
-    assert said[:5] == ["today 14:35", "yesterday 15:00", "18 Nov 15:00", "18 Oct 2025", "no time"]
-    assert said[5]
+    assert message[:5] == ["today 14:35", "yesterday 15:00", "18 Nov 15:00", "18 Oct 2025", "no time"]
+    assert message[5]

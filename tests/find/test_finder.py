@@ -126,7 +126,7 @@ def test_a_message_comes_before_the_help_that_quotes_it() -> None:
     assert "servo.feedrate_suppression" in {other.key for other in others}
 
 
-def test_the_number_of_an_error_says_which_axis_it_means() -> None:
+def test_the_number_of_an_error_shows_which_axis_it_means() -> None:
     hit = of_family("num").find("error 43")[0]
     assert (hit.key, hit.detail) == ("following-error-too-large", "axis of address 3, page 6-22")
     assert "following-error-too-large" not in {hit.key for hit in of_family("num").find("error 72")}

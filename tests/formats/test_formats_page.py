@@ -37,11 +37,11 @@ def test_every_format_has_its_line_and_its_section(page: str) -> None:
         assert re.search(rf"(?m)^## .* \(`{found.key}`\)$", page), found.key
 
 
-def test_what_a_file_remembers_of_a_table_may_be_written_as_the_page_says(page: str, num: Schema) -> None:
-    told = YAML(typ="safe").load(block(page, "num_table:"))["num_table"]
-    assert TableLayout.from_header(told).as_header() == told
+def test_what_a_file_remembers_of_a_table_may_be_written_as_the_page_shows(page: str, num: Schema) -> None:
+    reported = YAML(typ="safe").load(block(page, "num_table:"))["num_table"]
+    assert TableLayout.from_header(reported).as_header() == reported
     file = taken(num, SAMPLE)
-    file.header.extra["num_table"] = told
+    file.header.extra["num_table"] = reported
     text = FORMAT.write(file)
     assert text.startswith("%12345678 Machine 7;13\r\nP0N0;04\r\n")
     assert "\r\nP9N0:t0n32;0A\r\n#0 1 2 FF " in text
@@ -49,7 +49,7 @@ def test_what_a_file_remembers_of_a_table_may_be_written_as_the_page_says(page: 
     assert text.endswith("\r\n\x13\r\n\x1a")
 
 
-def test_kept_words_may_be_written_as_the_page_says(page: str, num: Schema) -> None:
+def test_kept_words_may_be_written_as_the_page_shows(page: str, num: Schema) -> None:
     file = taken(num, SAMPLE)
     file.unknown.update(YAML(typ="safe").load(block(page, "values:"))["values"])
     assert FORMAT.write(file).endswith("\nP12N10:t1n12;0C\n#3 4;04\nP130N0;06\n#5;02\n\x13")

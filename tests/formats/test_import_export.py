@@ -42,7 +42,7 @@ def test_the_csv_of_a_report_can_be_read_too(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("id,value\n", "line 1: there is no column 'unit'"),
         ("id,instance,value,unit\nhome.nonsense,1,3,mm\n", "line 2, column 1: .* has no home.nonsense@1"),
@@ -56,10 +56,12 @@ def test_the_csv_of_a_report_can_be_read_too(tmp_path: Path) -> None:
         ('id,instance,value,unit\nhome.calibration,1,"1,mm\n', "line 2: this is no line of a table"),
     ],
 )
-def test_a_table_that_cannot_be_meant_is_told_with_its_place(tmp_path: Path, text: str, said: str) -> None:
+def test_a_table_that_cannot_be_understood_is_reported_with_its_place(
+    tmp_path: Path, text: str, message: str
+) -> None:
     path = tmp_path / "bad.csv"
     path.write_text(text, encoding="utf-8")
-    with pytest.raises(FormatError, match=said):
+    with pytest.raises(FormatError, match=message):
         import_file(path, "9pc")
 
 
@@ -71,7 +73,7 @@ def test_what_is_not_understood_is_kept_where_that_is_wanted(tmp_path: Path) -> 
     assert (file.unknown, file.values) == ({"home.nonsense@1": "3 mm"}, {CALIBRATION: Value(1.0, "mm")})
 
 
-def test_the_sheet_holds_what_the_control_stores(mill: ParameterFile, tmp_path: Path) -> None:
+def test_the_sheet_contains_what_the_control_stores(mill: ParameterFile, tmp_path: Path) -> None:
     """10 in/min are 4.23333 mm/s in the control (page 37-3)."""
     mill.set(("home.speed_off_switch", "1"), Value(10.0, "in/min"))
     export_file(mill, tmp_path / "mill.patch")
@@ -86,7 +88,7 @@ def test_the_sheet_holds_what_the_control_stores(mill: ParameterFile, tmp_path: 
 
 
 @pytest.mark.parametrize(
-    ("line", "said"),
+    ("line", "message"),
     [
         ("99999\t1", "line 3, column 1: Unknown parameter '99999'"),
         ("1300", "line 3: a line is number, value, unit and name"),
@@ -95,10 +97,12 @@ def test_the_sheet_holds_what_the_control_stores(mill: ParameterFile, tmp_path: 
         ("360\t1", "line 3, column 1: 360 cannot be keyed in at the control"),
     ],
 )
-def test_a_sheet_that_cannot_be_meant_is_told_with_its_place(tmp_path: Path, line: str, said: str) -> None:
+def test_a_sheet_that_cannot_be_understood_is_reported_with_its_place(
+    tmp_path: Path, line: str, message: str
+) -> None:
     path = tmp_path / "bad.patch"
     path.write_text(f"# Patch sheet of X\n# machine mill\n{line}\n", "utf-8")
-    with pytest.raises(FormatError, match=said):
+    with pytest.raises(FormatError, match=message):
         import_file(path)
 
 
@@ -125,7 +129,7 @@ def test_the_verbs_write_read_and_refuse(tmp_path: Path, capsys: pytest.CaptureF
     assert "does not show which family" in capsys.readouterr().err
 
 
-def test_an_import_with_a_value_out_of_range_writes_nothing_unless_told(
+def test_an_import_with_a_value_out_of_range_writes_nothing_unless_reported(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "far.csv").write_text("id,instance,value,unit\nhome.calibration,1,9999999,mm\n", "utf-8")

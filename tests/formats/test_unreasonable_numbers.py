@@ -116,7 +116,7 @@ def test_a_value_of_a_table_without_its_unit_or_with_that_of_something_else_is_r
     tmp_path: Path,
 ) -> None:
     path = tmp_path / "a.csv"
-    for value, unit, said in [
+    for value, unit, message in [
         ("5", "", "'5' has no unit: write 5 mm"),
         ("5", "ms", "given in mm, not in ms"),
         ("5", "furlong", "'furlong' is not a unit"),
@@ -124,8 +124,8 @@ def test_a_value_of_a_table_without_its_unit_or_with_that_of_something_else_is_r
         ("5", "MM", None),
     ]:
         path.write_text(f"id,instance,value,unit\nhome.calibration,1,{value},{unit}\n")
-        if said is None:
+        if message is None:
             readable_content(import_file(path, "9pc"), path)
         else:
-            with pytest.raises(FormatError, match=said):
+            with pytest.raises(FormatError, match=message):
                 import_file(path, "9pc")

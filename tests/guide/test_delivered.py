@@ -14,7 +14,7 @@ from amp_studio.schema import Value, family_ids, load_schema
 from amp_studio.validate import NOT_SET, Finding, Validator
 
 
-def shown(file: ParameterFile) -> list[Finding]:
+def displayed(file: ParameterFile) -> list[Finding]:
     """Return what is left of the findings without those about values as delivered."""
     validator = Validator(file)
     return [f for f in present(validator, validator.run()).findings if f.rule != NOT_SET]
@@ -22,11 +22,11 @@ def shown(file: ParameterFile) -> list[Finding]:
 
 @pytest.mark.parametrize("family", family_ids())
 def test_a_fresh_file_has_no_finding_with_axes_or_without(family: str) -> None:
-    assert shown(new_file(family)) == []
+    assert displayed(new_file(family)) == []
     schema = load_schema(family)
     declared = schema.family.declared_axes
     axes = "XYZ"[: max(2, declared.least if declared else 0)]
-    assert shown(new_file(family, None, () if why_axes_are_fixed(schema) else tuple(axes))) == []
+    assert displayed(new_file(family, None, () if why_axes_are_fixed(schema) else tuple(axes))) == []
 
 
 def test_what_is_as_delivered_has_its_steps() -> None:
@@ -36,16 +36,16 @@ def test_what_is_as_delivered_has_its_steps() -> None:
     assert state.steps == (2, 3, 4, 5, 8)
 
 
-def test_what_somebody_has_set_wrong_is_a_finding_at_once() -> None:
+def test_what_a_user_has_set_wrong_is_a_finding_at_once() -> None:
     file = new_file("9pc", "mill", ["X", "Y"])
     file.set(("home.calibration", "1"), Value(1e6, "mm"))
-    assert ("home.calibration", "1") in [f.causes[0] for f in shown(file)]
+    assert ("home.calibration", "1") in [f.causes[0] for f in displayed(file)]
 
 
-def test_once_somebody_has_begun_the_first_step_has_its_errors() -> None:
+def test_once_a_user_has_begun_the_first_step_has_its_errors() -> None:
     file = new_file("9pc", "mill", ["X", "Y"])
     file.set(("home.position", "1"), Value(1.0, "mm"))
-    assert {f.rule for f in shown(file) if f.severity == "error"} == {
+    assert {f.rule for f in displayed(file) if f.severity == "error"} == {
         "9pc.servo.hardware-missing",
         "9pc.servo.loop-type-missing",
     }

@@ -69,7 +69,7 @@ def test_a_step_is_done_when_all_that_had_to_be_given_is(mill: ParameterFile) ->
     assert (come(mill).of(step).set, come(mill).of(step).total, come(mill).of(step).state) == (3, 3, "done")
 
 
-def test_a_step_whose_values_all_have_a_default_is_done_when_a_person_says_so(mill: ParameterFile) -> None:
+def test_a_step_whose_values_all_have_a_default_is_done_when_a_user_shows_it(mill: ParameterFile) -> None:
     step = find_step(mill.schema, "dual")
     assert come(mill).of(step).state == "not begun"
     assert tick(mill, step, "2026-11-22T20:00:00Z by ann") is True
@@ -102,12 +102,12 @@ def test_the_errors_of_a_step_are_shown_when_the_steps_before_it_are_finished(mi
     assert now.current is not None
     assert now.current.step.id == "position_loop"  # the port of step 5 is judged with the loop type of step 6
     assert now.current.open == ()
-    shown = {f.rule for each in now.steps for f in each.findings if f.severity == "error"}
-    assert shown == {"9pc.servo.output-missing", "9pc.servo.feedback-missing"}
-    assert {f.rule for f in now.deferred if f.severity == "error"} == rules - shown
+    displayed = {f.rule for each in now.steps for f in each.findings if f.severity == "error"}
+    assert displayed == {"9pc.servo.output-missing", "9pc.servo.feedback-missing"}
+    assert {f.rule for f in now.deferred if f.severity == "error"} == rules - displayed
 
 
-def test_a_finding_about_a_value_that_somebody_has_set_in_a_later_step_is_shown() -> None:
+def test_a_finding_about_a_value_that_a_user_has_set_in_a_later_step_is_shown() -> None:
     file = new_file("9pc", "mill", ["X", "Y", "Z"])
     here = ("jog.speed_lowest", "1")
     file.set(here, Value(-5.0, "mm/min"))  # out of its range
@@ -127,9 +127,9 @@ def test_with_nothing_unfinished_nothing_is_deferred() -> None:
 def test_what_is_deferred_is_still_found_by_the_validator() -> None:
     validator = Validator(new_file("9pc", "mill"))
     findings = validator.run()
-    held = progress(validator).deferred
-    assert held
-    assert set(map(id, held)) <= set(map(id, findings))
+    content = progress(validator).deferred
+    assert content
+    assert set(map(id, content)) <= set(map(id, findings))
 
 
 def test_the_next_open_value_goes_through_the_steps_and_begins_again_after_the_last() -> None:

@@ -14,7 +14,7 @@ from amp_studio.schema import Address
 from amp_studio.validate import Finding, Validator
 
 
-class Person:
+class User:
     """Gives the values of a machine that he knows, where the guide asks for them."""
 
     def __init__(self, known: Path) -> None:
@@ -60,25 +60,25 @@ class Person:
 
 
 @pytest.fixture
-def person(checkout: Path) -> Person:
-    return Person(checkout / "examples" / "mill-1394" / "MILL_1394.amp")
+def user(checkout: Path) -> User:
+    return User(checkout / "examples" / "mill-1394" / "MILL_1394.amp")
 
 
-def test_a_new_mill_is_progress_from_the_first_value_to_the_last(person: Person) -> None:
-    now, listed = person.look(), list[int]()
-    assert person.listed == []  # hardware and loop type of five axes are as delivered until he begins
+def test_a_new_mill_is_progress_from_the_first_value_to_the_last(user: User) -> None:
+    now, listed = user.look(), list[int]()
+    assert user.listed == []  # hardware and loop type of five axes are as delivered until he begins
     while now.current is not None:
-        listed.append(len(person.listed))
-        known = [address for address in now.current.open if person.known.get(address) is not None]
+        listed.append(len(user.listed))
+        known = [address for address in now.current.open if user.known.get(address) is not None]
         if known:
-            person.give(*known)
+            user.give(*known)
         else:
-            person.mend(now.current.step.number)
-        now = person.look()
+            user.mend(now.current.step.number)
+        now = user.look()
     assert now.set == now.total == 301
     assert now.deferred == ()
-    assert [f.rule for f in person.findings if f.severity == "error"] == []
-    assert person.course == [
+    assert [f.rule for f in user.findings if f.severity == "error"] == []
+    assert user.course == [
         "control",
         "axis",
         "home",
@@ -104,20 +104,20 @@ def test_a_new_mill_is_progress_from_the_first_value_to_the_last(person: Person)
     assert listed[-8:] == [0] * 8
 
 
-def test_next_not_set_comes_to_every_open_value_once_and_leaves_nothing_behind(person: Person) -> None:
-    person.give(*[a for a in person.known.values if person.file.get(a) != person.known.get(a)])
+def test_next_not_set_comes_to_every_open_value_once_and_leaves_nothing_behind(user: User) -> None:
+    user.give(*[a for a in user.known.values if user.file.get(a) != user.known.get(a)])
     gone = [("home.g28_speed", "1"), ("jog.speed_lowest", "2"), ("axis.name", "3"), ("zone.limit2_max", "1")]
     for address in gone:
-        person.file.set(address, None)
-    person.findings = person.validator.run()
+        user.file.set(address, None)
+    user.findings = user.validator.run()
     walked, here = [], None
-    while (here := next_open(progress(person.validator, person.findings), here)) is not None:
+    while (here := next_open(progress(user.validator, user.findings), here)) is not None:
         walked.append(here)
-        person.give(here)
+        user.give(here)
     assert walked == [
         ("axis.name", "3"),
         ("home.g28_speed", "1"),
         ("zone.limit2_max", "1"),
         ("jog.speed_lowest", "2"),
     ]
-    assert [f.rule for f in person.findings if f.severity == "error"] == []
+    assert [f.rule for f in user.findings if f.severity == "error"] == []

@@ -30,13 +30,13 @@ def test_ticks_are_saved_and_read_again(tmp_path: Path) -> None:
     assert again.header.extra == {}
 
 
-def test_a_file_without_ticks_says_nothing_about_them(tmp_path: Path) -> None:
+def test_a_file_without_ticks_shows_nothing_about_them(tmp_path: Path) -> None:
     file = new_file("syntec")
     save_file(file, tmp_path / "new.amp")
     assert "done" not in (tmp_path / "new.amp").read_text("utf-8")
 
 
-def test_another_tick_leaves_the_rest_of_the_file_as_somebody_wrote_it(tmp_path: Path) -> None:
+def test_another_tick_leaves_the_rest_of_the_file_as_a_user_wrote_it(tmp_path: Path) -> None:
     path = tmp_path / "ticked.amp"
     path.write_text(TICKED, "utf-8")
     file = open_file(path).file

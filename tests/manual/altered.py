@@ -68,8 +68,10 @@ def altered_schema(family: str, parameter_id: str, changes: Mapping[str, object]
         if parameter.id != parameter_id:
             return parameter
         new = {
-            key: getattr(parameter, key).model_copy(update=said) if isinstance(said, Nested) else said
-            for key, said in changes.items()
+            key: getattr(parameter, key).model_copy(update=message)
+            if isinstance(message, Nested)
+            else message
+            for key, message in changes.items()
         }
         return parameter.model_copy(update=new)
 

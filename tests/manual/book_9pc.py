@@ -119,8 +119,8 @@ def same_name(name: str, *labels: str, instance: str = "") -> bool:
     """Return whether a name is one of the labels; a label may count instances, or say which one it is."""
     own, uncounted = spelled(name), spelled(re.sub(r"\d+ ?(?:-|to) ?\d+", "", name))
     for label in filter(None, labels):
-        said = spelled(label)
-        if said == own or (own and said.startswith(own) and COUNTING.fullmatch(said[len(own) :])):
+        message = spelled(label)
+        if message == own or (own and message.startswith(own) and COUNTING.fullmatch(message[len(own) :])):
             return True
         if (
             instance
@@ -149,8 +149,8 @@ def fits(number: PrintedNumber, claim: Claim) -> bool:
     if number.process.startswith("process"):
         return claim.instance == number.process[-1] and not number.axis.isdigit()
     if part:
-        said = [number.axis or number.spindle, *re.findall(r"\d+", number.name)]
-        return said[-1] == part and {*said[:-1]} <= {"", whole}
+        message = [number.axis or number.spindle, *re.findall(r"\d+", number.name)]
+        return message[-1] == part and {*message[:-1]} <= {"", whole}
     if number.axis.isdigit() or number.spindle:
         return whole == (number.axis or number.spindle)
     if number.pair:
@@ -173,6 +173,6 @@ UNITS = {
 }
 
 
-def unit_of(said: str) -> str:
+def unit_of(message: str) -> str:
     """Return the schema's unit for a printed one."""
-    return UNITS[said] if said in UNITS else unit_named(said)
+    return UNITS[message] if message in UNITS else unit_named(message)

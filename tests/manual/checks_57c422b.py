@@ -54,9 +54,9 @@ def words_of(schema: Schema, name: str) -> str:
     """Return all texts of a parameter, squashed: name, bits, help and errata."""
     parameter = schema.parameters[name]
     labels = [bit.label for bit in parameter.bits or ()]
-    said = [reading.says for key in parameter.errata for reading in schema.errata[key].readings]
+    message = [reading.says for key in parameter.errata for reading in schema.errata[key].readings]
     told = (parameter.help.what, parameter.help.find, parameter.help.wrong)
-    return squashed(" ".join([parameter.name, *labels, *told, *said]))
+    return squashed(" ".join([parameter.name, *labels, *told, *message]))
 
 
 class Module(Book):
@@ -203,11 +203,11 @@ def bounds_of(parameter: Parameter) -> list[tuple[int, float]]:
     return found
 
 
-def is_bound(parameter: Parameter, end: int, said: float) -> bool:
+def is_bound(parameter: Parameter, end: int, message: float) -> bool:
     """Return whether a printed figure is a bound, as shown or as in the register."""
     scale = parameter.storage.scale if parameter.storage else 1.0
     return any(
-        at == end and any(abs(said - one) <= 1e-9 * abs(one) for one in (bound, bound * scale))
+        at == end and any(abs(message - one) <= 1e-9 * abs(one) for one in (bound, bound * scale))
         for at, bound in bounds_of(parameter)
     )
 
@@ -218,12 +218,12 @@ def check_ranges(book: Module) -> Iterator[Disagreement]:
     for section in book.sections:
         for fact in section.ranges:
             yield from range_of(book, section, fact)
-            printed += [(p, end, said) for p in book.of_section(section) for end, said in ends(fact)]
+            printed += [(p, end, message) for p in book.of_section(section) for end, message in ends(fact)]
     for parameter in book.schema.parameters.values():
         for end, bound in bounds_of(parameter):
             one = [parameter.storage.scale if parameter.storage else 1.0, 1.0]
-            said = [figure_ for p, at, figure_ in printed if p == parameter and at == end]
-            if not any(abs(f - bound * scale) <= 1e-9 * abs(f) for f in said for scale in one):
+            message = [figure_ for p, at, figure_ in printed if p == parameter and at == end]
+            if not any(abs(f - bound * scale) <= 1e-9 * abs(f) for f in message for scale in one):
                 yield nowhere("ranges", f"{parameter.id} {'high' if end else 'low'}", str(bound))
 
 
@@ -232,22 +232,22 @@ def ends(fact: PrintedRange) -> list[tuple[int, float]]:
     if " to " in fact.low + fact.high:
         return []
     low, high = (fact.high, fact.low) if fact.note == "ratio" else (fact.low, fact.high)
-    found = [(end, figure(said)) for end, said in enumerate((low, high)) if said]
-    return [(end, said + 1) for end, said in found] if fact.note == "nor 0" else found
+    found = [(end, figure(message)) for end, message in enumerate((low, high)) if message]
+    return [(end, message + 1) for end, message in found] if fact.note == "nor 0" else found
 
 
 def range_of(book: Module, section: Section, fact: PrintedRange) -> Iterator[Disagreement]:
     """Yield the disagreements on one printed range."""
     owners = book.of_section(section)
-    for end, said in ends(fact):
-        if not any(is_bound(p, end, said) for p in owners):
+    for end, message in ends(fact):
+        if not any(is_bound(p, end, message) for p in owners):
             held = {p.id: bounds_of(p) for p in owners if bounds_of(p)}
             yield at_line(
-                "ranges", section, fact.line, f"{fact.low} to {fact.high}", f"end {said:g}", f"{held}"
+                "ranges", section, fact.line, f"{fact.low} to {fact.high}", f"end {message:g}", f"{held}"
             )
     if " to " in fact.low + fact.high:
         taken = " ".join(book.schema.errata[key].taken for p in owners for key in p.errata)
-        low, high = (figure(f"0{said}".partition(" ")[0]) for said in (fact.low, fact.high))
+        low, high = (figure(f"0{message}".partition(" ")[0]) for message in (fact.low, fact.high))
         if f"{low:g} to {high:g} times" not in taken:
             yield at_line(
                 "ranges", section, fact.line, fact.low, f"{fact.low} and {fact.high}", f"takes {taken!r}"

@@ -43,8 +43,8 @@ def numbers_of(book: Reference, section: Section) -> Iterator[Disagreement]:
     """Yield the disagreements on the numbers of one section."""
     for number in section.numbers:
         if not book.claims.get(number.number):
-            about, nobody = number.number, "no parameter has it"
-            yield at_line("numbers", section, number.line, about, _row(number), nobody)
+            about, no_user = number.number, "no parameter has it"
+            yield at_line("numbers", section, number.line, about, _row(number), no_user)
         elif number.place == book.described_in[number.number]:
             yield from _at_home(book, section, number, book.at_home(section, number))
 
@@ -95,10 +95,10 @@ def _printed_elsewhere(
 
 
 def _row(number: PrintedNumber) -> str:
-    said = [
+    message = [
         f"{key} {value!r}" for key, value in vars(number).items() if value and key not in {"line", "number"}
     ]
-    return "prints it: " + ", ".join(said)
+    return "prints it: " + ", ".join(message)
 
 
 def _claim(book: Reference, claim: Claim) -> str:
@@ -129,60 +129,60 @@ def ranges_of(book: Reference, section: Section) -> Iterator[Disagreement]:
 def _ranges(
     book: Reference, section: Section, parameter: Parameter, facts: list[PrintedRange]
 ) -> Iterator[Disagreement]:
-    held = held_ranges(parameter)
-    exact = [one for one in held if any(range_is(book, fact, one) for fact in facts)]
+    content = held_ranges(parameter)
+    exact = [one for one in content if any(range_is(book, fact, one) for fact in facts)]
     odd: list[PrintedRange] = []
     for fact in facts:
         agreed = any(
             range_is(book, fact, one)
             or (one not in exact and range_explained(book, section, parameter, fact, one))
-            for one in held
+            for one in content
         )
         if is_worded(fact):
-            agreed = agreed and neighbour_units(book, held) <= {unit for unit, _ in held}
+            agreed = agreed and neighbour_units(book, content) <= {unit for unit, _ in content}
         if not agreed and not (parameter.choices and choices_span(book, section, parameter, fact)):
             odd.append(fact)
-            database = ", ".join(held_text(*one) for one in held) or "has no range"
+            database = ", ".join(held_text(*one) for one in content) or "has no range"
             yield at_line("ranges", section, fact.line, parameter.id, range_text(fact), database)
-    for one in held:
+    for one in content:
         agreed = one in exact or any(range_explained(book, section, parameter, fact, one) for fact in facts)
         if not agreed and not any(unit_agrees(fact, one[0]) for fact in odd):
             about = f"{parameter.id} [{one[0]}]"
             yield at_line("ranges", section, 0, about, NOWHERE, held_text(*one))
 
 
-def neighbour_units(book: Reference, held: list[tuple[str, Range]]) -> set[str]:
+def neighbour_units(book: Reference, content: list[tuple[str, Range]]) -> set[str]:
     """Return the units of the parameters that are bounds:
     a range printed in words is valid only in all of them.
     """
-    bounds = [bound.param for _, both in held for bound in both if isinstance(bound, BoundRef)]
+    bounds = [bound.param for _, both in content for bound in both if isinstance(bound, BoundRef)]
     return {unit for name in bounds for unit, _ in held_ranges(book.schema.parameters[name])}
 
 
-def range_is(book: Reference, fact: PrintedRange, held: tuple[str, Range]) -> bool:
+def range_is(book: Reference, fact: PrintedRange, content: tuple[str, Range]) -> bool:
     """Return whether a range is in the database as printed."""
-    return unit_agrees(fact, held[0]) and not list(wrong_bounds(book, fact, held[1]))
+    return unit_agrees(fact, content[0]) and not list(wrong_bounds(book, fact, content[1]))
 
 
 def range_explained(
-    book: Reference, section: Section, parameter: Parameter, fact: PrintedRange, held: tuple[str, Range]
+    book: Reference, section: Section, parameter: Parameter, fact: PrintedRange, content: tuple[str, Range]
 ) -> bool:
     """Return whether an erratum names both readings of all bounds that differ."""
-    wrong = list(wrong_bounds(book, fact, held[1]))
+    wrong = list(wrong_bounds(book, fact, content[1]))
     instead = [
         book.schema.parameters[bound.param].name if isinstance(bound, BoundRef) else bound
         for _, bound in wrong
         if bound is not None
     ]
-    said = [said for said, _ in wrong]
-    return unit_agrees(fact, held[0]) and book.explained(parameter, section.page, said, instead)
+    message = [message for message, _ in wrong]
+    return unit_agrees(fact, content[0]) and book.explained(parameter, section.page, message, instead)
 
 
 def wrong_bounds(book: Reference, fact: PrintedRange, bounds: Range) -> Iterator[tuple[str, Bound]]:
     """Yield both readings of the bounds that differ."""
-    for said, bound in zip((fact.low, fact.high), bounds, strict=True):
-        if not bound_agrees(book, said, bound):
-            yield said, bound
+    for message, bound in zip((fact.low, fact.high), bounds, strict=True):
+        if not bound_agrees(book, message, bound):
+            yield message, bound
 
 
 def held_ranges(parameter: Parameter) -> list[tuple[str, Range]]:
@@ -197,8 +197,8 @@ def applies(fact: PrintedRange | PrintedChoice, home: Home) -> bool:
         return fact.number in home.numbers or not home.numbers
     if not fact.applies:
         return True
-    said = spelled(re.sub(r" ?parameters?$", "", fact.applies))
-    return any(said in spelled(name) for name in (home.parameter.name, *home.rows))
+    message = spelled(re.sub(r" ?parameters?$", "", fact.applies))
+    return any(message in spelled(name) for name in (home.parameter.name, *home.rows))
 
 
 def unit_agrees(fact: PrintedRange, unit: str) -> bool:
@@ -215,14 +215,14 @@ def is_worded(fact: PrintedRange) -> bool:
     return not fact.unit and not re.match(r"-?\d", fact.low) and not re.match(r"-?\d", fact.high)
 
 
-def bound_agrees(book: Reference, said: str, bound: Bound) -> bool:
+def bound_agrees(book: Reference, message: str, bound: Bound) -> bool:
     """Return whether a printed bound, a figure or the name of another parameter, is the one of the
     database.
     """
     if isinstance(bound, BoundRef):
-        return same_name(book.schema.parameters[bound.param].name, said, said.removesuffix(" value"))
+        return same_name(book.schema.parameters[bound.param].name, message, message.removesuffix(" value"))
     try:
-        return bound is not None and float(said) == bound
+        return bound is not None and float(message) == bound
     except ValueError:
         return False
 
@@ -233,7 +233,7 @@ def choices_span(book: Reference, section: Section, parameter: Parameter, fact: 
     """
     codes = [choice.raw for choice in parameter.choices or () if choice.raw is not None]
     ends = zip((fact.low, fact.high), (min(codes, default=None), max(codes, default=None)), strict=True)
-    wrong = [said for said, code in ends if code is None or float(said) != code]
+    wrong = [message for message, code in ends if code is None or float(message) != code]
     return not wrong or book.explained(parameter, section.page, wrong)
 
 
@@ -271,8 +271,8 @@ def choices_of(book: Reference, section: Section) -> Iterator[Disagreement]:
     homes = book.homes(section)
     for fact in section.choices:
         if not any(applies(fact, home) for home in homes):
-            said = f"({fact.letter}) {fact.text}"
-            yield at_line("choices", section, fact.line, section.heading, said, "has no parameter")
+            message = f"({fact.letter}) {fact.text}"
+            yield at_line("choices", section, fact.line, section.heading, message, "has no parameter")
     for home in homes:
         facts = lettered([fact for fact in section.choices if applies(fact, home)])
         yield from _choices(book, section, home.parameter, facts)
@@ -286,18 +286,18 @@ def lettered(facts: list[PrintedChoice]) -> list[PrintedChoice]:
 def _choices(
     book: Reference, section: Section, parameter: Parameter, facts: list[PrintedChoice]
 ) -> Iterator[Disagreement]:
-    held = list(parameter.choices or ())
+    content = list(parameter.choices or ())
     odd: list[Choice] = []
     for fact in facts:
-        if not any(choice_agrees(book, section, parameter, fact, choice) for choice in held):
-            near = [c for c in held if c.code == fact.letter or squashed(c.label) == squashed(fact.text)]
+        if not any(choice_agrees(book, section, parameter, fact, choice) for choice in content):
+            near = [c for c in content if c.code == fact.letter or squashed(c.label) == squashed(fact.text)]
             odd += near
             database = ", ".join(f"({c.code}) {c.label}" for c in near) or "does not have it"
-            about, said = f"{parameter.id} {fact.letter}", f"({fact.letter}) {fact.text}"
-            yield at_line("choices", section, fact.line, about, said, database)
+            about, message = f"{parameter.id} {fact.letter}", f"({fact.letter}) {fact.text}"
+            yield at_line("choices", section, fact.line, about, message, database)
     if facts and all(fact.number for fact in facts):
         return  # a screen is no list
-    for choice in held:
+    for choice in content:
         added = choice.code is None and book.explained(parameter, PATCH_PAGE, [choice.label])
         agreed = any(choice_agrees(book, section, parameter, fact, choice) for fact in facts)
         if not added and not agreed and choice not in odd:

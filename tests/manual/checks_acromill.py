@@ -105,9 +105,9 @@ def check_names(book: Guide) -> Iterator[Disagreement]:
         for row in section.stored:
             found = book.called(section, row.name)
             if len(found) != 1:
-                held = ", ".join(parameter.id for parameter in found) or "nothing"
+                content = ", ".join(parameter.id for parameter in found) or "nothing"
                 yield at_line(
-                    "names", section, row.line, row.name, f"is called {row.name!r}", f"calls so {held}"
+                    "names", section, row.line, row.name, f"is called {row.name!r}", f"calls so {content}"
                 )
             elif (
                 row.default
@@ -142,18 +142,20 @@ def value_of(book: Guide, section: Section, row: StoredRow, parameter: Parameter
     """Yield the disagreements on a printed default, unit or value of a picture."""
     default = parameter.default
     labels = {choice.key: choice.label for choice in parameter.choices or ()}
-    held = labels.get(str(default.value), str(default.value)) if default else "NA"
+    content = labels.get(str(default.value), str(default.value)) if default else "NA"
     errata = [book.schema.errata[key] for key in parameter.errata]
     if row.default and not alike(
-        row.default if parameter.choices else NO_FIGURES.get(row.default, row.default), held
+        row.default if parameter.choices else NO_FIGURES.get(row.default, row.default), content
     ):
         doubted = any(
             any(mentions(reading.says, row.default) for reading in erratum.readings)
-            and mentions(erratum.taken, held)
+            and mentions(erratum.taken, content)
             for erratum in errata
         )
         if not doubted:
-            yield at_line("values", section, row.line, row.name, f"default {row.default}", f"default {held}")
+            yield at_line(
+                "values", section, row.line, row.name, f"default {row.default}", f"default {content}"
+            )
     if row.unit in KINDS:
         types = {KINDS[row.unit] or parameter.type, "bits" if row.unit == "Integer" else ""}
         if parameter.type not in types:
@@ -205,17 +207,17 @@ def check_runs(book: Guide) -> Iterator[Disagreement]:
         for fact in section.defaults:
             printed.setdefault(fact.number, []).append(float(fact.value))
     for name, values in printed.items():
-        held = list(table.column(name) or ())
-        if values != held:
-            yield Disagreement("runs", 0, name, "the tuning procedure", f"{values}", f"{held}")
+        content = list(table.column(name) or ())
+        if values != content:
+            yield Disagreement("runs", 0, name, "the tuning procedure", f"{values}", f"{content}")
 
 
-def alike(printed: str, held: str) -> bool:
+def alike(printed: str, content: str) -> bool:
     """Return whether a printed value is that of the database, as a figure or as a word."""
     try:
-        return float(printed) == float(held)
+        return float(printed) == float(content)
     except ValueError:
-        return printed.casefold() == held.casefold()
+        return printed.casefold() == content.casefold()
 
 
 def check_ranges(book: Guide) -> Iterator[Disagreement]:
@@ -229,9 +231,9 @@ def check_ranges(book: Guide) -> Iterator[Disagreement]:
 
 def range_of(book: Guide, section: Section, fact: PrintedRange) -> Iterator[Disagreement]:
     found = book.called(section, fact.applies)
-    held = [tuple(both) for p in found for both in (p.ranges or {}).values()]
-    if (float(fact.low), float(fact.high)) not in held:
-        yield at_line("ranges", section, fact.line, fact.applies, f"{fact.low} to {fact.high}", f"{held}")
+    content = [tuple(both) for p in found for both in (p.ranges or {}).values()]
+    if (float(fact.low), float(fact.high)) not in content:
+        yield at_line("ranges", section, fact.line, fact.applies, f"{fact.low} to {fact.high}", f"{content}")
 
 
 def choice_of(book: Guide, section: Section, fact: PrintedChoice) -> Iterator[Disagreement]:

@@ -31,8 +31,8 @@ class Words(Book):
         """``P35`` -> word -> who claims it."""
         found: dict[str, dict[int, tuple[Claimant, ...]]] = {}
         for parameter in self.schema.parameters.values():
-            for instance, said in self.schema.on(MACHINE).numbers(parameter).items():
-                number, _, word = said.partition("N")
+            for instance, message in self.schema.on(MACHINE).numbers(parameter).items():
+                number, _, word = message.partition("N")
                 claimed = found.setdefault(number, {})
                 claimed[int(word)] = (*claimed.get(int(word), ()), Claimant(parameter, instance))
         return found
@@ -70,17 +70,17 @@ class Words(Book):
 
     def claims_on(self, number: str, word: str = "") -> tuple[Claimant, ...]:
         """Return who claims these words of a parameter, or any word of it."""
-        held = self.words.get(number, {})
-        return tuple(claim for n in (span(word) if word else held) for claim in held.get(n, ()))
+        content = self.words.get(number, {})
+        return tuple(claim for n in (span(word) if word else content) for claim in content.get(n, ()))
 
-    def has_erratum(self, number: str, said: str, held: Iterable[object] = ()) -> bool:
+    def has_erratum(self, number: str, message: str, content: Iterable[object] = ()) -> bool:
         """Return whether an erratum of this parameter names what is printed and takes what is
         in the database.
         """
         errata = {key for claim in self.claims_on(number) for key in claim.parameter.errata}
         return any(
-            any(mentions(reading.says, said) for reading in self.schema.errata[key].readings)
-            and all(mentions(self.schema.errata[key].taken, str(one)) for one in held)
+            any(mentions(reading.says, message) for reading in self.schema.errata[key].readings)
+            and all(mentions(self.schema.errata[key].taken, str(one)) for one in content)
             for key in errata
         )
 
@@ -96,20 +96,20 @@ def span(word: str) -> list[int]:
 
 def runs(words: Iterable[int]) -> str:
     """Return ``N0-N31`` for a set of words."""
-    said: list[list[int]] = []
+    message: list[list[int]] = []
     for word in sorted(words):
-        if said and word == said[-1][-1] + 1:
-            said[-1].append(word)
+        if message and word == message[-1][-1] + 1:
+            message[-1].append(word)
         else:
-            said.append([word])
-    return ", ".join(f"N{run[0]}" if len(run) == 1 else f"N{run[0]}-N{run[-1]}" for run in said)
+            message.append([word])
+    return ", ".join(f"N{run[0]}" if len(run) == 1 else f"N{run[0]}-N{run[-1]}" for run in message)
 
 
-def figure(said: str, *, hexadecimal: bool = False) -> float:
+def figure(message: str, *, hexadecimal: bool = False) -> float:
     """Return the value of a printed figure; those with a dollar are hexadecimal."""
-    if said.startswith("$") or (hexadecimal and re.fullmatch(r"F+|0{4,}", said)):
-        return float(int(said.lstrip("$"), 16))
-    return float(said)
+    if message.startswith("$") or (hexadecimal and re.fullmatch(r"F+|0{4,}", message)):
+        return float(int(message.lstrip("$"), 16))
+    return float(message)
 
 
 # -- the list of chapter 2 --------------------------------------------------------------------------------
@@ -164,30 +164,30 @@ def check_words(book: Words) -> Iterator[Disagreement]:
     """
     for section in book.sections:
         yield from words_of(book, section)
-    for number, held in book.words.items():
+    for number, content in book.words.items():
         printed = book.printed_words.get(number, set())
-        more = held.keys() - printed
+        more = content.keys() - printed
         if more and not (printed and book.has_erratum(number, runs(more))):
             says = f"prints {runs(printed) or 'no words'}"
             yield Disagreement("words", 0, number, book.pages.get(number, ""), says, f"has {runs(more)}")
-        twice = [word for word, claims in held.items() if len(claims) > 1]
+        twice = [word for word, claims in content.items() if len(claims) > 1]
         if twice:
-            names = sorted({claim.parameter.id for word in twice for claim in held[word]})
+            names = sorted({claim.parameter.id for word in twice for claim in content[word]})
             yield Disagreement("words", 0, number, "twice", f"prints {runs(twice)} once", ", ".join(names))
 
 
 def words_of(book: Words, section: Section) -> Iterator[Disagreement]:
     """Yield the disagreements on the words of one section."""
     for size in section.sizes:
-        held = book.words.get(size.number, {})
+        content = book.words.get(size.number, {})
         codes = {str(c.parameter.storage and c.parameter.storage.code) for c in book.claims_on(size.number)}
         odd = codes - {size.type}
         if odd and not book.has_erratum(size.number, size.type, odd):
             says = f"type {size.type}"
             yield at_line("words", section, size.line, size.number, says, f"type {', '.join(sorted(odd))}")
-        if len(held) != size.words and not book.has_erratum(size.number, str(size.words)):
+        if len(content) != size.words and not book.has_erratum(size.number, str(size.words)):
             says = f"{size.words} words"
-            yield at_line("words", section, size.line, size.number, says, f"{len(held)} words")
+            yield at_line("words", section, size.line, size.number, says, f"{len(content)} words")
     for fact in section.words:
         lost = [n for n in span(fact.word) if n not in book.words.get(fact.number, {})]
         if lost and not book.has_erratum(fact.number, fact.word):
@@ -205,7 +205,7 @@ def bits_of(book: Words, section: Section) -> Iterator[Disagreement]:
     for fact in section.bits:
         if not any(has_bits(claim.parameter, fact) for claim in book.claims_on(fact.number, fact.word)):
             about = f"{fact.number} {fact.word}".strip()
-            held = ", ".join(
+            content = ", ".join(
                 sorted(
                     {
                         f"{claim.parameter.id} {fields(claim.parameter)}"
@@ -213,7 +213,9 @@ def bits_of(book: Words, section: Section) -> Iterator[Disagreement]:
                     }
                 )
             )
-            yield at_line("bits", section, fact.line, about, f"bit {fact.bits}", held or "has no such word")
+            yield at_line(
+                "bits", section, fact.line, about, f"bit {fact.bits}", content or "has no such word"
+            )
 
 
 def fields(parameter: Parameter) -> list[tuple[int, int]]:
@@ -225,8 +227,8 @@ def fields(parameter: Parameter) -> list[tuple[int, int]]:
 
 def has_bits(parameter: Parameter, fact: PrintedWord) -> bool:
     """Return whether the printed bits are whole fields of a parameter."""
-    said = sorted(map(int, fact.bits.split("-")))
-    return said[0] in {low for low, _ in fields(parameter)} and said[-1] in {
+    message = sorted(map(int, fact.bits.split("-")))
+    return message[0] in {low for low, _ in fields(parameter)} and message[-1] in {
         high for _, high in fields(parameter)
     }
 
@@ -246,12 +248,12 @@ def codes_of(book: Words, section: Section) -> Iterator[Disagreement]:
     """
     told: dict[tuple[str, str], list[int]] = {}
     for fact in section.choices:
-        held = choices_of(book, fact)
+        content = choices_of(book, fact)
         told.setdefault((fact.number, fact.applies), []).append(int(fact.letter, 2))
         if not any(
-            choice.raw == int(fact.letter, 2) and same_text(choice.label, fact.text) for choice in held
+            choice.raw == int(fact.letter, 2) and same_text(choice.label, fact.text) for choice in content
         ):
-            labels = ", ".join(f"{choice.raw} {choice.label}" for choice in held) or "has no such field"
+            labels = ", ".join(f"{choice.raw} {choice.label}" for choice in content) or "has no such field"
             about, says = f"{fact.number} bits {fact.applies}", f"{fact.letter} {fact.text}"
             yield at_line("codes", section, fact.line, about, says, labels)
     for (number, bits), codes in told.items():
@@ -275,9 +277,9 @@ def choices_of(book: Words, fact: PrintedChoice) -> list[Choice]:
     ]
 
 
-def same_text(label: str, said: str) -> bool:
+def same_text(label: str, message: str) -> bool:
     """Return whether a label is the printed one, without what is before or after it."""
-    short, whole = (re.sub(r"[^a-z0-9.µ]", "", text.lower()) for text in (label, said))
+    short, whole = (re.sub(r"[^a-z0-9.µ]", "", text.lower()) for text in (label, message))
     return whole.startswith(short) if short[:1].isdigit() else short in whole
 
 
@@ -310,9 +312,9 @@ def defaults_of(book: Words, section: Section) -> Iterator[Disagreement]:
         whole = all(agreed) if fact.word else any(agreed)
         if not (agreed and whole) and not book.has_erratum(fact.number, fact.value):
             about = f"{fact.number} {fact.word}".strip()
-            held = sorted({f"{c.parameter.id} {held_default(c)}" for c in claims}) or ["has no such word"]
+            content = sorted({f"{c.parameter.id} {held_default(c)}" for c in claims}) or ["has no such word"]
             says = f"{fact.note} {fact.value} {fact.unit}".strip()
-            yield at_line("defaults", section, fact.line, about, says, ", ".join(held))
+            yield at_line("defaults", section, fact.line, about, says, ", ".join(content))
 
 
 def held_default(claim: Claimant) -> float | bool | str | None:
@@ -327,12 +329,12 @@ def held_default(claim: Claimant) -> float | bool | str | None:
 
 def default_is(claim: Claimant, fact: PrintedDefault) -> bool:
     """Return whether an instance has the printed default, in the printed unit."""
-    held, default = held_default(claim), claim.parameter.default
-    if held is None or default is None:
+    content, default = held_default(claim), claim.parameter.default
+    if content is None or default is None:
         return False
     unit = fact.unit.replace("µ", "u")
     try:
-        return figure(fact.value) == held and (not default.unit or not unit or default.unit == unit)
+        return figure(fact.value) == content and (not default.unit or not unit or default.unit == unit)
     except ValueError:
         labels = {choice.key: choice.label for choice in claim.parameter.choices or ()}
         return fact.value.lower() in {str(default.value).lower(), labels.get(str(default.value), "").lower()}
@@ -376,12 +378,14 @@ def ranges_of(book: Words, section: Section) -> Iterator[Disagreement]:
         if not number or (claims and all(range_is(claim.parameter, fact) for claim in claims)):
             continue
         if fact.note == "recommended" or all(
-            book.has_erratum(number, said) for said in (fact.low, fact.high) if said
+            book.has_erratum(number, message) for message in (fact.low, fact.high) if message
         ):
             continue
-        held = sorted({f"{claim.parameter.id} {held_range(claim.parameter)}" for claim in claims})
+        content = sorted({f"{claim.parameter.id} {held_range(claim.parameter)}" for claim in claims})
         says = f"{fact.low} to {fact.high} {fact.unit}".strip()
-        yield at_line("ranges", section, fact.line, fact.applies, says, ", ".join(held) or "has no such word")
+        yield at_line(
+            "ranges", section, fact.line, fact.applies, says, ", ".join(content) or "has no such word"
+        )
 
 
 def held_range(parameter: Parameter) -> str:
@@ -394,7 +398,7 @@ def range_is(parameter: Parameter, fact: PrintedRange) -> bool:
     """Return whether printed bounds are in the database, or for a choice whether all their codes are
     choices.
     """
-    low, high = (figure(said) if said else None for said in (fact.low, fact.high))
+    low, high = (figure(message) if message else None for message in (fact.low, fact.high))
     codes = {choice.raw for choice in parameter.choices or ()}
     if codes:
         ends = [int(end) for end in (low, high) if end is not None]
@@ -402,6 +406,6 @@ def range_is(parameter: Parameter, fact: PrintedRange) -> bool:
     if high is not None and fact.note == "less than":
         high -= 1
     return any(
-        (low is None or low == held[0]) and (high is None or high == held[1])
-        for held in (parameter.ranges or {}).values()
+        (low is None or low == content[0]) and (high is None or high == content[1])
+        for content in (parameter.ranges or {}).values()
     )

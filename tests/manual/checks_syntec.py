@@ -41,9 +41,9 @@ class Slides(Book):
         names = dict.fromkeys(c.parameter for n in spanned(printed) for c in self.held.get(n, ()))
         return [self.schema.parameters[name] for name in names]
 
-    def errata_say(self, parameter: Parameter, said: str) -> bool:
+    def errata_say(self, parameter: Parameter, message: str) -> bool:
         """Return whether an erratum of the parameter takes what is in the database."""
-        return any(said in self.schema.errata[key].taken for key in parameter.errata)
+        return any(message in self.schema.errata[key].taken for key in parameter.errata)
 
 
 # -- numbers ----------------------------------------------------------------------------------------------
@@ -89,11 +89,11 @@ def number_of(book: Slides, section: Section, fact: PrintedNumber) -> Iterator[D
             yield differs(f"prints Pr{number}", f"is claimed by {len(claims)}")
     for parameter in book.owners(fact.number):
         beyond = book.own[parameter.id] - set(span)
-        said = (fact.number, f"Pr{fact.number}")
+        message = (fact.number, f"Pr{fact.number}")
         if (
             len(span) > 1
             and beyond
-            and not any(book.explained(parameter, section.page, [one]) for one in said)
+            and not any(book.explained(parameter, section.page, [one]) for one in message)
         ):
             yield differs(f"prints {fact.number}", f"{parameter.id} has Pr{max(beyond)}")
         if fact.place != "table":
@@ -171,7 +171,7 @@ def range_of(book: Slides, section: Section, fact: PrintedRange) -> Iterator[Dis
     for parameter in book.owners(fact.applies):
         held = (parameter.ranges or {}).get(fact.unit)
         pairs = zip((fact.low, fact.high), held or (), strict=False)
-        if held is None or any(said and float(said) != bound for said, bound in pairs):
+        if held is None or any(message and float(message) != bound for message, bound in pairs):
             manual = f"{fact.low} to {fact.high} {fact.unit}"
             yield at_line("ranges", section, fact.line, parameter.id, manual, str(parameter.ranges))
 
@@ -196,11 +196,11 @@ def check_stored(book: Slides) -> Iterator[Disagreement]:
             yield nowhere("stored", parameter.id, f"unit {unit}")
         if default := parameter.default:
             labels = [c.label for c in parameter.choices or () if c.key == default.value]
-            said = figures(labels[0] if labels else str(default.value))
+            message = figures(labels[0] if labels else str(default.value))
             here = [
                 figures(row.default) for section, row in rows if section.page == default.page and row.default
             ]
-            if said not in here:
+            if message not in here:
                 yield nowhere("stored", parameter.id, f"default {default.value} on page {default.page}")
 
 

@@ -57,7 +57,7 @@ def other_place(fact: Fact) -> Iterator[tuple[str, Fact]]:
     """Yield a number with what is printed beside and above it altered."""
     other = {"process 1": "process 2", "process 2": "process 1", "single process": ""}
     for key in ("axis", "spindle", "pair", "process"):
-        if (said := getattr(fact, key)) and (now := other.get(said, "9")):
+        if (message := getattr(fact, key)) and (now := other.get(message, "9")):
             yield key, replace(fact, **{key: now})
 
 

@@ -70,7 +70,7 @@ class Family(Generic[OwnBook]):
     @cached_property
     def told(self) -> Mapping[str, frozenset[Disagreement]]:
         """Check -> the disagreements as it is, those with an exception too."""
-        return {check: frozenset(tell(self.book)) for check, tell in self.checks.items()}
+        return {check: frozenset(report(self.book)) for check, report in self.checks.items()}
 
     def new_with_entry(self, entry: AlteredEntry) -> set[Disagreement]:
         """Return what a changed parameter adds."""

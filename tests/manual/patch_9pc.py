@@ -101,8 +101,8 @@ def differences(book: Reference, row: StoredRow, claim: Claim) -> Iterator[Diffe
     elif parameter.choices:
         codes = [choice.raw for choice in parameter.choices if choice.raw is not None]
         if not codes or (float(row.low), float(row.high)) != (min(codes), max(codes)):
-            said = (row.low, row.high)
-            yield Difference("codes", f"has {row.low} to {row.high}", f"has the codes {codes}", said)
+            message = (row.low, row.high)
+            yield Difference("codes", f"has {row.low} to {row.high}", f"has the codes {codes}", message)
     else:
         yield from bound_differences(book, row, parameter)
 
@@ -125,9 +125,9 @@ def default_difference(row: StoredRow, claim: Claim, parameter: Parameter) -> It
     printed, _, unit = row.default.partition(" ")
     figure = re.match(r"-?[\d.]+", printed)
     manual = f"default {row.default}"
-    said = (figure[0] if figure else row.default,)
+    message = (figure[0] if figure else row.default,)
     if default is None:
-        yield Difference("default", manual, "has no default", said)
+        yield Difference("default", manual, "has no default", message)
         return
     value = (default.instances or {}).get(claim.instance, default.value)
     if parameter.choices:
@@ -136,7 +136,7 @@ def default_difference(row: StoredRow, claim: Claim, parameter: Parameter) -> It
             yield Difference("default", manual, f"default {choice.label}", (row.default,), (choice.label,))
     elif not figure or not agrees(figure[0], unit or "%" * printed.endswith("%"), value, default.unit):
         database = f"default {value} {default.unit}".rstrip()
-        yield Difference("default", manual, database, said, (value,))
+        yield Difference("default", manual, database, message, (value,))
 
 
 def bound_differences(book: Reference, row: StoredRow, parameter: Parameter) -> Iterator[Difference]:

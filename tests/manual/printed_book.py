@@ -36,16 +36,16 @@ class Book:
         return claims_of(self.schema)
 
     def explained(
-        self, parameter: Parameter, page: str, said: Iterable[str], held: Iterable[object] = ()
+        self, parameter: Parameter, page: str, message: Iterable[str], content: Iterable[object] = ()
     ) -> bool:
         """Return whether an erratum names all that is printed on a page,
         and takes what is in the database instead.
         """
-        said, held = tuple(said), tuple(map(str, held))
-        return bool(said) and any(
-            all(mentions(reading.says, one) for one in said)
-            and all(mentions(erratum.taken, one) for one in held)
-            and not (held and all(mentions(erratum.taken, one) for one in said))
+        message, content = tuple(message), tuple(map(str, content))
+        return bool(message) and any(
+            all(mentions(reading.says, one) for one in message)
+            and all(mentions(erratum.taken, one) for one in content)
+            and not (content and all(mentions(erratum.taken, one) for one in message))
             for erratum in (self.schema.errata[key] for key in parameter.errata)
             for reading in erratum.readings
             if page in re.findall(r"\w+(?:[-.]\d+)*", reading.page)
@@ -80,10 +80,10 @@ def figures(text: str) -> set[float]:
     return {float(n.replace(",", "")) for n in re.findall(r"(?<![\d.])-?\d[\d,]*(?:\.\d+)?", text)}
 
 
-def mentions(text: str, said: str) -> bool:
+def mentions(text: str, message: str) -> bool:
     """Return whether a text names a printed figure, or else the printed words one after the other."""
     try:
-        return float(said) in figures(text)
+        return float(message) in figures(text)
     except ValueError:
-        words = map(re.escape, re.findall(r"[a-z0-9]+", said.lower()))
+        words = map(re.escape, re.findall(r"[a-z0-9]+", message.lower()))
         return re.search(rf"(?<![a-z0-9]){'[^a-z0-9]*'.join(words)}(?![a-z0-9])", text.lower()) is not None

@@ -56,7 +56,7 @@ def missing(schema: Schema, teller: str) -> str | None:
     if parameter is None:
         return f"no parameter {named}"
     texts = parameter.help
-    held: dict[str, object] = {
+    content: dict[str, object] = {
         "range": parameter.ranges or parameter.range_variants or parameter.storage,
         "choices": parameter.choices or parameter.bits,
         "state": parameter.states,
@@ -67,16 +67,16 @@ def missing(schema: Schema, teller: str) -> str | None:
         "warning": texts.warning,
         "note": texts.note,
     }
-    if kind not in held:
-        return f"'{kind}' is not one of {', '.join(held)}"
-    return None if held[kind] else f"{named} has no {kind}"
+    if kind not in content:
+        return f"'{kind}' is not one of {', '.join(content)}"
+    return None if content[kind] else f"{named} has no {kind}"
 
 
 def untold(path: Path) -> list[str]:
     """Return the statements that nothing shows although their list names something."""
     return [
-        f"line {statement.line}: {said}"
+        f"line {statement.line}: {message}"
         for statement in statements(path)
         for teller in statement.told_by()
-        if (said := missing(schema_of(path), teller))
+        if (message := missing(schema_of(path), teller))
     ]

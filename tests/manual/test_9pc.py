@@ -61,7 +61,7 @@ def altered_rows(book: Reference, row: StoredRow) -> Iterator[tuple[str, StoredR
         yield "number", replace(row, numbers=tuple(numbers))
     if row.codes:
         for code, label in row.codes.items():
-            rest = {c: said for c, said in row.codes.items() if c != code}
+            rest = {c: message for c, message in row.codes.items() if c != code}
             yield f"code {code}", replace(row, codes=rest | {"77": label})
             yield f"code {code}", replace(row, codes=row.codes | {code: "Unheard of"})
     else:

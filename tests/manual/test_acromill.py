@@ -14,8 +14,8 @@ def test_the_letters_of_the_axes_are_delivered_in_their_order() -> None:
     """X,Y... is the default, and X,Y,Z,A,B,C,U,V are typical (page 60)."""
     file, schema = new_file("acromill"), load_schema("acromill")
     name = schema.parameter("axes.name")
-    held = [file.default((name.id, axis)) for axis in schema.on("mill").instances(name)]
-    assert [one and show_value(name, one) for one in held] == list("XYZABCUV")
+    content = [file.default((name.id, axis)) for axis in schema.on("mill").instances(name)]
+    assert [one and show_value(name, one) for one in content] == list("XYZABCUV")
 
 
 def test_no_page_can_be_altered_unseen() -> None:

@@ -18,7 +18,7 @@ LISTS = sorted(Path(__file__).with_name("constraints").glob("*.yaml"))
 
 
 @pytest.mark.parametrize("path", LISTS, ids=lambda path: path.stem)
-def test_whatever_a_manual_demands_something_tells(path: Path) -> None:
+def test_whatever_a_manual_demands_something_reports(path: Path) -> None:
     assert untold(path) == []
 
 

@@ -131,7 +131,7 @@ def test_every_form_of_number_table_is_read(
     assert faults.split() == []
 
 
-def test_a_number_that_is_only_mentioned_is_told_apart_from_one_in_a_table(extract: Extract) -> None:
+def test_a_number_that_is_only_mentioned_is_distinguished_from_one_in_a_table(extract: Extract) -> None:
     found, _ = extract(*roll("You can also use [77] through [80] for this.", "# 86\tTurns it on for [85]."))
     assert [(n.number, n.place) for n in found["Barrel Roll"].numbers] == [
         ("77", "mention"),
@@ -183,7 +183,7 @@ def test_every_form_of_range_is_read(
     assert ("not read" in faults) == (line.startswith("The range")), "what looks like a range is told"
 
 
-def test_a_range_says_for_what_it_is_printed(extract: Extract) -> None:
+def test_a_range_shows_for_what_it_is_printed(extract: Extract) -> None:
     found, _ = extract(
         *roll("Range", "Least Roll:\t0 to Most Roll (RPM)", "Range for rack parameters:", "1 to 9")
     )
@@ -260,7 +260,7 @@ def test_the_patch_table_gives_bounds_or_codes(extract: Extract) -> None:
     )
 
 
-def test_what_is_overlooked_is_told(extract: Extract) -> None:
+def test_what_is_overlooked_is_reported(extract: Extract) -> None:
     _, faults = extract(
         "Barrel Roll",
         "",
@@ -279,7 +279,7 @@ def test_what_is_overlooked_is_told(extract: Extract) -> None:
     assert "line 18 not read: 'Loop [1]\\tA\\tlinear'" in faults
 
 
-def test_no_sentence_of_the_manual_stands_in_the_facts(extract: Extract) -> None:
+def test_no_sentence_of_the_manual_is_in_the_facts(extract: Extract) -> None:
     long = "so long that it is no label any more but the sentence of somebody who explains"
     found, _ = extract(*roll("Range", "Selection\tResult", f"(a)\t{long}", f"1 to 9 {long}."))
     section = found["Barrel Roll"]

@@ -41,7 +41,7 @@ def extract(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Capt
     return run
 
 
-def said(facts: tuple[object, ...]) -> list[dict[str, object]]:
+def message(facts: tuple[object, ...]) -> list[dict[str, object]]:
     """Return facts without their lines and without what is empty."""
     return [{k: v for k, v in vars(fact).items() if v not in {"", "head"} and k != "line"} for fact in facts]
 
@@ -49,7 +49,7 @@ def said(facts: tuple[object, ...]) -> list[dict[str, object]]:
 def test_a_section_has_page_line_and_size(extract: Extract) -> None:
     section, faults = extract()
     assert (section.heading, section.page, section.line) == ("Barrel Roll", "4-2", 5)
-    assert said(section.sizes) == [{"number": "P4", "words": 5, "type": "0", "category": "Barrels"}]
+    assert message(section.sizes) == [{"number": "P4", "words": 5, "type": "0", "category": "Barrels"}]
     assert "no heading 4.2 'Lost Barrel' (page 4-4)" in faults
 
 
@@ -99,7 +99,7 @@ def test_bits_belong_to_a_word(extract: Extract, text: str, bits: tuple[str, str
 )
 def test_a_default_has_its_word(extract: Extract, text: str, default: dict[str, object]) -> None:
     section, _ = extract("#### Word N1", text)
-    assert said(section.defaults) == [{"number": "P4", "word": "N1"} | default]
+    assert message(section.defaults) == [{"number": "P4", "word": "N1"} | default]
 
 
 @pytest.mark.parametrize(
@@ -124,7 +124,7 @@ def test_a_table_of_bits_gives_codes(extract: Extract) -> None:
     assert codes == [("01", "16 µs", "13-12"), ("10", "500 ns", "13-12")]
 
 
-def test_a_default_that_is_not_understood_is_told(extract: Extract) -> None:
+def test_a_default_that_is_not_understood_is_reported(extract: Extract) -> None:
     assert (
         "line 9 not read: 'The default value is twice as high.'"
         in extract("The default value is twice as high.")[1]

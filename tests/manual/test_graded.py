@@ -28,7 +28,7 @@ GRAVE = ("attention", "danger", "warning", "warn", "caution")
 
 
 @pytest.mark.parametrize("path", LISTS, ids=lambda path: path.stem)
-def test_whatever_a_manual_warns_of_is_told_or_left_with_a_reason(path: Path) -> None:
+def test_whatever_a_manual_warns_of_is_reported_or_left_with_a_reason(path: Path) -> None:
     assert untold(path) == []
     words = Counter(s.word for s in statements(path) if s.word not in ("plain", "message"))
     assert words == MARKED[path.stem]
@@ -37,13 +37,13 @@ def test_whatever_a_manual_warns_of_is_told_or_left_with_a_reason(path: Path) ->
 @pytest.mark.parametrize("path", LISTS, ids=lambda path: path.stem)
 def test_no_parameter_warns_of_what_the_second_reading_did_not_find_on_that_page(path: Path) -> None:
     heard = {(teller, s.page) for s in statements(path) for teller in s.told_by()}
-    told = {
+    reported = {
         (f"{grade} {parameter.id}", note.page)
         for parameter in schema_of(path).parameters.values()
         for grade in GRADES
         for note in getattr(parameter.help, grade)
     }
-    assert told - heard == set()
+    assert reported - heard == set()
 
 
 @pytest.mark.parametrize("path", LISTS, ids=lambda path: path.stem)
@@ -53,7 +53,7 @@ def test_no_statement_is_graded_below_the_word_of_its_manual(path: Path) -> None
 
 
 def test_a_manual_that_warns_of_injury_is_a_danger_at_the_parameter() -> None:
-    told = {
+    reported = {
         teller for s in statements(GRADED / "57c422b.yaml") if s.word == "warning" for teller in s.told_by()
     }
-    assert {teller.partition(" ")[0] for teller in told} == {"danger"}
+    assert {teller.partition(" ")[0] for teller in reported} == {"danger"}

@@ -21,11 +21,11 @@ def test_every_listed_parameter_with_a_page_is_described() -> None:
 
 
 def test_no_range_of_a_type_can_be_altered_unseen() -> None:
-    def told(low: str) -> set[Disagreement]:
+    def disagreements(low: str) -> set[Disagreement]:
         sections = tuple(
             replace(s, ranges=tuple(replace(r, low=low) for r in s.ranges)) if s.heading == TYPES else s
             for s in NUM.book.sections
         )
         return set(check_ranges(Words(NUM.book.schema, sections)))
 
-    assert told("1") - NUM.told["ranges"]
+    assert disagreements("1") - NUM.told["ranges"]

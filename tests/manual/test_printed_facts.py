@@ -34,7 +34,7 @@ EVERY_FAMILY = pytest.mark.parametrize("family", FAMILIES.values(), ids=FAMILIES
         for check in family.checks
     ],
 )
-def test_the_database_holds_what_the_manual_prints(family: AnyFamily, check: str) -> None:
+def test_the_database_contains_what_the_manual_prints(family: AnyFamily, check: str) -> None:
     disagreements = unsettled(check, family.checks[check](family.book), family.exempt)
     assert not disagreements, "\n".join([f"{len(disagreements)} disagreements:", *disagreements])
 
@@ -51,7 +51,7 @@ def test_the_facts_are_those_of_the_whole_manual(family: AnyFamily) -> None:
 
 
 @EVERY_FAMILY
-def test_an_exception_says_why_in_a_sentence(family: AnyFamily) -> None:
+def test_an_exception_shows_why_in_a_sentence(family: AnyFamily) -> None:
     for exempt in family.exempt:
         assert exempt.check in family.checks
         assert len(exempt.why.split()) > 4
@@ -102,6 +102,6 @@ def test_no_fact_of_the_manual_can_be_altered_unseen(family: AnyFamily, fact: Al
 
 
 @pytest.mark.parametrize(("family", "entry"), cases("entries"))
-def test_an_altered_database_is_told(family: AnyFamily, entry: AlteredEntry) -> None:
+def test_an_altered_database_is_reported(family: AnyFamily, entry: AlteredEntry) -> None:
     new = family.new_with_entry(entry)
     assert any(entry.told in str(disagreement) for disagreement in new), new

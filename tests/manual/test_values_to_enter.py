@@ -159,11 +159,11 @@ def refusal(file: ParameterFile, name: str, text: str) -> str | None:
 @pytest.mark.parametrize("family", VALUES)
 def test_a_value_of_a_procedure_an_example_or_a_program_can_be_entered(family: str) -> None:
     file = a_file(family)
-    told = {}
+    reported = {}
     for line in VALUES[family].strip().splitlines():
         name, values = line.split(maxsplit=1)
-        told |= {(name, text): refusal(file, name, text) for text in values.split("; ")}
-    assert {at: said for at, said in told.items() if said} == {}
+        reported |= {(name, text): refusal(file, name, text) for text in values.split("; ")}
+    assert {at: message for at, message in reported.items() if message} == {}
 
 
 @pytest.mark.parametrize(

@@ -145,7 +145,7 @@ def test_open_questions_write_nothing_unless_a_draft_is_wanted(
     ("answers", "message"),
     [({"home.oder": "Z"}, "Unknown answer 'home.oder'"), ({}, "Unknown target 'fanuc'")],
 )
-def test_what_nobody_asked_is_refused(answers: dict[str, str], message: str) -> None:
+def test_what_was_not_asked_is_refused(answers: dict[str, str], message: str) -> None:
     with pytest.raises(TargetError, match=message):
         migrate(example("mill-1394"), "linuxcnc" if answers else "fanuc", answers)
 

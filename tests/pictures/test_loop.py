@@ -30,8 +30,8 @@ def test_the_signals_are_those_of_a_move(checkout):
     """One engine: a step at the same speed has the same following error."""
     machine = amp.open(checkout / "examples" / EXAMPLES["num"])
     moved = machine.simulate("step", axis="X")
-    shown = texts(draw(machine.file, "loop", "X"))["following error"]
-    assert float(shown.split()[0]) == pytest.approx(moved.result["steady_following_error"][0], rel=2e-3)
+    displayed = texts(draw(machine.file, "loop", "X"))["following error"]
+    assert float(displayed.split()[0]) == pytest.approx(moved.result["steady_following_error"][0], rel=2e-3)
 
 
 @pytest.mark.parametrize("name", ["9pc", "num", "syntec", "57c422b", "acromill"])

@@ -174,7 +174,7 @@ def test_num_ranges_reach_ten_volts_at_their_highest_speed_and_overlap(example):
     assert moved(handle(scene, ("spindle.range_max", "1.41")), 551.0) == Value(550, "rpm")
 
 
-def test_speeds_that_no_gear_has_are_said(example):
+def test_speeds_that_no_gear_has_are_shown(example):
     file = example("num")
     file.set(("spindle.range_min", "1.41"), Value(120, "rpm"))
     assert "No gear has the speeds from 100 to 120 rpm" in notes(draw(file, "gears", "1"))
@@ -282,7 +282,7 @@ def test_its_points_are_dragged_put_in_and_taken_out(table):
         scene.with_point((2.5, 0.001))
 
 
-def test_a_text_that_is_no_table_is_said_and_not_drawn(table):
+def test_a_text_that_is_no_table_is_shown_and_not_drawn(table):
     table.set(("ballscrew.table", "X"), Value("X0E.1 X5E.2"))
     scene = draw(table, "calibration", "X")
     assert [note.wrong for note in scene.notes] == [True]

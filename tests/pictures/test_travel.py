@@ -99,7 +99,7 @@ def test_an_axis_outside_of_the_group_is_bounded_by_its_overtravels(example):
     assert both == [(-350.0, -400.0, -150.0, 6.0), (-500.0, -300.0, 8.0, -100.0)]
 
 
-def test_what_is_not_set_is_said_and_not_drawn(example):
+def test_what_is_not_set_is_shown_and_not_drawn(example):
     file = example("9pc")
     file.set(("zone.overtravel_positive", "1"), None)
     file.set(("zone.overtravel_used", "2"), Value(False))
@@ -145,7 +145,7 @@ def test_syntec_delivered_limits_are_no_limits(example):
 
 
 @pytest.mark.parametrize(("key", "sort"), [("inside", "forbidden"), ("outside", "outside"), (None, "dim")])
-def test_syntec_second_limit_forbids_the_side_that_pr2542_says(example, key, sort):
+def test_syntec_second_limit_forbids_the_side_that_pr2542_shows(example, key, sort):
     """Page 3.3; without a value nothing is hatched."""
     file = example("syntec")
     for parameter, axis, count in (
@@ -189,7 +189,7 @@ def test_grbl_counts_its_travel_from_the_switch(example):
 
 
 @pytest.mark.parametrize("family", ["9pc", "num", "syntec", "57c422b", "acromill", "grblhal"])
-def test_a_new_file_has_every_picture_and_says_what_is_missing(family):
+def test_a_new_file_has_every_picture_and_shows_what_is_missing(family):
     from amp_studio.drawing import scene_json, scene_svg
     from amp_studio.pictures import pictures_of
 

@@ -9,20 +9,20 @@ from amp_studio.schema import family_ids, load_schema
 
 
 @pytest.mark.parametrize("family", family_ids())
-def test_every_number_without_a_unit_says_what_it_is_and_no_other_does(family: str) -> None:
+def test_every_number_without_a_unit_shows_what_it_is_and_no_other_does(family: str) -> None:
     schema = load_schema(family)
     for parameter in schema.parameters.values():
         is_bare = parameter.type in ("integer", "real") and not any(schema.units_of(parameter))
         assert (parameter.bare is not None) == is_bare, parameter.id
 
 
-def test_a_bare_number_is_told_under_its_range() -> None:
+def test_a_bare_number_is_reported_under_its_range() -> None:
     schema = load_schema("9pc")
-    told = facts(schema, schema.parameters["servo.position_gear_teeth"])
-    assert ("Unit", "teeth") in told
-    assert told.index(("Unit", "teeth")) == [title for title, _ in told].index("Range") + 1
+    reported = facts(schema, schema.parameters["servo.position_gear_teeth"])
+    assert ("Unit", "teeth") in reported
+    assert reported.index(("Unit", "teeth")) == [title for title, _ in reported].index("Range") + 1
 
 
-def test_a_figure_whose_unit_the_manual_does_not_print_says_so() -> None:
+def test_a_figure_whose_unit_the_manual_does_not_print_shows_it() -> None:
     schema = load_schema("syntec")
     assert ("Unit", "not printed in the manual") in facts(schema, schema.parameters["home.offset"])

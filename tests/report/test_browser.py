@@ -73,9 +73,9 @@ def test_the_text_of_a_help_is_found_and_shown_below_its_row(browser: Browser) -
     browser.type("threads per inch")
     browser.press("Enter")
     assert "Lead Screw Thread Pitch" in row_at(browser)
-    shown = str(browser.value("document.querySelector('tr.help').textContent"))
-    assert "5 threads per inch" in shown
-    assert "page 7-17" in shown
+    displayed = str(browser.value("document.querySelector('tr.help').textContent"))
+    assert "5 threads per inch" in displayed
+    assert "page 7-17" in displayed
 
 
 def test_no_script_of_the_page_fails_and_its_outline_has_no_gap(browser: Browser, page: Path) -> None:
@@ -94,7 +94,7 @@ def test_no_script_of_the_page_fails_and_its_outline_has_no_gap(browser: Browser
     assert browser.value("document.querySelectorAll('[src^=http], link, [href^=http]').length") == 0
 
 
-def test_what_is_nowhere_is_told(browser: Browser) -> None:
+def test_what_is_nowhere_is_reported(browser: Browser) -> None:
     browser.click("#search")
     browser.type("flux capacitor")
     assert found(browser) == "no hits"
@@ -108,10 +108,10 @@ def test_only_hits_hides_the_rest_of_the_values(browser: Browser) -> None:
     browser.click("#only")
     browser.click("#search")
     browser.type("1750")
-    shown = browser.value(
+    displayed = browser.value(
         "[...document.querySelectorAll('#values tbody tr')].filter(r => r.offsetParent).length"
     )
-    assert 0 < shown < every
+    assert 0 < displayed < every
     assert "Excess Error" in browser.value("document.getElementById('values').innerText")
     assert "Home Calibration" not in browser.value("document.getElementById('values').innerText")
 

@@ -65,5 +65,5 @@ def test_a_fix_of_a_secret_does_not_show_it() -> None:
     validator = Validator(file)
     hardware = finding_groups(validator, validator.run())[0].fixable[0]
     instance = file.machine_schema.instances(secret)[0]
-    shown = fix_lines(file, replace(hardware, fix=(AddressedValue((secret.id, instance), Value(65)),)))
-    assert "65" not in shown[0].split(":", 1)[1]
+    displayed = fix_lines(file, replace(hardware, fix=(AddressedValue((secret.id, instance), Value(65)),)))
+    assert "65" not in displayed[0].split(":", 1)[1]

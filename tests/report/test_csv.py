@@ -45,7 +45,7 @@ def test_a_number_reads_back_to_the_last_digit(tmp_path: Path, mill: ParameterFi
     assert [read_back(mill, n) for n in found] == [Value(number, "mm")]
 
 
-def test_a_line_tells_all_about_a_value(tmp_path: Path, mill: ParameterFile) -> None:
+def test_a_line_reports_all_about_a_value(tmp_path: Path, mill: ParameterFile) -> None:
     """1300 Home Calibration and its numbers for the other axes: page 5-10; 1730 Gain Break Point: page
     7-22.
     """
@@ -62,11 +62,11 @@ def test_a_line_tells_all_about_a_value(tmp_path: Path, mill: ParameterFile) -> 
         assert lines["home.calibration", instance] == line
     tail = ("999999", "mm", "203.2", "yes", "in-force", "by J. Fitter on 2026-07-01", "yes", "")
     assert lines["servo.gain_break_point", "1"][5:] == tail
-    unset = lines["servo.inposition_band", "2"]
-    assert unset[5:9] == ("", "mm", "0.0254", "no"), "a value that is not set does not differ from anything"
+    not_set = lines["servo.inposition_band", "2"]
+    assert not_set[5:9] == ("", "mm", "0.0254", "no"), "a value that is not set does not differ from anything"
 
 
-def test_a_default_stands_in_the_unit_of_its_value(tmp_path: Path, mill: ParameterFile) -> None:
+def test_a_default_is_in_the_unit_of_its_value(tmp_path: Path, mill: ParameterFile) -> None:
     mill.set(("servo.gain_break_point", "2"), Value(8.0, "in"))  # 203.2 mm
     print_report(mill, tmp_path / "r.csv")
     line = next(n for n in table_of(tmp_path / "r.csv") if n["number"] == "2730")

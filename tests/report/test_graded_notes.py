@@ -12,7 +12,7 @@ from amp_studio.report.output.text import render_text
 from amp_studio.schema import Value, family_ids, load_schema
 
 
-def test_a_danger_stands_before_the_help_with_its_page() -> None:
+def test_a_danger_is_before_the_help_with_its_page() -> None:
     schema = load_schema("9pc")
     parts = help_parts(schema, schema.parameters["servo.position_sign"])
     assert parts[0] == ("Danger", "A wrong sign can make the axis run away. (page 7-36)")
@@ -25,9 +25,7 @@ def test_the_page_of_a_parameter_shows_what_the_manual_warns_of() -> None:
     assert "(page 4-17)" in page
 
 
-def test_the_dangers_of_what_somebody_chose_are_a_chapter_with_each_statement_once(
-    mill: ParameterFile,
-) -> None:
+def test_the_dangers_of_what_a_user_chose_are_a_chapter_with_each_statement_once(mill: ParameterFile) -> None:
     assert build_report(new_file("9pc")).dangers == (), "every value is the printed default"
     mill.set(("servo.position_sign", "1"), Value("minus"))
     mill.set(("servo.position_sign", "2"), Value("minus"))

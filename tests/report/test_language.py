@@ -76,7 +76,7 @@ def test_steps_of_commissioning_and_drawings_are_in_german(family: str) -> None:
     assert [word for word in left if re.search(rf"\b{english}\b", word)] in ([], ["Soft limits"] * 3)
 
 
-def test_what_a_person_wrote_is_in_no_language(mill: ParameterFile) -> None:
+def test_what_a_user_wrote_is_in_no_language(mill: ParameterFile) -> None:
     mill.header.name, mill.header.revision = "Values", "Date"
     set_value_note(mill, ("home.calibration", "1"), "Values")
     report = build_report(mill, Contents(language="de"), project=ProjectInfo("Values", "9pc", builder="none"))

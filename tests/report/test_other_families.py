@@ -59,7 +59,7 @@ def test_the_order_by_number_counts_within_a_number(wide: ParameterFile) -> None
     assert numbers == ["P2N0", "P2N1", "P2N2", *(f"P10N{n}" for n in range(12)), ""]
 
 
-def test_the_bits_of_a_word_are_said_in_words(wide: ParameterFile) -> None:
+def test_the_bits_of_a_word_are_shown_in_words(wide: ParameterFile) -> None:
     rows = {r.anchor: r for r in build_report(wide).rows()}
     assert rows["word.mode@0"].detail == "bit 0: Axis turns; bit 3: Second gear; Loop: closed"
     assert rows["word.mode@1"].detail == "Loop: open"

@@ -22,7 +22,7 @@ from amp_studio.report.output.pdf import render_pdf
 from amp_studio.report.rows import rows_of
 from amp_studio.report.sections import numbers_of
 
-from .test_pdf import poppler, said_by, texts_of
+from .test_pdf import output_of, poppler, texts_of
 
 HEIGHT_OF_TYPE = 1.14
 """Height of a word's box in Libertinus Serif, in sizes of its type."""
@@ -56,7 +56,7 @@ def rows_on(text: str) -> int:
 
 def small_words(path: Path) -> set[str]:
     """Return the words of a PDF that are smaller than 8.5 points."""
-    boxes = said_by("pdftotext", "-bbox", path, "-")
+    boxes = output_of("pdftotext", "-bbox", path, "-")
     words = re.findall(r'yMin="([\d.]+)" xMax="[\d.]+" yMax="([\d.]+)">(.+?)</word>', boxes)
     assert len(words) > 50
     return {text for low, high, text in words if float(high) - float(low) < 8.49 * HEIGHT_OF_TYPE}
@@ -88,7 +88,7 @@ def test_a_note_of_any_length_is_printed_whole_once_and_short_beside_its_value(
     set_value_note(mill, ("home.calibration", "1"), note)
     path = tmp_path / "r.pdf"
     print_report(mill, path, Contents(changed_only=True, without=BARE))
-    text = " ".join(said_by("pdftotext", "-raw", path, "-").split())
+    text = " ".join(output_of("pdftotext", "-raw", path, "-").split())
     assert text.count(" w599") == 1
     assert text.count(" w20 ") == 2
     assert "… (all of it under Notes)" in text
@@ -135,7 +135,7 @@ def test_what_one_copies_has_no_invisible_characters(tmp_path: Path, mill: Param
     source = tmp_path / "a_file_with_a_name_of_one_long_word_that_breaks.amp"
     save_file(mill, source)
     report = build_report(mill, Contents(changed_only=True, without=BARE), source=source)
-    text = said_by("pdftotext", "-raw", set_as(report, tmp_path), "-")
+    text = output_of("pdftotext", "-raw", set_as(report, tmp_path), "-")
     assert "\u200b" not in text
     (checksum,) = [body for name, body in report.facts if name.startswith("SHA-256")]
     assert len(checksum) == 64
@@ -147,7 +147,7 @@ def test_what_one_copies_has_no_invisible_characters(tmp_path: Path, mill: Param
 @poppler
 def test_pages_for_america_are_letter(tmp_path: Path, mill: ParameterFile) -> None:
     print_report(mill, tmp_path / "r.pdf", Contents(paper="letter", changed_only=True, without=BARE))
-    assert re.search(r"Page size:\s+612 x 792", said_by("pdfinfo", tmp_path / "r.pdf"))
+    assert re.search(r"Page size:\s+612 x 792", output_of("pdfinfo", tmp_path / "r.pdf"))
     with pytest.raises(ValueError, match=r"Unknown paper 'a5'\. Known: a4, letter"):
         Contents(paper="a5")
 

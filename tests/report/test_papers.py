@@ -70,9 +70,7 @@ def test_differences_are_in_their_group_and_in_one_unit(mill: ParameterFile, oth
     assert dict(paper.facts)["Differ"] == "2"
 
 
-def test_of_several_machines_the_one_that_departs_stands_out(
-    mill: ParameterFile, other: ParameterFile
-) -> None:
+def test_of_several_machines_the_one_that_departs_is_out(mill: ParameterFile, other: ParameterFile) -> None:
     paper = machines_paper([mill, other, mill], ["A", "B", "C"], date=DATE)
     (table,) = paper.tables
     assert table.heads == ("Number", "Parameter", "Belongs to", "A", "B", "C")
@@ -202,12 +200,12 @@ def test_a_spreadsheet_opens_the_workbook_with_every_number_to_its_last_digit(tm
             ]
         )
     )
-    shown = opened_by_a_spreadsheet(path)
-    assert shown[0] == ["text", "number"]
-    assert [row[0] for row in shown[1:]] == [NASTY] * len(numbers) + ["007"]
+    displayed = opened_by_a_spreadsheet(path)
+    assert displayed[0] == ["text", "number"]
+    assert [row[0] for row in displayed[1:]] == [NASTY] * len(numbers) + ["007"]
     cells = zipfile.ZipFile(path).read("xl/worksheets/sheet1.xml").decode()
     assert set(numbers) <= {float(text) for text in re.findall(r"<v>([^<]*)</v>", cells)}
-    assert [float(row[1]) for row in shown[1:-1]] == pytest.approx(numbers, rel=1e-14)
+    assert [float(row[1]) for row in displayed[1:-1]] == pytest.approx(numbers, rel=1e-14)
 
 
 def test_the_report_as_json_and_as_workbook_has_every_value(tmp_path: Path, mill: ParameterFile) -> None:

@@ -24,20 +24,20 @@ DATE = datetime(2026, 7, 1, 14, 5, tzinfo=UTC)
 poppler = pytest.mark.skipif(shutil.which("pdfinfo") is None, reason="needs poppler's tools")
 
 
-def said_by(*command: str | Path) -> str:
+def output_of(*command: str | Path) -> str:
     done = subprocess.run(command, capture_output=True, check=True, encoding="utf-8", errors="replace")
     return done.stdout
 
 
 def pages_of(path: Path) -> int:
-    found = re.search(r"^Pages:\s+(\d+)", said_by("pdfinfo", path), re.MULTILINE)
+    found = re.search(r"^Pages:\s+(\d+)", output_of("pdfinfo", path), re.MULTILINE)
     assert found
     return int(found.group(1))
 
 
 def texts_of(path: Path, *options: str) -> list[str]:
     """Return the text of each page."""
-    return said_by("pdftotext", *options, path, "-").split("\f")[:-1]
+    return output_of("pdftotext", *options, path, "-").split("\f")[:-1]
 
 
 @poppler
@@ -61,7 +61,7 @@ def test_every_value_is_printed_and_table_heads_are_repeated(
     printed: Callable[..., Path], eight_axes: ParameterFile, mill: ParameterFile, which: str, sort: Sort
 ) -> None:
     path, file = printed(which, sort), mill if which == "mill" else eight_axes
-    text = said_by("pdftotext", "-raw", path, "-")
+    text = output_of("pdftotext", "-raw", path, "-")
     words = set(text.split())
     if sort not in ("group", "steps"):
         assert {r.number for r in build_report(file, Contents(inactive=True)).rows() if r.number} <= words
@@ -84,7 +84,7 @@ def test_many_axes_lie_across_the_page_and_few_do_not(
 ) -> None:
     path = printed(which, sort)
     last = str(pages_of(path) - 2)  # those of power-up and of signatures are upright
-    size = re.search(r"size:\s+([\d.]+) x ([\d.]+)", said_by("pdfinfo", "-f", last, "-l", last, path))
+    size = re.search(r"size:\s+([\d.]+) x ([\d.]+)", output_of("pdfinfo", "-f", last, "-l", last, path))
     assert size
     assert (float(size.group(1)) > float(size.group(2))) == across
 
@@ -98,7 +98,7 @@ def test_nothing_runs_over_the_edge_of_its_column(tmp_path: Path, eight_axes: Pa
             eight_axes.set(address, type(value)(-123456.78901234567, value.unit))
     path = tmp_path / "r.pdf"
     print_report(eight_axes, path, Contents("group"))
-    boxes = said_by("pdftotext", "-bbox", path, "-")
+    boxes = output_of("pdftotext", "-bbox", path, "-")
     for page in re.finditer(r'<page width="([\d.]+)".*?</page>', boxes, re.DOTALL):
         width, margin = float(page.group(1)), 12 / 25.4 * 72
         for right in re.findall(r'xMax="([\d.]+)"', page.group()):
@@ -107,7 +107,7 @@ def test_nothing_runs_over_the_edge_of_its_column(tmp_path: Path, eight_axes: Pa
 
 @poppler
 def test_only_fonts_that_travel_in_the_file_are_used(printed: Callable[..., Path]) -> None:
-    lines = said_by("pdffonts", printed("eight axes", "group")).splitlines()[2:]
+    lines = output_of("pdffonts", printed("eight axes", "group")).splitlines()[2:]
     assert lines
     assert all(re.search(r"\byes yes (yes|no)\b", line) for line in lines), lines
     assert {line.split("+")[1].split("-")[0] for line in lines} == {"LibertinusSerif"}

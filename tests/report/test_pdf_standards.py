@@ -65,7 +65,7 @@ def _unpacked(packed: bytes) -> bytes:
     return zlib.decompressobj().decompress(packed)
 
 
-def test_a_script_without_a_font_is_told_and_printed_all_the_same(
+def test_a_script_without_a_font_is_reported_and_printed_all_the_same(
     mill: ParameterFile, tmp_path: Path
 ) -> None:
     mill.header.name = "\u2d30"  # Tifinagh, for which no font of the system is asked

@@ -47,7 +47,7 @@ def test_a_template_that_leaves_the_values_out_has_no_places(machine: Path, mill
 
 
 @pytest.mark.parametrize(
-    ("mistake", "told"),
+    ("mistake", "reported"),
     [
         ("#foo(3)", "unknown variable: foo"),
         ('#image("lgo.svg", width: 30mm)', "file not found"),
@@ -56,7 +56,7 @@ def test_a_template_that_leaves_the_values_out_has_no_places(machine: Path, mill
     ],
 )
 def test_a_mistake_in_typst_has_the_line_of_the_template(
-    machine: Path, mill: ParameterFile, mistake: str, told: str
+    machine: Path, mill: ParameterFile, mistake: str, reported: str
 ) -> None:
     own = machine.parent / "templates"
     own.mkdir()
@@ -67,7 +67,7 @@ def test_a_mistake_in_typst_has_the_line_of_the_template(
     notes: list[str] = []
     found = set_report(mill, SHORT, 24, source=machine, notify=notes.append)
     assert len(found.pages) > 2
-    assert f"{own / 'report.typ.j2'}: line 3: Typst: {told}" in notes[0]
+    assert f"{own / 'report.typ.j2'}: line 3: Typst: {reported}" in notes[0]
     assert notes[0].endswith("The standard report is used")
 
 

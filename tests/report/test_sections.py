@@ -138,11 +138,11 @@ def test_every_existing_value_of_a_fitted_axis_is_printed_once(mill: ParameterFi
 def test_what_is_left_out_is_counted(mill: ParameterFile) -> None:
     report = build_report(mill, Contents(inactive=True))
     counts = dict(report.counts)
-    told = sum(int(counts[k]) for k in ("Values", "Hidden, left out", "Of unfitted axes, left out"))
+    reported = sum(int(counts[k]) for k in ("Values", "Hidden, left out", "Of unfitted axes, left out"))
     axes = fitted_axes(mill)
     empty = [a for a in mill.addresses() if mill.schema.parameters[a[0]].optional and a not in mill.values]
     entries = [a for a in empty if mill.evaluation.scope(a) != "axis" or a[1] in axes]
-    assert told + len(entries) == len(mill.addresses())
+    assert reported + len(entries) == len(mill.addresses())
     assert int(counts["Values"]) == len(list(report.rows()))
 
 
@@ -158,7 +158,7 @@ def test_changed_only_keeps_what_differs_from_the_printed_default(mill: Paramete
     )
 
 
-def test_marks_tell_changed_forced_and_ignored_apart(mill: ParameterFile) -> None:
+def test_marks_report_changed_forced_and_ignored_apart(mill: ParameterFile) -> None:
     rows = {r.anchor: r for r in build_report(mill, Contents(inactive=True)).rows()}
     assert rows["home.calibration@1"].marks == "*"
     assert rows["home.calibration@3"].marks == ""
@@ -169,7 +169,7 @@ def test_marks_tell_changed_forced_and_ignored_apart(mill: ParameterFile) -> Non
     assert rows["axis.name@1"].marks == "n", "set, and the manual prints no default for it"
 
 
-def test_each_reason_has_one_number_and_stands_below_its_table(mill: ParameterFile) -> None:
+def test_each_reason_has_one_number_and_is_below_its_table(mill: ParameterFile) -> None:
     report = build_report(mill, Contents(inactive=True))
     reasons = {r.state_mark: r.why for r in report.rows() if r.state_mark}
     assert len(set(reasons.values())) == len(reasons)
@@ -217,7 +217,7 @@ def test_forced_values_findings_and_missing_values_are_listed(mill: ParameterFil
     assert "It was forced by J. Fitter on 2026-07-01" in error.message
 
 
-def test_the_same_sentence_about_several_axes_is_said_once(mill: ParameterFile) -> None:
+def test_the_same_sentence_about_several_axes_is_shown_once(mill: ParameterFile) -> None:
     before = [n for n in build_report(mill).notes if n.about and n.about[0][0].startswith("home.calibration")]
     assert before == []
     for axis in "23":
@@ -263,7 +263,7 @@ def checksum(file: ParameterFile, path: Path | None = None) -> tuple[str, str]:
     return next(fact for fact in build_report(file, source=path).facts if "SHA-256" in fact[0])
 
 
-def test_nobody_can_try_passwords_against_the_checksum_of_a_report(
+def test_passwords_cannot_be_tried_against_the_checksum_of_a_report(
     tmp_path: Path, mill: ParameterFile
 ) -> None:
     path, printed = tmp_path / "mill.amp", []
@@ -288,7 +288,7 @@ def test_a_file_without_secrets_has_its_own_checksum(tmp_path: Path, mill: Param
     assert checksum(mill, path) == ("SHA-256 of the file", str(digest_of(path)))
 
 
-def test_a_file_of_another_schema_is_told(mill: ParameterFile) -> None:
+def test_a_file_of_another_schema_is_reported(mill: ParameterFile) -> None:
     mill.header.signature = "0" * 64
     assert "the file was written under 0000000000000000" in dict(build_report(mill).facts)["Schema signature"]
 

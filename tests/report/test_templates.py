@@ -137,7 +137,7 @@ def test_a_template_that_is_a_link_is_refused(machine: Path, mill: ParameterFile
 
 
 @pytest.mark.parametrize(
-    ("ending", "template", "said"),
+    ("ending", "template", "message"),
     [
         (
             "html",
@@ -183,10 +183,10 @@ def test_a_template_that_is_a_link_is_refused(machine: Path, mill: ParameterFile
     ],
 )
 def test_a_mistake_is_noted_with_its_line_and_the_standard_report_is_written(
-    machine: Path, mill: ParameterFile, ending: str, template: str, said: str
+    machine: Path, mill: ParameterFile, ending: str, template: str, message: str
 ) -> None:
     content, (note,) = printed(machine, mill, ending, template)
-    assert said in note
+    assert message in note
     assert note.startswith(str(machine.parent / "templates"))
     assert note.count(f"report.{'typ' if ending == 'pdf' else 'html'}.j2: ") == 1, note
     assert note.endswith("The standard report was written")
@@ -227,13 +227,13 @@ def test_a_template_that_works_without_end_and_writes_nothing_is_ended(
 
 def test_every_block_of_the_documentation_is_one_of_a_standard_template() -> None:
     table = (Path(__file__).parents[2] / "docs" / "reports.md").read_text("utf-8").split("| block |")[1]
-    told = set(re.findall(r"`([a-z]+)`", "\n".join(re.findall(r"^\|(.*?)\|", table, re.MULTILINE))))
+    reported = set(re.findall(r"`([a-z]+)`", "\n".join(re.findall(r"^\|(.*?)\|", table, re.MULTILINE))))
     has = {
         ending: set(re.findall(r"{% block (\w+) %}", (TEMPLATES / f"report.{ending}.j2").read_text("utf-8")))
         for ending in ("typ", "html")
     }
-    assert told == has["typ"]
-    assert told - {"contents"} == has["html"]
+    assert reported == has["typ"]
+    assert reported - {"contents"} == has["html"]
 
 
 def test_a_block_that_does_not_exist_is_a_mistake(machine: Path, mill: ParameterFile) -> None:
@@ -245,7 +245,7 @@ def test_a_block_that_does_not_exist_is_a_mistake(machine: Path, mill: Parameter
 
 
 @pytest.mark.parametrize(
-    ("part", "said"),
+    ("part", "message"),
     [
         ("a\nb\n{{ nothing.x }}", "part.html: line 3: there is no 'nothing'"),
         ("a\n{% if %}", "part.html: line 2: Expected an expression"),
@@ -253,13 +253,13 @@ def test_a_block_that_does_not_exist_is_a_mistake(machine: Path, mill: Parameter
     ],
 )
 def test_a_mistake_in_an_included_file_has_its_name_and_line(
-    machine: Path, mill: ParameterFile, part: str | None, said: str
+    machine: Path, mill: ParameterFile, part: str | None, message: str
 ) -> None:
     if part is not None:
         (machine.parent / "templates" / "part.html").write_text(part)
     template = EXTENDS_PAGE + "{% block chapters %}{% include 'part.html' %}{% endblock %}"
     _, (note,) = printed(machine, mill, "html", template)
-    assert said in note
+    assert message in note
 
 
 def test_a_template_changes_nothing_of_the_report(machine: Path, mill: ParameterFile) -> None:

@@ -153,7 +153,7 @@ def test_another_order_is_refused(tmp_path: Path, mill: ParameterFile) -> None:
         print_report(mill, tmp_path / "report.txt", Contents("name"))
 
 
-def test_a_folder_that_is_not_there_is_said_in_one_sentence(tmp_path: Path, mill: ParameterFile) -> None:
+def test_a_folder_that_is_not_there_is_shown_in_one_sentence(tmp_path: Path, mill: ParameterFile) -> None:
     with pytest.raises(SaveError, match=r"report\.txt cannot be written: No such file or directory"):
         print_report(mill, tmp_path / "nowhere" / "report.txt")
 

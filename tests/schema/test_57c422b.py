@@ -278,7 +278,7 @@ the set-up data too; the pages of the registers for the rest."""
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_a_register_says_which_command_makes_the_module_read_it(schema: Schema, command: str) -> None:
+def test_a_register_shows_which_command_makes_the_module_read_it(schema: Schema, command: str) -> None:
     found = set()
     for parameter in schema.parameters.values():
         effect = parameter.effect or schema.family.effect

@@ -63,7 +63,7 @@ def test_a_command_comes_out_as_it_is_printed(acromill: Schema, command: str) ->
     assert re.sub("{(.*?)}", lambda found: known[found[1]], parameter.storage.command) == command
 
 
-def test_a_command_of_two_values_stands_the_same_at_both(acromill: Schema) -> None:
+def test_a_command_of_two_values_is_the_same_at_both(acromill: Schema) -> None:
     both = {acromill.parameter(f"tuning.notch_{name}").storage.command for name in ("frequency", "width")}
     assert both == {"NOTCH {i}({tuning.notch_frequency}, {tuning.notch_width})"}
 
@@ -97,7 +97,7 @@ COUNTS = {
 
 
 @pytest.mark.parametrize("parameter_id", COUNTS)
-def test_a_table_has_as_many_entries_as_the_guide_says(acromill: Schema, parameter_id: str) -> None:
+def test_a_table_has_as_many_entries_as_the_guide_shows(acromill: Schema, parameter_id: str) -> None:
     assert len(acromill.on("mill").instances(acromill.parameter(parameter_id))) == COUNTS[parameter_id]
 
 

@@ -69,7 +69,7 @@ def test_every_instance_is_found_by_its_address_and_every_number_means_one(famil
 # -- a number of two parameters
 
 
-def test_a_number_that_is_printed_twice_means_one_and_says_so(mill: ParameterFile) -> None:
+def test_a_number_that_is_printed_twice_means_one_and_shows_it(mill: ParameterFile) -> None:
     """1020 (pages 6-10 and 7-46)."""
     found = resolve_address(mill.evaluation, "1020")
     assert found.address == ("zone.overtravel_used", "1")
@@ -131,14 +131,14 @@ def test_an_axis_is_named_by_the_letter_the_file_gives_it() -> None:
     assert syntec.find("feed.rapid@Y") == ("feed.rapid", "2")
 
 
-def test_a_letter_of_num_stands_in_the_word_that_assigns_the_axis(num: ParameterFile) -> None:
+def test_a_letter_of_num_is_in_the_word_that_assigns_the_axis(num: ParameterFile) -> None:
     """P9 (page 4-24): the right digit is the name, here Z of group 1 at address 7."""
     file = num.copy()
     file.set(("axes.assignment", "7"), Value(0x02))
     assert file.find("servo.loop_gain@Z") == ("servo.loop_gain", "7")
 
 
-def test_two_axes_of_one_letter_are_both_told(mill: ParameterFile) -> None:
+def test_two_axes_of_one_letter_are_both_reported(mill: ParameterFile) -> None:
     file = mill.copy()
     file.set(("axis.name", "3"), Value("x"))
     with pytest.raises(UnknownParameterError) as refused:
@@ -183,8 +183,8 @@ def test_a_letter_means_nothing_to_what_belongs_to_no_axis(mill: ParameterFile) 
 def test_a_wrong_name_is_answered_with_the_nearest(family: str, text: str, nearest: str) -> None:
     with pytest.raises(UnknownParameterError) as refused:
         new_file(family).find(text)
-    said, _, near = str(refused.value).partition(". Did you mean: ")
-    assert said == f"Unknown parameter '{text}'"
+    message, _, near = str(refused.value).partition(". Did you mean: ")
+    assert message == f"Unknown parameter '{text}'"
     assert nearest in near.split(", ")
 
 
@@ -198,17 +198,19 @@ def test_whatever_is_written_is_answered(mill: ParameterFile, text: str) -> None
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("home.calibration", "has @1 to @8, or an axis by its letter: X, Y, Z, S"),
         ("home.calibration@9", "has @1 to @8, or an axis by its letter: X, Y, Z, S"),
         ("home.calibration@Q", "has @1 to @8, or an axis by its letter: X, Y, Z, S"),
     ],
 )
-def test_a_wrong_instance_is_answered_with_those_there_are(mill: ParameterFile, text: str, said: str) -> None:
+def test_a_wrong_instance_is_answered_with_those_there_are(
+    mill: ParameterFile, text: str, message: str
+) -> None:
     with pytest.raises(UnknownParameterError) as refused:
         mill.find(text)
-    assert said in str(refused.value)
+    assert message in str(refused.value)
 
 
 @pytest.mark.parametrize(

@@ -64,7 +64,7 @@ def test_a_word_is_what_its_labels_say(text: str, word: int) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("Enabel", "'Enabel' is no bit of Limits. Did you mean: Enable"),
         ("Enable, Overide locks", "'Overide locks' is no bit of Limits. Did you mean: Override locks"),
@@ -80,7 +80,7 @@ def test_a_word_is_what_its_labels_say(text: str, word: int) -> None:
         ("Enable," * 400 + "Enable", "too long"),
     ],
 )
-def test_what_is_no_label_is_refused(text: str, said: str) -> None:
+def test_what_is_no_label_is_refused(text: str, message: str) -> None:
     with pytest.raises(InvalidValueError) as refused:
         read_value(WORD, text, "")
-    assert said in str(refused.value)
+    assert message in str(refused.value)

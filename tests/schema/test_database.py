@@ -158,7 +158,7 @@ def filled(schema: Schema) -> Iterator[ParameterFile]:
         yield file
 
 
-def test_every_state_can_be_told_on_every_machine_with_every_axis_type(schema: Schema) -> None:
+def test_every_state_can_be_reported_on_every_machine_with_every_axis_type(schema: Schema) -> None:
     for file in filled(schema):
         for address in file.addresses():
             found = file.evaluation.state(address)
@@ -215,9 +215,9 @@ def test_every_printed_default_is_in_its_printed_range(schema: Schema) -> None:
     known = DEFAULTS_OUT_OF_RANGE.get(schema.family.family, {})
     for file in filled(schema):
         faults = {
-            a[0]: said
+            a[0]: message
             for a in file.addresses()
-            if (d := file.default(a)) and (said := fault(file.evaluation, a, d))
+            if (d := file.default(a)) and (message := fault(file.evaluation, a, d))
         }
         assert set(known) == set(faults), faults
 
@@ -236,7 +236,7 @@ def test_no_two_choices_of_a_parameter_are_stored_as_the_same_code(schema: Schem
         assert sorted(set(codes)) == sorted(codes), parameter.id
 
 
-def test_what_is_patched_by_number_says_how_it_is_stored(schema: Schema) -> None:
+def test_what_is_patched_by_number_shows_how_it_is_stored(schema: Schema) -> None:
     for parameter in schema.parameters.values():
         if parameter.patchable:
             stored = [c.raw for c in parameter.choices or () if c.raw is not None] or parameter.storage

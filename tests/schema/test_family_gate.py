@@ -52,32 +52,32 @@ def no_other_file(monkeypatch) -> None:
 
 
 @pytest.mark.usefixtures("no_other_file")
-@pytest.mark.parametrize("said", OUTSIDE, ids=range(len(OUTSIDE)))
-def test_what_is_no_family_id_is_refused_in_one_short_sentence_wherever_it_stands(
-    tmp_path: Path, said: str
+@pytest.mark.parametrize("message", OUTSIDE, ids=range(len(OUTSIDE)))
+def test_what_is_no_family_id_is_refused_in_one_short_sentence_wherever_it_is(
+    tmp_path: Path, message: str
 ) -> None:
     with pytest.raises(UnknownFamilyError) as error:
-        load_schema(said)
+        load_schema(message)
     sentence = str(error.value)
     assert sentence.startswith("Unknown family '")
     assert sentence.partition(". Did you mean: ")[0].endswith("'. Known: " + ", ".join(family_ids()))
     assert (len(sentence) < 200, sentence.isprintable()) == (True, True)
     with pytest.raises(InvalidNameError):
-        Project.create(tmp_path / "p", ProjectInfo("x", said))
+        Project.create(tmp_path / "p", ProjectInfo("x", message))
     (tmp_path / "x.csv").write_text("id,value,unit\n")
-    if said:
+    if message:
         with pytest.raises(UnknownFamilyError):
-            import_file(tmp_path / "x.csv", said, format_key="csv")
+            import_file(tmp_path / "x.csv", message, format_key="csv")
 
 
-@pytest.mark.parametrize("said", ["../x", "[a, b]", "{a: b}", "~", "", "5", "'9pc '", "x" * 1_000_000])
-def test_a_file_that_names_none_is_refused_and_touches_nothing(tmp_path: Path, said: str) -> None:
+@pytest.mark.parametrize("message", ["../x", "[a, b]", "{a: b}", "~", "", "5", "'9pc '", "x" * 1_000_000])
+def test_a_file_that_names_none_is_refused_and_touches_nothing(tmp_path: Path, message: str) -> None:
     foreign = tmp_path / "x"
     foreign.mkdir()
     (foreign / "family.yaml").write_bytes((database_folder() / "9pc" / "family.yaml").read_bytes())
     folder = tmp_path / "machines"
     folder.mkdir()
-    (folder / "a.amp").write_text(f"amp_studio: 1\nfamily: {said}\nvalues: {{}}\n...\n")
+    (folder / "a.amp").write_text(f"amp_studio: 1\nfamily: {message}\nvalues: {{}}\n...\n")
     before = {p: p.read_bytes() if p.is_file() else b"" for p in tmp_path.rglob("*")}
     with pytest.raises(
         ParameterFileError, match=r"a\.amp(, line 2)?: (Unknown family|names no control family)"

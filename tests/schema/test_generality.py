@@ -57,7 +57,7 @@ conditions:
 """
 
 
-def test_one_number_of_two_parameters_is_told_apart_by_the_axis_type(facts, head, machine) -> None:
+def test_one_number_of_two_parameters_is_distinguished_by_the_axis_type(facts, head, machine) -> None:
     here = machine(
         facts.schema(SHARED, head + SPINDLE_AXIS),
         {"axis.type@1": Value("linear"), "axis.type@2": Value("spindle")},
@@ -90,7 +90,9 @@ def test_a_shared_number_is_found_even_where_something_else_hides_both(facts, he
     assert here.evaluation.find("2013") == ("spindle.motor_teeth", "2")
 
 
-def test_of_a_number_that_nothing_tells_apart_the_first_is_taken_and_both_are_told(facts, machine) -> None:
+def test_of_a_number_that_nothing_reports_apart_the_first_is_taken_and_both_are_reported(
+    facts, machine
+) -> None:
     text = SHARED.replace("states: [{state: hidden, when: spindle_axis}]", "").replace(
         "states: [{state: hidden, unless: spindle_axis}]", ""
     )
@@ -246,8 +248,8 @@ def test_a_bound_may_be_another_parameter_of_the_same_axis(facts, machine) -> No
     here = machine(schema, {"zone.min@1": Value(25.4, "mm"), "zone.min@2": Value(50.0, "mm")})
     assert fault(here.evaluation, ("zone.max", "1"), Value(25.4, "mm")) is None
     assert fault(here.evaluation, ("zone.max", "1"), Value(1.0, "in")) is None
-    said = fault(here.evaluation, ("zone.max", "1"), Value(0.9, "in"))
-    assert said == "Maximum 0.9 in is outside 1 to 3.937 in (set by 1006 Minimum, 25.4 mm)"
+    message = fault(here.evaluation, ("zone.max", "1"), Value(0.9, "in"))
+    assert message == "Maximum 0.9 in is outside 1 to 3.937 in (set by 1006 Minimum, 25.4 mm)"
     assert fault(here.evaluation, ("zone.max", "2"), Value(49.0, "mm")) is not None
     assert fault(here.evaluation, ("zone.max", "3"), Value(-1e9, "mm")) is None, (
         "an unset bound bounds nothing"
@@ -281,7 +283,7 @@ def test_a_range_may_depend_on_the_axis_type(facts, head, machine) -> None:
     assert "outside 0 to 214.1 mm" in str(fault(here.evaluation, slide, Value(1440.0, "mm")))
 
 
-def test_a_parameter_may_be_an_angle_on_fewer_axes_than_the_family_says(facts, head, machine) -> None:
+def test_a_parameter_may_be_an_angle_on_fewer_axes_than_the_family_shows(facts, head, machine) -> None:
     """9/PC Lead Screw Thread Pitch: a length on a spindle too (page 7-17)."""
     text = (
         SHARED
@@ -370,8 +372,8 @@ def test_what_is_no_number_format_is_refused(word_format, text: str) -> None:
 def test_each_part_of_a_number_format_has_its_own_bound(
     word_format, machine, form: str, allowed: bool
 ) -> None:
-    said = fault(machine(word_format).evaluation, ("word.format", ""), Value(form))
-    assert (None if allowed else f"X Word Format {form} is outside 0.0 to 6.4") == said
+    message = fault(machine(word_format).evaluation, ("word.format", ""), Value(form))
+    assert (None if allowed else f"X Word Format {form} is outside 0.0 to 6.4") == message
 
 
 # -- mending ------------------------------------------------------------------

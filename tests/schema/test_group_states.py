@@ -77,7 +77,7 @@ def test_a_family_from_the_cache_has_the_states_of_its_groups_once(compiled) -> 
     assert again.groups[0].parameters == family.groups[0].parameters
 
 
-def test_the_first_state_that_holds_decides_also_where_one_is_of_the_group(compiled, machine) -> None:
+def test_the_first_state_that_contains_decides_also_where_one_is_of_the_group(compiled, machine) -> None:
     schema = schema_of(compiled(STATES))
     for count, state in ((0, "hidden"), (2, "ignored")):
         values = {"a.count": Value(float(count)), "a.speed@1": Value(0.5)}
@@ -85,7 +85,7 @@ def test_the_first_state_that_holds_decides_also_where_one_is_of_the_group(compi
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "line", "said"),
+    ("old", "new", "line", "message"),
     [
         ("when: absent", "when: absnt", 6, "there is no condition 'absnt'"),
         ("unless: parked", "unless: parkd", 9, "there is no condition 'parkd'"),
@@ -93,14 +93,14 @@ def test_the_first_state_that_holds_decides_also_where_one_is_of_the_group(compi
         ("a.count, a.both", "a.count, a.boat", 7, "there is no parameter 'a.boat' here"),
     ],
 )
-def test_a_fault_in_a_state_of_a_group_is_told_in_its_line(compiled, old, new, line, said) -> None:
+def test_a_fault_in_a_state_of_a_group_is_reported_in_its_line(compiled, old, new, line, message) -> None:
     assert old in STATES
     with pytest.raises(DatabaseError) as refused:
         compiled(STATES.replace(old, new, 1))
-    assert (refused.value.line, said in refused.value.what) == (line, True)
+    assert (refused.value.line, message in refused.value.what) == (line, True)
 
 
-def test_a_fault_in_an_own_state_is_told_in_its_line_whatever_the_group_says(compiled) -> None:
+def test_a_fault_in_an_own_state_is_reported_in_its_line_whatever_the_group_shows(compiled) -> None:
     with pytest.raises(DatabaseError) as refused:
         compiled(STATES, FACTS.replace("when: slow", "when: slo"))
     assert refused.value.what == "a.speed: there is no condition 'slo'"
@@ -125,7 +125,7 @@ LISTED = """
 """
 
 
-def test_a_list_of_the_family_stands_for_itself_by_its_name(compiled, head) -> None:
+def test_a_list_of_the_family_is_for_itself_by_its_name(compiled, head) -> None:
     family = compiled("", LISTED, head + LISTS)
     ask, lamps, field = family.groups[0].parameters
     assert [c.label for c in ask.choices] == ["Aye", "Nay"]
@@ -136,7 +136,7 @@ def test_a_list_of_the_family_stands_for_itself_by_its_name(compiled, head) -> N
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "said"),
+    ("old", "new", "message"),
     [
         (
             "boolean, choices: answer",
@@ -146,8 +146,8 @@ def test_a_list_of_the_family_stands_for_itself_by_its_name(compiled, head) -> N
         ("bits: lamps", "bits: answer", "a.lamps: bits: there is no bit list 'answer'"),
     ],
 )
-def test_a_name_of_no_list_is_told_with_the_parameter(compiled, head, old, new, said) -> None:
+def test_a_name_of_no_list_is_reported_with_the_parameter(compiled, head, old, new, message) -> None:
     assert old in LISTED
     with pytest.raises(DatabaseError) as refused:
         compiled("", LISTED.replace(old, new), head + LISTS)
-    assert refused.value.what == said
+    assert refused.value.what == message

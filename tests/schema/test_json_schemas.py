@@ -89,7 +89,7 @@ def test_every_fact_file_is_valid_by_its_schema(kind: str) -> None:
     wrong = {
         path.name: faults(kind, read_yaml(path.read_text("utf-8"), references=True).data) for path in files
     }
-    assert {name: said for name, said in wrong.items() if said} == {}
+    assert {name: message for name, message in wrong.items() if message} == {}
 
 
 def records(data: Any) -> Iterator[dict[str, Any]]:

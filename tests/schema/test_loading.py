@@ -53,7 +53,7 @@ def test_good_facts_load(facts, head) -> None:
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "marked", "said"),
+    ("old", "new", "marked", "message"),
     [
         (
             "  quantity: velocity",
@@ -102,20 +102,20 @@ def test_good_facts_load(facts, head) -> None:
         ("name: Kind", "name: [Kind", "scope: axis", "expected"),
     ],
 )
-def test_a_fault_in_a_fact_is_told_with_file_and_line(facts, head, old, new, marked, said) -> None:
+def test_a_fault_in_a_fact_is_reported_with_file_and_line(facts, head, old, new, marked, message) -> None:
     text = GOOD.replace(old, new, 1)
     assert text != GOOD
     with pytest.raises(DatabaseError) as refused:
         facts.schema(text, head + SLOW)
     assert (facts.folder / "groups" / "all.yaml") == refused.value.path
-    assert said in refused.value.what
+    assert message in refused.value.what
     assert line_with(refused.value.path, marked) == refused.value.line
     assert f"all.yaml, line {refused.value.line}: " in str(refused.value)
     assert "\n" not in str(refused.value)
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "marked", "said"),
+    ("old", "new", "marked", "message"),
     [
         (
             "default_machine: mill",
@@ -146,15 +146,15 @@ def test_a_fault_in_a_fact_is_told_with_file_and_line(facts, head, old, new, mar
         ),
     ],
 )
-def test_a_fault_in_the_family_is_told_with_file_and_line(facts, head, old, new, marked, said) -> None:
+def test_a_fault_in_the_family_is_reported_with_file_and_line(facts, head, old, new, marked, message) -> None:
     text = (head + SLOW).replace(old, new, 1)
     with pytest.raises(DatabaseError) as refused:
         facts.schema(GOOD, text)
-    assert (refused.value.path.name, said in refused.value.what) == ("family.yaml", True)
+    assert (refused.value.path.name, message in refused.value.what) == ("family.yaml", True)
     assert line_with(refused.value.path, marked) == refused.value.line
 
 
-def test_a_group_file_that_is_missing_empty_or_another_is_told(facts, head) -> None:
+def test_a_group_file_that_is_missing_empty_or_another_is_reported(facts, head) -> None:
     facts.write("family.yaml", head)
     with pytest.raises(DatabaseError, match=r"all\.yaml: .*No such file"):
         compile_family(facts.folder)
@@ -169,7 +169,7 @@ def test_a_group_file_that_is_missing_empty_or_another_is_told(facts, head) -> N
         compile_family(facts.folder)
 
 
-def test_a_fault_in_a_rule_is_told_with_file_line_and_rule(facts, head) -> None:
+def test_a_fault_in_a_rule_is_reported_with_file_line_and_rule(facts, head) -> None:
     facts.write("family.yaml", head + SLOW)
     facts.group(GOOD)
     path = facts.write(
@@ -386,9 +386,9 @@ def test_whatever_lies_where_the_cache_should_is_named_and_neither_waited_for_no
         assert (path.is_symlink(), path.read_bytes()) == (False, whole)
     assert not elsewhere.exists()
     if kind != "link to nothing":
-        assert [said.startswith(f"{path} cannot be used and is made again: ") for said in warned(caplog)] == [
-            True
-        ]
+        assert [
+            message.startswith(f"{path} cannot be used and is made again: ") for message in warned(caplog)
+        ] == [True]
 
 
 def test_a_cache_file_of_any_size_is_not_read_whole(database, tmp_path, caplog) -> None:

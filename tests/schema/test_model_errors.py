@@ -29,7 +29,7 @@ def refused(facts, head, parameters: str) -> DatabaseError:
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "said"),
+    ("old", "new", "message"),
     [
         ("name: Speed", "nmae: Speed", "a.speed: nmae: there is no such key, did you mean 'name'?"),
         (
@@ -73,12 +73,12 @@ def refused(facts, head, parameters: str) -> DatabaseError:
         ("name: Speed", "name: Speed\n  errata: e-1", "a.speed: errata: must be a list: [...]"),
     ],
 )
-def test_a_slip_is_told_in_plain_words(facts, head, old, new, said) -> None:
+def test_a_slip_is_reported_in_plain_words(facts, head, old, new, message) -> None:
     assert old in PARAMETER
-    assert refused(facts, head, PARAMETER.replace(old, new)).what == said
+    assert refused(facts, head, PARAMETER.replace(old, new)).what == message
 
 
-def test_all_slips_of_one_entry_are_told_at_once_each_with_its_line(facts, head) -> None:
+def test_all_slips_of_one_entry_are_reported_at_once_each_with_its_line(facts, head) -> None:
     text = PARAMETER.replace("name: Speed", "colur: red").replace("type: real", "type: reel")
     other = "- {id: a.other, nam: Other}\n"
     error = refused(facts, head, text + other)
@@ -90,14 +90,14 @@ def test_all_slips_of_one_entry_are_told_at_once_each_with_its_line(facts, head)
     assert error.line == 6, "where the entry begins"
 
 
-def test_an_entry_of_nothing_but_slips_is_told_in_one_line_of_some_length(facts, head) -> None:
+def test_an_entry_of_nothing_but_slips_is_reported_in_one_line_of_some_length(facts, head) -> None:
     many = "".join(f"  key_{n}: 1\n" for n in range(200))
     error = refused(facts, head, PARAMETER.rstrip() + "\n" + many)
     assert error.what.endswith("; and 191 more")
     assert len(error.what) < 600
 
 
-def test_the_family_itself_is_told_with_the_key_that_was_meant(facts, head) -> None:
+def test_the_family_itself_is_reported_with_the_key_that_was_understood(facts, head) -> None:
     facts.write("family.yaml", head.replace("default_machine:", "defaultmachine:"))
     with pytest.raises(DatabaseError) as error:
         compile_family(facts.folder)

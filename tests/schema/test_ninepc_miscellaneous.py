@@ -63,5 +63,5 @@ def test_a_gain_takes_effect_at_once_where_online_amp_changes_it(ninepc) -> None
     }
     assert online == gains
     for name in gains:
-        said = dict(facts(ninepc, ninepc.parameters[name]))["Takes effect"]
-        assert said == "at once with on-line AMP at the control, else on restart of the control"
+        message = dict(facts(ninepc, ninepc.parameters[name]))["Takes effect"]
+        assert message == "at once with on-line AMP at the control, else on restart of the control"

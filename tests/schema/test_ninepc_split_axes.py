@@ -67,7 +67,7 @@ def test_a_slave_takes_what_page_32_4_lists_from_its_master_and_nothing_else(
         pair("1", master="none") | pair("2", slave="none"),
     ],
 )
-def test_without_another_servo_as_master_of_its_own_set_nobody_is_a_slave(ninepc, machine, values) -> None:
+def test_without_another_servo_as_master_of_its_own_set_no_axis_is_a_slave(ninepc, machine, values) -> None:
     here = machine(ninepc, NAMES | values).evaluation
     assert here.state(("feedrate.rapid", "4")).state == "in-force"
 

@@ -64,7 +64,7 @@ def test_bits_of_groups_and_handwheels(file, number: str, word: int, labels: lis
     assert [field.label for field in parameter.bits or () if field_value(field, word)] == labels
 
 
-def said(parameter_id: str, bit: int, word: int) -> str:
+def message(parameter_id: str, bit: int, word: int) -> str:
     """Return the label of the code that is in a field of a word."""
     field = field_at(SCHEMA.parameter(parameter_id), bit)
     (label,) = [choice.label for choice in field.choices or () if choice.raw == field_value(field, word)]
@@ -85,11 +85,14 @@ def said(parameter_id: str, bit: int, word: int) -> str:
 )
 def test_a_word_of_p9_is_a_group_and_a_name(word: int, name: str, group: int) -> None:
     """Page 4-24."""
-    assert (said("axes.assignment", 0, word), said("axes.assignment", 4, word)) == (name, f"Group {group}")
+    assert (message("axes.assignment", 0, word), message("axes.assignment", 4, word)) == (
+        name,
+        f"Group {group}",
+    )
 
 
 def test_ff_in_p9_is_neither() -> None:
-    assert (said("axes.assignment", 0, 0xFF), said("axes.assignment", 4, 0xFF)) == ("none", "none")
+    assert (message("axes.assignment", 0, 0xFF), message("axes.assignment", 4, 0xFF)) == ("none", "none")
 
 
 def test_the_drive_axis_is_stored_as_its_address_and_none_as_ff() -> None:
@@ -103,7 +106,7 @@ def test_the_frame_of_the_stegmann_encoders() -> None:
     parameter = SCHEMA.parameter("measure.sensor")
     for bits, code in ((12, 0b01100), (24, 0b11000)):
         word = 1 << 25 | code << 3 | 0b001
-        assert said("measure.sensor", 25, word) == "absolute sensor with SSI serial transmission"
+        assert message("measure.sensor", 25, word) == "absolute sensor with SSI serial transmission"
         assert [field_value(field_at(parameter, n), word) for n in (3, 0)] == [bits, 1]
 
 
@@ -131,7 +134,7 @@ def test_the_frame_of_the_stegmann_encoders() -> None:
 )
 def test_the_codes_of_a_field_are_those_of_its_table(parameter_id: str, bit: int, labels: list[str]) -> None:
     """Pages 5-16 and 5-18."""
-    assert [said(parameter_id, bit, code << bit) for code in range(len(labels))] == labels
+    assert [message(parameter_id, bit, code << bit) for code in range(len(labels))] == labels
 
 
 @pytest.mark.parametrize(
@@ -209,7 +212,7 @@ TYPES = {
 
 
 @pytest.mark.parametrize("parameter", WORDS)
-def test_each_parameter_has_as_many_words_of_the_type_as_its_section_says(parameter: str) -> None:
+def test_each_parameter_has_as_many_words_of_the_type_as_its_section_shows(parameter: str) -> None:
     """The head of each section; P5 by the table of page 13-14."""
     words = {
         number: address
@@ -292,5 +295,5 @@ def test_qvn_words_count_once_p70_or_p71_names_a_card_or_an_axis(file, naming: s
     assert [state(file, number) for number in ("P70N0", "P71N0", "P74N0")] == ["in-force"] * 3
 
 
-def test_words_that_nobody_may_use_are_ignored(file) -> None:
+def test_words_that_may_not_be_used_are_ignored(file) -> None:
     assert (state(file, "P29N0"), state(file, "P115N0")) == ("ignored", "ignored")

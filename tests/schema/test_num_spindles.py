@@ -265,7 +265,7 @@ def test_a_path_through_all_sections_meets_every_parameter_of_the_chapters_once(
     assert described == set(path)
 
 
-def test_a_step_is_told_on_the_page_of_its_parameter(num: Schema) -> None:
+def test_a_step_is_reported_on_the_page_of_its_parameter(num: Schema) -> None:
     for guide in sections(num):
         for step in guide.steps:
             words = [

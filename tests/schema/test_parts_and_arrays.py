@@ -126,7 +126,7 @@ def test_a_rule_over_gears_runs_once_a_gear_and_one_over_spindles_once_a_spindle
 
 
 @pytest.mark.parametrize(("instance", "part"), [("1.3", 3.0), ("2.12", 12.0), ("1", None), ("", None)])
-def test_a_part_is_what_stands_behind_the_point(instance: str, part: float | None) -> None:
+def test_a_part_is_what_is_behind_the_point(instance: str, part: float | None) -> None:
     assert part == part_of(instance)
 
 

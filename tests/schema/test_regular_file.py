@@ -33,7 +33,7 @@ def test_a_file_is_read_as_it_is_also_through_links(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("make", "said"),
+    ("make", "message"),
     [
         (pipe, "Is a named pipe, not a file"),
         (listening, "Is a socket, not a file"),
@@ -44,14 +44,14 @@ def test_a_file_is_read_as_it_is_also_through_links(tmp_path: Path) -> None:
         (lambda path: path.symlink_to("nowhere"), "No such file or directory"),
     ],
 )
-def test_what_is_not_a_file_is_told_at_once(
-    tmp_path: Path, make: Callable[[Path], object], said: str
+def test_what_is_not_a_file_is_reported_at_once(
+    tmp_path: Path, make: Callable[[Path], object], message: str
 ) -> None:
     path = tmp_path / "a.amp"
     make(path)
-    with pytest.raises(OSError, match=said) as error:
+    with pytest.raises(OSError, match=message) as error:
         read_file(path)
-    assert (error.value.filename, error.value.strerror) == (str(path), said)
+    assert (error.value.filename, error.value.strerror) == (str(path), message)
 
 
 def test_a_pipe_that_takes_the_name_after_the_look_is_noticed_on_the_handle(

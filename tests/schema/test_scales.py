@@ -37,7 +37,7 @@ def real(file: ParameterFile, number: str) -> Value | None:
     return real_value(file.evaluation, address, file.get(address))
 
 
-def test_an_internal_unit_is_as_long_as_p4_says_on_straight_axes_and_on_those_that_turn(num) -> None:
+def test_an_internal_unit_is_as_long_as_p4_shows_on_straight_axes_and_on_those_that_turn(num) -> None:
     assert real(num, "P17N1") == Value(600.0, "mm")
     assert real(num, "P23N3") == Value(6.6, "deg"), "66000 of 0.0001 degrees"
     num.set(num.find("P4N2"), Value(4))
@@ -46,7 +46,7 @@ def test_an_internal_unit_is_as_long_as_p4_says_on_straight_axes_and_on_those_th
     assert real(num, "P17N1") == Value(600.0, "mm"), "any other number is taken for 3"
 
 
-def test_where_nobody_knows_the_size_nothing_is_said_of_it(num) -> None:
+def test_of_an_unknown_size_nothing_is_shown(num) -> None:
     num.set(num.find("P4N2"), None)
     assert real(num, "P17N1") is None
     num.set(num.find("P4N4"), Value(7))
@@ -105,6 +105,6 @@ def test_a_parameter_may_hold_the_size_itself(facts, head, machine) -> None:
         ("{parsec: {length: {param: control.size}}}", "parsec"),
     ],
 )
-def test_a_scale_that_cannot_be_meant_is_refused_with_its_line(facts, head, scales, message) -> None:
+def test_a_scale_that_cannot_be_understood_is_refused_with_its_line(facts, head, scales, message) -> None:
     with pytest.raises(DatabaseError, match=message):
         facts.schema(SCALED, f"{head}scales: {scales}\n")

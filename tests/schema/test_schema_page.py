@@ -36,19 +36,19 @@ def test_the_picture_has_the_five_ways_and_every_reference() -> None:
 
 @pytest.mark.parametrize("line", NUMBERED)
 def test_a_way_to_number_gives_the_numbers_of_the_picture(line: str) -> None:
-    shown = cells(f"    {line}")
-    assert shown
+    displayed = cells(f"    {line}")
+    assert displayed
     numbers = Numbers.model_validate(YAML(typ="safe").load(line[: line.rindex("}") + 1]))
-    assert {i: number_of(numbers, n, i) for n, i in enumerate(shown)} == shown
+    assert {i: number_of(numbers, n, i) for n, i in enumerate(displayed)} == displayed
 
 
 @pytest.mark.parametrize("line", READ)
 def test_a_reference_reads_what_the_picture_shows(line: str) -> None:
-    shown = tuple(cells(f"    {line}"))
+    displayed = tuple(cells(f"    {line}"))
     ids = {("",): "servo.sercos_baud", ("2.1", "2.2", "2.3"): "spindle.voltage_at_max"}
-    parameter = ids.get(shown, "home.calibration")
+    parameter = ids.get(displayed, "home.calibration")
     conditions = conditions_of(load_schema("9pc"), "mill")
     found = conditions.reference(line.split(maxsplit=1)[0].replace("id", parameter), "2", None)
     read = tuple(instance for _, instance in found.addresses)
-    assert tuple(i for i in read if i in {"", *COLUMNS}) == shown
+    assert tuple(i for i in read if i in {"", *COLUMNS}) == displayed
     assert found.is_list is ("[" in line)

@@ -149,9 +149,7 @@ def test_a_code_is_refused_where_all_of_them_are_printed(mill: ParameterFile) ->
         read_value(mill.schema.parameter("resolution.multiplication"), "3", "")
 
 
-def test_lengths_are_in_blu_and_in_nothing_else_where_nobody_knows_how_long_one_is(
-    mill: ParameterFile,
-) -> None:
+def test_lengths_are_in_blu_and_in_nothing_else_where_its_length_is_unknown(mill: ParameterFile) -> None:
     """Section 1.2.6: the unit of the pitch is BLU, and what that is depends on Pr17."""
     pitch = mill.find("Pr161")
     assert mill.read(pitch, "10000") == mill.read(pitch, "10000 blu") == Value(10000, "BLU")
@@ -225,7 +223,7 @@ def test_a_copied_axis_keeps_its_own_port_and_name(mill: ParameterFile) -> None:
 # -- as a person reads it ----------------------------------------------------------------------------
 
 
-def test_a_page_tells_span_effect_and_alarms(syntec: Schema) -> None:
+def test_a_page_reports_span_effect_and_alarms(syntec: Schema) -> None:
     page = page_of(syntec, "Pr3203")
     assert "Number         Pr3203" in page
     assert "Takes effect   not given in the manual" in page

@@ -52,7 +52,7 @@ def test_a_value_knows_the_command_that_sets_it(facts) -> None:
     assert storage.command == "NOTCH {i}({notch.frequency}, {notch.width})"
 
 
-def test_a_command_of_a_parameter_that_does_not_exist_is_told(facts) -> None:
+def test_a_command_of_a_parameter_that_does_not_exist_is_reported(facts) -> None:
     with pytest.raises(
         DatabaseError, match=r"all\.yaml, line \d+: notch\.frequency: there is no .*'notch\.depth'"
     ):

@@ -205,7 +205,7 @@ def test_a_word_may_hold_a_code_in_each_nibble(facts, machine) -> None:
     )
 
 
-def test_fields_of_many_bits_share_a_long_word_with_bits_nobody_knows(facts, machine) -> None:
+def test_fields_of_many_bits_share_a_long_word_with_unknown_bits(facts, machine) -> None:
     """NUM P34: each long word an axis contains the contents of two registers (page 5-18)."""
     schema = facts.schema(
         """
@@ -283,7 +283,7 @@ def test_a_condition_may_ask_for_a_bit_or_a_field_of_a_word(facts, machine) -> N
     assert states == ["hidden", "ignored"], "axis 3 has no sensor yet"
 
 
-def test_a_condition_that_calls_what_is_no_function_is_told(facts) -> None:
+def test_a_condition_that_calls_what_is_no_function_is_reported(facts) -> None:
     conditions = """
 conditions:
   odd: {reads: {word: axes.word}, when: "bits(word, 0.0)", why: it is odd}
@@ -372,11 +372,11 @@ def test_a_field_may_have_no_number_at_all(facts, machine) -> None:
     assert schema.on("mill").number(("axes.pulses_per_unit", "X")) is None
     assert schema.on("mill").short(("axes.pulses_per_unit", "Z")) == "axes.pulses_per_unit@Z"
     assert schema.on("mill").label(("axes.pulses_per_unit", "Z")) == "Pulses/Unit Axis Z"
-    for text, said in (
+    for text, message in (
         ("axes.pulses_per_unit", "has @X to @Z"),
         ("axes.pulses_per_unit@A", "has @X to @Z"),
         ("system.units@X", "without '@'"),
         ("axes.pulses@X", "Unknown parameter 'axes.pulses@X'. Did you mean: axes.pulses_per_unit@X"),
     ):
-        with pytest.raises(UnknownParameterError, match=said):
+        with pytest.raises(UnknownParameterError, match=message):
             find(text)

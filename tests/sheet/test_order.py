@@ -36,7 +36,7 @@ def test_following_error_limits_that_shrink_are_keyed_in_from_the_innermost(pres
     assert broken_on_the_way(wide, sheet, present) == [set()] * 4
 
 
-def test_an_entry_that_waits_for_another_says_what_it_would_break_and_the_page(present, changed) -> None:
+def test_an_entry_that_waits_for_another_shows_what_it_would_break_and_the_page(present, changed) -> None:
     wide = changed({"1730": "60 mm", "1740": "80 mm", "1750": "90 mm"})
     (waiting,) = [e for e in make_sheet(present, wide).entries if e.number == "1750"]
     assert waiting.order.startswith(
@@ -118,7 +118,7 @@ def test_an_order_is_found_where_the_first_step_that_seems_free_leads_nowhere(
     assert [entry.until for entry in sheet.entries] == [(), (), ()]
 
 
-def test_where_no_order_is_sound_the_sheet_says_what_is_broken_until_which_step(
+def test_where_no_order_is_sound_the_sheet_shows_what_is_broken_until_which_step(
     lathe, changed, tmp_path
 ) -> None:
     own = own_rules(tmp_path, lathe.schema, ["a == b && b == c"])
@@ -129,7 +129,7 @@ def test_where_no_order_is_sound_the_sheet_says_what_is_broken_until_which_step(
     ]
 
 
-def test_an_error_that_is_there_in_the_end_anyway_is_told_before_the_work_begins(
+def test_an_error_that_is_there_in_the_end_anyway_is_reported_before_the_work_begins(
     lathe, changed, tmp_path
 ) -> None:
     own = own_rules(tmp_path, lathe.schema, ["a < 8.0"])
@@ -139,7 +139,7 @@ def test_an_error_that_is_there_in_the_end_anyway_is_told_before_the_work_begins
     ]
 
 
-def test_rules_that_cannot_be_read_are_told_too(lathe, tmp_path) -> None:
+def test_rules_that_cannot_be_read_are_reported_too(lathe, tmp_path) -> None:
     (warning,) = make_sheet(lathe.copy(), lathe, own=own_rules(tmp_path, lathe.schema, ["a <"])).warnings
     assert "own.rule-0: check: a value is missing" in warning
 

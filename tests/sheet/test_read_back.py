@@ -41,7 +41,7 @@ def test_a_comma_behind_a_blank_is_that_of_a_decimal_fraction(changed, present) 
     assert states("1750 ,5\n1740 ,5", file, present) == {"1750": "other", "1740": "same"}
 
 
-def test_the_old_value_and_a_missing_one_are_told_apart(wanted, present) -> None:
+def test_the_old_value_and_a_missing_one_are_distinguished(wanted, present) -> None:
     old = {e.number: e.old for e in make_sheet(wanted, present).entries}
     assert states(f"1740 {old['1740']}", wanted, present) == {
         "1750": "not read",
@@ -59,7 +59,7 @@ def test_the_old_value_and_a_missing_one_are_told_apart(wanted, present) -> None
         ("nonsense 4", "line 1: Unknown parameter 'nonsense'"),
     ],
 )
-def test_a_list_that_cannot_be_meant_is_refused_with_its_line(wanted, present, text, fault) -> None:
+def test_a_list_that_cannot_be_understood_is_refused_with_its_line(wanted, present, text, fault) -> None:
     with pytest.raises(ReadBackError) as refused:
         states(text, wanted, present)
     assert str(refused.value).startswith(fault)

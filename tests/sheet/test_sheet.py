@@ -43,7 +43,7 @@ def test_a_value_of_an_axis_that_turns_is_keyed_in_in_degrees(present, changed) 
     assert (entry.new, entry.unit) == ("16", "°")
 
 
-def test_a_value_with_more_decimals_than_the_control_has_is_rounded_and_says_so(present, changed) -> None:
+def test_a_value_with_more_decimals_than_the_control_has_is_rounded_and_shows_it(present, changed) -> None:
     entry = entry_of(changed({"1735": "0.00123456 mm"}), present)
     assert (entry.new, entry.meaning) == ("0.00123", "0.00123456 mm, rounded")
 
@@ -93,7 +93,7 @@ def test_what_the_file_does_not_set_stays_and_what_the_control_hides_is_not_know
     assert entry_of(present, without).old == ""
 
 
-def test_a_password_is_on_no_sheet_that_nobody_asked_it_for(present, changed) -> None:
+def test_a_password_is_on_a_sheet_only_where_it_is_asked_for(present, changed) -> None:
     sheet = make_sheet(changed({"101": "77"}), changed({"101": "66"}))
     assert sheet.entries == ()
     assert "77" not in repr(sheet.left_out)

@@ -34,13 +34,13 @@ def test_backlash_alone_adds_no_oscillation() -> None:
     assert trace.result["peak_torque"][0] < 25.0
 
 
-def test_what_a_contact_is_taken_as_is_said_and_can_be_set() -> None:
+def test_what_a_contact_is_taken_as_is_shown_and_can_be_set() -> None:
     short = {"move.duration": 0.05}
     trace = simulate(mill(), "step", "1", {"model.backlash": 0.02, **short}, advise=False)
-    said = [
+    message = [
         text for text in trace.assumptions if text.startswith(("ASSUMED: model.res", "ASSUMED: model.damp"))
     ]
-    assert [text.partition(". ")[0] for text in said] == [
+    assert [text.partition(". ")[0] for text in message] == [
         "ASSUMED: model.resonance = 150 Hz",
         "ASSUMED: model.damping = 1",
     ]

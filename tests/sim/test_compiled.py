@@ -34,14 +34,14 @@ def test_the_same_law_has_the_same_name_in_every_process() -> None:
         "from amp_studio.sim.engine.compiled import kernel_name; from tests.sim import tiny;"
         "print(kernel_name(tiny.position_sample, tiny.velocity_sample))"
     )
-    told = subprocess.run(
+    reported = subprocess.run(
         [sys.executable, "-c", script],
         capture_output=True,
         text=True,
         check=True,
         env={"PYTHONPATH": ".", "PYTHONHASHSEED": "7"},
     )
-    assert told.stdout.strip() == kernel_name(law.position_sample, law.velocity_sample)
+    assert reported.stdout.strip() == kernel_name(law.position_sample, law.velocity_sample)
 
 
 def test_another_constant_or_function_far_below_makes_another_name() -> None:

@@ -140,7 +140,7 @@ def test_a_chirp_is_answered_by_h1_within_three_percent(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("a,b,c\n1,2,3\n", "No line has the heads"),
         ("frequency_hz,gain_db,phase_deg\n1,2,3\n", "too few"),
@@ -150,8 +150,8 @@ def test_a_chirp_is_answered_by_h1_within_three_percent(tmp_path: Path) -> None:
         (table(FREQUENCIES, 1.0 / FREQUENCIES + 0j, 1.7), "between 0 and 1"),
     ],
 )
-def test_what_is_no_response_is_one_sentence(text: str, said: str) -> None:
-    with pytest.raises(SimulationError, match=said):
+def test_what_is_no_response_is_one_sentence(text: str, message: str) -> None:
+    with pytest.raises(SimulationError, match=message):
         response_of_text(text)
 
 

@@ -156,9 +156,9 @@ def test_friction_that_falls_with_the_speed_becomes_dry_friction_alone() -> None
 def test_a_torque_at_its_limit_is_refused() -> None:
     """The drive was asked for more than it gave, for a third of the record."""
     limited = record(SPEEDS, limit=8.0)
-    said = refused(time=limited["time"], torque=limited["torque"], velocity=limited["velocity"])
-    assert said.startswith("The torque stays at its largest value in ")
-    assert "lower acceleration" in said
+    message = refused(time=limited["time"], torque=limited["torque"], velocity=limited["velocity"])
+    assert message.startswith("The torque stays at its largest value in ")
+    assert "lower acceleration" in message
 
 
 def test_a_record_cut_off_by_its_own_range_is_refused(clean: dict[str, Series]) -> None:
@@ -180,9 +180,9 @@ def test_a_drive_that_is_off_at_rest_is_at_no_limit(clean: dict[str, Series]) ->
 def test_one_direction_is_refused(clean: dict[str, Series]) -> None:
     there = clean["velocity"] > -0.01
     given = {name: clean[name][there] for name in ("torque", "velocity")}
-    said = refused(time=PERIOD * np.arange(there.sum()), **given)
+    message = refused(time=PERIOD * np.arange(there.sum()), **given)
     assert (
-        said
+        message
         == "The axis moves in one direction only: dry friction and weight look the same. Record moves in both"
         " directions"
     )
@@ -190,10 +190,10 @@ def test_one_direction_is_refused(clean: dict[str, Series]) -> None:
 
 def test_one_speed_is_refused() -> None:
     made = record((60.0, 60.0))
-    said = refused(
+    message = refused(
         time=made["time"], torque=made["torque"] + noise(0.1, made["time"]), velocity=made["velocity"]
     )
-    assert said.startswith("The axis moves at one speed only")
+    assert message.startswith("The axis moves at one speed only")
 
 
 def test_a_sine_of_one_amplitude_has_many_speeds() -> None:
@@ -209,8 +209,8 @@ def test_constant_speeds_without_ramps_are_refused(clean: dict[str, Series]) -> 
     time = np.arange(0.0, 3.0, PERIOD)
     velocity = np.repeat([20.0, -20.0, 60.0, -60.0, 120.0, -120.0], 500)
     torque = VISCOUS * velocity + DRY * np.sign(velocity)
-    said = refused(time=time, torque=torque + noise(0.2, time), velocity=velocity + noise(2.0, time))
-    assert "acceleration" in said
+    message = refused(time=time, torque=torque + noise(0.2, time), velocity=velocity + noise(2.0, time))
+    assert "acceleration" in message
 
 
 @pytest.mark.parametrize("rows", [0, 1, 2, 99])
@@ -229,14 +229,14 @@ def test_a_standing_axis_is_refused() -> None:
 
 
 def test_torque_of_the_other_sign_is_refused(clean: dict[str, Series]) -> None:
-    said = refused(time=clean["time"], torque=-clean["torque"], velocity=clean["velocity"])
-    assert said.startswith("Torque and acceleration have opposite signs")
+    message = refused(time=clean["time"], torque=-clean["torque"], velocity=clean["velocity"])
+    assert message.startswith("Torque and acceleration have opposite signs")
 
 
 def test_a_torque_that_belongs_to_another_axis_is_refused(clean: dict[str, Series]) -> None:
     torque = np.abs(clean["torque"]) + noise(5.0, clean["time"])
-    said = refused(time=clean["time"], torque=torque, velocity=clean["velocity"])
-    assert "explain only" in said or "opposite signs" in said or "too little acceleration" in said
+    message = refused(time=clean["time"], torque=torque, velocity=clean["velocity"])
+    assert "explain only" in message or "opposite signs" in message or "too little acceleration" in message
 
 
 def test_times_that_go_back_stand_still_or_leave_a_gap_are_refused(clean: dict[str, Series]) -> None:

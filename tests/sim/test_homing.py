@@ -67,7 +67,7 @@ def test_the_search_goes_on_until_the_way_ends() -> None:
     assert 340.0 < moving.load < 352.0
 
 
-def test_a_switch_on_which_the_axis_stands_is_left_at_once() -> None:
+def test_a_switch_on_which_the_axis_is_is_left_at_once() -> None:
     _, found = homed(SWITCHED, Around(switch=-1.0, marker=-3.0))
     assert found.marker == -3.0
 

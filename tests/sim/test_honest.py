@@ -57,7 +57,7 @@ def test_an_unstable_loop_is_named_with_its_margin_and_never_settles() -> None:
     assert trace.result["steady_following_error"] == (None, "mm")
 
 
-def test_an_axis_that_settles_says_when_and_stays_there() -> None:
+def test_an_axis_that_settles_shows_when_and_stays_there() -> None:
     trace = STEP(tiny(), {})
     at = trace.result["in_position_time"][0]
     assert at is not None
@@ -80,7 +80,7 @@ def test_a_sound_file_leaves_no_doubt(mill: ParameterFile) -> None:
     assert simulate(mill, "step", "1").doubts == ()
 
 
-def test_a_value_outside_its_range_is_said_with_the_result(mill: ParameterFile) -> None:
+def test_a_value_outside_its_range_is_shown_with_the_result(mill: ParameterFile) -> None:
     offset = mill.find("servo.torque_offset@1")
     mill.values[offset] = type(mill.get(offset))(900.0, mill.get(offset).unit)
     trace = simulate(mill, "step", "1", {"move.duration": 0.05})
@@ -89,14 +89,14 @@ def test_a_value_outside_its_range_is_said_with_the_result(mill: ParameterFile) 
     assert f"DOUBTFUL: {trace.doubts[0]}" in trace_text(trace)
 
 
-def test_a_file_with_errors_elsewhere_is_said_too(mill: ParameterFile) -> None:
+def test_a_file_with_errors_elsewhere_is_shown_too(mill: ParameterFile) -> None:
     other = mill.find("servo.initial_gain@3")
     mill.values[other] = type(mill.get(other))(900.0, mill.get(other).unit)
     (doubt,) = simulate(mill, "step", "1", {"move.duration": 0.05}).doubts
     assert "other error" in doubt
 
 
-def test_a_value_that_is_not_set_is_said_where_the_axis_would_have_used_it(mill: ParameterFile) -> None:
+def test_a_value_that_is_not_set_is_shown_where_the_axis_would_have_used_it(mill: ParameterFile) -> None:
     mill.set(mill.find("servo.torque_offset@1"), None)
     (doubt,) = simulate(mill, "step", "1", {"move.duration": 0.05}).doubts
     assert doubt.startswith("Not set, and simulated as if there were none: Torque Offset Percentage")
@@ -157,7 +157,7 @@ def test_absurd_input_gets_a_sentence_or_finite_figures(
         ("circle", {}),
     ],
 )
-def test_an_axis_whose_friction_is_above_the_torque_limit_is_said_not_to_move(
+def test_an_axis_whose_friction_is_above_the_torque_limit_is_shown_not_to_move(
     scenario: str, settings: dict[str, float]
 ) -> None:
     stuck = tiny(coulomb_friction=120.0, torque_limit_positive=100.0, torque_limit_negative=100.0)

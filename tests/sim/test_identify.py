@@ -119,7 +119,7 @@ def test_the_picture_has_measured_and_predicted_torque(record: Path) -> None:
         assert f">{words}<" in picture or words in picture
 
 
-def test_the_figures_are_told_with_their_standard_errors(record: Path) -> None:
+def test_the_figures_are_reported_with_their_standard_errors(record: Path) -> None:
     text = identified_text(identify(MILL, record, "1"))
     assert "identify, axis 1 (X): home.csv: " in text
     assert " ± " in text.splitlines()[1]
@@ -154,7 +154,7 @@ def test_a_record_of_a_slide_is_none_of_a_rotary_axis(record: Path) -> None:
         identify(MILL, record, "4")
 
 
-def test_a_family_without_a_law_says_so(record: Path) -> None:
+def test_a_family_without_a_law_shows_it(record: Path) -> None:
     with pytest.raises(SimulationError, match="stepper motors"):
         identify(new_file("grblhal"), record)
 

@@ -108,7 +108,7 @@ def test_the_matrix_exponential_is_that_of_scipy() -> None:
     )
 
 
-def test_a_held_input_moves_the_machine_as_scipy_discretises_it() -> None:
+def test_a_kept_input_moves_the_machine_as_scipy_discretises_it() -> None:
     plant = rigid(40.0, 3.0)
     a, b, *_ = scipy.signal.cont2discrete((plant.a, plant.b, plant.load, np.zeros((1, 1))), PERIOD)
     for found, wanted in zip(zero_order_hold(plant.a, plant.b, PERIOD), (a, b), strict=True):

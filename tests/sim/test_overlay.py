@@ -44,11 +44,11 @@ def test_a_record_in_another_unit_is_converted_and_one_that_does_not_fit_is_one_
     time, speed = trace.columns["time_s"][::4], trace.columns["velocity"][::4]
     record = written(tmp_path / "record.csv", "time (ms),velocity (mm/s)", 1e3 * time, speed / 60.0)
     assert laid_over(trace, record).result["difference_rms_velocity"][0] == pytest.approx(0.0, abs=3.0)
-    for head, said in (
+    for head, message in (
         ("time (s),velocity (deg)", "and the simulation has it in"),
         ("a,b", "needs a column of time"),
     ):
-        with pytest.raises(SimulationError, match=said):
+        with pytest.raises(SimulationError, match=message):
             laid_over(trace, written(tmp_path / "bad.csv", head, time, speed))
     with pytest.raises(SimulationError, match="does not rise"):
         laid_over(trace, written(tmp_path / "bad.csv", "time (s),velocity (mm/min)", 0.0 * time, speed))

@@ -246,7 +246,7 @@ def test_the_contour_error_of_a_circle_is_its_radius_error(router: ParameterFile
     assert np.median(contour.error[row]) < 0.01
 
 
-def test_the_distance_from_a_path_is_to_the_part_that_is_meant() -> None:
+def test_the_distance_from_a_path_is_to_the_part_that_is_intended() -> None:
     points = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 0.2], [0.0, 0.2]])
     place = np.array([[5.0, 0.15], [10.0, -0.1], [9.95, 0.1]])
     commanded = np.array([[5.0, 0.0], [10.0, 0.0], [10.0, 0.1]])

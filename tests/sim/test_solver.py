@@ -96,8 +96,8 @@ def test_a_contour_gives_all_its_unequal_axes_one_position_gain() -> None:
     gains = set()
     for axis in ("1", "2"):
         trace = simulate(file, "tune", axis, {"tune.for": "contour"})
-        told = {each.parameter: each.value for each in trace.recommendations}
-        gains.add(told.get("servo.initial_gain", 1.0))
+        reported = {each.parameter: each.value for each in trace.recommendations}
+        gains.add(reported.get("servo.initial_gain", 1.0))
         assert any("The position gain is the one that all axes" in text for text in trace.assumptions)
     assert max(gains) / min(gains) < 1.03
 
@@ -119,7 +119,7 @@ def test_a_grid_search_finds_nothing_that_the_solver_did_not(plant: Plant) -> No
     assert list(faults(plant)) == []
 
 
-def test_a_candidate_says_by_how_much_a_count_moves_its_output() -> None:
+def test_a_candidate_shows_by_how_much_a_count_moves_its_output() -> None:
     law = law_of("57c422b")
     axis = bind_axis(file_of("57c422b-label-press/LABEL_PRESS.amp"), law, "X")
     # Velocity Gain 78 words for a count a scan, of 1984 for 10 V, and the proportional and integral parts on

@@ -101,7 +101,7 @@ def test_samples_are_those_of_their_seed_and_fill_their_distribution() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("servo.initial_gain", "does not say what is varied"),
         ("servo.initial_gain=1", "no range"),
@@ -114,8 +114,8 @@ def test_samples_are_those_of_their_seed_and_fill_their_distribution() -> None:
         ("model.delay=1+-2", "say how many"),
     ],
 )
-def test_what_cannot_be_varied_is_one_sentence(text: str, said: str) -> None:
-    with pytest.raises(SimulationError, match=said):
+def test_what_cannot_be_varied_is_one_sentence(text: str, message: str) -> None:
+    with pytest.raises(SimulationError, match=message):
         simulate(file_of(MILL), "sweep", "1", {"sweep.over": text})
 
 

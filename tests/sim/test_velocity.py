@@ -13,7 +13,7 @@ from tests.sim.tiny import tiny
 VELOCITY = SCENARIOS["velocity"].run
 
 
-def test_a_first_order_velocity_loop_rises_as_its_rate_says() -> None:
+def test_a_first_order_velocity_loop_rises_as_its_rate_shows() -> None:
     # 10 to 90 % of a first-order lag of 200/s: ln 9 / 200 = 11 ms.
     trace = VELOCITY(tiny(), {"move.feedrate": 600.0})
     assert trace.result["rise_time"][0] == pytest.approx(math.log(9.0) / 200.0, rel=0.1)

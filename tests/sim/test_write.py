@@ -75,7 +75,7 @@ def test_the_plot_is_wellformed_and_names_axes_units_and_limits(trace: Trace) ->
         assert xy[:, 1].max() <= float(root.get("height", "0"))
 
 
-def test_an_alarm_stands_in_the_plot(stopped: Trace) -> None:
+def test_an_alarm_is_in_the_plot(stopped: Trace) -> None:
     assert "EXCESS ERROR at " in plot_svg(stopped)
 
 
@@ -102,21 +102,21 @@ def test_the_file_is_written_by_its_ending(trace: Trace, tmp_path: Path) -> None
 
 
 def test_the_summary_has_the_promised_keys_and_is_json(trace: Trace) -> None:
-    told = json.loads(json.dumps(trace_summary(trace), allow_nan=False))
-    assert {"scenario", "axis", "model", "result", "alarms", "advice", "trace"} <= set(told)
-    assert told["trace"] == {"columns": list(trace.columns), "rows": trace.rows}
-    assert told["result"]["steady_following_error"].keys() == {"value", "unit"}
-    for advice in told["advice"]:
+    reported = json.loads(json.dumps(trace_summary(trace), allow_nan=False))
+    assert {"scenario", "axis", "model", "result", "alarms", "advice", "trace"} <= set(reported)
+    assert reported["trace"] == {"columns": list(trace.columns), "rows": trace.rows}
+    assert reported["result"]["steady_following_error"].keys() == {"value", "unit"}
+    for advice in reported["advice"]:
         assert advice.keys() >= {"param", "value", "why"}
 
 
 def test_an_alarm_and_its_advice_stand_in_summary_and_text(stopped: Trace) -> None:
-    told = trace_summary(stopped)
-    assert told["alarms"][0].keys() == {"code", "time_s", "message"}
-    assert told["advice"][0]["param"] == "excess_error"
-    assert told["advice"][0]["value"] == "5.5 mm"
+    reported = trace_summary(stopped)
+    assert reported["alarms"][0].keys() == {"code", "time_s", "message"}
+    assert reported["advice"][0]["param"] == "excess_error"
+    assert reported["advice"][0]["value"] == "5.5 mm"
     text = trace_text(stopped)
-    assert f"ALARM {told['alarms'][0]['code']} at " in text
+    assert f"ALARM {reported['alarms'][0]['code']} at " in text
     assert "excess_error = 5.5 mm: " in text
     assert "Assumptions" in text
 

@@ -144,9 +144,9 @@ def emulate() -> Iterator[Callable[..., Emulated]]:
         process = start_program(address, folder, json.dumps(options), script=emulated_control)
         started.append(process)
         emulated = Emulated(process, "")
-        said = emulated.hear()
-        assert said.startswith("listening on "), f"the emulator said {said!r}"
-        emulated.address = said.removeprefix("listening on ")
+        message = emulated.hear()
+        assert message.startswith("listening on "), f"the emulator said {message!r}"
+        emulated.address = message.removeprefix("listening on ")
         return emulated
 
     yield start

@@ -24,20 +24,20 @@ def patch(image: bytes, key: str, value: str) -> bytes:
 
 
 def main(address: str, folder: str, options: str = "{}") -> int:
-    said = json.loads(options)
+    message = json.loads(options)
     control = Control(
         Path(folder),
-        Identity("9pc", said.get("signature", "s1"), "CNC_1", "3.05"),
-        said.get("initial", "old image\n").encode(),
-        estop=said.get("estop"),
-        autostart=said.get("autostart"),
+        Identity("9pc", message.get("signature", "s1"), "CNC_1", "3.05"),
+        message.get("initial", "old image\n").encode(),
+        estop=message.get("estop"),
+        autostart=message.get("autostart"),
     )
     return serve(
         address,
         control,
         patch=patch,
-        faults=Faults(**said.get("faults", {})),
-        restart_seconds=said.get("restart_seconds", 0.1),
+        faults=Faults(**message.get("faults", {})),
+        restart_seconds=message.get("restart_seconds", 0.1),
     )
 
 

@@ -138,10 +138,10 @@ def fault_of(image: bytes) -> str:
     try:
         file = decode_image(image)
     except ImageError as error:
-        said = str(error)
-        assert said.replace("\u2028", "").replace("\ufeff", "").isprintable(), repr(said)
-        assert len(said) < 700, said
-        return said
+        message = str(error)
+        assert message.replace("\u2028", "").replace("\ufeff", "").isprintable(), repr(message)
+        assert len(message) < 700, message
+        return message
     assert encode_image(file) == image
     again = read_content(Path("x.amp"), content_of(file))
     assert again.values == file.values

@@ -17,6 +17,6 @@ def sha(image: bytes) -> bytes:
     return hashlib.sha256(image).digest()
 
 
-def send(session: Session, image: bytes = NEW, held: bytes = OLD, **options: Any) -> Any:
+def send(session: Session, image: bytes = NEW, content: bytes = OLD, **options: Any) -> Any:
     """Send an image to a control that contains the old one."""
-    return session.send(Replacement(image, held, "s1"), Exchange(**options))
+    return session.send(Replacement(image, content, "s1"), Exchange(**options))

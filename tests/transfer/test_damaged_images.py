@@ -44,7 +44,7 @@ def mill(entry: str = "", line: str = "") -> bytes:
 
 
 @pytest.mark.parametrize(
-    ("line", "said"),
+    ("line", "message"),
     [
         ("1300\thome.calibration@1\t5", "home.calibration@1 .*'5' has no unit"),
         ("1300\thome.calibration@1\tnan mm", "home.calibration@1 .*'nan mm' is not a number"),
@@ -73,9 +73,9 @@ def mill(entry: str = "", line: str = "") -> bytes:
         ("1300\thome.calibration@1\t5 mm\r", "line .*control character"),
     ],
 )
-def test_a_damaged_number_names_its_entry(line: str, said: str) -> None:
+def test_a_damaged_number_names_its_entry(line: str, message: str) -> None:
     """A number has its unit, in the one form it is written in, at an instance that exists, once."""
-    with pytest.raises(ImageError, match=said) as caught:
+    with pytest.raises(ImageError, match=message) as caught:
         decode_image(mill("home.calibration@1", line))
 
     assert "\n" not in str(caught.value)
@@ -134,7 +134,7 @@ def test_a_code_of_thousands_of_digits_is_no_code(digits: int) -> None:
 
 
 @pytest.mark.parametrize(
-    ("key", "line", "said"),
+    ("key", "line", "message"),
     [
         ("machine", "machine submarine", "machine type 'submarine'"),
         ("machine", "machine lathe", "'machine lathe', which would be written 'machine mill'"),
@@ -150,9 +150,9 @@ def test_a_code_of_thousands_of_digits_is_no_code(digits: int) -> None:
         ("signature", "signature ", "another schema"),
     ],
 )
-def test_junk_in_the_head_is_named(key: str, line: str, said: str) -> None:
+def test_junk_in_the_head_is_named(key: str, line: str, message: str) -> None:
     """The family is never taken for a path, and the machine type is one of the family's."""
-    with pytest.raises(ImageError, match=said):
+    with pytest.raises(ImageError, match=message):
         decode_image(mill(key, line))
 
 
@@ -225,10 +225,10 @@ def test_a_damaged_image_is_refused_or_is_one_that_comes_back_byte_for_byte(fami
     image = encode_image(small(family))
     assert fault_of(image) == ""
 
-    said = [fault_of(damaged) for damaged in mutants(image, seed=9, count=300)]
+    message = [fault_of(damaged) for damaged in mutants(image, seed=9, count=300)]
 
-    assert sum(map(bool, said)) > 150
-    assert len(set(said)) > min(100, 2 * image.count(b"\n"))
+    assert sum(map(bool, message)) > 150
+    assert len(set(message)) > min(100, 2 * image.count(b"\n"))
 
 
 @pytest.mark.parametrize(

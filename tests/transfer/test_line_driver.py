@@ -72,7 +72,7 @@ def error_of(driver: Register, exchange: Exchange | None = None) -> TransferErro
     return caught.value
 
 
-def test_a_driver_is_of_one_family_and_says_so_before_it_connects() -> None:
+def test_a_driver_is_of_one_family_and_shows_it_before_it_connects() -> None:
     assert Register.abilities.all_or_nothing is False
     with pytest.raises(
         WrongFamilyError, match=r"^the protocol register is that of the family small, not of num$"
@@ -101,7 +101,7 @@ def test_what_cannot_be_read_again_is_not_known() -> None:
     assert (error.at_control, error.what) == ("unknown", "the download broke off (register: out of handles)")
 
 
-def test_who_stops_is_told_what_the_answers_prove_and_does_not_wait() -> None:
+def test_who_stops_is_reported_what_the_answers_prove_and_does_not_wait() -> None:
     driver, stop = Register(CancelledError("stopped")), threading.Event()
     driver.is_gone = True
     error = error_of(driver)

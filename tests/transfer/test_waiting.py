@@ -31,17 +31,17 @@ class Silent:
 
 
 def test_silence_is_shown_after_two_seconds_each_second_until_something_comes() -> None:
-    clock, shown = VirtualClock(), list[tuple[str, int, int]]()
+    clock, displayed = VirtualClock(), list[tuple[str, int, int]]()
     waiting = Waiting(clock, clock.sleep)
-    waiting.begin(Exchange(lambda *event: shown.append(event)))
+    waiting.begin(Exchange(lambda *event: displayed.append(event)))
     assert waiting.read(Silent(clock), 3) == b""
-    assert shown == [("silent", 2, 0), ("silent", 3, 0)]
+    assert displayed == [("silent", 2, 0), ("silent", 3, 0)]
     assert waiting.read(Silent(clock), 3) == b"x"
     waiting.heard()
-    assert shown[2:] == [("silent", 4, 0), ("silent", 0, 0)]
+    assert displayed[2:] == [("silent", 4, 0), ("silent", 0, 0)]
 
 
-def test_somebody_who_stops_waits_no_longer_than_a_slice() -> None:
+def test_a_user_who_stops_waits_no_longer_than_a_slice() -> None:
     clock, cancel = VirtualClock(), threading.Event()
     waiting = Waiting(clock, clock.sleep)
     waiting.begin(Exchange(lambda *_: cancel.set(), cancel))
@@ -50,14 +50,14 @@ def test_somebody_who_stops_waits_no_longer_than_a_slice() -> None:
     assert 1.8 <= clock.now < 2.1, "the first silence was shown, and there the person stopped"
 
 
-def test_a_sentence_for_a_person_is_marked_as_one_and_whoever_fails_to_show_it_ends_nothing() -> None:
-    shown = list[tuple[str, int, int]]()
+def test_a_sentence_for_a_user_is_marked_as_one_and_whoever_fails_to_show_it_ends_nothing() -> None:
+    displayed = list[tuple[str, int, int]]()
 
     def show(*event: object) -> None:
-        shown.append(event)
+        displayed.append(event)
         raise OSError("nobody reads")
 
     waiting = Waiting(VirtualClock())
     waiting.begin(Exchange(show))
     waiting.ask("At the control: start")
-    assert shown == [("At the control: start", 0, OPERATOR)]
+    assert displayed == [("At the control: start", 0, OPERATOR)]

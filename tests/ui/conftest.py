@@ -61,14 +61,14 @@ def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
         gc.enable()
 
 
-class Person:
+class User:
     """Who answers: every question needs an answer given before, every message must be read."""
 
     def __init__(self) -> None:
         self._answers: list[str] = []
         self._paths: list[str] = []
         self._texts: list[str] = []
-        self.told: list[str] = []
+        self.shown_boxes: list[str] = []
         self.asked: list[str] = []
         self.labels: list[str] = []
 
@@ -86,19 +86,19 @@ class Person:
 
     def reads(self) -> str:
         """Return the one message that was shown."""
-        assert len(self.told) == 1, self.told
-        return self.told.pop()
+        assert len(self.shown_boxes) == 1, self.shown_boxes
+        return self.shown_boxes.pop()
 
     def is_done(self) -> None:
         """Fail when a message was not read, or an answer not asked for."""
-        assert (self.told, self._answers, self._paths, self._texts) == ([], [], [], [])
+        assert (self.shown_boxes, self._answers, self._paths, self._texts) == ([], [], [], [])
 
     # -- what Qt's dialogs do instead -------------------------------------------
 
     def exec(self, box: QMessageBox) -> int:
         buttons = {button.text().replace("&", ""): button for button in box.buttons()}
         if len(buttons) == 1:
-            self.told.append(box.text())
+            self.shown_boxes.append(box.text())
         else:
             self.asked.append(box.text())
             assert self._answers, f"nobody answers: {box.text()}"
@@ -128,9 +128,9 @@ def _english(qapp: QApplication) -> None:
 
 
 @pytest.fixture
-def person(monkeypatch: pytest.MonkeyPatch) -> Iterator[Person]:
+def user(monkeypatch: pytest.MonkeyPatch) -> Iterator[User]:
     """Return who answers message boxes, file and input dialogs; a question nobody expects fails the test."""
-    who = Person()
+    who = User()
     monkeypatch.setattr(QMessageBox, "exec", lambda box: who.exec(box))  # noqa: PLW0108  # a bound method would not be given the box
     monkeypatch.setattr(QMessageBox, "clickedButton", lambda box: who.clicked(box))  # noqa: PLW0108  # likewise
     for name in ("getOpenFileName", "getSaveFileName"):
@@ -208,7 +208,7 @@ def close_windows(windows: list[MainWindow]) -> None:
 
 
 @pytest.fixture
-def open_window(qtbot: QtBot, person: Person) -> Iterator[Callable[..., MainWindow]]:
+def open_window(qtbot: QtBot, user: User) -> Iterator[Callable[..., MainWindow]]:
     """Return what opens a window on a file, or none; it is closed at the end, unsaved work thrown away."""
     windows: list[MainWindow] = []
     QSettings("AMP Studio", "AMP Studio").clear()

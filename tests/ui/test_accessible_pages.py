@@ -101,7 +101,7 @@ def by(name: str, kind: type[QWidget]) -> Callable[[MainWindow], QWidget]:
     return open_it
 
 
-def shown(make: Callable[[MainWindow], QWidget]) -> Callable[[MainWindow], QWidget]:
+def displayed(make: Callable[[MainWindow], QWidget]) -> Callable[[MainWindow], QWidget]:
     """Return what shows a dialog without waiting for its end."""
 
     def open_it(window: MainWindow) -> QWidget:
@@ -164,15 +164,15 @@ PAGES: dict[str, Callable[[MainWindow], QWidget]] = {
     "tables": by("Tables of the Manual", TablesDialog),
     "quick edit": lambda window: (window.edits.quick_edit(), opened(window, QuickEdit))[1],
     "steps of undo": lambda window: (window.edits.steps(), opened(window, StepList))[1],
-    "exchanges": shown(lambda window: (window.control.recorded(), window)[1]),
-    "several controls": shown(lambda window: (window.control.several(), window)[1]),
-    "sheet": shown(lambda window: (window.control.show("hand"), window)[1]),
-    "new": shown(lambda window: NewFileDialog(window, "9pc")),
-    "report": shown(lambda window: ReportDialog(window.workspace.path, window)),
+    "exchanges": displayed(lambda window: (window.control.recorded(), window)[1]),
+    "several controls": displayed(lambda window: (window.control.several(), window)[1]),
+    "sheet": displayed(lambda window: (window.control.show("hand"), window)[1]),
+    "new": displayed(lambda window: NewFileDialog(window, "9pc")),
+    "report": displayed(lambda window: ReportDialog(window.workspace.path, window)),
     "settings": by("Settings", SettingsDialog),
-    "note": shown(lambda window: NoteDialog(window.workspace, EXCESS, window)),
-    "download": shown(at_the_control),
-    "project check": shown(project_check),
+    "note": displayed(lambda window: NoteDialog(window.workspace, EXCESS, window)),
+    "download": displayed(at_the_control),
+    "project check": displayed(project_check),
 }
 
 

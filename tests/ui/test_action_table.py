@@ -57,7 +57,7 @@ def test_icons_are_in_the_set_and_buttons_in_the_table(qapp: object) -> None:
     assert {key for part in TOOL_BAR.values() for key in part} <= {row.key for _, row in every_row()}
 
 
-def test_the_menu_of_a_cell_has_the_rows_that_say_so(window: MainWindow) -> None:
+def test_the_menu_of_a_cell_has_the_rows_that_show_it(window: MainWindow) -> None:
     wanted = [window.menus[row.key] for _, row in every_row() if row.of_a_cell]
     assert wanted
     assert window.page.table_view.actions() == wanted
@@ -91,13 +91,13 @@ def test_an_action_is_able_when_what_it_needs_is_there(
             assert able[row.key] == (met[row.needs] and not row.why_not(window.workspace)), row.key
 
 
-def test_a_switch_that_is_refused_shows_what_is_true(window: MainWindow, person) -> None:
+def test_a_switch_that_is_refused_shows_what_is_true(window: MainWindow, user) -> None:
     def refuse(*_: object) -> None:
         raise ValueError("not now")
 
     window.workspace.show_later = refuse
     window.menus["guide.later"].trigger()
-    assert person.reads() == "not now"
+    assert user.reads() == "not now"
     assert not window.menus["guide.later"].isChecked()
 
 

@@ -40,8 +40,8 @@ def test_every_menu_has_each_letter_once(window_to_read: MainWindow) -> None:
     assert doubled([a.text() for a in bar.actions() if a.isVisible()]) == {}
     for action in bar.actions():
         for menu in menus_of(action.menu()):
-            shown = [a.text() for a in menu.actions() if a.isVisible()]
-            assert (menu.title(), doubled(shown)) == (menu.title(), {})
+            displayed = [a.text() for a in menu.actions() if a.isVisible()]
+            assert (menu.title(), doubled(displayed)) == (menu.title(), {})
 
 
 @pytest.mark.parametrize("has_file", [True, False], ids=["with a file", "without a file"])

@@ -13,7 +13,7 @@ from amp_studio.ui.actions import axis
 from amp_studio.ui.dialogs.axis_dialogs import AxisDialog
 from amp_studio.ui.main_window import MainWindow
 
-from .conftest import Person, action
+from .conftest import User, action
 
 
 def choose(dialog: AxisDialog, axis: str, **labels: str) -> None:
@@ -87,7 +87,7 @@ def test_copy(window: MainWindow, file: ParameterFile, accept) -> None:
 
 
 def test_axes_of_two_types_are_not_copied(
-    window: MainWindow, file: ParameterFile, monkeypatch, person: Person
+    window: MainWindow, file: ParameterFile, monkeypatch, user: User
 ) -> None:
     before = dict(file.values)
 
@@ -98,7 +98,7 @@ def test_axes_of_two_types_are_not_copied(
 
     monkeypatch.setattr(AxisDialog, "exec", run)
     action(window, "Copy Axis").trigger()
-    assert "only axes of the same type can be copied" in person.reads()
+    assert "only axes of the same type can be copied" in user.reads()
     assert file.values == before
 
 

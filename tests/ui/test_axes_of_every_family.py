@@ -127,37 +127,38 @@ def test_two_axes_are_compared_side_by_side_and_a_value_is_taken(opened) -> None
     window.edits.commit(("travel.limit_max", "0"), "5000 iu")
     window.edits.commit(("travel.homing_negative", ""), "2")
     action(window, "Compare Axes").trigger()
-    shown = window.findChild(AxisComparison)
+    displayed = window.findChild(AxisComparison)
     rows = [
-        [shown.list.topLevelItem(n).text(c) for c in range(3)] for n in range(shown.list.topLevelItemCount())
+        [displayed.list.topLevelItem(n).text(c) for c in range(3)]
+        for n in range(displayed.list.topLevelItemCount())
     ]
     assert rows == [
         ["P15N0 Homing Direction", "no", "yes"],
         ["P17N1 Axis Travel Limits, Maximum", "5000 iu", "not set"],
     ]
-    assert shown.count.text() == "2 parameters differ"
-    shown.list.selectAll()
-    shown.take_first.click()
+    assert displayed.count.text() == "2 parameters differ"
+    displayed.list.selectAll()
+    displayed.take_first.click()
     assert window.workspace.file.get(("travel.limit_max", "1")) == Value(5000, "iu")
     assert window.workspace.file.get(("travel.homing_negative", "")) == Value(0)
-    assert shown.count.text() == "No differences"
-    assert not shown.take_first.isEnabled()
-    shown.close()
+    assert displayed.count.text() == "No differences"
+    assert not displayed.take_first.isEnabled()
+    displayed.close()
 
 
 def test_a_compared_parameter_is_shown_in_the_table(opened) -> None:
     window = opened("acromill", "X,Y")
     window.edits.commit(("axes.pulses_per_unit", "Y"), "2000")
     action(window, "Compare Axes").trigger()
-    shown = window.findChild(AxisComparison)
+    displayed = window.findChild(AxisComparison)
     item = next(
-        shown.list.topLevelItem(n)
-        for n in range(shown.list.topLevelItemCount())
-        if "Pulses" in shown.list.topLevelItem(n).text(0)
+        displayed.list.topLevelItem(n)
+        for n in range(displayed.list.topLevelItemCount())
+        if "Pulses" in displayed.list.topLevelItem(n).text(0)
     )
-    shown.list.itemActivated.emit(item, 2)
+    displayed.list.itemActivated.emit(item, 2)
     assert window.selected() == ("axes.pulses_per_unit", "Y")
-    shown.close()
+    displayed.close()
 
 
 def test_the_menu_offers_motion_again_for_a_family_that_has_it(opened) -> None:

@@ -8,7 +8,7 @@ from amp_studio.schema import Value
 from amp_studio.ui.dialogs.calculator_dialog import CalculatorDialog
 from amp_studio.ui.main_window import MainWindow
 
-from .conftest import Person, action
+from .conftest import User, action
 
 GAIN_BREAK = ("servo.gain_break_point", "1")
 
@@ -37,7 +37,7 @@ def test_the_formulas_of_the_parameter_come_first_and_the_result_can_be_used(win
     assert window.workspace.file.get(GAIN_BREAK) == Value(4.0, "mm")
 
 
-def test_another_formula_asks_for_its_own_arguments(window: MainWindow, person: Person) -> None:
+def test_another_formula_asks_for_its_own_arguments(window: MainWindow, user: User) -> None:
     """Page 14-2, example 14.1: 1000 to 3000 with 800 to 1500, asked for 1800."""
     dialog = calculator(window)
     dialog.form.editor("formula", QComboBox).setCurrentText("Synchronized speed")

@@ -11,7 +11,7 @@ from amp_studio.ui.table.cell_look import grouped, short_labels
 
 
 @pytest.mark.parametrize(
-    ("figure", "shown"),
+    ("figure", "displayed"),
     [
         ("1234", "1234"),
         ("12345", "12\u202f345"),
@@ -22,8 +22,8 @@ from amp_studio.ui.table.cell_look import grouped, short_labels
         ("0x0000F", "0x0000F"),
     ],
 )
-def test_digits_are_in_groups_from_five_on(figure: str, shown: str) -> None:
-    assert grouped(figure) == shown
+def test_digits_are_in_groups_from_five_on(figure: str, displayed: str) -> None:
+    assert grouped(figure) == displayed
 
 
 def test_a_short_choice_is_a_code_that_no_other_has() -> None:

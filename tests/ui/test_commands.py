@@ -152,6 +152,6 @@ def test_without_a_file_only_what_needs_none_is_offered(open_window) -> None:
     assert not {"File › Save", "Edit › Clear (Not Set)", "Axis › Copy Axis", "View › Motion"} & enabled
 
 
-def test_what_an_action_refuses_is_told_in_one_sentence(window_to_read: MainWindow, person) -> None:
+def test_what_an_action_refuses_is_reported_in_one_sentence(window_to_read: MainWindow, user) -> None:
     window_to_read.guarded(lambda: (_ for _ in ()).throw(KeyError("no such thing")), "Test")
-    assert person.reads() == "no such thing"
+    assert user.reads() == "no such thing"

@@ -28,7 +28,7 @@ from amp_studio.ui.motion.tuning_window import TuningWindow
 from amp_studio.ui.table.block_preview import BlockPreview
 
 from .at_control import at_control, settled
-from .conftest import WAIT_MS, Control, Person, action, editor, on_disk
+from .conftest import WAIT_MS, Control, User, action, editor, on_disk
 
 EXCESS, CALIBRATION = ("servo.excess_error", "1"), ("home.calibration", "1")
 REVERSAL, RIGHT = ("servo.reversal_error", "1"), ("zone.limit3_max", "1")
@@ -60,7 +60,7 @@ class Day:
     """
 
     window: MainWindow
-    person: Person
+    user: User
     accept: Callable[..., None]
     qtbot: QtBot
     path: Path
@@ -86,7 +86,7 @@ def a_new_machine_like_the_example(day: Day) -> None:
         dialog.form.set_answer("name", "DAY")
 
     day.accept(NewFileDialog, like_the_example)
-    day.person.chooses(day.path)
+    day.user.chooses(day.path)
     day.window.files.new("9pc")
     assert day.file.header.name == "DAY"
 
@@ -168,17 +168,17 @@ def bookmark_filter_note_and_save(day: Day) -> None:
 
 def one_value_of_the_example_is_taken_back(day: Day) -> None:
     window, wait = day.window, day.qtbot.waitUntil
-    shown = window.files.comparing.open(window.page)
-    assert isinstance(shown, MergeWindow)
-    shown.start(B, lambda: shown.sources.from_copy(shown.sources.other_file, day.example))
-    wait(lambda: not shown._reading and bool(shown.merge.rows), timeout=WAIT_MS)
-    row = next(r for r in shown.merge.rows if r.id.part == "value" and r.address == EXCESS)
-    shown.tree.show_row(row)
-    shown.tree.setFocus()
-    QTest.keyClick(shown.tree, Qt.Key.Key_B)
-    wait(shown.outcome.merge.isEnabled, timeout=WAIT_MS)
-    shown.outcome.merge.click()
-    shown.close()
+    displayed = window.files.comparing.open(window.page)
+    assert isinstance(displayed, MergeWindow)
+    displayed.start(B, lambda: displayed.sources.from_copy(displayed.sources.other_file, day.example))
+    wait(lambda: not displayed._reading and bool(displayed.merge.rows), timeout=WAIT_MS)
+    row = next(r for r in displayed.merge.rows if r.id.part == "value" and r.address == EXCESS)
+    displayed.tree.show_row(row)
+    displayed.tree.setFocus()
+    QTest.keyClick(displayed.tree, Qt.Key.Key_B)
+    wait(displayed.outcome.merge.isEnabled, timeout=WAIT_MS)
+    displayed.outcome.merge.click()
+    displayed.close()
     assert day.file.get(EXCESS) == Value(11.0, "mm")
 
 
@@ -218,13 +218,13 @@ def the_report_for_the_cabinet_is_written(day: Day) -> None:
 def test_a_whole_commissioning_day(
     open_window: Callable[..., MainWindow],
     start_control: Callable[..., Control],
-    person: Person,
+    user: User,
     accept: Callable[..., None],
     tmp_path: Path,
     qtbot: QtBot,
 ) -> None:
     mill = next(e.path for e in examples() if e.family == "9pc" and e.path.name == "MILL_1394.amp")
-    day = Day(open_window(), person, accept, qtbot, tmp_path / "DAY.amp", mill)
+    day = Day(open_window(), user, accept, qtbot, tmp_path / "DAY.amp", mill)
     a_new_machine_like_the_example(day)
     the_guide_goes_to_the_next_value_that_is_not_set(day)
     a_block_of_a_spreadsheet_is_checked_first(day)

@@ -26,14 +26,14 @@ from amp_studio.ui.control.differences import CONTROL
 from amp_studio.ui.main_window import MainWindow
 
 from .at_control import at_control, sent, settled
-from .conftest import WAIT_MS, Control, Person, action, on_disk
+from .conftest import WAIT_MS, Control, User, action, on_disk
 
 EXCESS = ("servo.excess_error", "1")
 Start = Callable[..., Control]
 
 
 def test_a_file_is_sent_read_back_and_read_again(
-    window: MainWindow, start_control: Start, person: Person, qtbot: QtBot, tmp_path: Path
+    window: MainWindow, start_control: Start, user: User, qtbot: QtBot, tmp_path: Path
 ) -> None:
     """What a control gives back is what it was given, and what it contained before is kept beside the
     file.
@@ -55,7 +55,7 @@ def test_a_file_is_sent_read_back_and_read_again(
     assert "Nothing differs" in page.empty.text()
     assert not page.primary.isEnabled() or page.direction != "send"
     page.turn("read")
-    person.chooses(tmp_path / "from-control.amp")
+    user.chooses(tmp_path / "from-control.amp")
     before = dict(window.workspace.file.values)
     page.press()
     assert window.workspace.path == tmp_path / "from-control.amp"
@@ -63,7 +63,7 @@ def test_a_file_is_sent_read_back_and_read_again(
     assert not window.control.is_shown, "the new file is in front"
 
 
-def test_one_changed_value_takes_two_keys_and_its_row_says_what_it_was(
+def test_one_changed_value_takes_two_keys_and_its_row_shows_what_it_was(
     window: MainWindow, start_control: Start, qtbot: QtBot
 ) -> None:
     control = start_control()
@@ -103,8 +103,8 @@ def test_a_value_of_the_control_is_kept_and_goes_back_unchanged(
     page.press()
     settled(window, qtbot)
     assert "Kept as they were: 1750 Excess Error" in page.empty.text()
-    held = parameters.fetch_file(control.address)
-    assert [held.get((EXCESS[0], axis)) for axis in "12"] == [Value(11.0, "mm"), Value(12.5, "mm")]
+    content = parameters.fetch_file(control.address)
+    assert [content.get((EXCESS[0], axis)) for axis in "12"] == [Value(11.0, "mm"), Value(12.5, "mm")]
     assert window.workspace.file.get(EXCESS) == Value(12.0, "mm"), "the file keeps its own"
 
 
@@ -166,7 +166,7 @@ def test_garbage_in_the_control_is_shown_kept_and_replaced(
     assert min(kept).read_bytes() == garbage
 
 
-def test_a_header_that_differs_is_said_by_a_comparison(
+def test_a_header_that_differs_is_shown_by_a_comparison(
     window: MainWindow, start_control: Start, qtbot: QtBot
 ) -> None:
     control = start_control()
@@ -183,7 +183,7 @@ def test_e_stop_is_asked_before_anything_is_sent_and_again_until_it_is_pressed(
     window: MainWindow, start_control: Start, qtbot: QtBot
 ) -> None:
     control = start_control(estop=False)
-    held = parameters.fetch_file(control.address).values
+    content = parameters.fetch_file(control.address).values
     page = at_control(window, control.address, "send", qtbot)
     page.checked.setChecked(True)
     assert "E-stop is not pressed" in page.conditions.accessibleDescription()
@@ -198,7 +198,7 @@ def test_e_stop_is_asked_before_anything_is_sent_and_again_until_it_is_pressed(
     assert page.primary.isEnabled()
     assert not page._asking.isActive()
     assert page.bar.isHidden()
-    assert parameters.fetch_file(control.address).values == held
+    assert parameters.fetch_file(control.address).values == content
 
 
 def slowed(monkeypatch: pytest.MonkeyPatch, act: Callable[[Exchange], object]) -> threading.Event:
@@ -207,23 +207,23 @@ def slowed(monkeypatch: pytest.MonkeyPatch, act: Callable[[Exchange], object]) -
     real = parameters.download_file
 
     def slow(file: ParameterFile, address: str, exchange: Exchange, **approved: Any) -> object:
-        def tell(stage: str, done: int, total: int) -> None:
+        def report(stage: str, done: int, total: int) -> None:
             exchange.progress(stage, done, total)
             if stage == "download" and not sending.is_set():
                 sending.set()
                 act(exchange)
 
-        return real(file, address, replace(exchange, progress=tell), **approved)
+        return real(file, address, replace(exchange, progress=report), **approved)
 
     monkeypatch.setattr(parameters, "download_file", slow)
     return sending
 
 
-def test_cancel_says_what_it_leaves_and_leaves_the_control_as_it_was(
+def test_cancel_shows_what_it_leaves_and_leaves_the_control_as_it_was(
     window: MainWindow, start_control: Start, monkeypatch, qtbot: QtBot
 ) -> None:
     control = start_control()
-    held = parameters.fetch_file(control.address).values
+    content = parameters.fetch_file(control.address).values
     page = at_control(window, control.address, "send", qtbot)
     page.checked.setChecked(True)
     sending = slowed(monkeypatch, lambda exchange: exchange.cancel.wait(WAIT_MS / 1000))
@@ -234,7 +234,7 @@ def test_cancel_says_what_it_leaves_and_leaves_the_control_as_it_was(
     settled(window, qtbot)
     assert page.session.phase == "failed"
     assert page.bar.text.text().startswith("The control contains all old values.")
-    assert parameters.fetch_file(control.address).values == held
+    assert parameters.fetch_file(control.address).values == content
 
 
 def test_a_line_that_is_pulled_while_sending_ends_with_the_truth_and_one_next_step(
@@ -259,7 +259,7 @@ def test_a_line_that_is_pulled_while_sending_ends_with_the_truth_and_one_next_st
     assert [button.text() for button in page.bar.buttons] == ["Try Again"]
 
 
-def test_errors_and_unsaved_changes_are_said_in_the_page_before_anything_is_sent(
+def test_errors_and_unsaved_changes_are_shown_in_the_page_before_anything_is_sent(
     window: MainWindow, start_control: Start, qtbot: QtBot, path: Path
 ) -> None:
     control = start_control()
@@ -275,13 +275,13 @@ def test_errors_and_unsaved_changes_are_said_in_the_page_before_anything_is_sent
 
 
 def test_a_control_that_is_not_there_and_an_address_that_is_none(
-    window: MainWindow, person: Person, qtbot: QtBot
+    window: MainWindow, user: User, qtbot: QtBot
 ) -> None:
     page = at_control(window, "tcp://127.0.0.1:1", "compare", qtbot)
     assert "no connection to the control" in page.bar.text.text()
     page.known.field.setText("over there")
     page.known._enter()
-    assert "over there" in person.reads()
+    assert "over there" in user.reads()
     assert page.session.address == "tcp://127.0.0.1:1"
 
 
@@ -304,12 +304,12 @@ def test_values_of_the_control_are_taken_into_the_file_in_one_step(
 
 
 def test_one_value_is_written_now_where_the_control_takes_it_so(
-    start_control: Start, open_window, person: Person, tmp_path: Path, qtbot: QtBot
+    start_control: Start, open_window, user: User, tmp_path: Path, qtbot: QtBot
 ) -> None:
     control = start_control(family="grblhal", machine="grblhal")
     window = open_window()
     page = at_control(window, control.address, "read", qtbot)
-    person.chooses(tmp_path / "router.amp")
+    user.chooses(tmp_path / "router.amp")
     page.press()
     travel, other = (window.workspace.file.find(number) for number in ("$130", "$131"))
     window.workspace.edit("travel", {travel: Value(301.5, "mm"), other: Value(302.5, "mm")})
@@ -318,9 +318,9 @@ def test_one_value_is_written_now_where_the_control_takes_it_so(
     page.table.select(travel)
     page.one.click()
     settled(window, qtbot)
-    held = parameters.fetch_file(control.address)
-    assert held.get(travel) == Value(301.5, "mm")
-    assert held.get(other) != Value(302.5, "mm")
+    content = parameters.fetch_file(control.address)
+    assert content.get(travel) == Value(301.5, "mm")
+    assert content.get(other) != Value(302.5, "mm")
     assert window.workspace.path.with_name("exchanges.jsonl").exists(), "it is recorded"
 
 
@@ -335,32 +335,32 @@ def odd_control(start_control: Start, path: Path) -> Control:
 
 
 def test_an_upload_walks_through_what_is_out_of_range(
-    open_window, odd_control: Control, person: Person, tmp_path: Path, qtbot: QtBot
+    open_window, odd_control: Control, user: User, tmp_path: Path, qtbot: QtBot
 ) -> None:
     """Continue, edit or quit, for each value; without a file open, too."""
     window = open_window()
     page = at_control(window, odd_control.address, "read", qtbot)
-    person.answers("Quit checking")
+    user.answers("Quit checking")
     page.press()
-    assert "1750 Excess Error" in person.asked[-1]
+    assert "1750 Excess Error" in user.asked[-1]
     assert window.workspace is None
-    person.types("many", "12 mm")
-    person.answers("Edit parameter", "Edit parameter")
-    person.chooses(tmp_path / "mended")
+    user.types("many", "12 mm")
+    user.answers("Edit parameter", "Edit parameter")
+    user.chooses(tmp_path / "mended")
     page.press()
-    assert "is not a number" in person.reads()
+    assert "is not a number" in user.reads()
     assert on_disk(tmp_path / "mended.amp").get(EXCESS) == Value(12.0, "mm")
 
 
 def test_an_upload_is_not_lost_when_it_cannot_be_written(
-    open_window, odd_control: Control, person: Person, tmp_path: Path, qtbot: QtBot
+    open_window, odd_control: Control, user: User, tmp_path: Path, qtbot: QtBot
 ) -> None:
     window = open_window()
     page = at_control(window, odd_control.address, "read", qtbot)
-    person.answers("Continue checking")
-    person.chooses(tmp_path / "no folder" / "here.amp", tmp_path / "there.amp")
+    user.answers("Continue checking")
+    user.chooses(tmp_path / "no folder" / "here.amp", tmp_path / "there.amp")
     page.press()
-    assert "Choose another name" in person.reads()
+    assert "Choose another name" in user.reads()
     assert window.workspace.path == tmp_path / "there.amp"
     assert "by an upload" in on_disk(tmp_path / "there.amp").forced[EXCESS]
 
@@ -416,10 +416,10 @@ def test_the_upload_of_a_file_keeps_its_content(start_control: Start, path: Path
     control = start_control()
     file = open_file(path).file
     parameters.download_file(file, control.address, Exchange(keep=path.parent / "mill"))
-    held = parameters.fetch_file(control.address)
-    held.header.name, held.header.notes = file.header.name, file.header.notes
-    held.header.units = file.header.units
-    assert content_of(held) == content_of(file)
+    content = parameters.fetch_file(control.address)
+    content.header.name, content.header.notes = file.header.name, file.header.notes
+    content.header.units = file.header.units
+    assert content_of(content) == content_of(file)
 
 
 def test_a_control_that_stays_in_estop_stays_so_in_the_menu_and_its_reason_is_shown(

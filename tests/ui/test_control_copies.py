@@ -10,12 +10,12 @@ from amp_studio.transfer.client import parameters
 from amp_studio.ui.main_window import MainWindow
 
 from .at_control import at_control, sent, settled
-from .conftest import Person, action
+from .conftest import User, action
 from .test_control import Start
 
 
 def test_a_kept_copy_goes_back_byte_for_byte_after_a_look_at_what_that_changes(
-    window: MainWindow, start_control: Start, person: Person, qtbot: QtBot
+    window: MainWindow, start_control: Start, user: User, qtbot: QtBot
 ) -> None:
     control = start_control()
     before = parameters.fetch_image(control.address)
@@ -23,7 +23,7 @@ def test_a_kept_copy_goes_back_byte_for_byte_after_a_look_at_what_that_changes(
     (kept,) = window.workspace.path.parent.glob("mill.before-*.img")
     page.connect_again()
     settled(window, qtbot)
-    person.chooses(kept)
+    user.chooses(kept)
     action(window, "Restore Control From Backup").trigger()
     assert page.primary.text() == f"Restore {kept.name}"
     assert len(page.table.rows) > 100
@@ -34,8 +34,8 @@ def test_a_kept_copy_goes_back_byte_for_byte_after_a_look_at_what_that_changes(
     assert parameters.fetch_image(control.address) == before
 
 
-def test_garbage_that_was_kept_is_said_to_be_so_before_it_goes_back(
-    window: MainWindow, start_control: Start, person: Person, path: Path, tmp_path: Path, qtbot: QtBot
+def test_garbage_that_was_kept_is_shown_to_be_so_before_it_goes_back(
+    window: MainWindow, start_control: Start, user: User, path: Path, tmp_path: Path, qtbot: QtBot
 ) -> None:
     garbage = b"\x00 no image"
     (tmp_path / "control-0").mkdir()
@@ -47,7 +47,7 @@ def test_garbage_that_was_kept_is_said_to_be_so_before_it_goes_back(
     (kept,) = path.parent.glob("mill.before-*.img")
     page.connect_again()
     settled(window, qtbot)
-    person.chooses(kept)
+    user.chooses(kept)
     action(window, "Restore Control From Backup").trigger()
     assert "cannot be shown" in page.bar.text.text()
     assert parameters.fetch_image(control.address) != garbage
@@ -56,10 +56,10 @@ def test_garbage_that_was_kept_is_said_to_be_so_before_it_goes_back(
     assert parameters.fetch_image(control.address) == garbage
 
 
-def test_a_copy_that_was_changed_is_not_put_back(window: MainWindow, person: Person, tmp_path: Path) -> None:
+def test_a_copy_that_was_changed_is_not_put_back(window: MainWindow, user: User, tmp_path: Path) -> None:
     copy = tmp_path / "mill.before-1.img"
     copy.write_bytes(b"changed")
     copy.with_name(copy.name + ".sha256").write_text("0" * 64, encoding="ascii")
-    person.chooses(copy)
+    user.chooses(copy)
     action(window, "Restore Control From Backup").trigger()
-    assert "is not what was kept" in person.reads()
+    assert "is not what was kept" in user.reads()

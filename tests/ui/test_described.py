@@ -36,19 +36,21 @@ def board(open_window, tmp_path: Path) -> MainWindow:
     return window
 
 
-def test_the_columns_are_the_axes_of_the_control_and_absent_groups_are_hidden(board: MainWindow) -> None:
+def test_the_columns_are_the_axes_of_the_control_and_groups_that_it_does_not_have_are_hidden(
+    board: MainWindow,
+) -> None:
     board.page.left.show_side("groups")
     board.go_to(("axis.max_rate", "X"))
     assert board.table.columns == ["X", "Y", "Z"]
     assert "axis.jerk" not in [row.parameter.id for row in board.table.rows]
     tree = board.groups.tree
-    shown = [
+    displayed = [
         tree.topLevelItem(n).text(0)
         for n in range(tree.topLevelItemCount())
         if not tree.topLevelItem(n).isHidden()
     ]
-    assert "Plasma" in shown
-    assert "Grbl 1.1" not in shown
+    assert "Plasma" in displayed
+    assert "Grbl 1.1" not in displayed
 
 
 def test_a_value_goes_to_all_axes_that_move_alike(board: MainWindow) -> None:

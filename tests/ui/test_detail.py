@@ -20,7 +20,7 @@ def page(window: MainWindow) -> str:
     return window.detail.page.toPlainText()
 
 
-def test_help_says_what_it_is_where_it_counts_and_what_is_allowed(window_to_read: MainWindow) -> None:
+def test_help_shows_what_it_is_where_it_counts_and_what_is_allowed(window_to_read: MainWindow) -> None:
     window_to_read.go_to(EXCESS)
     assert (window_to_read.detail.number.text(), window_to_read.detail.name.text()) == (
         "1750",
@@ -32,11 +32,11 @@ def test_help_says_what_it_is_where_it_counts_and_what_is_allowed(window_to_read
         assert part in page(window_to_read)
 
 
-def test_a_danger_stands_in_a_box_before_the_help(window_to_read: MainWindow) -> None:
+def test_a_danger_is_in_a_box_before_the_help(window_to_read: MainWindow) -> None:
     window_to_read.go_to(EXCESS)
-    shown = page(window_to_read)
-    assert "DANGER\nThis limit guards against damage and injury" in shown
-    assert shown.index("DANGER") < shown.index("What it does") < shown.index("The order must be")
+    displayed = page(window_to_read)
+    assert "DANGER\nThis limit guards against damage and injury" in displayed
+    assert displayed.index("DANGER") < displayed.index("What it does") < displayed.index("The order must be")
     assert colour("errorbg").name() in window_to_read.detail.page.toHtml()
 
 
@@ -119,7 +119,7 @@ def test_the_other_open_files_have_their_values_beside(window: MainWindow, path:
     assert "X 7 mm, Y 11 mm" in page(window)
 
 
-def test_the_printed_table_of_a_value_stands_below_its_help(window_to_read: MainWindow) -> None:
+def test_the_printed_table_of_a_value_is_below_its_help(window_to_read: MainWindow) -> None:
     window_to_read.go_to(("servo.velocity_proportional_gain", "1"))
     text = window_to_read.detail.page.toPlainText()
     assert "Velocity Proportional Gain Values for Standard Motors (page 7-55)" in text

@@ -25,7 +25,7 @@ def a_value(w: Workspace) -> None:
     w.edit("value", {EXCESS: Value(3.0, "mm")})
 
 
-def unset(w: Workspace) -> None:
+def not_set(w: Workspace) -> None:
     w.edit("unset", {EXCESS: None})
 
 
@@ -65,7 +65,7 @@ def facts(w: Workspace) -> None:
 
 STEPS = [
     a_value,
-    unset,
+    not_set,
     axis_type,
     axis_type_in_the_table,
     copied_axis,
@@ -157,36 +157,36 @@ def test_out_of_range_is_refused_unless_it_is_forced(workspace: Workspace, whole
 
 
 def test_out_of_range_asks_and_nothing_is_the_answer(
-    window: MainWindow, workspace: Workspace, person, whole: Whole
+    window: MainWindow, workspace: Workspace, user, whole: Whole
 ) -> None:
     before = whole()
-    person.answers("Cancel")
+    user.answers("Cancel")
 
     assert not window.edits.commit(CALIBRATION, "99999999")
 
-    assert "is outside" in person.asked[0]
+    assert "is outside" in user.asked[0]
     assert whole() == before
 
 
 def test_forcing_takes_the_value_and_marks_it(
-    window: MainWindow, file: ParameterFile, workspace: Workspace, person
+    window: MainWindow, file: ParameterFile, workspace: Workspace, user
 ) -> None:
-    person.answers("Force and Mark")
+    user.answers("Force and Mark")
 
     assert window.edits.commit(CALIBRATION, "99999999")
 
     assert file.get(CALIBRATION) == Value(99999999.0, "mm")
     assert "in the studio" in file.forced[CALIBRATION]
-    said = [f.message for f in workspace.findings_of(CALIBRATION)]
-    assert any("It was forced" in message for message in said)
+    sentence = [f.message for f in workspace.findings_of(CALIBRATION)]
+    assert any("It was forced" in message for message in sentence)
 
 
-def test_what_is_no_number_is_told_and_changes_nothing(window: MainWindow, person, whole: Whole) -> None:
+def test_what_is_no_number_is_reported_and_changes_nothing(window: MainWindow, user, whole: Whole) -> None:
     before = whole()
 
     assert not window.edits.commit(CALIBRATION, "abc")
 
-    assert person.reads() == "1300 Home Calibration: 'abc' is not a number.\n\nNothing was changed."
+    assert user.reads() == "1300 Home Calibration: 'abc' is not a number.\n\nNothing was changed."
     assert whole() == before
 
 
@@ -196,7 +196,7 @@ def test_a_decimal_comma_is_a_decimal_comma(window: MainWindow, file: ParameterF
     assert file.get(CALIBRATION) == Value(0.5, "mm")
 
 
-def test_default_and_unset_by_the_menu(window: MainWindow, file: ParameterFile, person) -> None:
+def test_default_and_not_set_by_the_menu(window: MainWindow, file: ParameterFile, user) -> None:
     window.go_to(EXCESS)
     window.edits.range.to_default()
     assert file.get(EXCESS) == file.default(EXCESS)
@@ -212,7 +212,7 @@ def test_default_and_unset_by_the_menu(window: MainWindow, file: ParameterFile, 
     before = file.get(no_default)
     window.go_to(no_default)
     window.guarded(window.edits.range.to_default)
-    assert "No default is printed" in person.reads()
+    assert "No default is printed" in user.reads()
     assert file.get(no_default) == before
 
 
@@ -227,11 +227,11 @@ def test_a_value_goes_to_all_axes_of_the_type(window: MainWindow, file: Paramete
     assert file.get(("servo.excess_error", "4")) == rotary
 
 
-def test_a_value_of_a_process_is_no_value_of_an_axis(window: MainWindow, person) -> None:
+def test_a_value_of_a_process_is_no_value_of_an_axis(window: MainWindow, user) -> None:
     """Instance 1 of a process comes beside instance 1 of an axis, not in its place."""
     window.go_to(("zone.group_count", "1"))
     window.guarded(window.edits.range.to_all_axes)
-    assert person.reads() == "Select a value of a fitted axis first."
+    assert user.reads() == "Select a value of a fitted axis first."
 
 
 def test_copy_and_paste_a_value(window: MainWindow, file: ParameterFile) -> None:

@@ -18,7 +18,7 @@ from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.merge.window import MergeWindow
 
-from .conftest import WAIT_MS, Person, action, on_disk
+from .conftest import WAIT_MS, User, action, on_disk
 
 EXCESS = ("servo.excess_error", "1")
 EDITED = Value(3.0, "mm")
@@ -61,9 +61,7 @@ def test_undo_after_a_save_is_unsaved_again(window: MainWindow) -> None:
     assert not window.isWindowModified()
 
 
-def test_a_file_changed_on_disk_is_not_overwritten(
-    window: MainWindow, path: Path, person: Person, qtbot
-) -> None:
+def test_a_file_changed_on_disk_is_not_overwritten(window: MainWindow, path: Path, user: User, qtbot) -> None:
     edit(window)
     path.write_bytes(path.read_bytes() + b"# touched\n")
     touched = path.read_bytes()
@@ -86,11 +84,11 @@ def test_after_a_comparison_with_the_file_on_disk_the_work_can_be_saved_and_neit
     qtbot.waitUntil(window.page.bar.isVisible, timeout=WAIT_MS)
 
     click(window, "Compare…")
-    shown = window.findChild(MergeWindow)
-    kinds = {row.address: row.kind for row in shown.merge.differing}
+    displayed = window.findChild(MergeWindow)
+    kinds = {row.address: row.kind for row in displayed.merge.differing}
     assert kinds == {EXCESS: "a", ("home.calibration", "2"): "b"}, "what was saved last is the base"
-    qtbot.waitUntil(shown.outcome.merge.isEnabled, timeout=WAIT_MS)
-    shown.outcome.merge.click()
+    qtbot.waitUntil(displayed.outcome.merge.isEnabled, timeout=WAIT_MS)
+    displayed.outcome.merge.click()
     assert window.save()
 
     saved = on_disk(path)
@@ -99,22 +97,22 @@ def test_after_a_comparison_with_the_file_on_disk_the_work_can_be_saved_and_neit
 
 
 def test_a_reload_asks_before_unsaved_changes_are_lost(
-    window: MainWindow, path: Path, person: Person, qtbot
+    window: MainWindow, path: Path, user: User, qtbot
 ) -> None:
     edit(window)
     path.write_bytes(path.read_bytes() + b"# touched\n")
     qtbot.waitUntil(window.page.bar.isVisible, timeout=WAIT_MS)
-    person.answers("Cancel")
+    user.answers("Cancel")
 
     click(window, "Reload")
 
-    assert "unsaved changes will be lost" in person.asked[0]
+    assert "unsaved changes will be lost" in user.asked[0]
     assert window.workspace.file.get(EXCESS) == EDITED
 
 
 @pytest.mark.parametrize("replace", [True, False], ids=["renamed over", "written in place"])
 def test_a_change_on_disk_is_noticed_and_loaded_when_wanted(
-    window: MainWindow, path: Path, person: Person, qtbot, replace: bool
+    window: MainWindow, path: Path, user: User, qtbot, replace: bool
 ) -> None:
     window.go_to(("home.calibration", "2"))
     changed = open_file(path).file
@@ -135,32 +133,32 @@ def test_a_change_on_disk_is_noticed_and_loaded_when_wanted(
 
 
 def test_a_file_that_was_broken_on_disk_leaves_the_work_open(
-    window: MainWindow, path: Path, person: Person, qtbot
+    window: MainWindow, path: Path, user: User, qtbot
 ) -> None:
     edit(window)
     path.write_bytes(b"amp_studio: 1\n")
     qtbot.waitUntil(window.page.bar.isVisible, timeout=WAIT_MS)
-    person.answers("Reload")
+    user.answers("Reload")
 
     click(window, "Reload")
 
-    person.reads()
+    user.reads()
     assert window.workspace.file.get(EXCESS) == EDITED
     assert window.workspace.may_edit
 
 
-def test_a_removed_file_is_told_and_can_be_saved_elsewhere(
-    window: MainWindow, path: Path, person: Person, qtbot
+def test_a_removed_file_is_reported_and_can_be_saved_elsewhere(
+    window: MainWindow, path: Path, user: User, qtbot
 ) -> None:
     path.unlink()
     qtbot.waitUntil(window.page.bar.isVisible, timeout=WAIT_MS)
     assert "was removed" in window.page.bar.text.text()
-    person.chooses(path.with_name("again"))
+    user.chooses(path.with_name("again"))
     window.files.save_as()
     assert on_disk(path.with_name("again.amp")).get(EXCESS) == Value(11.0, "mm")
 
 
-def test_our_own_save_is_no_change_by_another_program(window: MainWindow, person: Person, qtbot) -> None:
+def test_our_own_save_is_no_change_by_another_program(window: MainWindow, user: User, qtbot) -> None:
     edit(window)
     assert window.save()
     qtbot.wait(600)
@@ -168,7 +166,7 @@ def test_our_own_save_is_no_change_by_another_program(window: MainWindow, person
 
 
 def test_a_full_disk_leaves_the_work_open(
-    window: MainWindow, person: Person, monkeypatch: pytest.MonkeyPatch
+    window: MainWindow, user: User, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     edit(window)
 
@@ -179,17 +177,17 @@ def test_a_full_disk_leaves_the_work_open(
     assert not window.save()
     monkeypatch.undo()
 
-    assert "No space left on device" in person.told.pop()
+    assert "No space left on device" in user.shown_boxes.pop()
     assert window.workspace.is_dirty
     assert window.workspace._journal.isActive()
 
 
 def test_save_as_leaves_the_original_and_goes_on_with_the_copy(
-    window: MainWindow, path: Path, person: Person
+    window: MainWindow, path: Path, user: User
 ) -> None:
     window.go_to(EXCESS)
     edit(window)
-    person.chooses(path.with_name("copy"))
+    user.chooses(path.with_name("copy"))
 
     window.files.save_as()
 
@@ -201,15 +199,13 @@ def test_save_as_leaves_the_original_and_goes_on_with_the_copy(
     Document.open(path).close()  # its lock is free
 
 
-def test_save_as_over_a_file_asks_and_keeps_it_as_backup(
-    window: MainWindow, path: Path, person: Person
-) -> None:
+def test_save_as_over_a_file_asks_and_keeps_it_as_backup(window: MainWindow, path: Path, user: User) -> None:
     other = path.with_name("other.amp")
     other.write_bytes(path.read_bytes())
     before = other.read_bytes()
     edit(window)
-    person.chooses(other, other)
-    person.answers("Cancel", "Replace")
+    user.chooses(other, other)
+    user.answers("Cancel", "Replace")
 
     window.files.save_as()
     assert other.read_bytes() == before
@@ -220,17 +216,17 @@ def test_save_as_over_a_file_asks_and_keeps_it_as_backup(
 
 
 def test_save_as_over_a_file_another_program_edits_is_refused(
-    window: MainWindow, path: Path, person: Person
+    window: MainWindow, path: Path, user: User
 ) -> None:
     other = path.with_name("other.amp")
     other.write_bytes(path.read_bytes())
     before = other.read_bytes()
-    person.chooses(other)
-    person.answers("Replace")
+    user.chooses(other)
+    user.answers("Replace")
     with Document.open(other):
         window.guarded(window.files.save_as)
 
-    assert "is open in another program" in person.reads()
+    assert "is open in another program" in user.reads()
     assert other.read_bytes() == before
     assert window.workspace.path == path
 
@@ -238,7 +234,7 @@ def test_save_as_over_a_file_another_program_edits_is_refused(
 # -- new, recover, facts, close ------------------------------------------------
 
 
-def test_a_new_file_has_its_axes_and_is_on_disk(open_window, tmp_path: Path, person: Person, accept) -> None:
+def test_a_new_file_has_its_axes_and_is_on_disk(open_window, tmp_path: Path, user: User, accept) -> None:
     window = open_window()
 
     def fill(dialog: NewFileDialog) -> None:
@@ -247,7 +243,7 @@ def test_a_new_file_has_its_axes_and_is_on_disk(open_window, tmp_path: Path, per
         dialog.form.set_answer("axes", "X, Z, S")
 
     accept(NewFileDialog, fill)
-    person.chooses(tmp_path / "new")
+    user.chooses(tmp_path / "new")
 
     action(window, "New").trigger()
 
@@ -266,18 +262,18 @@ def test_an_axis_name_that_is_not_offered_is_named_while_it_is_typed(open_window
     assert dialog.ok.isEnabled()
 
 
-def test_recover_backup_asks_and_says_what_is_lost(
-    window: MainWindow, path: Path, person: Person, example: bytes
+def test_recover_backup_asks_and_shows_what_is_lost(
+    window: MainWindow, path: Path, user: User, example: bytes
 ) -> None:
     window.guarded(window.files.recover)
-    assert "has no backup yet" in person.reads()
+    assert "has no backup yet" in user.reads()
 
     edit(window)
     assert window.save()
     window.edits.commit(EXCESS, "4 mm")
-    person.answers("Cancel", "Replace")
+    user.answers("Cancel", "Replace")
     window.files.recover()
-    assert "Your unsaved changes will be lost" in person.asked[-1]
+    assert "Your unsaved changes will be lost" in user.asked[-1]
     assert window.workspace.file.get(EXCESS) == Value(4.0, "mm")
     window.files.recover()
 

@@ -119,7 +119,7 @@ def test_bookmarks_are_a_persons_and_stay(window: MainWindow, path: Path, filter
     assert window.settings.bookmarks(path) == set()
 
 
-def test_without_a_download_the_page_says_so_and_shows_everything(
+def test_without_a_download_the_page_shows_it_and_shows_everything(
     window: MainWindow, filters: FilterBar
 ) -> None:
     every = ids(window)

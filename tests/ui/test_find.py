@@ -13,7 +13,7 @@ from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.page.message_page import MessageWindow
 
-from .conftest import WAIT_MS, Person, action
+from .conftest import WAIT_MS, User, action
 
 
 @pytest.fixture
@@ -152,14 +152,14 @@ def test_nothing_found_offers_the_nearest_and_enter_takes_it(
 
 
 def test_another_family_that_has_it_is_named_and_shown(
-    window: MainWindow, box: FindBox, person: Person, qtbot
+    window: MainWindow, box: FindBox, user: User, qtbot
 ) -> None:
     typed(box, "debounce")
     qtbot.waitUntil(lambda: any(row.family for row in box.model.rows), timeout=WAIT_MS)
     row = next(row for row in box.model.rows if row.family)
     assert row.text.startswith("In grblHAL and Grbl: ")
     box.chosen.emit(row)
-    assert "Id: homing.debounce" in person.reads()
+    assert "Id: homing.debounce" in user.reads()
 
 
 def test_a_german_word_leads_to_the_parameter_whatever_the_language(shared_box: FindBox) -> None:

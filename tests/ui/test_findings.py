@@ -143,13 +143,13 @@ def test_a_link_goes_to_the_value_of_a_finding(path, bare: bytes, open_window) -
     assert wrong.selected() == ("servo.hardware_type", "4")
 
 
-def test_a_finding_without_a_fix_says_so(path, bare: bytes, open_window, person) -> None:
+def test_a_finding_without_a_fix_shows_it(path, bare: bytes, open_window, user) -> None:
     wrong = with_all_findings(open_window, path, bare)
     panel = wrong.findings
     unable = next(n for n, group in enumerate(panel.model.groups) if not group.fixable)
     panel.view.setCurrentIndex(panel.model.index(unable, 0))
     wrong.guarded(wrong.edits.fix_selected)
-    assert "has no suggested fix" in person.reads()
+    assert "has no suggested fix" in user.reads()
 
 
 def test_findings_are_filtered_to_the_axis_and_the_group_in_front(path, bare: bytes, open_window) -> None:
@@ -179,7 +179,7 @@ def test_a_severity_is_left_out_and_listed_again(path, bare: bytes, open_window)
     assert {group.severity for group in panel.model.groups} == {"error", "warning", "advice"}
 
 
-def test_what_is_held_back_is_counted_and_not_listed(path, bare: bytes, open_window) -> None:
+def test_what_is_kept_back_is_counted_and_not_listed(path, bare: bytes, open_window) -> None:
     panel = with_all_findings(open_window, path, bare).findings
     panel.withhold(lambda finding: finding.rule.startswith("9pc.accdec."))
     assert not any("accdec" in group.key for group in panel.model.groups)
@@ -314,7 +314,7 @@ def test_safe_fixes_are_one_step_that_can_be_undone(window: MainWindow) -> None:
     assert window.workspace.file.get(patched) == before
 
 
-def test_what_the_control_uses_instead_stands_behind_an_arrow(path, open_window) -> None:
+def test_what_the_control_uses_instead_is_behind_an_arrow(path, open_window) -> None:
     path.with_name("rules.yaml").write_text(
         "rules:\n  - {id: own.clamp, title: Clamp, severity: warning, reads: {error: servo.excess_error},"
         ' check: error <= 1.0, message: "no", effective: [{set: error, value: "1.0"}]}\n'

@@ -19,14 +19,14 @@ from .conftest import WAIT_MS, action
 EXCESS = ("servo.excess_error", "1")
 
 
-def shown(window: MainWindow, width: int, height: int) -> None:
+def displayed(window: MainWindow, width: int, height: int) -> None:
     """Give the window a size and let everything find its place."""
     window.resize(width, height)
     QApplication.processEvents()
 
 
 def test_a_narrow_window_has_the_parameter_beside_the_findings(window: MainWindow) -> None:
-    shown(window, 1024, 700)
+    displayed(window, 1024, 700)
     assert not window.findChild(QDockWidget, "Parameter").isVisible()
     assert window.table_view.width() > 700
     window.docks.chooser.buttons["Parameter"].click()
@@ -35,7 +35,7 @@ def test_a_narrow_window_has_the_parameter_beside_the_findings(window: MainWindo
     window.show_panel("Findings")
     assert window.findings.isVisible()
 
-    shown(window, 1300, 700)
+    displayed(window, 1300, 700)
     assert window.findChild(QDockWidget, "Parameter").isVisible()
     assert window.detail.isVisible()
     assert window.findings.isVisible()
@@ -43,13 +43,13 @@ def test_a_narrow_window_has_the_parameter_beside_the_findings(window: MainWindo
 
 
 def test_a_key_shows_the_parameter_also_in_a_narrow_window(window: MainWindow) -> None:
-    shown(window, 1024, 700)
+    displayed(window, 1024, 700)
     window.show_panel("Parameter")
     assert window.detail.isVisible()
 
 
 def test_a_very_narrow_window_keeps_its_table_and_shows_the_left_on_demand(window: MainWindow) -> None:
-    shown(window, 800, 640)
+    displayed(window, 800, 640)
     assert not window.groups.isVisible()
     assert window.table_view.width() > 700
     window.show_panel("Groups")
@@ -57,26 +57,26 @@ def test_a_very_narrow_window_keeps_its_table_and_shows_the_left_on_demand(windo
 
 
 def test_a_low_window_folds_the_findings_to_their_head(window: MainWindow) -> None:
-    shown(window, 1300, 600)
+    displayed(window, 1300, 600)
     assert not window.findings.isVisible()
     assert window.table_view.height() > 300
     window.show_panel("Findings")
     assert window.findings.isVisible()
-    shown(window, 1300, 700)
+    displayed(window, 1300, 700)
     assert window.findings.isVisible()
 
 
 def test_a_panel_that_was_closed_by_hand_stays_closed_when_the_window_grows(window: MainWindow) -> None:
     window.findChild(QDockWidget, "Parameter").close()
-    shown(window, 1024, 700)
-    shown(window, 1300, 700)
+    displayed(window, 1024, 700)
+    displayed(window, 1300, 700)
     assert not window.findChild(QDockWidget, "Parameter").isVisible()
 
 
 def test_tools_have_words_only_where_there_is_room(window: MainWindow) -> None:
     styles = Qt.ToolButtonStyle
     assert window.tools.toolButtonStyle() == styles.ToolButtonTextBesideIcon
-    shown(window, 1024, 700)
+    displayed(window, 1024, 700)
     assert window.tools.toolButtonStyle() == styles.ToolButtonIconOnly
 
 
@@ -125,7 +125,7 @@ def test_unsaved_changes_are_counted(window: MainWindow) -> None:
     assert window.status.changes.text().startswith("2 unsaved")
 
 
-def test_a_segment_speaks_only_when_a_person_presses(qtbot: QtBot) -> None:
+def test_a_segment_speaks_only_when_a_user_presses(qtbot: QtBot) -> None:
     segment = Segment("Side", [("a", "A", ""), ("b", "B", "")])
     qtbot.addWidget(segment)
     heard: list[str] = []
@@ -141,9 +141,9 @@ def test_a_segment_speaks_only_when_a_person_presses(qtbot: QtBot) -> None:
 def test_words_that_need_more_than_the_window_has_leave_the_tool_bar(window: MainWindow) -> None:
     """A longer language: no tool falls off the end."""
     window.menus["control.page"].setIconText("Übertragung zur Steuerung starten und prüfen")
-    shown(window, 1210, 700)
+    displayed(window, 1210, 700)
     assert window.tools.toolButtonStyle() == Qt.ToolButtonStyle.ToolButtonIconOnly
-    shown(window, 1900, 700)
+    displayed(window, 1900, 700)
     assert window.tools.toolButtonStyle() == Qt.ToolButtonStyle.ToolButtonTextBesideIcon
 
 
@@ -162,7 +162,7 @@ def test_the_end_of_the_tabs_lists_every_open_file(window: MainWindow, path: Pat
 def test_nothing_has_moved_after_each_panel_was_opened_and_closed_twice(
     window: MainWindow, size: tuple[int, int], qtbot: QtBot
 ) -> None:
-    shown(window, *size)
+    displayed(window, *size)
     window.docks.reset()
     QApplication.processEvents()
     before = places(window)

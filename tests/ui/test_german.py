@@ -85,7 +85,7 @@ def test_numbers_are_shown_with_a_comma_and_typed_with_either_sign(german: None,
         ),
     ],
 )
-def test_what_the_check_says_is_german_with_a_comma_and_an_address_is_none(
+def test_what_the_check_shows_is_german_with_a_comma_and_an_address_is_none(
     german: None, message: str, german_text: str
 ) -> None:
     assert sentence(message) == german_text

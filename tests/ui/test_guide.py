@@ -138,10 +138,10 @@ def test_the_findings_of_a_step_come_when_it_is_reached(fresh: MainWindow, qtbot
         if fresh.workspace.progress.current.open == ():
             break
     fresh.page.left.steps.show_progress()
-    shown = [
+    displayed = [
         severity for severity, _ in item(steps, fresh.workspace.progress.current.step.id).data(0, COUNTS)
     ]
-    assert "error" in shown
+    assert "error" in displayed
 
 
 def test_a_step_is_ticked_and_the_tick_is_undone_and_saved(fresh: MainWindow) -> None:
@@ -202,11 +202,11 @@ def test_the_defaults_of_a_step_are_kept_in_one_step_of_undo(fresh: MainWindow) 
     assert [workspace.file.get(address) for address in gone] == [None, None]
 
 
-def test_the_check_list_is_written_where_the_person_wants_it(
-    fresh: MainWindow, person, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_the_check_list_is_written_where_the_user_needs_it(
+    fresh: MainWindow, user, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("amp_studio.ui.dialogs.check_list_dialog.QDesktopServices.openUrl", lambda _: True)
-    person.chooses(tmp_path / "list.html")
+    user.chooses(tmp_path / "list.html")
     fresh.page.left.steps.print.click()
     assert "Axis Integrand Name" in (tmp_path / "list.html").read_text("utf-8")
 
@@ -249,7 +249,7 @@ def test_the_side_that_was_chosen_last_is_that_of_the_next_file(fresh: MainWindo
     assert fresh.page.left.side == "steps"
 
 
-def test_what_the_left_panel_shows_is_made_when_somebody_looks(window: MainWindow) -> None:
+def test_what_the_left_panel_shows_is_made_when_a_user_looks(window: MainWindow) -> None:
     left, made = window.page.left, []
     left.take_project(lambda: made.append(QLabel("the machines")) or made[0])
     assert "steps" not in vars(left)

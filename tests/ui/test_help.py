@@ -14,7 +14,7 @@ from amp_studio.ui.actions import help as help_menu
 from amp_studio.ui.dialogs.settings_dialog import SettingsDialog
 from amp_studio.ui.main_window import MainWindow
 
-from .conftest import Person, action
+from .conftest import User, action
 
 
 @pytest.fixture(autouse=True)
@@ -42,12 +42,12 @@ def failed() -> None:
 
 @pytest.mark.parametrize("answer", ["With Them", "Without Them"])
 def test_a_report_has_what_is_of_the_machine_only_with_a_yes(
-    window: MainWindow, person: Person, tmp_path: Path, answer: str
+    window: MainWindow, user: User, tmp_path: Path, answer: str
 ) -> None:
     failed()
     window.edits.commit(("servo.excess_error", "1"), "0.001 mm")
-    person.answers(answer)
-    person.chooses(tmp_path / "report.txt")
+    user.answers(answer)
+    user.chooses(tmp_path / "report.txt")
     action(window, "Report a Problem").trigger()
     text = (tmp_path / "report.txt").read_text()
     assert "AMP Studio " in text
@@ -67,10 +67,8 @@ def test_a_report_has_what_is_of_the_machine_only_with_a_yes(
     assert answer == "Without Them" or ("secret-machine" in text and "Family 9pc" in text)
 
 
-def test_a_report_that_is_not_wanted_is_not_written(
-    window: MainWindow, person: Person, tmp_path: Path
-) -> None:
-    person.answers("Cancel")
+def test_a_report_that_is_not_wanted_is_not_written(window: MainWindow, user: User, tmp_path: Path) -> None:
+    user.answers("Cancel")
     action(window, "Report a Problem").trigger()
     assert not (tmp_path / "report.txt").exists()
 

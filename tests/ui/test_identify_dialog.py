@@ -34,9 +34,9 @@ def record(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def dialog(qtbot: QtBot, record: Path) -> IdentifyDialog:
-    shown = IdentifyDialog(FILE, "1", record)
-    qtbot.addWidget(shown)
-    return shown
+    displayed = IdentifyDialog(FILE, "1", record)
+    qtbot.addWidget(displayed)
+    return displayed
 
 
 def type_scale(dialog: IdentifyDialog, text: str) -> None:

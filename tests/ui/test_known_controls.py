@@ -72,7 +72,7 @@ def test_an_odd_time_or_verb_is_no_reason_to_forget_a_control() -> None:
     assert KnownControl(PLACE, when="nonsense").moment is None
 
 
-def test_without_a_control_the_page_says_what_upload_does(open_window) -> None:
+def test_without_a_control_the_page_shows_what_upload_does(open_window) -> None:
     page = open_window().welcome.controls
     assert page.none.isVisibleTo(page)
     assert not page.connect_button.isEnabled()
@@ -80,7 +80,7 @@ def test_without_a_control_the_page_says_what_upload_does(open_window) -> None:
 
 
 def test_a_control_is_connected_from_the_page_and_taken_from_the_list(
-    open_window, start_control, person, qtbot, tmp_path
+    open_window, start_control, user, qtbot, tmp_path
 ) -> None:
     control = start_control()
     UserSettings().keep_controls([])
@@ -102,7 +102,7 @@ def test_a_control_is_connected_from_the_page_and_taken_from_the_list(
     assert "E-stop" in rows(page)[0].second
     control.stop()
     page.controls.connect_button.click()
-    assert "no connection to the control" in person.reads()
+    assert "no connection to the control" in user.reads()
     assert rows(page)[0].note == "not reached"
     assert "E-stop" not in rows(page)[0].second
     page.controls._on_current(page.controls._forget)

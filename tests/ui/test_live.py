@@ -17,7 +17,7 @@ from amp_studio.ui.control.readings import StatusReadings
 from .conftest import WAIT_MS
 
 
-class HeldReadings(QObject):
+class StoppedReadings(QObject):
     """Readings that a test gives, one at a time."""
 
     read = Signal(object)
@@ -52,10 +52,10 @@ def followed() -> list[str]:
 
 @pytest.fixture
 def page(qtbot: QtBot, followed: list[str]) -> LivePage:
-    shown = LivePage("tcp://bench:1", "57c422b", followed.append, readings=HeldReadings())  # type: ignore[arg-type]  # the part that it uses
-    qtbot.addWidget(shown)
-    shown.start()
-    return shown
+    displayed = LivePage("tcp://bench:1", "57c422b", followed.append, readings=StoppedReadings())  # type: ignore[arg-type]  # the part that it uses
+    qtbot.addWidget(displayed)
+    displayed.start()
+    return displayed
 
 
 def cell(page: LivePage, row: int, column: int) -> str:
@@ -115,7 +115,7 @@ def test_keys_of_an_emulated_control_are_pressed_and_its_answer_is_an_event(qtbo
         def send(self, command: str) -> None:
             self.line_shown.emit(f"did {command}")
 
-    readings = HeldReadings()
+    readings = StoppedReadings()
     page = LivePage("tcp://bench:1", "9pc", print, readings=readings, emulated=Keys())  # type: ignore[arg-type]  # the parts that it uses
     qtbot.addWidget(page)
     page.keys.setText("jog X+")

@@ -17,7 +17,7 @@ from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.merge.machines_dialog import MachinesDialog
 
 from .alt_letters import doubled, texts_of
-from .conftest import Person, action
+from .conftest import User, action
 
 RATE = ("axis.max_rate", "X")
 
@@ -47,7 +47,7 @@ def dialog(open_window: Callable[..., MainWindow], hall: Path) -> MachinesDialog
     return found
 
 
-def shown(dialog: MachinesDialog) -> list[list[object]]:
+def displayed(dialog: MachinesDialog) -> list[list[object]]:
     """Return the rows that are seen: name, then each machine."""
     rows, role = dialog.rows, Qt.ItemDataRole.DisplayRole
     return [
@@ -71,11 +71,11 @@ def test_what_differs_is_a_row_with_each_machine_as_it_is_now(dialog: MachinesDi
         "ROUTER_3",
         "WORN (cannot be read)",
     ]
-    assert shown(dialog) == [["$110   Maximum rate, X", "600 mm/min", "500 mm/min", "800 mm/min"]]
+    assert displayed(dialog) == [["$110   Maximum rate, X", "600 mm/min", "500 mm/min", "800 mm/min"]]
     assert dialog.count.text().startswith("Different: 1; the same: ")
     assert doubled(texts_of(dialog)) == {}
     choose(dialog, "ROUTER_3", False)
-    assert shown(dialog) == [["$110   Maximum rate, X", "600 mm/min", "500 mm/min"]]
+    assert displayed(dialog) == [["$110   Maximum rate, X", "600 mm/min", "500 mm/min"]]
     choose(dialog, "ROUTER_1", False)
     assert dialog.empty.text() == "Choose two machines or more."
     assert not dialog.export_button.isEnabled()
@@ -83,9 +83,9 @@ def test_what_differs_is_a_row_with_each_machine_as_it_is_now(dialog: MachinesDi
 
 def test_the_filter_and_also_what_is_the_same(dialog: MachinesDialog) -> None:
     dialog.everything.click()
-    assert len(shown(dialog)) > 50
+    assert len(displayed(dialog)) > 50
     dialog.filter.setText("RATE 800")
-    assert [row[0] for row in shown(dialog)] == ["$110   Maximum rate, X"]
+    assert [row[0] for row in displayed(dialog)] == ["$110   Maximum rate, X"]
     assert dialog.count.text().endswith("; shown: 1")
 
 
@@ -96,7 +96,7 @@ def test_an_edit_in_the_window_and_the_way_to_a_value(
     assert isinstance(window, MainWindow)
     window.workspace.edit("as the first", {RATE: Value(500.0, "mm/min")})
     dialog.compare()
-    (row,) = shown(dialog)
+    (row,) = displayed(dialog)
     assert row[1:] == ["500 mm/min", "500 mm/min", "800 mm/min"]
     assert (
         dialog.rows.index(0, 2).data(Qt.ItemDataRole.AccessibleTextRole)
@@ -108,17 +108,17 @@ def test_an_edit_in_the_window_and_the_way_to_a_value(
 
 
 def test_the_table_is_exported_and_no_machine_is_written_over(
-    dialog: MachinesDialog, hall: Path, person: Person
+    dialog: MachinesDialog, hall: Path, user: User
 ) -> None:
     for ending in ("xlsx", "html", "pdf"):
-        person.chooses(hall / f"machines.{ending}")
+        user.chooses(hall / f"machines.{ending}")
         dialog.export()
         assert dialog.bar.text.text() == f"{hall / f'machines.{ending}'} written"
     cells = [[cell.value for cell in row] for row in load_workbook(hall / "machines.xlsx").worksheets[0].rows]
     assert cells[0] == ["Number", "Parameter", "Belongs to", "ROUTER_2", "ROUTER_1", "ROUTER_3"]
     assert cells[1][3:] == ["600 mm/min", "500 mm/min", "800 mm/min"]
     before = (hall / "ROUTER_1.amp").read_bytes()
-    person.chooses(hall / "ROUTER_1.amp")
+    user.chooses(hall / "ROUTER_1.amp")
     dialog.export()
     assert (hall / "ROUTER_1.amp").read_bytes() == before
     assert str(hall / "ROUTER_1.amp") in dialog.bar.text.text()
@@ -137,9 +137,9 @@ def test_files_from_elsewhere_are_added_and_other_families_refused_in_words(
     assert heads == ["ROUTER_2", "ROUTER_1 (2)", "ROUTER_3", "ROUTER_1 (4)"]
     dialog.add()
     assert dialog.bar.text.text().startswith("files of different control families cannot be compared")
-    assert shown(dialog) == []
+    assert displayed(dialog) == []
     choose(dialog, "MILL", False)
-    assert len(shown(dialog)) == 1
+    assert len(displayed(dialog)) == 1
     assert open_file(tmp_path / "ROUTER_1.amp").file.values == same.values
 
 

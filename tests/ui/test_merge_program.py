@@ -35,7 +35,7 @@ def three(tmp_path: Path) -> list[Path]:
     return paths
 
 
-def shown(three: list[Path], write, qtbot: QtBot) -> MergeWindow:
+def displayed(three: list[Path], write, qtbot: QtBot) -> MergeWindow:
     """Return the window of the three."""
     base, ours, theirs = (open_file(path).file for path in three)
     workspace = Workspace(Document.view(three[1]))
@@ -49,7 +49,7 @@ def test_the_result_is_written_once_its_conflict_is_settled_and_the_window_close
     three, qtbot: QtBot
 ) -> None:
     written: list[ParameterFile] = []
-    window = shown(three, written.append, qtbot)
+    window = displayed(three, written.append, qtbot)
     assert BASE in window.chosen
     assert not window.outcome.merge.isVisible()
     assert not window.outcome.save.isEnabled()
@@ -63,7 +63,7 @@ def test_what_cannot_be_written_is_shown_and_the_window_stays(three, qtbot: QtBo
     def refuse(_: ParameterFile) -> None:
         raise SaveError("the disk is full")
 
-    window = shown(three, refuse, qtbot)
+    window = displayed(three, refuse, qtbot)
     window.model.choose(window.merge.conflicts, "b")
     window.outcome.save.click()
     assert (window.message.text.text(), window.property("written")) == ("the disk is full", None)
@@ -75,12 +75,12 @@ def test_what_cannot_be_written_is_shown_and_the_window_stays(three, qtbot: QtBo
 def test_the_exit_code_is_that_of_a_merge(
     three, monkeypatch, tmp_path: Path, is_saved: bool, code: int
 ) -> None:
-    def person(merge: Merge, ours: Path, output: Path, write) -> bool:
+    def user(merge: Merge, ours: Path, output: Path, write) -> bool:
         if is_saved:
             write(merge.result())
         return is_saved
 
-    monkeypatch.setattr(merge_program, "merge_in_window", person)
+    monkeypatch.setattr(merge_program, "merge_in_window", user)
     out = tmp_path / "merged.amp"
     arguments = ["merge", *map(str, three), "-o", str(out), "--window", "--take", "theirs"]
     assert cli.run(arguments) == code

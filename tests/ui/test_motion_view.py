@@ -84,7 +84,7 @@ def test_it_begins_with_the_selected_axis_and_draws_a_trace(view: MotionView) ->
     assert view.chart.isHidden()
 
 
-def test_it_draws_anew_after_an_edit_and_after_its_undo(
+def test_it_draws_again_after_an_edit_and_after_its_undo(
     view: MotionView, window: MainWindow, qtbot: QtBot
 ) -> None:
     """The lower the gain, the larger the following error."""
@@ -130,7 +130,7 @@ def test_distance_and_feedrate_take_units_and_a_decimal_comma(
     assert {panel.y.unit for panel in view.plot.picture.panels} == {"in", "in/min", "%"}
 
 
-def test_a_wrong_unit_is_told_in_place(view: MotionView, qtbot: QtBot) -> None:
+def test_a_wrong_unit_is_reported_in_place(view: MotionView, qtbot: QtBot) -> None:
     field(view, "distance").setText("90 deg")
     view.run()
     assert "Give the distance of this axis in mm, not in °" in view.summary.text()
@@ -305,7 +305,7 @@ def test_a_recommendation_leads_to_its_parameter(view: MotionView, window: MainW
     assert window.selected() == ("servo.gain_break_point", "2")
 
 
-def test_leaving_it_runs_nothing_until_somebody_looks_again(
+def test_leaving_it_runs_nothing_until_a_user_looks_again(
     view: MotionView, window: MainWindow, qtbot: QtBot
 ) -> None:
     view.left.emit()

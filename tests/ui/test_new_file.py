@@ -15,7 +15,7 @@ from amp_studio.schema import Value
 from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
 from amp_studio.ui.main_window import MainWindow
 
-from .conftest import Person, on_disk
+from .conftest import User, on_disk
 
 
 @pytest.fixture
@@ -24,7 +24,7 @@ def dialog(open_window: Callable[..., MainWindow]) -> Callable[[str], NewFileDia
     return lambda family: NewFileDialog(open_window(), family)
 
 
-def test_a_family_with_fixed_axes_says_so_before_ok(dialog) -> None:
+def test_a_family_with_fixed_axes_shows_it_before_ok(dialog) -> None:
     new = dialog("57c422b")
     assert not new.form.editors["axes"].isEnabled()
     assert (
@@ -63,7 +63,7 @@ def test_axes_that_cannot_be_are_refused_while_they_are_typed(dialog, family: st
     assert not new.ok.isEnabled()
 
 
-def test_where_the_axes_are_written_is_said_with_the_page(dialog) -> None:
+def test_where_the_axes_are_written_is_shown_with_the_page(dialog) -> None:
     new = dialog("num")
     assert "Axis Assignment to a Group, Number of CNC Axis Groups, Measured Axes" in new.form.answer("note")
     assert "(page 4-24)" in new.form.answer("note")
@@ -96,17 +96,17 @@ def test_a_file_like_an_example_has_its_values_but_not_its_notes(dialog) -> None
     assert "Home Calibration" in new.form.answer("note"), "it is named what is not taken over"
 
 
-def test_a_file_like_one_of_mine(dialog, path: Path, person: Person) -> None:
+def test_a_file_like_one_of_mine(dialog, path: Path, user: User) -> None:
     new = dialog("9pc")
-    person.chooses(path)
+    user.chooses(path)
     new.form.set_answer("like", "other")
     assert new.source() == path
     assert new.make().get(("axis.name", "1")) == Value("x")
 
 
-def test_a_file_of_another_family_cannot_be_the_pattern(dialog, path: Path, person: Person) -> None:
+def test_a_file_of_another_family_cannot_be_the_pattern(dialog, path: Path, user: User) -> None:
     new = dialog("num")
-    person.chooses(path)
+    user.chooses(path)
     new.form.set_answer("like", "other")
     assert "is a file for Allen-Bradley 9/PC AMP" in new.fault.text()
     assert not new.ok.isEnabled()

@@ -14,7 +14,7 @@ from amp_studio.files import Document
 from amp_studio.schema import Value
 from amp_studio.ui.main_window import MainWindow
 
-from .conftest import WAIT_MS, Person, action, on_disk
+from .conftest import WAIT_MS, User, action, on_disk
 from .killed import kill_editor
 
 EXCESS = ("servo.excess_error", "1")
@@ -60,24 +60,24 @@ def edit(window: MainWindow) -> None:
     window.edits.commit(EXCESS, "3 mm")
 
 
-def test_a_file_that_is_none_is_told_and_the_open_one_stays(
-    window: MainWindow, tmp_path: Path, person: Person
+def test_a_file_that_is_none_is_reported_and_the_open_one_stays(
+    window: MainWindow, tmp_path: Path, user: User
 ) -> None:
     bad = tmp_path / "bad.amp"
     bad.write_text("nonsense")
-    person.chooses(bad)
+    user.chooses(bad)
 
     action(window, "Open").trigger()
 
-    assert "bad.amp" in person.reads()
+    assert "bad.amp" in user.reads()
     assert window.workspace.may_edit
 
 
 def test_unsaved_changes_are_asked_about_before_a_file_is_closed(
-    window: MainWindow, path: Path, person: Person
+    window: MainWindow, path: Path, user: User
 ) -> None:
     edit(window)
-    person.answers("Cancel", "Discard")
+    user.answers("Cancel", "Discard")
 
     window.files.close()
     assert window.workspace.path == path
@@ -86,13 +86,13 @@ def test_unsaved_changes_are_asked_about_before_a_file_is_closed(
     assert on_disk(path).get(EXCESS) == Value(11.0, "mm")
 
 
-def test_a_file_in_use_can_be_looked_at_only(open_window, path: Path, person: Person, other_program) -> None:
+def test_a_file_in_use_can_be_looked_at_only(open_window, path: Path, user: User, other_program) -> None:
     other_program()
-    person.answers("Open Read-Only")
+    user.answers("Open Read-Only")
 
     window = open_window(path)
 
-    assert "is open in another program" in person.asked[0]
+    assert "is open in another program" in user.asked[0]
     assert "[read-only]" in window.windowTitle()
     assert not action(window, "Save").isEnabled()
     assert not action(window, "Delete Axis").isEnabled()
@@ -102,28 +102,28 @@ def test_a_file_in_use_can_be_looked_at_only(open_window, path: Path, person: Pe
     from PySide6.QtCore import Qt
 
     assert not index.flags() & Qt.ItemFlag.ItemIsEditable
-    person.chooses(path.with_name("mine"))
+    user.chooses(path.with_name("mine"))
     window.files.save_as()
     assert window.workspace.may_edit
 
 
-def test_a_file_in_use_need_not_be_opened(open_window, path: Path, person: Person, other_program) -> None:
+def test_a_file_in_use_need_not_be_opened(open_window, path: Path, user: User, other_program) -> None:
     other_program()
-    person.answers("Cancel")
+    user.answers("Cancel")
     assert open_window(path).workspace is None
 
 
 def test_the_work_of_a_killed_program_is_offered_and_can_be_undone(
-    open_window, path: Path, person: Person, other_program
+    open_window, path: Path, user: User, other_program
 ) -> None:
     killed = other_program("edit")
     killed.send_signal(signal.SIGKILL)
     killed.wait()
-    person.answers("Recover")
+    user.answers("Recover")
 
     window = open_window(path)
 
-    assert "2 changes" in person.asked[0]
+    assert "2 changes" in user.asked[0]
     assert window.workspace.file.get(EXCESS) == EDITED
     assert window.workspace.file.get(("home.calibration", "2")) is None
     assert window.workspace.is_dirty
@@ -132,19 +132,19 @@ def test_the_work_of_a_killed_program_is_offered_and_can_be_undone(
 
 
 def test_the_work_of_a_killed_program_can_be_thrown_away_or_left(
-    open_window, path: Path, person: Person, other_program
+    open_window, path: Path, user: User, other_program
 ) -> None:
     killed = other_program("edit")
     killed.kill()
     killed.wait()
-    person.answers("Decide Later", "Discard")
+    user.answers("Decide Later", "Discard")
 
     window = open_window(path)
     assert window.workspace is None
     window.open_first(path)
     assert window.workspace.file.get(EXCESS) == Value(11.0, "mm")
     window.open_first(path)
-    assert len(person.asked) == 2
+    assert len(user.asked) == 2
 
 
 def test_unsaved_work_is_kept_beside_the_file_while_one_types(window: MainWindow, path: Path, qtbot) -> None:
@@ -164,16 +164,16 @@ def test_nothing_entered_more_than_a_second_before_a_kill_is_lost(path: Path) ->
     assert kill_editor(path, seed=1) == []
 
 
-def test_notes_and_name_of_a_killed_program_are_offered_too(open_window, path: Path, person: Person) -> None:
+def test_notes_and_name_of_a_killed_program_are_offered_too(open_window, path: Path, user: User) -> None:
     document = Document.open(path)
     document.file.header.notes, document.file.header.name = "new belt", "the other mill"
     document.keep_unsaved()
     document._lock.release()  # as the system does when the program is killed
-    person.answers("Recover")
+    user.answers("Recover")
 
     window = open_window(path)
 
-    assert "2 changes" in person.asked[0]
+    assert "2 changes" in user.asked[0]
     header = window.workspace.file.header
     assert (header.notes, header.name) == ("new belt", "the other mill")
     assert window.workspace.is_dirty

@@ -36,8 +36,8 @@ def test_every_axis_has_a_column_and_every_word_a_row(wide: MainWindow) -> None:
     titles = [wide.table.headerData(n, Qt.Orientation.Horizontal) for n in range(wide.table.columnCount())]
     assert titles == ["Control", *(f"Axis {n}" for n in range(12)), "Read by"]
     rows = [n for n in range(wide.table.rowCount()) if not wide.table.rows[n].section]
-    told = [wide.table.index(n, 13).data() for n in rows]
-    assert set(told) == {"", "load modes"}, "which command makes the control read a value"
+    reported = [wide.table.index(n, 13).data() for n in rows]
+    assert set(reported) == {"", "load modes"}, "which command makes the control read a value"
     assert not wide.table.index(0, 13).flags() & Qt.ItemFlag.ItemIsEditable
     heads = [wide.table.headerData(n, Qt.Orientation.Vertical) for n in rows]
     assert any(head.startswith("P10N0") for head in heads)
@@ -51,8 +51,8 @@ def test_a_guide_leads_through_the_parameters_in_its_own_order(wide: MainWindow)
     steps = [guide.child(n) for n in range(guide.childCount())]
     assert [step.text(0) for step in steps] == ["1  The words", "2  The axes"]
     steps_tree.setCurrentItem(steps[1])
-    shown = [row.parameter.id for row in wide.table.rows if not row.section]
-    assert shown == [*["word.mode"] * 3, "axis.position"], (
+    displayed = [row.parameter.id for row in wide.table.rows if not row.section]
+    assert displayed == [*["word.mode"] * 3, "axis.position"], (
         "the values of the whole control are above those of the axes"
     )
     steps_tree.setCurrentItem(guide)
@@ -68,7 +68,7 @@ def test_texts_and_words_of_bits_are_edited(wide: MainWindow) -> None:
     assert file.get(("word.mode", "1")) == Value(9)
 
 
-def test_what_it_does_not_have_is_off_or_told(wide: MainWindow) -> None:
+def test_what_it_does_not_have_is_off_or_reported(wide: MainWindow) -> None:
     assert not action(wide, "Configure Axis Type").isEnabled()
     wide.menus["view.switch_units"].trigger()
     assert wide.workspace.file.header.units == "metric"

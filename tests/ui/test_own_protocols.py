@@ -48,7 +48,7 @@ def test_an_acr_card_is_verified_and_downloaded_over_its_terminal(
     assert compared.startswith("Nothing differs: 112 values and every byte are the same.")
 
 
-def test_what_a_person_is_to_do_at_the_control_is_shown_until_it_is_done(window: MainWindow) -> None:
+def test_what_a_user_is_to_do_at_the_control_is_shown_until_it_is_done(window: MainWindow) -> None:
     texts: list[str] = []
 
     def work(progress, cancel):

@@ -179,7 +179,7 @@ def test_a_file_out_of_range_on_purpose_keeps_its_mark_when_a_drag_is_given_up(w
     assert (file.get(RIGHT), file.forced) == (Value(-400.0, "mm"), {RIGHT: "by a test"})
 
 
-def test_beyond_the_allowed_range_the_value_stays_and_the_tag_says_why(pictures, file):
+def test_beyond_the_allowed_range_the_value_stays_and_the_tag_shows_why(pictures, file):
     """Page 6-8: the larger end stays above the smaller one."""
     canvas = pictures.chosen_card.canvas
     press(canvas, RIGHT)
@@ -329,7 +329,7 @@ def test_pictures_open_at_the_handle_of_the_selected_value_and_the_parameter_pan
     qtbot.waitUntil(lambda: window.page.detail._address == wanted, timeout=WAIT_MS)
 
 
-def test_a_family_without_pictures_says_so(qtbot, workspace, monkeypatch):
+def test_a_family_without_pictures_shows_it(qtbot, workspace, monkeypatch):
     monkeypatch.setattr("amp_studio.ui.pictures.page.pictures_of", lambda _: ())
     page = PicturesPage(workspace)
     qtbot.addWidget(page)

@@ -160,7 +160,7 @@ def test_a_read_value_of_the_settings_is_what_was_kept_and_rubbish_is_ignored():
         ("instead", (1362, 754), "instead"),
     ],
 )
-def test_the_room_decides_while_nobody_has_chosen(choice, size, place):
+def test_the_room_decides_while_nothing_is_chosen(choice, size, place):
     assert PictureLayout(choice).fitting(*size) == place
 
 

@@ -25,7 +25,7 @@ from amp_studio.ui.paper.preview_panel import PreviewPanel
 from amp_studio.ui.window.report_options import ReportChoice
 from amp_studio.ui.window.settings import UserSettings
 
-from .conftest import WAIT_MS, Person, action
+from .conftest import WAIT_MS, User, action
 
 TRAVEL, FIRST = ("axis.max_travel", "X"), ("general.junction_deviation", "")
 """The last and the first line of the values of the example router."""
@@ -124,7 +124,7 @@ def test_the_pages_turn_to_the_selected_value_and_a_click_goes_back(
     assert window.selected() == TRAVEL
 
 
-def test_a_value_that_the_report_does_not_have_is_told(window: MainWindow, panel: PreviewPanel) -> None:
+def test_a_value_that_the_report_does_not_have_is_reported(window: MainWindow, panel: PreviewPanel) -> None:
     window.go_to(("general.arc_tolerance", ""))  # at its default, and only changed values are printed
     panel.go_to_selected()
     assert panel.bar.text.text() == "$12 Arc tolerance is not in this report."
@@ -158,12 +158,12 @@ def test_a_saved_template_is_shown_at_once_and_its_mistake_with_its_line(
     assert panel.bar.isHidden()
 
 
-def test_a_template_that_is_there_is_never_replaced(window: MainWindow, person: Person) -> None:
+def test_a_template_that_is_there_is_never_replaced(window: MainWindow, user: User) -> None:
     folder = window.workspace.path.parent / "templates"
     folder.mkdir()
     (folder / "report.typ.j2").write_text("mine")
     action(window, "New Report Template").trigger()
-    assert "exists already: it is left as it is" in person.reads()
+    assert "exists already: it is left as it is" in user.reads()
     assert (folder / "report.typ.j2").read_text() == "mine"
 
 
@@ -240,9 +240,9 @@ def test_drawings_of_the_simulator_come_when_they_are_ready(
 
 
 def test_what_is_seen_is_exported_and_printed(
-    window: MainWindow, panel: PreviewPanel, person: Person, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    window: MainWindow, panel: PreviewPanel, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    person.chooses(tmp_path / "out.csv")
+    user.chooses(tmp_path / "out.csv")
     window.preview.export()
     assert len((tmp_path / "out.csv").read_text("utf-8").splitlines()) == 33
 
@@ -271,8 +271,8 @@ def test_zoom_by_keys_keeps_the_page(panel: PreviewPanel) -> None:
     assert view.accessibleDescription() == f"Page {len(view.pages)} of {len(view.pages)}"
 
 
-def test_tables_to_fill_in_by_hand_are_written(window: MainWindow, tmp_path: Path, person: Person) -> None:
-    person.chooses(tmp_path / "form.html")
+def test_tables_to_fill_in_by_hand_are_written(window: MainWindow, tmp_path: Path, user: User) -> None:
+    user.chooses(tmp_path / "form.html")
     action(window, "Form to Fill In").trigger()
     page = (tmp_path / "form.html").read_text("utf-8")
     assert "Maximum travel" in page

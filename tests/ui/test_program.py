@@ -21,7 +21,7 @@ from amp_studio.ui.base import garbage
 from amp_studio.ui.base.task import ProgressDialog, Task
 from amp_studio.ui.main_window import MainWindow
 
-from .conftest import WAIT_MS, Person, during, on_disk
+from .conftest import WAIT_MS, User, during, on_disk
 
 EXCESS = ("servo.excess_error", "1")
 
@@ -59,7 +59,7 @@ def test_a_start_loads_nothing_that_it_does_not_show_and_ends_without_a_word_of_
     assert [line for line in done.stderr.splitlines() if "plugin does not support" not in line] == []
 
 
-def test_a_fault_of_the_program_itself_is_told_in_a_sentence(path: Path) -> None:
+def test_a_fault_of_the_program_itself_is_reported_in_a_sentence(path: Path) -> None:
     code = """
 import sys
 from PySide6.QtCore import QTimer
@@ -81,40 +81,38 @@ main([])
     assert "Traceback" in done.stderr
 
 
-def test_closing_asks_about_unsaved_changes(window: MainWindow, path: Path, person: Person) -> None:
+def test_closing_asks_about_unsaved_changes(window: MainWindow, path: Path, user: User) -> None:
     window.edits.commit(EXCESS, "3 mm")
-    person.answers("Cancel", "Save")
+    user.answers("Cancel", "Save")
     assert not window.close()
     assert window.isVisible()
     assert window.close()
     assert on_disk(path).get(EXCESS) == Value(3.0, "mm")
 
 
-def test_discarded_work_is_not_offered_again(
-    window: MainWindow, path: Path, person: Person, open_window
-) -> None:
+def test_discarded_work_is_not_offered_again(window: MainWindow, path: Path, user: User, open_window) -> None:
     window.edits.commit(EXCESS, "3 mm")
     window.workspace._keep_unsaved()
     assert window.workspace.document.journal_path.exists()
-    person.answers("Discard")
+    user.answers("Discard")
     assert window.close()
     assert [p.name for p in path.parent.iterdir()] == ["mill.amp"]
     assert open_window(path).workspace.file.get(EXCESS) == Value(11.0, "mm")
 
 
-def test_closing_without_changes_asks_nothing(window: MainWindow, person: Person) -> None:
+def test_closing_without_changes_asks_nothing(window: MainWindow, user: User) -> None:
     window.edits.commit(EXCESS, "3 mm")
     window.menus["edit.undo"].trigger()
     assert window.close()
-    assert person.asked == []
+    assert user.asked == []
 
 
 def test_a_save_that_fails_at_the_end_keeps_the_program_open(
-    window: MainWindow, path: Path, person: Person
+    window: MainWindow, path: Path, user: User
 ) -> None:
     window.edits.commit(EXCESS, "3 mm")
     path.write_bytes(path.read_bytes() + b"# touched\n")
-    person.answers("Save")
+    user.answers("Save")
     assert not window.close()
     assert window.page.bar.isVisible()
 
@@ -257,12 +255,12 @@ def test_a_silence_is_shown_below_what_is_waited_for_and_goes(window: MainWindow
     assert (dialog.bar.value(), dialog.bar.maximum()) == (1, 2), "the bar stands where it was"
 
 
-def test_what_goes_wrong_in_a_task_is_raised_to_whoever_waits(window: MainWindow, person: Person) -> None:
+def test_what_goes_wrong_in_a_task_is_raised_to_whoever_waits(window: MainWindow, user: User) -> None:
     def work(progress, cancel):
         raise OSError("the disk is on fire")
 
     window.guarded(lambda: ProgressDialog("Work", work, window).run())
-    assert person.reads() == "the disk is on fire"
+    assert user.reads() == "the disk is on fire"
 
 
 def test_a_task_that_cannot_be_cancelled_ignores_escape(window: MainWindow) -> None:

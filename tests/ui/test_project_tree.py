@@ -21,7 +21,7 @@ from amp_studio.ui.merge.window import MergeWindow
 from amp_studio.ui.project.tree import ProjectTree
 
 from .alt_letters import doubled
-from .conftest import WAIT_MS, Person
+from .conftest import WAIT_MS, User
 
 
 @pytest.fixture
@@ -98,9 +98,9 @@ def test_enter_opens_a_file_and_the_other_tree_shows_it(tree: ProjectTree, folde
 
 def test_a_backup_is_compared_with_the_file(tree: ProjectTree) -> None:
     tree.tree.itemActivated.emit(row(tree, "backup"), 0)
-    shown = tree._window.findChildren(MergeWindow)
-    assert len(shown) == 1
-    shown[0].close()
+    displayed = tree._window.findChildren(MergeWindow)
+    assert len(displayed) == 1
+    displayed[0].close()
 
 
 def test_it_follows_the_disk(tree: ProjectTree, folder: Path, path: Path, qtbot: QtBot) -> None:
@@ -113,45 +113,45 @@ def test_it_follows_the_disk(tree: ProjectTree, folder: Path, path: Path, qtbot:
 
 
 def test_a_file_goes_to_the_trash_only_after_a_question(
-    tree: ProjectTree, folder: Path, person: Person, monkeypatch: pytest.MonkeyPatch
+    tree: ProjectTree, folder: Path, user: User, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     trashed: list[str] = []
     monkeypatch.setattr(QFile, "moveToTrash", lambda name: (trashed.append(Path(name).name), (True, ""))[1])
     tree.tree.setCurrentItem(row(tree, "file", "second.amp"))
-    person.answers("Cancel")
+    user.answers("Cancel")
     QTest.keyClick(tree.tree, Qt.Key.Key_Delete)
     assert trashed == []
-    person.answers("Move to Trash")
+    user.answers("Move to Trash")
     QTest.keyClick(tree.tree, Qt.Key.Key_Delete)
     assert trashed == ["second.amp"]
 
 
 def test_where_there_is_no_trash_nothing_is_removed(
-    tree: ProjectTree, folder: Path, person: Person, monkeypatch: pytest.MonkeyPatch
+    tree: ProjectTree, folder: Path, user: User, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(QFile, "moveToTrash", lambda _: (False, ""))
-    person.answers("Move to Trash")
+    user.answers("Move to Trash")
     tree._remove(folder / "second.amp")
-    assert "was not removed" in person.reads()
+    assert "was not removed" in user.reads()
     assert (folder / "second.amp").exists()
 
 
 def test_an_open_file_with_unsaved_work_is_asked_about_first(
-    tree: ProjectTree, path: Path, person: Person
+    tree: ProjectTree, path: Path, user: User
 ) -> None:
     tree._window.edits.commit(("servo.excess_error", "1"), "3 mm")
-    person.answers("Move to Trash", "Cancel")
+    user.answers("Move to Trash", "Cancel")
     tree._remove(path)
     assert path.exists()
     assert tree._window.page_of(path) is not None
 
 
 def test_a_file_is_added_by_a_copy_and_by_a_drop(
-    tree: ProjectTree, folder: Path, tmp_path: Path, person: Person
+    tree: ProjectTree, folder: Path, tmp_path: Path, user: User
 ) -> None:
     outside = tmp_path / "other.amp"
     outside.write_bytes(content_of(new_file("9pc", "mill", ["X"], "other")))
-    person.chooses(outside)
+    user.chooses(outside)
     tree._add()
     assert tree._window.workspace.path == folder / "other.amp"
     dropped = tmp_path / "dropped.amp"
@@ -165,23 +165,23 @@ def test_a_file_is_added_by_a_copy_and_by_a_drop(
 
 
 def test_what_is_no_parameter_file_is_not_added(
-    tree: ProjectTree, folder: Path, tmp_path: Path, person: Person
+    tree: ProjectTree, folder: Path, tmp_path: Path, user: User
 ) -> None:
     (tmp_path / "text.amp").write_text("hello")
-    person.chooses(tmp_path / "text.amp")
+    user.chooses(tmp_path / "text.amp")
     tree._add()
-    assert "text.amp" in person.reads()
+    assert "text.amp" in user.reads()
     assert not (folder / "text.amp").exists()
 
 
 def test_a_name_that_is_taken_is_not_replaced(
-    tree: ProjectTree, folder: Path, tmp_path: Path, person: Person
+    tree: ProjectTree, folder: Path, tmp_path: Path, user: User
 ) -> None:
     before = (folder / "second.amp").read_bytes()
     (tmp_path / "second.amp").write_bytes(b"another")
-    person.chooses(tmp_path / "second.amp")
+    user.chooses(tmp_path / "second.amp")
     tree._add()
-    assert person.reads() == "second.amp is in the folder already."
+    assert user.reads() == "second.amp is in the folder already."
     assert (folder / "second.amp").read_bytes() == before
 
 

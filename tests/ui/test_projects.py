@@ -13,7 +13,7 @@ from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.project.check import ProjectCheckDialog
 
-from .conftest import Person, action, on_disk
+from .conftest import User, action, on_disk
 
 EXCESS = ("servo.excess_error", "1")
 
@@ -46,52 +46,48 @@ def test_without_a_project_its_commands_are_off(open_window) -> None:
     assert action(window, "Open Project").isEnabled()
 
 
-def test_open_a_project_and_one_of_its_files(open_window, project: Project, person: Person) -> None:
+def test_open_a_project_and_one_of_its_files(open_window, project: Project, user: User) -> None:
     window = open_window()
-    person.chooses(project.folder)
-    person.types("second")
+    user.chooses(project.folder)
+    user.types("second")
     action(window, "Open Project").trigger()
     assert window.workspace.path.stem == "second"
 
 
-def test_copy_opens_the_copy(window: MainWindow, project: Project, person: Person) -> None:
-    person.types("mill", "third")
+def test_copy_opens_the_copy(window: MainWindow, project: Project, user: User) -> None:
+    user.types("mill", "third")
     action(window, "Copy File").trigger()
     assert window.workspace.path == project.path("third")
     assert on_disk(project.path("third")).values == on_disk(project.path("mill")).values
 
 
-def test_copy_from_another_project(
-    window: MainWindow, project: Project, person: Person, tmp_path: Path
-) -> None:
+def test_copy_from_another_project(window: MainWindow, project: Project, user: User, tmp_path: Path) -> None:
     other = Project.create(tmp_path / "other", ProjectInfo(name="Other", family="9pc", machine="mill"))
     theirs = other.copy(project.path("mill"), "theirs")
-    person.chooses(theirs)
-    person.types("ours")
+    user.chooses(theirs)
+    user.types("ours")
     action(window, "Copy from Another Project").trigger()
     assert window.workspace.path == project.path("ours")
     assert theirs.exists()
 
 
-def test_a_name_that_is_taken_is_told(window: MainWindow, person: Person) -> None:
-    person.types("mill", "SECOND")
+def test_a_name_that_is_taken_is_reported(window: MainWindow, user: User) -> None:
+    user.types("mill", "SECOND")
     action(window, "Copy File").trigger()
-    assert "there is a file 'second' already" in person.reads().lower()
+    assert "there is a file 'second' already" in user.reads().lower()
 
 
-def test_rename_a_file_that_is_not_open(
-    window: MainWindow, project: Project, path: Path, person: Person
-) -> None:
-    person.types("second", "renamed")
+def test_rename_a_file_that_is_not_open(window: MainWindow, project: Project, path: Path, user: User) -> None:
+    user.types("second", "renamed")
     action(window, "Rename File").trigger()
     assert {p.stem for p in project.files()} == {"mill", "renamed"}
     assert window.workspace.path == path
 
 
-def test_rename_the_open_file_keeps_it_open(window: MainWindow, project: Project, person: Person) -> None:
+def test_rename_the_open_file_keeps_it_open(window: MainWindow, project: Project, user: User) -> None:
     window.edits.commit(EXCESS, "3 mm")
-    person.types("mill", "renamed")
-    person.answers("Save")
+    user.types("mill", "renamed")
+    user.answers("Save")
     action(window, "Rename File").trigger()
     assert {p.stem for p in project.files()} == {"renamed", "second"}
     assert window.workspace.path == project.path("renamed")
@@ -99,19 +95,17 @@ def test_rename_the_open_file_keeps_it_open(window: MainWindow, project: Project
     assert window.workspace.file.get(EXCESS) == Value(3.0, "mm")
 
 
-def test_a_rename_that_fails_leaves_the_file_open(
-    window: MainWindow, project: Project, person: Person
-) -> None:
-    person.types("mill", "second")
+def test_a_rename_that_fails_leaves_the_file_open(window: MainWindow, project: Project, user: User) -> None:
+    user.types("mill", "second")
     action(window, "Rename File").trigger()
-    assert "already" in person.reads()
+    assert "already" in user.reads()
     assert window.workspace.path == project.path("mill")
     assert window.workspace.may_edit
 
 
-def test_delete_asks_and_can_be_recovered(window: MainWindow, project: Project, person: Person) -> None:
-    person.types("second", "second", "second")
-    person.answers("Cancel", "Delete")
+def test_delete_asks_and_can_be_recovered(window: MainWindow, project: Project, user: User) -> None:
+    user.types("second", "second", "second")
+    user.answers("Cancel", "Delete")
     action(window, "Delete File").trigger()
     assert project.path("second").exists()
     action(window, "Delete File").trigger()
@@ -121,20 +115,20 @@ def test_delete_asks_and_can_be_recovered(window: MainWindow, project: Project, 
     assert window.workspace.path == project.path("second")
 
 
-def test_deleting_the_open_file_closes_it(window: MainWindow, project: Project, person: Person) -> None:
-    person.types("mill")
-    person.answers("Delete")
+def test_deleting_the_open_file_closes_it(window: MainWindow, project: Project, user: User) -> None:
+    user.types("mill")
+    user.answers("Delete")
     action(window, "Delete File").trigger()
     assert window.workspace is None
     assert not project.path("mill").exists()
 
 
-def test_a_file_in_use_elsewhere_is_not_deleted(window: MainWindow, project: Project, person: Person) -> None:
-    person.types("second")
-    person.answers("Delete")
+def test_a_file_in_use_elsewhere_is_not_deleted(window: MainWindow, project: Project, user: User) -> None:
+    user.types("second")
+    user.answers("Delete")
     with Document.open(project.path("second")):
         action(window, "Delete File").trigger()
-    assert "is open in another program" in person.reads()
+    assert "is open in another program" in user.reads()
     assert project.path("second").exists()
 
 
@@ -150,10 +144,10 @@ def test_a_new_file_goes_into_the_project(window: MainWindow, project: Project, 
     assert window.workspace.path == project.path("fresh")
 
 
-def test_a_new_project_and_its_information(open_window, tmp_path: Path, accept, person: Person) -> None:
+def test_a_new_project_and_its_information(open_window, tmp_path: Path, accept, user: User) -> None:
     window = open_window()
     accept(file_dialogs.ProjectDialog, lambda d: d.form.set_answer("name", "Lathe"))
-    person.chooses(tmp_path)
+    user.chooses(tmp_path)
     action(window, "New Project").trigger()
     assert Project.open(tmp_path).info.name == "Lathe"
 
@@ -169,7 +163,7 @@ def test_a_project_needs_a_name(open_window) -> None:
     assert not dialog.result()
 
 
-def test_a_broken_project_file_keeps_nobody_from_the_parameters(open_window, path: Path) -> None:
+def test_a_broken_project_file_does_not_hide_the_parameters(open_window, path: Path) -> None:
     (path.parent / "project.yaml").write_text("nonsense: [")
     window = open_window(path)
     assert window.workspace is not None

@@ -89,7 +89,7 @@ def test_a_shared_number_follows_the_type_of_the_axis(
     assert window.selected() == ("servo.spindle_motor_teeth", "1")
 
 
-def test_an_unknown_number_is_told_and_asks_again(quick: QuickEdit) -> None:
+def test_an_unknown_number_is_reported_and_asks_again(quick: QuickEdit) -> None:
     enter(quick, "99999")
     assert quick.name.text() == "Unknown parameter '99999'. Did you mean: 21091, 21009, 20091."
     assert quick.editor is None
@@ -103,10 +103,10 @@ def test_an_id_with_its_instance_is_an_address_too(quick: QuickEdit, window: Mai
     assert window.selected() == ("home.calibration", "3")
 
 
-def test_a_refused_value_stays_to_be_mended(quick: QuickEdit, file: ParameterFile, person) -> None:
+def test_a_refused_value_stays_to_be_mended(quick: QuickEdit, file: ParameterFile, user) -> None:
     enter(quick, "1750")
     enter(quick, "many")
-    assert "is not a number" in person.reads()
+    assert "is not a number" in user.reads()
     assert quick.editor.text() == "many"
     assert file.get(("servo.excess_error", "1")) == Value(11.0, "mm")
 
@@ -122,7 +122,7 @@ def test_a_value_is_offered_in_the_unit_in_which_a_bare_number_counts(
     assert file.get(("home.speed_off_switch", "1")) == Value(10.0, "in/min")
 
 
-def test_what_is_out_of_force_says_so(quick: QuickEdit) -> None:
+def test_what_is_out_of_force_shows_it(quick: QuickEdit) -> None:
     enter(quick, "5002")
     assert "\n" in quick.name.text()
 

@@ -134,10 +134,10 @@ def test_names_go_along_when_asked_for_and_lead_back_to_their_rows(
         )
     )
     window.go_to(("servo.position_loop_type", "1"))
-    shown: list[str] = []
-    accept(BlockPreview, lambda dialog: shown.extend([dialog.summary.text()]))
+    displayed: list[str] = []
+    accept(BlockPreview, lambda dialog: displayed.extend([dialog.summary.text()]))
     window.edits.range.paste()
-    assert shown == ["1 cell: 1 changes, 0 the same, 0 refused"]
+    assert displayed == ["1 cell: 1 changes, 0 the same, 0 refused"]
     assert of(file, EXCESS) == [Value(9.0, "mm"), Value(11.0, "mm"), Value(11.0, "mm")]
 
 

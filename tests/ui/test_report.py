@@ -12,7 +12,7 @@ from PySide6.QtPrintSupport import QPrinter, QPrintPreviewDialog
 from amp_studio.ui.dialogs.file_dialogs import ReportDialog
 from amp_studio.ui.main_window import MainWindow
 
-from .conftest import Person, action
+from .conftest import User, action
 
 
 @pytest.mark.parametrize(
@@ -34,7 +34,7 @@ def test_a_report_in_each_format(
     assert str(path) in window.statusBar().currentMessage()
 
 
-def test_the_report_holds_what_is_edited_and_not_what_is_saved(
+def test_the_report_contains_what_is_edited_and_not_what_is_saved(
     window: MainWindow, tmp_path: Path, accept
 ) -> None:
     path = tmp_path / "report.csv"
@@ -44,12 +44,12 @@ def test_the_report_holds_what_is_edited_and_not_what_is_saved(
     assert "3.75" in path.read_text(encoding="utf-8")
 
 
-def test_an_unknown_ending_is_told_and_nothing_is_written(
-    window: MainWindow, tmp_path: Path, accept, person: Person
+def test_an_unknown_ending_is_reported_and_nothing_is_written(
+    window: MainWindow, tmp_path: Path, accept, user: User
 ) -> None:
     accept(ReportDialog, lambda d: d.form.set_answer("path", str(tmp_path / "report.doc")))
     action(window, "Report").trigger()
-    assert "unknown report format" in person.reads()
+    assert "unknown report format" in user.reads()
     assert not (tmp_path / "report.doc").exists()
 
 
@@ -73,8 +73,8 @@ def test_browsing_gives_the_ending_that_was_chosen(window: MainWindow, tmp_path:
 
 
 @pytest.mark.parametrize("verb", ["Report", "Export"])
-def test_what_a_written_file_could_not_keep_is_said(
-    window: MainWindow, tmp_path: Path, accept, person: Person, verb: str
+def test_what_a_written_file_could_not_keep_is_shown(
+    window: MainWindow, tmp_path: Path, accept, user: User, verb: str
 ) -> None:
     path = tmp_path / "out.csv"
     path.write_bytes(b"old")
@@ -82,8 +82,8 @@ def test_what_a_written_file_could_not_keep_is_said(
     if verb == "Report":
         accept(ReportDialog, lambda d: d.form.set_answer("path", str(path)))
     else:
-        person.chooses(path)
-        person.answers("Export")  # without the secrets
+        user.chooses(path)
+        user.answers("Export")  # without the secrets
     action(window, verb).trigger()
     assert "1 other name of this file (a hard link) still has" in window.statusBar().currentMessage()
     assert (tmp_path / "other name").read_bytes() == b"old"
@@ -92,13 +92,13 @@ def test_what_a_written_file_could_not_keep_is_said(
 def test_a_report_is_shown_as_pages_and_goes_to_a_printer(
     window: MainWindow, tmp_path: Path, accept, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    out, shown = tmp_path / "printed.pdf", []
+    out, displayed = tmp_path / "printed.pdf", []
 
     def printed(preview: QPrintPreviewDialog) -> int:
         printer = preview.printer()
         printer.setOutputFormat(QPrinter.OutputFormat.PdfFormat)
         printer.setOutputFileName(str(out))
-        shown.append(preview.windowTitle())
+        displayed.append(preview.windowTitle())
         preview.paintRequested.emit(printer)
         return 1
 
@@ -106,7 +106,7 @@ def test_a_report_is_shown_as_pages_and_goes_to_a_printer(
     monkeypatch.setattr("amp_studio.ui.paper.printing.PPI", 40)
     accept(ReportDialog, lambda d: (d.form.set_answer("changed", True), setattr(d, "to_printer", True)))
     action(window, "Report").trigger()
-    assert shown == ["Report"]
+    assert displayed == ["Report"]
     content = out.read_bytes()
     assert content.startswith(b"%PDF")
     assert content.count(b"/Type /Page\n") > 5

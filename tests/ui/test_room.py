@@ -115,9 +115,9 @@ def test_a_column_that_has_no_room_leaves_as_a_whole_and_keys_bring_it(opened) -
     ends = [view.columnViewportPosition(n) + view.columnWidth(n) for n in range(view.model().columnCount())]
     assert more.x() - view.verticalHeader().width() in ends, "the strip begins where a column ends"
     window.go_to((EXCESS[0], "5"))
-    shown = view.visualRect(view.currentIndex())
-    assert shown.left() >= 0
-    assert not more.isVisible() or view.verticalHeader().width() + shown.right() < more.x()
+    displayed = view.visualRect(view.currentIndex())
+    assert displayed.left() >= 0
+    assert not more.isVisible() or view.verticalHeader().width() + displayed.right() < more.x()
 
 
 def test_ctrl_and_a_click_adds_a_cell_and_all_of_them_take_what_is_typed(opened) -> None:
@@ -132,7 +132,7 @@ def test_ctrl_and_a_click_adds_a_cell_and_all_of_them_take_what_is_typed(opened)
     assert values == [Value(9.0, "mm"), Value(11.0, "mm"), Value(9.0, "mm")]
 
 
-def test_a_default_reads_as_a_person_writes_it_and_an_own_value_stays() -> None:
+def test_a_default_reads_as_a_user_writes_it_and_an_own_value_stays() -> None:
     assert as_written(Value(253.9998, "mm/min")) == Value(254.0, "mm/min")
     assert as_written(Value(0.0254, "mm")) == Value(0.0254, "mm")
     assert as_written(Value(2.54321, "mm")) == Value(2.54321, "mm")
@@ -200,11 +200,11 @@ def test_a_panel_that_opens_while_the_window_becomes_small_is_seen_below(
     parameter = window.findChild(QDockWidget, "Parameter")
     parameter.close()
 
-    def shown() -> None:
+    def displayed() -> None:
         QDockWidget.show(parameter)
         window.docks.fit(QSize(1150, 623))
 
-    monkeypatch.setattr(parameter, "show", shown)
+    monkeypatch.setattr(parameter, "show", displayed)
     window.docks.show("Parameter")
     assert window.page.detail.isVisible()
 

@@ -142,12 +142,14 @@ def luminance(window: MainWindow) -> np.ndarray:
 def contrast(light: np.ndarray) -> float:
     """Return the contrast of a ground and the ink that is farthest from it."""
     values, counts = np.unique(light.round(4), return_counts=True)
-    ground = float(values[counts.argmax()])
-    return max(float((max(x, ground) + 0.05) / (min(x, ground) + 0.05)) for x in (values[0], values[-1]))
+    background = float(values[counts.argmax()])
+    return max(
+        float((max(x, background) + 0.05) / (min(x, background) + 0.05)) for x in (values[0], values[-1])
+    )
 
 
 @pytest.mark.parametrize("colours", ["light", "dark"])
-def test_ink_can_be_read_on_its_ground_on_every_page(window: MainWindow, colours: str) -> None:
+def test_text_can_be_read_on_its_background_on_every_page(window: MainWindow, colours: str) -> None:
     scheme().choose(colours)
     try:
         poor = {}

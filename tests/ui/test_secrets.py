@@ -17,7 +17,7 @@ from amp_studio.ui.merge.columns import A, B
 from amp_studio.ui.merge.sources import MergeSource
 from amp_studio.ui.table.quick_edit import QuickEdit
 
-from .conftest import Person, action
+from .conftest import User, action
 
 PASSWORD = ("password.character", "1")
 SECRET = "7654321"
@@ -57,21 +57,21 @@ def test_table_panel_findings_and_undo_mask_a_secret(window: MainWindow) -> None
     window.workspace.edit("Password", {PASSWORD: Value(int(SECRET) + 1)}, force="for a test")
     window.workspace.remember_control({PASSWORD: Value(int(SECRET))}, "12:00")
     findings = window.findings.view.model()
-    told = [
+    reported = [
         texts_of_table(window),
         texts_of_detail(window),
         window.menus["edit.undo"].text(),
         window.windowTitle(),
     ]
-    told += [
+    reported += [
         str(findings.index(r, c).data(role))
         for r in range(findings.rowCount())
         for c in range(findings.columnCount())
         for role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.ToolTipRole)
     ]
-    assert not any("765432" in text for text in told)
-    assert MASKED in told[0]
-    assert MASKED in told[1]
+    assert not any("765432" in text for text in reported)
+    assert MASKED in reported[0]
+    assert MASKED in reported[1]
 
 
 def test_a_secret_is_shown_while_that_is_wanted_and_masked_in_the_next_file(
@@ -100,17 +100,17 @@ def test_a_file_without_secrets_offers_nothing_to_show(window: MainWindow, tmp_p
     assert not window.menus["view.secrets"].isVisible()
 
 
-def test_a_masked_secret_is_not_copied(window: MainWindow, person: Person) -> None:
+def test_a_masked_secret_is_not_copied(window: MainWindow, user: User) -> None:
     QGuiApplication.clipboard().setText("before")
     action(window, "Copy").trigger()
-    assert "is secret" in person.reads()
+    assert "is secret" in user.reads()
     assert QGuiApplication.clipboard().text() == "before"
     action(window, "Show Secrets").trigger()
     action(window, "Copy").trigger()
     assert QGuiApplication.clipboard().text() == SECRET
 
 
-def test_a_masked_secret_is_typed_anew_and_not_seen(window: MainWindow) -> None:
+def test_a_masked_secret_is_typed_again_and_not_seen(window: MainWindow) -> None:
     view = window.table_view
     index = window.table.index_of(PASSWORD)
     view.setCurrentIndex(index)
@@ -136,19 +136,19 @@ def test_quick_edit_does_not_show_a_secret(window: MainWindow) -> None:
     assert window.workspace.file.get(PASSWORD) == Value(int(SECRET))
 
 
-def test_a_comparison_says_that_secrets_differ_and_not_how(window: MainWindow) -> None:
+def test_a_comparison_shows_that_secrets_differ_and_not_how(window: MainWindow) -> None:
     other = window.workspace.file.copy()
     other.set(PASSWORD, Value(int(SECRET) + 1))
-    shown = window.files.comparing.open(window.page)
-    shown.use(B, MergeSource("other.amp", "", other))
-    (row,) = shown.merge.differing
-    assert [shown.model.text(row, column) for column in (A, B)] == [MASKED, MASKED]
-    assert shown.model.text_to_edit(row) == ""
+    displayed = window.files.comparing.open(window.page)
+    displayed.use(B, MergeSource("other.amp", "", other))
+    (row,) = displayed.merge.differing
+    assert [displayed.model.text(row, column) for column in (A, B)] == [MASKED, MASKED]
+    assert displayed.model.text_to_edit(row) == ""
     action(window, "Show Secrets").trigger()
-    assert shown.model.text(row, A) == SECRET
+    assert displayed.model.text(row, A) == SECRET
     action(window, "Show Secrets").trigger()
-    assert shown.model.text(row, A) == MASKED
-    shown.close()
+    assert displayed.model.text(row, A) == MASKED
+    displayed.close()
 
 
 def test_history_keeps_no_secret_and_unsaved_work_keeps_its_own(window: MainWindow) -> None:
@@ -164,7 +164,7 @@ def test_history_keeps_no_secret_and_unsaved_work_keeps_its_own(window: MainWind
 
 
 def test_no_report_has_a_secret_and_an_export_only_where_it_is_asked_for(
-    window: MainWindow, person: Person, accept, tmp_path: Path
+    window: MainWindow, user: User, accept, tmp_path: Path
 ) -> None:
     for clear in (False, True):
         if clear:
@@ -172,16 +172,16 @@ def test_no_report_has_a_secret_and_an_export_only_where_it_is_asked_for(
         accept(ReportDialog, lambda d: d.form.set_answer("path", str(tmp_path / "r.csv")))
         action(window, "Report").trigger()
         assert SECRET not in (tmp_path / "r.csv").read_text("utf-8")
-        person.chooses(tmp_path / "e.csv")
-        person.answers(*([] if clear else ["Export"]))
+        user.chooses(tmp_path / "e.csv")
+        user.answers(*([] if clear else ["Export"]))
         action(window, "Export").trigger()
         assert (SECRET in (tmp_path / "e.csv").read_text("utf-8")) is clear
 
 
-def test_what_is_refused_is_not_repeated(window: MainWindow, person: Person) -> None:
+def test_what_is_refused_is_not_repeated(window: MainWindow, user: User) -> None:
     assert not window.edits.commit(PASSWORD, f"x{SECRET}")
-    assert SECRET not in person.reads()
-    person.answers("Cancel")
+    assert SECRET not in user.reads()
+    user.answers("Cancel")
     assert not window.edits.commit(PASSWORD, "9990001")
-    assert "9990001" not in person.asked[-1]
+    assert "9990001" not in user.asked[-1]
     assert open_file(window.workspace.path).file.get(PASSWORD) != Value(int(SECRET))

@@ -15,7 +15,7 @@ from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.window.settings import UserSettings
 
 from .alt_letters import doubled, texts_of
-from .conftest import Person
+from .conftest import User
 
 PLACE = "tcp://127.0.0.1:9"
 
@@ -59,7 +59,7 @@ def test_a_password_is_forgotten_where_it_is_kept(
 
 
 def test_a_folder_is_opened_and_one_that_is_not_there_is_named(
-    window: MainWindow, dialog: SettingsDialog, person: Person, monkeypatch: pytest.MonkeyPatch
+    window: MainWindow, dialog: SettingsDialog, user: User, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     opened: list[str] = []
     monkeypatch.setattr(QDesktopServices, "openUrl", lambda url: opened.append(url.toLocalFile()))
@@ -67,7 +67,7 @@ def test_a_folder_is_opened_and_one_that_is_not_there_is_named(
     assert opened == [str(window.workspace.path.parent)]
     dialog.folders.setCurrentItem(dialog.folders.topLevelItem(1))
     window.guarded(dialog._open_folder)
-    assert "templates does not exist yet" in person.reads()
+    assert "templates does not exist yet" in user.reads()
 
 
 @pytest.mark.parametrize("page", PAGES)

@@ -11,7 +11,7 @@ from amp_studio.ui.control.several import SeveralControls
 from amp_studio.ui.main_window import MainWindow
 
 from .at_control import at_control, sent, settled
-from .conftest import WAIT_MS, Person, action
+from .conftest import WAIT_MS, User, action
 
 DEAD = "tcp://127.0.0.1:1"
 
@@ -37,7 +37,7 @@ def results(several: SeveralControls, qtbot: QtBot) -> list[tuple[str, str]]:
 
 
 def test_a_file_goes_to_several_controls_and_each_exchange_is_recorded(
-    window: MainWindow, several: SeveralControls, path: Path, start_control, person: Person, qtbot: QtBot
+    window: MainWindow, several: SeveralControls, path: Path, start_control, user: User, qtbot: QtBot
 ) -> None:
     one, two = start_control().address, start_control().address
     ticked(window, one, f"  {two} ")
@@ -54,7 +54,7 @@ def test_a_file_goes_to_several_controls_and_each_exchange_is_recorded(
     several.press()
     assert results(several, qtbot) == [(one, "same"), (two, "same")]
     table = path.with_name("table.html")
-    person.chooses(table)
+    user.chooses(table)
     several.save_button.click()
     assert one in table.read_text()
 
@@ -96,13 +96,13 @@ def test_after_a_failure_the_next_control_is_not_begun(
     assert several.bar.text.text() == "0 of 2 without a failure"
 
 
-def test_what_cannot_be_exchanged_is_said_before_anything_is(
-    window: MainWindow, several: SeveralControls, person: Person
+def test_what_cannot_be_exchanged_is_shown_before_anything_is(
+    window: MainWindow, several: SeveralControls, user: User
 ) -> None:
     assert several.primary.text() == "Compare With 0 Controls"
     assert "Tick the controls" in several.note.text()
     ticked(window, "x")
-    assert "is no address" in person.reads()
+    assert "is no address" in user.reads()
     ticked(window, DEAD, "tcp://127.0.0.1:1?protocol=house")
     window.edits.commit(("servo.excess_error", "1"), "12 mm")
     window.control.page.turn("send")

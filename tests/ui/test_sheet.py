@@ -16,7 +16,7 @@ from amp_studio.ui.control.hand_sheet import HandSheet
 from amp_studio.ui.main_window import MainWindow
 
 from .at_control import sent, settled
-from .conftest import Person, action
+from .conftest import User, action
 
 
 @pytest.fixture
@@ -31,8 +31,8 @@ def other(path: Path) -> Path:
     return other
 
 
-def opened(window: MainWindow, other: Path, person: Person) -> HandSheet:
-    person.chooses(other)
+def opened(window: MainWindow, other: Path, user: User) -> HandSheet:
+    user.chooses(other)
     action(window, "Enter Values by Hand").trigger()
     sheet = window.control.page.hand
     assert "Where is that known from?" in sheet.text.text()
@@ -42,9 +42,9 @@ def opened(window: MainWindow, other: Path, person: Person) -> HandSheet:
 
 
 @pytest.fixture
-def sheet(window: MainWindow, other: Path, person: Person) -> HandSheet:
+def sheet(window: MainWindow, other: Path, user: User) -> HandSheet:
     """Return the open sheet."""
-    return opened(window, other, person)
+    return opened(window, other, user)
 
 
 def cells(sheet: HandSheet) -> list[list[str]]:
@@ -62,12 +62,12 @@ def test_the_entries_are_in_a_safe_order_and_what_is_not_on_it_has_a_page(sheet:
 
 
 def test_a_tick_is_beside_the_file_at_once_and_there_when_the_sheet_is_opened_again(
-    sheet: HandSheet, window: MainWindow, other: Path, person: Person, path: Path
+    sheet: HandSheet, window: MainWindow, other: Path, user: User, path: Path
 ) -> None:
     sheet.items()[0].setCheckState(0, Qt.CheckState.Checked)
     kept = json.loads(path.with_name(path.name + ".ticks.json").read_bytes())["ticks"]
     assert [(tick["number"], tick["ticked"]) for tick in kept] == [("1750", True)]
-    person.chooses(other)
+    user.chooses(other)
     sheet.file_button.click()
     again = window.control.page.hand
     assert [item.checkState(0) for item in again.items()] == [Qt.CheckState.Checked, Qt.CheckState.Unchecked]
@@ -75,17 +75,19 @@ def test_a_tick_is_beside_the_file_at_once_and_there_when_the_sheet_is_opened_ag
 
 
 @pytest.mark.parametrize(
-    ("shown", "result"),
+    ("displayed", "result"),
     [("11.00000", "as keyed in"), ("8", "still the old value"), ("11.1", "another value"), ("", "")],
 )
-def test_what_the_screen_shows_is_typed_in_and_compared(sheet: HandSheet, shown: str, result: str) -> None:
+def test_what_the_screen_shows_is_typed_in_and_compared(
+    sheet: HandSheet, displayed: str, result: str
+) -> None:
     item = sheet.items()[0]
     item.setText(6, "1")
-    item.setText(6, shown)
+    item.setText(6, displayed)
     assert item.text(7) == result
 
 
-def test_the_sheet_says_that_the_file_has_changed_and_is_made_again(
+def test_the_sheet_shows_that_the_file_has_changed_and_is_made_again(
     sheet: HandSheet, window: MainWindow
 ) -> None:
     assert not sheet.update_button.isEnabled()
@@ -113,10 +115,8 @@ def test_ticks_that_cannot_be_kept_are_not_silent(sheet: HandSheet, path: Path) 
     assert sheet.bar.text.text().startswith("The tick is not kept")
 
 
-def test_the_sheet_is_saved_in_the_format_of_its_name(
-    sheet: HandSheet, person: Person, tmp_path: Path
-) -> None:
-    person.chooses(tmp_path / "sheet.txt")
+def test_the_sheet_is_saved_in_the_format_of_its_name(sheet: HandSheet, user: User, tmp_path: Path) -> None:
+    user.chooses(tmp_path / "sheet.txt")
     sheet.save_button.click()
     assert "1750" in (tmp_path / "sheet.txt").read_text("utf-8")
 

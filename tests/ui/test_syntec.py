@@ -67,6 +67,6 @@ def test_a_code_that_is_not_printed_is_entered_as_a_code(mill: MainWindow, file:
     assert file.get(("limit.second_scope", "")) == Value("inside")
 
 
-def test_a_speed_without_a_range_says_its_unit(mill: MainWindow) -> None:
+def test_a_speed_without_a_range_shows_its_unit(mill: MainWindow) -> None:
     mill.go_to(("feed.rapid", "1"))
     assert "no bounds printed, in mm/min" in mill.detail.page.toPlainText()

@@ -48,14 +48,14 @@ def test_a_row_a_process_a_gear_and_a_macro_call(table: ParameterTable) -> None:
 
 
 def test_every_cell_leads_to_its_address_and_back(table: ParameterTable, file: ParameterFile) -> None:
-    shown = {table.address_at(r, c) for r in range(table.rowCount()) for c in range(table.columnCount())} - {
-        None
-    }
-    for address in shown:
+    displayed = {
+        table.address_at(r, c) for r in range(table.rowCount()) for c in range(table.columnCount())
+    } - {None}
+    for address in displayed:
         assert table.index_of(address).data(AddressRole) == address
     existing = {a for a in file.addresses() if file.evaluation.state(a).state != "hidden"}
     unfitted = {a for a in existing if a[1] in "678" and file.evaluation.scope(a) == "axis"}
-    assert existing - unfitted <= shown
+    assert existing - unfitted <= displayed
 
 
 def test_unfitted_axes_and_hidden_parameters_are_options(window: MainWindow) -> None:
@@ -110,7 +110,7 @@ def test_what_is_not_for_this_configuration_cannot_be_edited(
     assert table.index_of(hidden).flags() & Qt.ItemFlag.ItemIsEditable
 
 
-def test_a_finding_colours_its_cells_and_tells_itself(table: ParameterTable, workspace: Workspace) -> None:
+def test_a_finding_colours_its_cells_and_reports_itself(table: ParameterTable, workspace: Workspace) -> None:
     plain = look(table, EXCESS)
     workspace.edit("force", {EXCESS: Value(1e9, "mm")}, force="on a day")
 

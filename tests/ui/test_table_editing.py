@@ -54,7 +54,7 @@ def test_typing_starts_editing_and_escape_leaves_the_value(window: MainWindow, f
     assert file.get(EXCESS) == Value(11.0, "mm")
 
 
-def test_the_field_tells_the_range_while_it_is_open(window: MainWindow) -> None:
+def test_the_field_reports_the_range_while_it_is_open(window: MainWindow) -> None:
     window.go_to(EXCESS)
     press(window, KEY.Key_F2)
     field = editor(window)
@@ -95,7 +95,7 @@ def test_delete_in_a_field_deletes_a_letter(window: MainWindow, file: ParameterF
 
 
 def test_a_refused_value_stays_in_its_editor_with_the_range_and_no_box(
-    window: MainWindow, file: ParameterFile, person
+    window: MainWindow, file: ParameterFile, user
 ) -> None:
     window.go_to(EXCESS)
     press(window, KEY.Key_F2)
@@ -107,7 +107,7 @@ def test_a_refused_value_stays_in_its_editor_with_the_range_and_no_box(
 
     assert editor(window) is field
     assert field.text() == "99999"
-    assert person.asked == []
+    assert user.asked == []
     assert file.get(EXCESS) == Value(11.0, "mm")
     QTest.keyClicks(field, "12")
     assert field.refusal_text == ""
@@ -206,8 +206,8 @@ def test_letters_add_up_and_a_label_goes_before_a_code(window: MainWindow, qtbot
     wanted = next(label for label in labels if label.lower().startswith("dig"))
     box = typed(window, qtbot, "dig")
     assert box.currentData() == wanted
-    shown = [box.itemData(n) for n in range(box.count()) if not box.view().isRowHidden(n)]
-    assert shown == [label for label in labels if "dig" in label.lower()]
+    displayed = [box.itemData(n) for n in range(box.count()) if not box.view().isRowHidden(n)]
+    assert displayed == [label for label in labels if "dig" in label.lower()]
     QTest.keyClick(box.view(), KEY.Key_Backspace)
     assert box.currentData() == next(label for label in labels if label.lower().startswith("di"))
     box.hidePopup()
@@ -266,7 +266,7 @@ def test_a_key_that_is_no_letter_goes_through(window: MainWindow) -> None:
     assert not window.table_view.viewport().findChildren(QLineEdit)
 
 
-def test_saving_takes_what_stands_in_an_open_field(window: MainWindow, path) -> None:
+def test_saving_takes_what_is_in_an_open_field(window: MainWindow, path) -> None:
     window.go_to(EXCESS)
     press(window, KEY.Key_F2)
     QTest.keyClicks(editor(window), "3,5")
@@ -290,11 +290,11 @@ def test_an_action_waits_for_a_field_that_cannot_be_taken(window: MainWindow, pa
     QTest.keyClick(editor(window), KEY.Key_Escape)
 
 
-def test_closing_asks_about_what_stands_in_an_open_field(window: MainWindow, path, person) -> None:
+def test_closing_asks_about_what_is_in_an_open_field(window: MainWindow, path, user) -> None:
     window.go_to(EXCESS)
     press(window, KEY.Key_F2)
     QTest.keyClicks(editor(window), "3,5")
-    person.answers("Save")
+    user.answers("Save")
 
     assert window.close()
 

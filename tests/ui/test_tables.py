@@ -42,7 +42,7 @@ def test_a_word_of_a_cell_finds_its_table_and_a_link_leads_to_the_parameter(wind
     assert window.selected()[0] == "servo.motor_type"
 
 
-def test_what_no_table_has_is_said(window: MainWindow) -> None:
+def test_what_no_table_has_is_shown(window: MainWindow) -> None:
     dialog = tables(window)
     dialog.search.setText("no such thing")
     assert (listed(dialog), dialog.page.toPlainText()) == ([], "No table contains these words.")

@@ -18,7 +18,7 @@ from amp_studio.ui.dialogs.calculator_dialog import CalculatorDialog
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.table.quick_edit import QuickEdit
 
-from .conftest import WAIT_MS, Person, action, on_disk
+from .conftest import WAIT_MS, User, action, on_disk
 
 EXCESS = ("servo.excess_error", "1")
 
@@ -107,27 +107,27 @@ def test_a_tool_that_was_opened_on_a_file_writes_into_that_file(
 
 
 def test_a_file_that_is_saved_as_one_that_is_open_is_refused(
-    window: MainWindow, path: Path, other: Path, person: Person
+    window: MainWindow, path: Path, other: Path, user: User
 ) -> None:
     before = other.read_bytes()
     window.files.open_path(other)
     window.files.open_path(path)
-    person.chooses(other)
-    person.answers("Replace")
+    user.chooses(other)
+    user.answers("Replace")
 
     action(window, "Save As").trigger()
 
-    assert "is open in a tab" in person.reads()
+    assert "is open in a tab" in user.reads()
     assert other.read_bytes() == before
 
 
 def test_closing_the_window_asks_about_each_file_with_unsaved_work(
-    window: MainWindow, path: Path, other: Path, person: Person
+    window: MainWindow, path: Path, other: Path, user: User
 ) -> None:
     window.edits.commit(EXCESS, "3 mm")
     window.files.open_path(other)
     window.edits.commit(EXCESS, "4 mm")
-    person.answers("Save", "Cancel")
+    user.answers("Save", "Cancel")
 
     assert not window.close()
 
@@ -136,7 +136,7 @@ def test_closing_the_window_asks_about_each_file_with_unsaved_work(
     assert len(window.tabs.pages()) == 2
 
 
-def test_a_change_on_disk_is_said_on_the_page_of_its_file(
+def test_a_change_on_disk_is_shown_on_the_page_of_its_file(
     window: MainWindow, path: Path, other: Path, qtbot: QtBot
 ) -> None:
     first = window.page
@@ -194,20 +194,20 @@ def test_files_are_dropped_into_the_window(open_window, path: Path, other: Path)
 
 
 def test_the_text_of_a_control_is_imported_whatever_it_is_called(
-    open_window, person: Person, tmp_path: Path
+    open_window, user: User, tmp_path: Path
 ) -> None:
     window: MainWindow = open_window()
     for name in ("backup.nc", "backup"):
         listing, made = tmp_path / name, tmp_path / f"{name}.amp"
         listing.write_text("".join(f"${n}=100\n" for n in (100, 101, 102, 110, 111, 112)), "utf-8")
-        person.chooses(made)
-        person.types("grblHAL")
+        user.chooses(made)
+        user.types("grblHAL")
         window.open_first(listing)
         assert window.workspace.path == made
 
 
 def test_texts_of_controls_are_imported_where_they_are_dropped(
-    open_window, person: Person, tmp_path: Path
+    open_window, user: User, tmp_path: Path
 ) -> None:
     texts = {
         "backup.txt": "".join(f"${n}=100\n" for n in (100, 101, 102, 110, 111, 112)),
@@ -219,8 +219,8 @@ def test_texts_of_controls_are_imported_where_they_are_dropped(
     dropped.setUrls([QUrl.fromLocalFile(str(tmp_path / name)) for name in texts])
     for name, text in texts.items():
         (tmp_path / name).write_text(text, "utf-8")
-        person.chooses(tmp_path / f"{name}.amp")
-    person.types("grblHAL")
+        user.chooses(tmp_path / f"{name}.amp")
+    user.types("grblHAL")
     window: MainWindow = open_window()
     at, keys = QPointF(50, 50), Qt.KeyboardModifier.NoModifier
     window.dropEvent(QDropEvent(at, Qt.DropAction.CopyAction, dropped, Qt.MouseButton.LeftButton, keys))

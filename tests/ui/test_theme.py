@@ -27,17 +27,21 @@ from tests.source_trees import nodes_of
 
 GROUNDS: tuple[Token, ...] = ("window", "panel", "base", "raised", "hover", "selbg", "selidle")
 READ: list[tuple[Token, Token]] = [
-    *[(ink, ground) for ink in ("text", "dim") for ground in (*GROUNDS, "errorbg", "warnbg", "recbg")],
     *[
-        (ink, ground)
-        for ink in ("sel", "error", "warn", "rec", "chg")
-        for ground in ("window", "panel", "base", "raised")
+        (front, background)
+        for front in ("text", "dim")
+        for background in (*GROUNDS, "errorbg", "warnbg", "recbg")
+    ],
+    *[
+        (front, background)
+        for front in ("sel", "error", "warn", "rec", "chg")
+        for background in ("window", "panel", "base", "raised")
     ],
     ("error", "errorbg"),
     ("warn", "warnbg"),
     ("rec", "recbg"),
     ("onsel", "sel"),
-    *[(ink, "selbg") for ink in ("error", "warn", "rec", "sel")],
+    *[(front, "selbg") for front in ("error", "warn", "rec", "sel")],
 ]
 """Every ink on every ground on which it is read."""
 SEEN: list[tuple[Token, Token]] = [
@@ -76,7 +80,7 @@ def test_contrast_is_one_of_the_same_and_21_of_black_on_white() -> None:
 
 
 @pytest.mark.parametrize("dark", [0, 1], ids=["light", "dark"])
-def test_every_ink_is_read_on_every_ground_it_stands_on(dark: int) -> None:
+def test_every_colour_is_read_on_every_background_it_is_on(dark: int) -> None:
     poor = {
         pair: round(found, 2)
         for pair in READ
@@ -120,7 +124,7 @@ print(json.dumps({"told": told, "base": QGuiApplication.palette().base().color()
 """A program that is switched to dark; separate, so that no window of another test follows."""
 
 
-def test_dark_holds_at_once_and_is_kept_for_the_next_start(tmp_path: Path) -> None:
+def test_dark_is_there_at_once_and_is_kept_for_the_next_start(tmp_path: Path) -> None:
     private = {
         "XDG_CONFIG_HOME": str(tmp_path),
         "XDG_STATE_HOME": str(tmp_path),
@@ -149,7 +153,7 @@ def test_a_damaged_choice_of_theme_follows_the_system(kept: object) -> None:
     assert theme.as_choice(kept) == "system"
 
 
-def test_a_disabled_icon_is_drawn_in_the_disabled_ink(qtbot: QtBot, light_again: None) -> None:
+def test_a_disabled_icon_is_drawn_in_the_disabled_colour(qtbot: QtBot, light_again: None) -> None:
     theme.apply_style("light")
     image = theme.icon("x").pixmap(QSize(32, 32), QIcon.Mode.Disabled).toImage()
     assert {image.pixelColor(n, 16).name() for n in range(32) if image.pixelColor(n, 16).alpha() == 255} == {

@@ -54,13 +54,11 @@ def test_panels_work_in_another_language(other_language: None, open_window, path
     assert window.findings.isVisible()
 
 
-def test_unsaved_work_is_discarded_in_another_language(
-    other_language: None, open_window, path, person
-) -> None:
+def test_unsaved_work_is_discarded_in_another_language(other_language: None, open_window, path, user) -> None:
     window: MainWindow = open_window(path)
     before = path.read_bytes()
     window.edits.commit(EXCESS, "3 mm")
-    person.answers("Discard°")
+    user.answers("Discard°")
     window.files.close()
     assert window.page is None
     assert path.read_bytes() == before

@@ -111,7 +111,7 @@ def test_what_is_made_below_the_window_is_in_the_words_of_reports_and_facts_stay
 
 
 @pytest.mark.usefixtures("german")
-def test_counts_are_german_with_their_form_and_nothing_is_said_in_words() -> None:
+def test_counts_are_german_with_their_form_and_nothing_is_shown_in_words() -> None:
     assert counted(1, "change") == "1 Änderung"
     assert counted(2, "advice") == "2 Empfehlungen"
     assert counted(0, "parameter", none="no") == "keine Parameter"

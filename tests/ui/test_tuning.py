@@ -21,18 +21,18 @@ from amp_studio.ui.motion.calibration_page import CalibrationPage
 from amp_studio.ui.motion.measured_dialog import MeasuredDialog
 from amp_studio.ui.motion.tuning_values import ValuesPage
 from amp_studio.ui.motion.tuning_window import TuningWindow
-from tests.ui.conftest import WAIT_MS, Person, action
+from tests.ui.conftest import WAIT_MS, User, action
 
 REVERSAL, TABLE = ("servo.reversal_error", "1"), ("calibration.table", "1")
 POINTS = "position [mm],error [um]\n0,0\n100,4\n200,7\n200,13\n100,10\n0,6\n"
 
 
 @pytest.fixture
-def tuning(workspace: Workspace, qtbot: QtBot, person: Person) -> TuningWindow:
-    return shown(TuningWindow(workspace, lambda: None), qtbot)
+def tuning(workspace: Workspace, qtbot: QtBot, user: User) -> TuningWindow:
+    return displayed(TuningWindow(workspace, lambda: None), qtbot)
 
 
-def shown(window: TuningWindow, qtbot: QtBot) -> TuningWindow:
+def displayed(window: TuningWindow, qtbot: QtBot) -> TuningWindow:
     window.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, False)  # qtbot closes it once more
     qtbot.addWidget(window, before_close_func=lambda w: setattr(w, "control", None))
     window.show()
@@ -96,11 +96,11 @@ def test_a_value_stops_at_the_end_of_its_range(tuning: TuningWindow, workspace) 
 
 
 def test_a_file_that_another_program_has_is_not_changed_by_keys_either(
-    qtbot, person: Person, path: Path, qapp
+    qtbot, user: User, path: Path, qapp
 ) -> None:
     first = Document.open(path)
     second = Workspace(Document.view(path))
-    tuning = shown(TuningWindow(second, lambda: None), qtbot)
+    tuning = displayed(TuningWindow(second, lambda: None), qtbot)
     values = page(tuning, "reversal")
     put_cursor(values, REVERSAL)
     QTest.keyClicks(values.table, "+")
@@ -134,11 +134,11 @@ def test_a_typed_value_replaces_and_one_out_of_range_is_refused_in_the_bar(
     assert "99999999" not in values.table.item(values.table.currentRow(), 2).text()
 
 
-def test_a_number_is_added_to_a_value(tuning: TuningWindow, workspace, person: Person) -> None:
+def test_a_number_is_added_to_a_value(tuning: TuningWindow, workspace, user: User) -> None:
     values = page(tuning, "home")
     put_cursor(values, ("home.calibration", "1"))
     before = workspace.file.get(("home.calibration", "1")).value
-    person.types("-1.25")
+    user.types("-1.25")
     QTest.keyClick(values.table, Qt.Key.Key_A)
     assert workspace.file.get(("home.calibration", "1")).value == before - 1.25
 
@@ -162,7 +162,7 @@ def test_a_tuned_velocity_gain_takes_the_motor_table_off_in_the_same_step(
 
 
 def test_points_are_put_in_replaced_and_deleted_and_the_first_one_decides_input_and_start(
-    tuning: TuningWindow, workspace, person: Person
+    tuning: TuningWindow, workspace, user: User
 ) -> None:
     table = calibration(tuning)
     table.input.setCurrentIndex(table.input.findData("deviation"))
@@ -170,7 +170,7 @@ def test_points_are_put_in_replaced_and_deleted_and_the_first_one_decides_input_
     table.start.setCurrentIndex(table.start.findData("-"))
     table.start.activated.emit(table.start.currentIndex())
     for text in ("0 0", "100 0.004", "50=0.001"):
-        person.types(text)
+        user.types(text)
         table.table.setFocus()
         QTest.keyClick(table.table, Qt.Key.Key_Insert)
     assert workspace.file.get(TABLE) == Value("deviation - mm 0:0 50:0.001 100:0.004")
@@ -194,7 +194,7 @@ def test_points_are_put_in_replaced_and_deleted_and_the_first_one_decides_input_
 
 
 def test_measured_points_are_asked_about_and_become_one_step(
-    tuning: TuningWindow, workspace, person: Person, accept: Callable[..., None], tmp_path: Path
+    tuning: TuningWindow, workspace, user: User, accept: Callable[..., None], tmp_path: Path
 ) -> None:
     path = tmp_path / "laser.csv"
     path.write_text(POINTS)
@@ -206,7 +206,7 @@ def test_measured_points_are_asked_about_and_become_one_step(
         assert dialog.set_button.isEnabled()
         assert "0.01300 mm measured, 0.00000 mm expected" in dialog.summary.text()
 
-    person.chooses(path)
+    user.chooses(path)
     accept(MeasuredDialog, answer)
     steps = workspace.undo_stack.index()
     calibration(tuning).read.click()
@@ -270,14 +270,14 @@ def test_every_view_has_a_name_and_no_two_texts_of_a_page_share_a_letter(tuning:
 
 
 def test_a_family_whose_manual_tunes_nothing_names_that(
-    open_window, person: Person, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    open_window, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "syntec.amp"
     Document.create(new_file("syntec"), path).close()
     window = open_window(path)
     monkeypatch.setattr("amp_studio.calibration.compensation_of", lambda _family: Compensation())
     action(window, "Tuning").trigger()
-    assert "tuned on line" in person.reads()
+    assert "tuned on line" in user.reads()
 
 
 def test_each_family_has_pages_of_parameters_that_it_has() -> None:

@@ -16,9 +16,9 @@ from amp_studio.transfer.exchange import Exchange
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.motion.tuning_window import TuningWindow
 from tests.families.grblhal.bench import Bench, sent
-from tests.ui.conftest import Person
+from tests.ui.conftest import User
 
-from .test_tuning import REVERSAL, TABLE, demand_manners, page, put_cursor, shown
+from .test_tuning import REVERSAL, TABLE, demand_manners, displayed, page, put_cursor
 
 
 @pytest.fixture
@@ -31,10 +31,10 @@ def router(qapp: QApplication, tmp_path: Path) -> Workspace:
 
 
 @pytest.fixture
-def live(router: Workspace, tmp_path: Path, qtbot: QtBot, person: Person) -> tuple[TuningWindow, Bench]:
+def live(router: Workspace, tmp_path: Path, qtbot: QtBot, user: User) -> tuple[TuningWindow, Bench]:
     bench = Bench(tmp_path / "control")
     tuning = TuningWindow(router, lambda: LiveTuning(bench.driver, tmp_path / "router", address="bench"))
-    shown(tuning, qtbot)
+    displayed(tuning, qtbot)
     tuning.switch.buttons["control"].click()
     assert tuning.control is not None
     return tuning, bench
@@ -62,18 +62,18 @@ def test_a_live_value_goes_into_the_control_at_once_and_not_into_the_file(live, 
     assert router.undo_stack.index() == 1
 
 
-def test_the_old_values_are_offered_when_the_control_is_left(live, router: Workspace, person: Person) -> None:
+def test_the_old_values_are_offered_when_the_control_is_left(live, router: Workspace, user: User) -> None:
     tuning, bench = live
     tuning.target.set("Tune", {ACCELERATION: Value(25.0, "mm/s2")})
-    person.answers("Cancel")
+    user.answers("Cancel")
     assert not tuning.close()
-    person.answers("Put the Old Values Back")
+    user.answers("Put the Old Values Back")
     assert tuning.close()
     assert sent(bench) == ["$120=25.000", "$120=10.000"]
-    assert all("differ" in question for question in person.asked)
+    assert all("differ" in question for question in user.asked)
 
 
-def test_after_a_lost_line_the_window_shows_what_is_known_and_reads_again(live, person: Person) -> None:
+def test_after_a_lost_line_the_window_shows_what_is_known_and_reads_again(live, user: User) -> None:
     tuning, bench = live
     plain = bench.spoil_in
 
@@ -89,14 +89,14 @@ def test_after_a_lost_line_the_window_shows_what_is_known_and_reads_again(live, 
     bench.is_cut, bench.spoil_in = False, plain
     tuning.look.click()
     assert page(tuning, "steps").increase.isEnabled()
-    person.answers("Keep Them in the Control")
+    user.answers("Keep Them in the Control")
     tuning.close()
 
 
 def test_a_control_that_takes_everything_at_once_gets_the_values_together(
-    workspace: Workspace, qtbot: QtBot, person: Person, start_house: Callable[[], LiveTuning]
+    workspace: Workspace, qtbot: QtBot, user: User, start_house: Callable[[], LiveTuning]
 ) -> None:
-    tuning = shown(TuningWindow(workspace, lambda: None), qtbot)
+    tuning = displayed(TuningWindow(workspace, lambda: None), qtbot)
     tuning._connect = start_house
     tuning.switch.buttons["control"].click()
     tuning.guarded(lambda: tuning.target.set("Tune", {REVERSAL: Value(0.004, "mm")}))

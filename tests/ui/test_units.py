@@ -97,14 +97,14 @@ def test_an_editor_that_is_left_as_it_was_changes_nothing(window: MainWindow, wo
     assert workspace.file.get(EXCESS) == Value(11.0, "mm")
 
 
-def test_a_converted_value_tells_what_was_entered(table: ParameterTable, workspace: Workspace) -> None:
+def test_a_converted_value_reports_what_was_entered(table: ParameterTable, workspace: Workspace) -> None:
     workspace.edit("inch", {EXCESS: Value(0.3, "in")})
     index = table.index_of(EXCESS)
     assert index.data() == "7.62 mm"
     assert "Entered as 0.3 in" in index.data(Qt.ItemDataRole.ToolTipRole)
 
 
-def test_the_menu_checks_what_holds_after_an_undo(window: MainWindow, workspace: Workspace) -> None:
+def test_the_menu_checks_the_state_after_an_undo(window: MainWindow, workspace: Workspace) -> None:
     lathe, mill = window.menus.menu("view.machine").actions()
     lathe.trigger()
     assert workspace.file.machine == "lathe"

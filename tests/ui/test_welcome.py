@@ -23,7 +23,7 @@ from amp_studio.ui.welcome.list import KEY, ROW, WelcomeList, WelcomeRow, inner,
 from amp_studio.ui.welcome.page import WelcomePage
 from amp_studio.ui.window.settings import UserSettings
 
-from .conftest import WAIT_MS, Person, on_disk
+from .conftest import WAIT_MS, User, on_disk
 
 
 def rows(view: WelcomeList) -> list[WelcomeRow]:
@@ -50,8 +50,8 @@ def two(path: Path, tmp_path: Path, open_window: Callable[..., MainWindow]) -> C
 def read_all(page: WelcomePage, qtbot: QtBot) -> None:
     """Wait until everything is known."""
     qtbot.waitUntil(lambda: page.families.count() > 0 and page._reading is None, timeout=WAIT_MS)
-    shown = [page.list.item(n).data(KEY) for n in range(page.list.count())]
-    qtbot.waitUntil(lambda: all(page._summaries.of(path) is not None for path in shown), timeout=WAIT_MS)
+    displayed = [page.list.item(n).data(KEY) for n in range(page.list.count())]
+    qtbot.waitUntil(lambda: all(page._summaries.of(path) is not None for path in displayed), timeout=WAIT_MS)
 
 
 def test_every_family_is_there_with_what_it_is_for(open_window, qtbot: QtBot) -> None:
@@ -75,15 +75,13 @@ def test_a_family_opens_the_dialog_for_a_new_file_of_it(open_window, qtbot: QtBo
     assert asked == [page.families.item(2).data(KEY)]
 
 
-def test_an_example_is_copied_and_never_edited(
-    open_window, qtbot: QtBot, tmp_path: Path, person: Person
-) -> None:
+def test_an_example_is_copied_and_never_edited(open_window, qtbot: QtBot, tmp_path: Path, user: User) -> None:
     window = open_window()
     read_all(window.welcome, qtbot)
     item = window.welcome.examples.item(0)
     original = item.data(KEY).path
     before = original.read_bytes()
-    person.chooses(tmp_path / "mine.amp")
+    user.chooses(tmp_path / "mine.amp")
     window.welcome.examples.itemActivated.emit(item)
     assert window.workspace.path == tmp_path / "mine.amp"
     assert (tmp_path / "mine.amp").read_bytes() == before, "comments too"
@@ -204,7 +202,7 @@ def test_what_was_open_the_last_time_is_offered(open_window, path: Path) -> None
         window.deleteLater()
 
 
-def test_with_nothing_there_yet_it_says_where_to_begin(open_window) -> None:
+def test_with_nothing_there_yet_it_shows_where_to_begin(open_window) -> None:
     page = open_window().welcome
     assert "No file has been opened yet" in page.none.text()
     assert page.none.isVisible()
@@ -212,7 +210,7 @@ def test_with_nothing_there_yet_it_says_where_to_begin(open_window) -> None:
 
 
 @pytest.mark.parametrize(
-    ("moment", "said"),
+    ("moment", "message"),
     [
         (datetime(2026, 3, 9, 14, 35, tzinfo=UTC), "today 14:35"),
         (datetime(2026, 3, 8, 0, 5, tzinfo=UTC), "yesterday 00:05"),
@@ -220,8 +218,8 @@ def test_with_nothing_there_yet_it_says_where_to_begin(open_window) -> None:
         (datetime(2024, 12, 31, 9, 12, tzinfo=UTC), "31 Dec 2024"),
     ],
 )
-def test_times_are_said_as_a_person_says_them(qapp, moment: datetime, said: str) -> None:
-    assert in_words(moment, datetime(2026, 3, 9, 15, 0, tzinfo=UTC)) == said
+def test_times_are_shown_as_a_user_shows_them(qapp, moment: datetime, message: str) -> None:
+    assert in_words(moment, datetime(2026, 3, 9, 15, 0, tzinfo=UTC)) == message
 
 
 def test_tab_goes_through_the_page_in_reading_order(two, qtbot: QtBot) -> None:

@@ -29,7 +29,7 @@ from amp_studio.ui.merge.axis_comparison import AxisComparison
 from amp_studio.ui.merge.report import save_merge_report
 from amp_studio.ui.project.files import to_trash
 
-from .conftest import WAIT_MS, Person, action, editor
+from .conftest import WAIT_MS, User, action, editor
 
 SIDE_WINDOWS = (
     "Compare and Merge With",
@@ -63,7 +63,7 @@ def opened_beside(window: MainWindow) -> list[QWidget]:
 
 @pytest.mark.parametrize("name", SIDE_WINDOWS)
 def test_escape_closes_every_side_window(
-    window: MainWindow, path: Path, name: str, person: Person, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+    window: MainWindow, path: Path, name: str, user: User, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:
     Project.create(path.parent, ProjectInfo("Workshop", "9pc"))
     project.notice(window, path.parent)
@@ -145,8 +145,8 @@ def test_an_editor_closes_without_a_word_on_the_terminal(
         for key in keys:
             QTest.keyClick(editor(window), key)
         QApplication.processEvents()
-    said = [record.message for record in qtlog.records if "plugin does not support" not in record.message]
-    assert [text for text in said if "ditor" in text or "QAbstractItemView" in text] == []
+    message = [record.message for record in qtlog.records if "plugin does not support" not in record.message]
+    assert [text for text in message if "ditor" in text or "QAbstractItemView" in text] == []
 
 
 def test_an_edit_in_progress_survives_a_change_of_the_group(window: MainWindow, qtlog) -> None:
@@ -170,7 +170,7 @@ def test_units_and_control_types_are_not_offered_without_a_file(window: MainWind
 
 
 def test_a_clipboard_that_never_had_a_content_is_refused_in_words(
-    window: MainWindow, person: Person, monkeypatch: pytest.MonkeyPatch
+    window: MainWindow, user: User, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     class Empty:
         @staticmethod
@@ -180,7 +180,7 @@ def test_a_clipboard_that_never_had_a_content_is_refused_in_words(
     monkeypatch.setattr(QGuiApplication, "clipboard", Empty)
     window.go_to(("servo.excess_error", "1"))
     action(window, "Paste").trigger()
-    assert person.reads() == "There is no text to paste."
+    assert user.reads() == "There is no text to paste."
 
 
 def test_the_preview_outlives_the_page_that_it_shows(window: MainWindow, path: Path, qtbot: QtBot) -> None:
@@ -198,7 +198,7 @@ def test_the_preview_outlives_the_page_that_it_shows(window: MainWindow, path: P
     assert panel._page is window.page
 
 
-def test_the_find_box_forgets_commands_of_a_menu_that_was_made_anew(
+def test_the_find_box_forgets_commands_of_a_menu_that_was_made_again(
     window: MainWindow, tmp_path: Path
 ) -> None:
     window.finder.rows("> control type")
@@ -241,7 +241,7 @@ def test_the_comparison_of_axes_follows_axes_that_come_and_go(window: MainWindow
 
 
 def test_a_report_of_a_comparison_outlives_its_window(
-    window: MainWindow, person: Person, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    window: MainWindow, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     bar = MessageBar()
 
@@ -250,7 +250,7 @@ def test_a_report_of_a_comparison_outlives_its_window(
         QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
 
     monkeypatch.setattr("amp_studio.ui.merge.report.in_background", work_and_close)
-    person.chooses(tmp_path / "c.pdf")
+    user.chooses(tmp_path / "c.pdf")
     file = window.workspace.file
     save_merge_report(window, Merge(file, file, None), {}, tmp_path / "a.amp", bar)
     assert not is_alive(bar)
@@ -280,13 +280,13 @@ def test_what_follows_work_is_left_out_when_its_window_is_gone(qtbot: QtBot, is_
     Task.end_all()
 
 
-def test_a_gone_window_is_no_internal_error(window: MainWindow, person: Person) -> None:
+def test_a_gone_window_is_no_internal_error(window: MainWindow, user: User) -> None:
     _hook(window)(AskerGoneError, AskerGoneError(), None)
     QApplication.processEvents()
-    assert person.told == []
+    assert user.shown_boxes == []
 
 
-def test_a_trash_that_refuses_is_told_and_the_file_stays(
+def test_a_trash_that_refuses_is_reported_and_the_file_stays(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Qt gives False alone, and a pair where it moves the file."""

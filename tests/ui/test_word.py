@@ -128,7 +128,7 @@ def test_the_second_axis_has_its_own_registers(module: MainWindow) -> None:
     assert ": R2067 = " in storage_text(module.workspace.file, ("command.velocity", "Y"))
 
 
-def test_a_value_that_the_control_holds_as_it_is_shown_says_nothing_more(num: MainWindow) -> None:
+def test_a_value_that_the_control_contains_as_it_is_shown_shows_nothing_more(num: MainWindow) -> None:
     assert storage_text(num.workspace.file, DISPLAYED) == ""
     assert storage_text(num.workspace.file, ("measure.multi", "7")) == ""
 

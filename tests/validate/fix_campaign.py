@@ -24,7 +24,7 @@ of the manual makes of a value."""
 
 
 @cache
-def stands() -> list[tuple[str, ParameterFile]]:
+def place() -> list[tuple[str, ParameterFile]]:
     """Return every sound machine, with its name."""
     return [
         (f"{family} {name}", sound(family, name))
@@ -40,12 +40,12 @@ def campaign(seed: int, count: int) -> tuple[int, list[str]]:
     tried, broken = 0, []
     for n in range(seed, seed + count):
         random = Random(n)
-        name, base = random.choice(stands())
+        name, base = random.choice(place())
         file = base.copy()
         spoil(file, random)
-        number, said = broken_promises(file)
+        number, message = broken_promises(file)
         tried += number
-        broken += [f"seed {n}, {name}: {sentence}" for sentence in (*said, *not_ended(file))]
+        broken += [f"seed {n}, {name}: {sentence}" for sentence in (*message, *not_ended(file))]
     return tried, broken
 
 
@@ -92,15 +92,15 @@ def broken_promises(file: ParameterFile, own: BuilderRules = NO_RULES) -> tuple[
     """Apply each offered fix alone, to a copy that is checked again; returns how many,
     and what they do not keep.
     """
-    before, said = Validator(file, own).run(), list[str]()
+    before, message = Validator(file, own).run(), list[str]()
     offered = [finding for finding in before if finding.fix]
     for finding in offered:
         twin = file.copy()
         twin.set_checked(
             {setting.address: setting.value for setting in finding.fix}
         )  # raises if one is not allowed
-        said += unkept(finding, before, Validator(twin, own).run())
-    return len(offered), said
+        message += unkept(finding, before, Validator(twin, own).run())
+    return len(offered), message
 
 
 def unkept(finding: Finding, before: Iterable[Finding], after: Iterable[Finding]) -> Iterator[str]:

@@ -24,16 +24,16 @@ def test_a_rule_may_hold_for_one_model_of_the_control_only() -> None:
     file = new_file("num")
     validator = Validator(file, BuilderRules((RULE,)))
 
-    def said() -> list[str]:
+    def message() -> list[str]:
         return [finding.message for finding in validator.findings() if finding.rule == RULE.id]
 
     blocks = file.find("P114N0")
     file.set(blocks, file.read(blocks, "2"))
     validator.run()
-    assert said() == []
+    assert message() == []
     file.header.application = "1060 UCSII"
     validator.update([blocks])
-    assert said() == ["2 blocks on a 1060 UCSII."]
+    assert message() == ["2 blocks on a 1060 UCSII."]
     file.header.application = "1040"
     validator.run()
-    assert said() == []
+    assert message() == []

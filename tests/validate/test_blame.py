@@ -172,7 +172,7 @@ def own(mill, **parts: object) -> Finding:
     return next(f for f in Validator(mill, BuilderRules((rule,))).run() if f.rule == "own.pair")
 
 
-def test_a_rule_that_says_nothing_blames_the_first_it_reads_and_ends_with_what_decides_whether_it_counts(
+def test_a_rule_that_shows_nothing_blames_the_first_it_reads_and_ends_with_what_decides_whether_it_counts(
     mill,
 ) -> None:
     finding = own(mill)

@@ -69,7 +69,7 @@ def test_a_machine_builder_adds_rules(mill, path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "said"),
+    ("old", "new", "message"),
     [
         (
             "severity: warning",
@@ -194,17 +194,19 @@ def test_a_machine_builder_adds_rules(mill, path: Path) -> None:
     ],
 )
 def test_what_cannot_be_used_is_a_finding_with_file_and_the_line_of_the_field(
-    mill, path: Path, old: str, new: str, said: str
+    mill, path: Path, old: str, new: str, message: str
 ) -> None:
     assert old in OWN_RULE
-    told = faults(path, OWN_RULE.replace(old, new), mill)
-    assert [one.startswith(f"rules.yaml, {said}") for one in told] == ([True] if said else [])
+    reported = faults(path, OWN_RULE.replace(old, new), mill)
+    assert [one.startswith(f"rules.yaml, {message}") for one in reported] == ([True] if message else [])
 
 
-def test_all_slips_of_an_entry_are_told_at_once(mill, path: Path) -> None:
+def test_all_slips_of_an_entry_are_reported_at_once(mill, path: Path) -> None:
     wrong = OWN_RULE.replace("warning", "fatal").replace("<= 10000.0", "<= rapit && rapid == 'fast'")
     wrong = wrong.replace("{rapid} is", "{rapit} is").replace('"10000.0"', "7")
-    assert [told.split(": ")[0] + ": " + told.split(": ")[2] for told in faults(path, wrong, mill)] == [
+    assert [
+        reported.split(": ")[0] + ": " + reported.split(": ")[2] for reported in faults(path, wrong, mill)
+    ] == [
         "rules.yaml, line 5: severity",
         "rules.yaml, line 7: check",
         "rules.yaml, line 7: check",
@@ -225,7 +227,7 @@ rules:
 
 
 @pytest.mark.parametrize(
-    ("check", "said"),
+    ("check", "message"),
     [
         ("baud == '4 MHz'", "'baud' is never '4 MHz': write the key 'mhz4'"),
         ("'4 mhz' != baud", "'baud' is never '4 mhz': write the key 'mhz4'"),
@@ -262,11 +264,13 @@ rules:
         ("type + 'x' == 'anything'", ""),
     ],
 )
-def test_a_choice_is_compared_with_its_keys_only(mill, path: Path, check: str, said: str) -> None:
+def test_a_choice_is_compared_with_its_keys_only(mill, path: Path, check: str, message: str) -> None:
     """A comparison with anything else is silently false, so the rule would never be broken."""
-    told = faults(path, CHOICE.replace("CHECK", f'"{check}"'), mill)
-    assert told == (
-        [f"rules.yaml, line 7: works.choice: check: {said}" + "." * (said[-1] != "?")] if said else []
+    reported = faults(path, CHOICE.replace("CHECK", f'"{check}"'), mill)
+    assert reported == (
+        [f"rules.yaml, line 7: works.choice: check: {message}" + "." * (message[-1] != "?")]
+        if message
+        else []
     )
 
 
@@ -305,11 +309,11 @@ def test_a_rule_without_a_family_applies_where_its_parameters_exist(mill, path: 
         assert ([rule.id for rule in own.rules], own.faults) == (used, ())
 
 
-def test_a_rule_of_a_family_that_reads_another_s_parameter_says_whose_it_is(mill, path: Path) -> None:
+def test_a_rule_of_a_family_that_reads_another_s_parameter_shows_whose_it_is(mill, path: Path) -> None:
     parameter = next(p for p in load_schema("num").parameters if p not in mill.schema.parameters)
     text = OWN_RULE.replace("severity:", "family: 9pc\n    severity:").replace("feedrate.rapid", parameter)
-    (told,) = faults(path, text, mill)
-    assert told.endswith(f"reads rapid: '{parameter}' is a parameter of num, not of 9pc.")
+    (reported,) = faults(path, text, mill)
+    assert reported.endswith(f"reads rapid: '{parameter}' is a parameter of num, not of 9pc.")
 
 
 def test_a_suppression_of_one_family_is_not_unused_in_a_file_of_another(mill, path: Path) -> None:
@@ -333,9 +337,9 @@ def test_a_suppression_of_a_rule_that_cannot_be_used_is_no_second_finding(mill, 
     assert len(faults(path, text, mill)) == 1
 
 
-def test_two_rules_of_one_id_are_told_with_the_line_of_the_first(mill, path: Path) -> None:
-    (told,) = faults(path, OWN_RULE + OWN_RULE.removeprefix("\nrules:\n"), mill)
-    assert told == "rules.yaml, line 11: builder.rapid: id: the rule in line 3 has this id already."
+def test_two_rules_of_one_id_are_reported_with_the_line_of_the_first(mill, path: Path) -> None:
+    (reported,) = faults(path, OWN_RULE + OWN_RULE.removeprefix("\nrules:\n"), mill)
+    assert reported == "rules.yaml, line 11: builder.rapid: id: the rule in line 3 has this id already."
 
 
 @pytest.mark.parametrize("page", ["works standard 4711, sheet 2", ""])
@@ -363,7 +367,7 @@ def test_a_finding_is_suppressed_for_all_or_for_named_parameters(
     assert validator.suppressed[0].suppression.by == "J. Doe"
 
 
-def test_a_suppression_that_meets_nothing_is_told(mill, path: Path) -> None:
+def test_a_suppression_that_meets_nothing_is_reported(mill, path: Path) -> None:
     path.write_text(OWN_RULE.replace("10000.0\n", "90000.0\n"), encoding="utf-8")
     suppress(path, "builder.rapid", [], reason="the screws were changed", by="J. Doe")
     (finding,) = Validator(mill, read_builder_rules(path, mill.schema)).run()
@@ -379,7 +383,7 @@ def test_a_suppression_is_added_and_the_rest_of_the_file_stays(path: Path) -> No
     assert "reason: the screws were changed\n" in text
 
 
-HELD = "{rule: a.b, reason: why, by: me}"
+STORED = "{rule: a.b, reason: why, by: me}"
 
 
 @pytest.mark.parametrize(
@@ -389,9 +393,9 @@ HELD = "{rule: a.b, reason: why, by: me}"
         "# nothing yet",
         "suppressions:\n",
         "suppressions: []  # none\n",
-        f"suppressions: [{HELD}]\n",
-        f"suppressions:  # looked at\n- {HELD} # by us\n# the end\n",
-        f"suppressions:\n    - {HELD}\nrules: []  # later\n",
+        f"suppressions: [{STORED}]\n",
+        f"suppressions:  # looked at\n- {STORED} # by us\n# the end\n",
+        f"suppressions:\n    - {STORED}\nrules: []  # later\n",
         (
             "suppressions:\r\n  -\r\n    rule: a.b\r\n    reason: |\r\n      why - not\r\n    by:"
             " me\r\nrules:\r\n"

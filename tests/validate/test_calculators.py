@@ -34,7 +34,7 @@ def test_a_formula_is_worked_out(name: str, texts: dict[str, str], expected: str
 
 
 @pytest.mark.parametrize(
-    ("name", "texts", "said"),
+    ("name", "texts", "message"),
     [
         ("nonsense", {}, "Unknown formula 'nonsense'"),
         ("gain_break_point", {"gain": "1"}, "needs max_contouring"),
@@ -61,18 +61,20 @@ def test_a_formula_is_worked_out(name: str, texts: dict[str, str], expected: str
         ),
     ],
 )
-def test_what_cannot_be_meant_is_told_in_one_sentence(name: str, texts: dict[str, str], said: str) -> None:
-    with pytest.raises(ValueError, match=said):
+def test_what_cannot_be_understood_is_reported_in_one_sentence(
+    name: str, texts: dict[str, str], message: str
+) -> None:
+    with pytest.raises(ValueError, match=message):
         calculate("9pc", name, texts)
 
 
-def test_every_formula_tells_itself_and_its_arguments() -> None:
+def test_every_formula_reports_itself_and_its_arguments() -> None:
     known = calculators("9pc")
     assert known.keys() == formulas("9pc").keys()
     assert [name for name, calculator in known.items() if not calculator.description.strip()] == []
 
 
-def test_the_verb_lists_tells_and_works_out(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_verb_lists_reports_and_works_out(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["calculate", "9pc"]) == 0
     assert len(capsys.readouterr().out.splitlines()) == len(formulas("9pc"))
     assert run(["calculate", "9pc", "gain_break_point"]) == 0

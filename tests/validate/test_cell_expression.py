@@ -107,7 +107,7 @@ def test_a_choice_can_be_that_of_another_axis(file: ParameterFile) -> None:
         ("=" + "-" * 250 + "1", "more than 100 operations"),
     ],
 )
-def test_what_cannot_be_meant_is_refused_in_a_sentence(file: ParameterFile, text: str, why: str) -> None:
+def test_what_cannot_be_understood_is_refused_in_a_sentence(file: ParameterFile, text: str, why: str) -> None:
     with pytest.raises(InvalidValueError, match=why):
         typed(file, text)
 
@@ -160,7 +160,7 @@ def test_a_secret_is_in_no_expression(file: ParameterFile) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("=1e-99123456789012345678999999", "too small"),
         ("=1e-300*1e-300", "too small"),
@@ -169,9 +169,9 @@ def test_a_secret_is_in_no_expression(file: ParameterFile) -> None:
     ],
 )
 @pytest.mark.parametrize("parameter_id", ["servo.excess_error", "servo.feed_forward"])
-def test_a_result_that_no_number_holds_is_refused(
-    file: ParameterFile, text: str, said: str, parameter_id: str
+def test_a_result_that_no_number_has_is_refused(
+    file: ParameterFile, text: str, message: str, parameter_id: str
 ) -> None:
     ids = {p.id: a for a in file.addresses() for p in [file.schema.parameters[a[0]]]}
-    with pytest.raises(InvalidValueError, match=said):
+    with pytest.raises(InvalidValueError, match=message):
         typed(file, text, ids[parameter_id])

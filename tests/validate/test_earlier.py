@@ -125,12 +125,12 @@ def test_the_kept_result_of_many_files_is_made_again_when_a_backup_changes(
     shutil.copy(machine, other)
     assert run(["set", str(machine), "$132=950"]) == 0
 
-    def shown() -> str:
+    def displayed() -> str:
         capsys.readouterr()
         run(["validate", str(machine), str(other)])
         return capsys.readouterr().out
 
-    assert "in the backup" in shown()
-    assert "in the backup" in shown()
+    assert "in the backup" in displayed()
+    assert "in the backup" in displayed()
     shutil.copy(machine, machine.with_name("router.amp.bak"))
-    assert "in the backup" not in shown()
+    assert "in the backup" not in displayed()

@@ -26,9 +26,9 @@ def why(file: ParameterFile, rule: str, own: BuilderRules = BuilderRules()) -> E
 def test_the_values_stand_in_the_place_of_the_names(mill) -> None:
     mill.set(("home.g28_speed", "1"), Value(10000.0, "mm/min"))
     mill.set(RAPID, Value(9000.0, "mm/min"))
-    told = why(mill, "9pc.home.g28-speed-above-rapid")
-    assert (told.demand, told.with_values) == ("speed <= rapid", "10000 mm/min <= 9000 mm/min")
-    assert [(s.name, s.address, s.value) for s in told.seen] == [
+    reported = why(mill, "9pc.home.g28-speed-above-rapid")
+    assert (reported.demand, reported.with_values) == ("speed <= rapid", "10000 mm/min <= 9000 mm/min")
+    assert [(s.name, s.address, s.value) for s in reported.seen] == [
         ("speed", ("home.g28_speed", "1"), "10000 mm/min"),
         ("rapid", RAPID, "9000 mm/min"),
     ]
@@ -50,8 +50,8 @@ def rule(**words: object) -> Rule:
 
 def test_what_a_side_comes_to_is_worked_out(mill) -> None:
     mill.set(RAPID, Value(9000.0, "mm/min"))
-    told = why(mill, "own.rule", BuilderRules((rule(check="rapid * 2.0 < max(3.0, 4.0) * 10.0"),)))
-    assert told.sides == (("rapid * 2.0", "18000"), ("max(3.0, 4.0) * 10.0", "40"))
+    reported = why(mill, "own.rule", BuilderRules((rule(check="rapid * 2.0 < max(3.0, 4.0) * 10.0"),)))
+    assert reported.sides == (("rapid * 2.0", "18000"), ("max(3.0, 4.0) * 10.0", "40"))
 
 
 @pytest.mark.parametrize(
@@ -62,7 +62,7 @@ def test_only_a_plain_comparison_has_two_sides(mill, check: str) -> None:
 
 
 def test_lists_choices_and_words_of_the_machine_are_put_in(mill) -> None:
-    told = why(
+    reported = why(
         mill,
         "own.rule",
         BuilderRules(
@@ -77,15 +77,15 @@ def test_lists_choices_and_words_of_the_machine_are_put_in(mill) -> None:
             )
         ),
     )
-    assert told.with_values.startswith("mill == 'lathe' && 'linear' == 'type' && ['linear', ")
-    assert told.with_values.endswith("].exists(t, t == 'none') || false")
+    assert reported.with_values.startswith("mill == 'lathe' && 'linear' == 'type' && ['linear', ")
+    assert reported.with_values.endswith("].exists(t, t == 'none') || false")
 
 
 def test_a_range_is_explained_by_what_bounds_it(mill) -> None:
     mill.set(("feedrate.max_cutting", "1"), Value(20000.0, "mm/min"))
-    told = why(mill, "schema.range")
-    assert told.title == "A value outside its range"
-    assert [s.address for s in told.seen] == [("feedrate.max_cutting", "1"), RAPID]
+    reported = why(mill, "schema.range")
+    assert reported.title == "A value outside its range"
+    assert [s.address for s in reported.seen] == [("feedrate.max_cutting", "1"), RAPID]
 
 
 def test_values_that_are_not_set_are_listed(mill) -> None:

@@ -33,7 +33,7 @@ def checked(text: str) -> ExpressionCheck:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("n + 1", "'n + 1' mixes a whole number with a decimal one: write 1.0"),
         (
@@ -64,9 +64,9 @@ def checked(text: str) -> ExpressionCheck:
         ("m > 1.0 || many.all(m, true)", "'m' is not read: add it under reads, or did you mean 'n'?"),
     ],
 )
-def test_what_can_never_be_meant_is_told(text: str, said: str) -> None:
+def test_what_can_never_be_understood_is_reported(text: str, message: str) -> None:
     (slip,) = checked(text).slips
-    assert slip.removesuffix("?").split(", or")[0] == said.removesuffix("?").split(", or")[0]
+    assert slip.removesuffix("?").split(", or")[0] == message.removesuffix("?").split(", or")[0]
 
 
 @pytest.mark.parametrize(
@@ -83,7 +83,7 @@ def test_what_can_never_be_meant_is_told(text: str, said: str) -> None:
         "t.matches('(?i)^[a-z]{3}$')",
     ],
 )
-def test_what_can_be_meant_is_left_alone(text: str) -> None:
+def test_what_can_be_understood_is_left_alone(text: str) -> None:
     assert checked(text).slips == []
 
 
@@ -163,8 +163,8 @@ def test_a_mistyped_key_in_any_rule_that_we_deliver_would_be_noticed(family: str
         for text in dict.fromkeys(compared(read_expression(rule.check))):
             if text[1:-1] in choices_of(rule, family) and "filter" not in rule.check:
                 wrong = rule.model_copy(update={"check": rule.check.replace(text, f"{text[:-1]}zz'")})
-                said = [slip for _, slip in review(wrong, load_schema(family), any_family=False).slips]
-                assert any("is never" in slip for slip in said), (rule.id, text)
+                message = [slip for _, slip in review(wrong, load_schema(family), any_family=False).slips]
+                assert any("is never" in slip for slip in message), (rule.id, text)
                 tried += 1
     assert tried >= {"9pc": 80, "num": 1, "syntec": 2, "acromill": 1}[family]
 

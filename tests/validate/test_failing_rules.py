@@ -27,7 +27,7 @@ def checked(
     return Validator(mill, rules_beside(folder / "mill.amp", mill))
 
 
-def told(findings: tuple[Finding, ...]) -> list[str]:
+def reported(findings: tuple[Finding, ...]) -> list[str]:
     return [f.message for f in findings if f.rule == "rules.unusable"]
 
 
@@ -44,14 +44,14 @@ def told(findings: tuple[Finding, ...]) -> list[str]:
 def test_a_check_that_fails_with_the_values_is_an_error_with_its_line(
     mill: ParameterFile, tmp_path: Path, check: str
 ) -> None:
-    (said,) = told(checked(mill, tmp_path, check).run())
+    (message,) = reported(checked(mill, tmp_path, check).run())
     assert (
-        said == "rules.yaml, line 3: builder.own: it cannot be calculated with rapid = 12000 mm/min: "
+        message == "rules.yaml, line 3: builder.own: it cannot be calculated with rapid = 12000 mm/min: "
         "a number is too large, divided by zero or no number."
     )
 
 
-def test_every_instance_for_which_it_fails_is_told_by_itself(mill: ParameterFile, tmp_path: Path) -> None:
+def test_every_instance_for_which_it_fails_is_reported_by_itself(mill: ParameterFile, tmp_path: Path) -> None:
     validator = checked(mill, tmp_path, "int(rapid * 1e300) > 5", "rapid: feedrate.rapid")
     findings = [f for f in validator.run() if f.rule == "rules.unusable"]
     assert [f.addresses for f in findings] == [(("feedrate.rapid", str(n)),) for n in range(1, 8)]
@@ -60,20 +60,20 @@ def test_every_instance_for_which_it_fails_is_told_by_itself(mill: ParameterFile
 
 def test_it_is_gone_as_soon_as_the_values_make_sense(mill: ParameterFile, tmp_path: Path) -> None:
     validator = checked(mill, tmp_path, "int(1000 / int(rapid)) < 1")
-    assert told(validator.run()) == []
+    assert reported(validator.run()) == []
     mill.set(RAPID, Value(0.0, "mm/min"))
-    assert len(told(validator.update([RAPID]))) == 1
+    assert len(reported(validator.update([RAPID]))) == 1
     mill.set(RAPID, Value(5000.0, "mm/min"))
-    assert told(validator.update([RAPID])) == []
+    assert reported(validator.update([RAPID])) == []
 
 
 def test_a_value_that_is_not_set_is_no_failure(mill: ParameterFile, tmp_path: Path) -> None:
     validator = checked(mill, tmp_path, "rapid > 5.0")
     mill.set(RAPID, None)
-    assert told(validator.run()) == []
+    assert reported(validator.run()) == []
 
 
 def test_a_secret_is_not_shown_where_a_rule_fails_with_it(mill: ParameterFile, tmp_path: Path) -> None:
     reads = "word: password.character@1, rapid: feedrate.rapid@1"
-    (said,) = told(checked(mill, tmp_path, "int(word * 1e300) > 5", reads).run())
-    assert "calculated with word = •••• (secret), rapid = •••• (secret): a number" in said
+    (message,) = reported(checked(mill, tmp_path, "int(word * 1e300) > 5", reads).run())
+    assert "calculated with word = •••• (secret), rapid = •••• (secret): a number" in message

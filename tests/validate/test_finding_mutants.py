@@ -151,7 +151,7 @@ def alive(case: Case, rule: Rule, mutants: Sequence[Mutant]) -> tuple[Mutant, ..
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-def test_no_mutant_of_what_a_rule_tells_passes_the_tables(family: str) -> None:
+def test_no_mutant_of_what_a_rule_reports_passes_the_tables(family: str) -> None:
     rules = {rule.id: rule for rule in load_schema(family).rules}
     left = {rule.id: tuple(islice(mutants_of(rule), None, None, EACH)) for rule in rules.values()}
     total = sum(map(len, left.values()))
@@ -171,5 +171,5 @@ def test_no_mutant_of_what_a_rule_tells_passes_the_tables(family: str) -> None:
     assert not EVERY_MUTANT or listed == met, "what is listed is alive"
 
 
-def test_a_mutant_that_tells_the_same_belongs_to_a_rule() -> None:
+def test_a_mutant_that_reports_the_same_belongs_to_a_rule() -> None:
     assert EQUIVALENT.keys() <= {rule.id for family in FAMILIES for rule in load_schema(family).rules}

@@ -19,5 +19,5 @@ def test_a_finding_of_other_figures_is_no_new_one_and_a_more_severe_one_is() -> 
     assert [f.rule for f in new_findings(before, after)] == ["b", "c"]
 
 
-def test_values_that_nobody_gave_are_no_new_finding() -> None:
+def test_values_that_were_not_given_are_no_new_finding() -> None:
     assert new_findings([], [Finding("schema.unset", "advice", (PITCH,), "")]) == []

@@ -147,12 +147,12 @@ def test_an_edit_elsewhere_takes_an_offer_away_and_gives_it_back(mill) -> None:
 
 def test_a_trial_leaves_the_file_and_whoever_listens_alone(mill) -> None:
     mill.set_checked({RAPID: mm(250000.0)}, force="by a test")
-    told: list[object] = []
-    mill.listen(told.append)
+    reported: list[object] = []
+    mill.listen(reported.append)
     values, forced = dict(mill.values), dict(mill.forced)
     findings = Validator(mill).run()
     assert any(finding.fix for finding in findings)
-    assert (told, mill.values, mill.forced) == ([], values, forced)
+    assert (reported, mill.values, mill.forced) == ([], values, forced)
 
 
 # ------------------------------------------------------------------------------- pairs that bound each other

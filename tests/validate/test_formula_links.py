@@ -28,8 +28,8 @@ def test_a_formula_is_named_by_a_parameter_of_the_family(family: str) -> None:
 
 @pytest.mark.parametrize("name", formulas("9pc"))
 def test_the_first_paragraph_of_a_formula_which_is_shown_cites_its_page(name: str) -> None:
-    shown = " ".join((inspect.getdoc(formulas("9pc")[name]) or "").partition("\n\n")[0].split())
-    assert re.search(r"\b([0-9]+|A|B)-[0-9]+\b", shown)
+    displayed = " ".join((inspect.getdoc(formulas("9pc")[name]) or "").partition("\n\n")[0].split())
+    assert re.search(r"\b([0-9]+|A|B)-[0-9]+\b", displayed)
 
 
 def test_the_word_formulas_read_every_printed_format() -> None:

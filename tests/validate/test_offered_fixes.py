@@ -44,16 +44,16 @@ def broken_promises(case: Case) -> Iterator[str]:
         for finding in [finding for finding in before if finding.fix]:
             with here.recorded():
                 here.set({setting.address: setting.value for setting in finding.fix})
-                said = [
+                message = [
                     fault(here.file.evaluation, setting.address, setting.value) for setting in finding.fix
                 ]
-                yield from filter(None, (*said, *unkept(finding, before, here.findings)))
+                yield from filter(None, (*message, *unkept(finding, before, here.findings)))
 
 
 @pytest.mark.parametrize("family", FAMILIES)
 def test_an_offered_fix_keeps_what_it_promises(family: str) -> None:
     broken = [case for case in cases(family) if case.breaks is not None][:: 1 if CAMPAIGN else 8]
-    assert [f"{case}: {said}" for case in broken for said in broken_promises(case)] == []
+    assert [f"{case}: {message}" for case in broken for message in broken_promises(case)] == []
 
 
 @pytest.mark.parametrize("family", FAMILIES)

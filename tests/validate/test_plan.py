@@ -143,7 +143,7 @@ def test_scopes_that_do_not_go_together_are_a_fault(small) -> None:
 
 
 @pytest.mark.parametrize("machine", ["mill", "lathe"])
-def test_a_zone_group_is_held_against_the_groups_of_a_single_process(machine: str) -> None:
+def test_a_zone_group_is_kept_against_the_groups_of_a_single_process(machine: str) -> None:
     schema = load_schema("9pc")
     (rule,) = (rule for rule in schema.rules if rule.id == "9pc.zone.group-not-checked")
     found = seen(schema, rule.reads, machine)
@@ -202,7 +202,7 @@ LENGTH = {"length": "axis.length"}
 
 
 @pytest.mark.parametrize(
-    ("wrong", "said"),
+    ("wrong", "sentence"),
     [
         (rule({"x": "axis.missing"}), "reads 'axis.missing', which the family does not have"),
         (rule({"x": "axis.length@9"}), "reads 'axis.length@9', but Length has no instance '9'"),
@@ -240,10 +240,10 @@ LENGTH = {"length": "axis.length"}
     ],
     ids=lambda given: given if isinstance(given, str) else "",
 )
-def test_a_rule_that_cannot_be_meant_is_refused(small, wrong: Rule, said: str) -> None:
+def test_a_rule_that_cannot_be_understood_is_refused(small, wrong: Rule, sentence: str) -> None:
     with pytest.raises(RuleError) as caught:
         Validator(ParameterFile(small), BuilderRules((wrong,)))
-    assert str(caught.value).startswith(f"rule own.rule: {said}")
+    assert str(caught.value).startswith(f"rule own.rule: {sentence}")
     assert caught.value.rule == "own.rule"
 
 
@@ -276,7 +276,7 @@ def test_what_a_rule_may_say(small) -> None:
 
 
 @pytest.mark.parametrize(
-    ("wrong", "said"),
+    ("wrong", "sentence"),
     [
         (rule(LENGTH, "lenght > 1.0"), "check names 'lenght', which it does not read"),
         (rule(LENGTH, "greatest(length) > 1.0"), "check calls 'greatest', which is no function"),
@@ -285,8 +285,8 @@ def test_what_a_rule_may_say(small) -> None:
     ],
     ids=lambda given: given if isinstance(given, str) else "",
 )
-def test_a_rule_of_the_family_that_cannot_be_meant_is_refused_when_it_is_first_decided(
-    small, wrong: Rule, said: str
+def test_a_rule_of_the_family_that_cannot_be_understood_is_refused_when_it_is_first_decided(
+    small, wrong: Rule, sentence: str
 ) -> None:
     """Its expressions are compiled late, but a slip in them is never taken for a rule that is satisfied."""
     faulty = replace(small, rules=(wrong,))
@@ -294,7 +294,7 @@ def test_a_rule_of_the_family_that_cannot_be_meant_is_refused_when_it_is_first_d
     file.set(("axis.length", "2"), Value(5.0, "mm"))
     with pytest.raises(RuleError) as caught:
         Validator(file).run()
-    assert str(caught.value).startswith(f"rule own.rule: {said}")
+    assert str(caught.value).startswith(f"rule own.rule: {sentence}")
 
 
 @pytest.mark.parametrize("family", family_ids())

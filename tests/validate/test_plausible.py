@@ -221,7 +221,7 @@ def test_what_decides_which_axes_there_are_is_a_reason_to_look_at_all() -> None:
         assert validator.update([address]) == Validator(file).run()
 
 
-def test_what_is_meant_is_suppressed_as_any_finding(tmp_path: Path) -> None:
+def test_what_is_intended_is_suppressed_as_any_finding(tmp_path: Path) -> None:
     rules = tmp_path / "rules.yaml"
     rules.write_text(
         "suppressions:\n"

@@ -25,7 +25,7 @@ def test_a_value_out_of_range_is_an_error_with_its_range_page_and_fix(mill) -> N
     )
 
 
-def test_a_negative_speed_is_not_mended_by_an_axis_that_stands_still(mill) -> None:
+def test_a_negative_speed_is_not_mended_by_an_axis_that_is_still(mill) -> None:
     mill.set(("home.g28_speed", "1"), Value(-5000.0, "mm/min"))
     assert the(mill, "schema.range").fix == ()
 
@@ -91,7 +91,7 @@ def test_a_number_that_just_misses_its_range_goes_to_the_bound_and_one_far_beyon
 
 
 @pytest.mark.parametrize(
-    ("address", "value", "said", "mended"),
+    ("address", "value", "sentence", "mended"),
     [
         (EXCESS, Value(20.0, "deg"), "Excess Error 20° should be in mm here.", Value(20.0, "mm")),
         (
@@ -110,15 +110,15 @@ def test_a_number_that_just_misses_its_range_goes_to_the_bound_and_one_far_beyon
     ],
 )
 def test_a_value_in_a_unit_that_measures_something_else_is_an_error(
-    mill, address: Address, value: Value, said: str, mended: Value
+    mill, address: Address, value: Value, sentence: str, mended: Value
 ) -> None:
     mill.set(address, value)
     finding = the(mill, "schema.range")
-    assert finding.message == said
+    assert finding.message == sentence
     assert finding.fix == (AddressedValue(address, mended),), "the control knows the figure only"
 
 
-def test_an_axis_that_turns_wants_degrees(mill) -> None:
+def test_an_axis_that_turns_needs_degrees(mill) -> None:
     validator = Validator(mill)
     validator.run()
     mill.set(("axis.type", "1"), Value("rotary"))
@@ -153,7 +153,7 @@ def test_a_fix_that_would_be_wrong_too_is_not_offered(mill) -> None:
     assert offered == {positive: [], negative: []}
 
 
-def test_a_value_set_out_of_range_on_purpose_says_so(mill) -> None:
+def test_a_value_set_out_of_range_on_purpose_shows_it(mill) -> None:
     mill.set_checked({EXCESS: Value(500.0, "mm")}, force="by J. Fitter on 2026-07-01")
     assert (
         the(mill, "schema.range").message

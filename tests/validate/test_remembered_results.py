@@ -50,7 +50,7 @@ def test_results_of_one_expression_are_bounded() -> None:
         assert len(remembered) <= MOST_REMEMBERED
 
 
-def test_machine_model_and_instance_are_told_apart() -> None:
+def test_machine_model_and_instance_are_distinguished() -> None:
     decision = Decision(program("machine == 'mill' && application == 'A' && instance == '1'"), {})
     for _ in range(2):
         for machine in ("mill", "lathe"):

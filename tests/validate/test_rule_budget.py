@@ -121,7 +121,7 @@ def test_a_text_of_any_length_in_the_file_costs_a_rule_nothing(mill, path: Path)
 
 
 @pytest.mark.parametrize("key", ["id", "title", "message", "page", "family"])
-def test_a_text_of_a_megabyte_is_told_in_a_line(mill, path: Path, key: str) -> None:
+def test_a_text_of_a_megabyte_is_reported_in_a_line(mill, path: Path, key: str) -> None:
     lines = [line for line in rule(1).splitlines(keepends=True) if f" {key}:" not in line]
     text = "".join(lines).replace("    title", "  - title", key == "id") + f"    {key}: a.{'b' * 1_000_000}\n"
     found = findings(path, text + rule(2), mill)
@@ -140,13 +140,13 @@ def test_names_by_the_thousand_are_refused(mill, path: Path) -> None:
     assert len(found) == 8
 
 
-def test_of_slips_without_end_the_first_are_told(mill, path: Path) -> None:
+def test_of_slips_without_end_the_first_are_reported(mill, path: Path) -> None:
     found = findings(path, "".join(rule(n, "rapid <") for n in range(MOST_FAULTS + 50)), mill)
     assert len(found) == MOST_FAULTS + 1
     assert found[-1].message == "rules.yaml: 50 more entries cannot be used."
 
 
-def test_rules_without_end_are_told(mill, path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_rules_without_end_are_reported(mill, path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(rule_file, "MOST_RULES", 5)
     found = findings(path, "".join(rule(n, "rapid > 0.0") for n in range(9)), mill)
     assert [f.message for f in found] == [

@@ -119,7 +119,7 @@ def test_no_mutant_of_a_rule_passes_the_tables(family: str) -> None:
     assert not EVERY_MUTANT or listed == met, "what is listed is alive"
 
 
-def test_a_mutant_that_says_the_same_belongs_to_a_rule() -> None:
+def test_a_mutant_that_shows_the_same_belongs_to_a_rule() -> None:
     assert EQUIVALENT.keys() <= {rule.id for family in FAMILIES for rule in load_schema(family).rules}
 
 

@@ -13,7 +13,7 @@ def mill() -> TrialMachine:
     return trial_machine("syntec", "generic")
 
 
-def test_nobody_is_asked_for_what_a_file_is_complete_without() -> None:
+def test_what_a_file_is_complete_without_is_not_asked_for() -> None:
     file = sound("acromill", "router")
     file.set(("offset.r_geometric", "1"), None)
     assert Validator(file).run() == ()
@@ -39,7 +39,7 @@ def test_jog_far_above_the_limit_is_the_fatal_alarm() -> None:
             assert alarm in mill().of("syntec.servo.jog-behind")[0].message
 
 
-def test_the_dda_limit_is_told_with_its_time() -> None:
+def test_the_dda_limit_is_reported_with_its_time() -> None:
     """Syntec, section 1.4.2: 1966usec and 62.472 m/min."""
     with mill().recorded():
         mill().set({("feed.rapid", "3"): Value(70000, "mm/min")})

@@ -24,7 +24,7 @@ def mill(machine) -> ParameterFile:
     return file
 
 
-def told(file: ParameterFile, rule: str, own: BuilderRules = BuilderRules()) -> str:  # noqa: B008  # frozen
+def reported(file: ParameterFile, rule: str, own: BuilderRules = BuilderRules()) -> str:  # noqa: B008  # frozen
     """Return all texts of the findings of a rule."""
     validator = Validator(file, own)
     findings = [f for f in validator.run() if f.rule == rule]
@@ -50,12 +50,12 @@ def rule(**words: object) -> BuilderRules:
 
 
 def test_a_password_out_of_range_is_found_and_not_written(mill) -> None:
-    said = told(mill, "schema.range")
-    assert f"{MASKED} is outside 32 to 95" in said
-    assert "7654321" not in said
+    message = reported(mill, "schema.range")
+    assert f"{MASKED} is outside 32 to 95" in message
+    assert "7654321" not in message
 
 
-def test_no_password_that_nobody_chose_is_offered(mill) -> None:
+def test_no_password_that_was_not_chosen_is_offered(mill) -> None:
     (finding,) = (f for f in Validator(mill).run() if f.rule == "schema.range")
     assert finding.fix == ()
 
@@ -72,10 +72,10 @@ def test_no_password_that_nobody_chose_is_offered(mill) -> None:
         {"reads": {"all": "password.character@*"}, "message": "{all}", "check": "all[0] < 1.0"},
     ],
 )
-def test_a_rule_that_reads_a_password_does_not_tell_it(mill, words: dict[str, object]) -> None:
-    said = told(mill, "own.rule", rule(**words))
-    assert "7654321" not in said
-    assert "15308642" not in said
+def test_a_rule_that_reads_a_password_does_not_report_it(mill, words: dict[str, object]) -> None:
+    message = reported(mill, "own.rule", rule(**words))
+    assert "7654321" not in message
+    assert "15308642" not in message
 
 
 def test_a_rule_may_still_set_a_password(mill) -> None:
@@ -89,6 +89,6 @@ def test_the_factory_password_is_found_without_its_letters_or_codes(machine) -> 
     mill = machine("mill")
     for instance in "123456":
         mill.set(("password.character", instance), mill.default(("password.character", instance)))
-    said = told(mill, "9pc.password.factory-setting")
-    assert "factory setting" in said
-    assert not any(code in said for code in ("AB-D4", "66", "65.0", "45"))
+    message = reported(mill, "9pc.password.factory-setting")
+    assert "factory setting" in message
+    assert not any(code in message for code in ("AB-D4", "66", "65.0", "45"))

@@ -112,7 +112,7 @@ def test_a_finding_of_a_rule_has_its_values_page_and_fix(mill) -> None:
     assert finding.fix == (AddressedValue(EXCESS, Value(13.2, "mm")), suppression_stays_off)
 
 
-def test_an_inch_file_is_told_in_inches_and_mended_in_the_unit_of_the_value(mill) -> None:
+def test_an_inch_file_is_reported_in_inches_and_mended_in_the_unit_of_the_value(mill) -> None:
     mill.header.units = "inch"
     mill.set(EXCESS, Value(0.4, "in"))
     finding = the(mill, "9pc.servo.excess-below-following-error")
@@ -122,13 +122,13 @@ def test_an_inch_file_is_told_in_inches_and_mended_in_the_unit_of_the_value(mill
     )
 
 
-def test_a_figure_is_told_in_the_inches_of_the_values_it_comes_from(mill) -> None:
+def test_a_figure_is_reported_in_the_inches_of_the_values_it_comes_from(mill) -> None:
     mill.set(EXCESS, Value(0.4, "in"))
     message = the(mill, "9pc.servo.excess-below-following-error").message
     assert "trails its command by 0.472441 in, more than Excess Error 0.4 in allows" in message
 
 
-def test_an_axis_that_turns_is_told_in_degrees(mill) -> None:
+def test_an_axis_that_turns_is_reported_in_degrees(mill) -> None:
     mill.set(("servo.excess_error", "4"), Value(11.0, "deg"))
     assert "by 12°, more than Excess Error 11° allows" in the(
         mill, "9pc.servo.excess-below-following-error"
@@ -150,7 +150,7 @@ def test_a_fix_that_cannot_change_motion_is_safe(mill) -> None:
     assert the(mill, "9pc.servo.transmit-level-high").safe
 
 
-def test_what_the_control_uses_instead_is_said_in_the_unit_of_the_value(mill) -> None:
+def test_what_the_control_uses_instead_is_shown_in_the_unit_of_the_value(mill) -> None:
     own = Rule(
         id="own.clamp",
         title="Rapid feedrate above what this control takes",
@@ -171,7 +171,7 @@ def test_what_the_control_uses_instead_is_said_in_the_unit_of_the_value(mill) ->
     assert finding_json(mill, finding)["effective"] == [{"param": "1203", "value": "100 in/min"}]
 
 
-def test_a_list_that_a_rule_works_out_is_told_with_commas(mill) -> None:
+def test_a_list_that_a_rule_works_out_is_reported_with_commas(mill) -> None:
     own = Rule(
         id="own.names",
         title="Two at once",

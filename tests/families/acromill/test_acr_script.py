@@ -42,14 +42,14 @@ P12341=P12336
 """
 
 
-def said_of(file: ParameterFile) -> dict[str, Value]:
+def message_of(file: ParameterFile) -> dict[str, Value]:
     return {f"{a[0]}@{a[1]}" if a[1] else a[0]: value for a, value in file.values.items()}
 
 
-def mill(**said: Value) -> ParameterFile:
+def mill(**message: Value) -> ParameterFile:
     """Return a file with values: ``servo_p_gain_X=Value(…)``."""
     file = ParameterFile(MILL, Header(name="TRY"))
-    for key, value in said.items():
+    for key, value in message.items():
         group, _, rest = key.partition("_")
         name, _, instance = rest.rpartition("_")
         file.set((f"{group}.{name}", instance), value)
@@ -97,7 +97,7 @@ def mill(**said: Value) -> ParameterFile:
     ],
 )
 def test_a_line_of_the_guide_is_read_as_it_is_printed(line: str, values: dict[str, Value]) -> None:
-    assert said_of(taken(FORMAT, MILL, line)) == values
+    assert message_of(taken(FORMAT, MILL, line)) == values
 
 
 @pytest.mark.parametrize(
@@ -156,7 +156,7 @@ def test_a_script_has_one_setting_a_line_and_scales_and_limits_before_the_gains(
     ]
 
 
-def test_no_gain_stands_before_its_scale_its_sign_its_limits_and_its_damping() -> None:
+def test_no_gain_is_before_its_scale_its_sign_its_limits_and_its_damping() -> None:
     """A controller obeys line by line: pages 114 and 115 set them in this order."""
     rows = FORMAT.write(new_file("acromill")).split("\n")[2:-1]
     words = list(dict.fromkeys(row.split(" ")[0].rstrip("01234567") for row in rows))
@@ -183,7 +183,7 @@ def test_every_word_of_the_order_is_that_of_a_command() -> None:
     assert words == {*ORDER, "P"}
 
 
-def test_what_is_set_later_stands_before_the_gains_of_a_kept_script() -> None:
+def test_what_is_set_later_is_before_the_gains_of_a_kept_script() -> None:
     back = taken(FORMAT, MILL, "PROG0\nPGAIN X0.01\nRES X", keep=True)
     back.set(("servo.torque_limits", "X"), Value(4.0, "V"))
     back.set(("servo.i_gain", "X"), Value(0.1, "V/count/s"))
@@ -206,7 +206,7 @@ def test_bare_figures_are_in_the_unit_of_the_machine() -> None:
     file.set(("control.default_units", ""), Value("metric"))
     assert FORMAT.write(file).split("\n")[1:] == ["REM units metric", "PPU X1000", "EXC AXIS0 25.4", ""]
     back = taken(FORMAT, MILL, FORMAT.write(file))
-    assert said_of(back) == {
+    assert message_of(back) == {
         "control.default_units": Value("metric"),
         "axes.pulses_per_unit@X": Value(1000.0, "counts/mm"),
         "axes.excess_error_band@X": Value(25.4, "mm"),
@@ -216,7 +216,7 @@ def test_bare_figures_are_in_the_unit_of_the_machine() -> None:
 
 def test_a_script_that_does_not_name_its_unit_is_in_that_of_delivery() -> None:
     back = taken(FORMAT, MILL, "EXC AXIS0 4")
-    assert said_of(back) == {"axes.excess_error_band@X": Value(4.0, "in")}
+    assert message_of(back) == {"axes.excess_error_band@X": Value(4.0, "in")}
     assert FORMAT.write(back) == "EXC AXIS0 4"
     assert (
         told(FORMAT, MILL, "PPU X1\nREM units furlong")
@@ -228,7 +228,7 @@ def test_a_script_that_does_not_name_its_unit_is_in_that_of_delivery() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("PPU X1\nPGIAN X1", "line 2, column 1: 'PGIAN X1' is no command that sets a parameter here"),
         ("PPU X1\n  PGIAN X1", "line 2, column 3: 'PGIAN X1' is no command that sets a parameter here"),
@@ -259,8 +259,8 @@ def test_a_script_that_does_not_name_its_unit_is_in_that_of_delivery() -> None:
         ("P1=1 (x)\np1 = 2", "line 2, column 1: P1 occurs twice, in line 1 already"),
     ],
 )
-def test_a_script_that_cannot_be_meant_is_told_with_its_place(text: str, said: str) -> None:
-    assert told(FORMAT, MILL, text).startswith(said)
+def test_a_script_that_cannot_be_understood_is_reported_with_its_place(text: str, message: str) -> None:
+    assert told(FORMAT, MILL, text).startswith(message)
 
 
 @pytest.mark.parametrize(
@@ -286,10 +286,10 @@ def test_blanks_and_small_letters_make_no_difference(line: str, values: dict[str
     if values is None:
         assert told(FORMAT, MILL, line)
     else:
-        assert said_of(taken(FORMAT, MILL, line)) == values
+        assert message_of(taken(FORMAT, MILL, line)) == values
 
 
-def test_a_setting_that_lacks_one_of_its_values_is_told() -> None:
+def test_a_setting_that_lacks_one_of_its_values_is_reported() -> None:
     file = mill(tuning_notch_frequency_Y=Value(500.0, "Hz"))
     with pytest.raises(
         FormatError, match=r"^NOTCH Y has several values, and tuning\.notch_width@Y is not set$"
@@ -297,7 +297,7 @@ def test_a_setting_that_lacks_one_of_its_values_is_told() -> None:
         FORMAT.write(file)
 
 
-def test_a_value_in_a_unit_of_something_else_is_told() -> None:
+def test_a_value_in_a_unit_of_something_else_is_reported() -> None:
     for value, name in ((Value(1.0, "ms"), "ms"), (Value(1.0), "a bare number")):
         with pytest.raises(
             FormatError, match=rf"^servo\.p_gain@X: P Gain is stored in V/count, not in {name}$"
@@ -349,7 +349,7 @@ def test_what_is_set_twice_is_kept_for_the_run_of_the_script_to_decide() -> None
     """X of program 0 may be another axis than X of program 1."""
     text = "PROG0\nPPU X1 Y2\nPROG1\nPPU X3\nTLM X4\n"
     file = taken(FORMAT, MILL, text, keep=True)
-    assert (said_of(file), FORMAT.write(file)) == ({"servo.torque_limits@X": Value(4.0, "V")}, text)
+    assert (message_of(file), FORMAT.write(file)) == ({"servo.torque_limits@X": Value(4.0, "V")}, text)
 
 
 def test_a_kept_script_names_its_unit_once_it_is_another_one() -> None:
@@ -412,7 +412,7 @@ def test_a_start_up_program_is_read_among_its_other_commands_and_comes_back_byte
         program, back = tmp_path / "startup.8k", tmp_path / "back.acr"
         program.write_bytes(STARTUP.replace("\n", end).encode())
         file = import_file(program)
-        assert said_of(file) == {
+        assert message_of(file) == {
             "axes.pulses_per_unit@X": Value(2000.0, "counts/in"),
             "axes.pulses_per_unit@Y": Value(2000.0, "counts/in"),
             "axes.excess_error_band@X": Value(0.25, "in"),
@@ -468,7 +468,7 @@ def test_a_new_value_comes_after_what_has_to_be_set_before_it() -> None:
 def test_what_one_parameter_cannot_contain_stays_a_line(lines: str) -> None:
     text = f"PPU X1\n{lines}\n"
     file = taken(FORMAT, MILL, text)
-    assert (list(said_of(file)), FORMAT.write(file)) == (["axes.pulses_per_unit@X"], text)
+    assert (list(message_of(file)), FORMAT.write(file)) == (["axes.pulses_per_unit@X"], text)
     read = FORMAT.read(text, MILL, ReadOptions())
     assert read.kept == lines.split("\n")
     assert len(read.notes) == 1
@@ -500,7 +500,7 @@ def test_a_slip_in_a_setting_is_no_line_of_a_program() -> None:
         assert FORMAT.write(taken(FORMAT, MILL, f"{STARTUP}{line}", keep=True)) == f"{STARTUP}{line}"
 
 
-def test_a_letter_that_the_program_gives_another_axis_is_told() -> None:
+def test_a_letter_that_the_program_gives_another_axis_is_reported() -> None:
     """Written here it would go to the axis of that letter: PPU X to AXIS0, EXC AXIS1 to Y."""
     text = 'ATTACH SLAVE0 AXIS1 "X"\nPPU X1\nEXC AXIS1 1'
     assert (
@@ -508,7 +508,7 @@ def test_a_letter_that_the_program_gives_another_axis_is_told() -> None:
         == "line 2, column 5: X is AXIS1 of this program (line 1), and here it is AXIS0"
     )
     kept = taken(FORMAT, MILL, text, keep=True)
-    assert said_of(kept) == {"axes.excess_error_band@Y": Value(1.0, "in")}
+    assert message_of(kept) == {"axes.excess_error_band@Y": Value(1.0, "in")}
     assert FORMAT.write(kept) == text
 
 
@@ -529,7 +529,7 @@ def test_the_verbs_know_a_script_by_its_commands(tmp_path: Path, capsys: pytest.
     assert run(["import", str(script), "-o", str(tmp_path / "a.amp"), "--keep-unknown"]) == 0
     assert "kept as text: acr line 3 (line 3)" in capsys.readouterr().err
     file = open_file(tmp_path / "a.amp").file
-    assert said_of(file) == {"servo.torque_limits@X": Value(4.0, "V")}
+    assert message_of(file) == {"servo.torque_limits@X": Value(4.0, "V")}
     assert run(["export", str(tmp_path / "a.amp"), "-o", str(tmp_path / "b.acr")]) == 0
     assert (tmp_path / "b.acr").read_bytes() == b"REM caf\xc3\xa9\r\nTLM X4\r\nREX X\r\n"
     export_file(new_file("acromill", name="NEW"), tmp_path / "c.acr")

@@ -33,7 +33,7 @@ def test_the_table_of_the_guide_is_written_line_by_line_and_read_again(tmp_path:
 
 
 @pytest.mark.parametrize(
-    ("text", "line", "column", "said"),
+    ("text", "line", "column", "message"),
     [
         ("X0E.00325\nX1E.0175\n", 2, 1, "'X1E.0175' is no word"),
         ("X0E.00325\n  X2E.00175\n", 2, 3, "the next position of X is 1"),
@@ -43,10 +43,10 @@ def test_the_table_of_the_guide_is_written_line_by_line_and_read_again(tmp_path:
         ("\n", None, None, "no word of compensation"),
     ],
 )
-def test_a_line_that_cannot_be_meant_is_told(
-    text: str, line: int | None, column: int | None, said: str
+def test_a_line_that_cannot_be_understood_is_reported(
+    text: str, line: int | None, column: int | None, message: str
 ) -> None:
-    with pytest.raises(FormatError, match=said) as refused:
+    with pytest.raises(FormatError, match=message) as refused:
         FORMAT.read(text, load_schema("acromill"), ReadOptions())
     assert (line, column) == (refused.value.line, refused.value.column)
 

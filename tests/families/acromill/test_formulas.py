@@ -237,8 +237,8 @@ def test_the_compensation_at_work() -> None:
 
 @pytest.mark.parametrize("name", formulas("acromill"))
 def test_the_first_paragraph_of_a_formula_cites_its_page(name: str) -> None:
-    told = " ".join((inspect.getdoc(formulas("acromill")[name]) or "").partition("\n\n")[0].split())
-    assert re.search(r"\(pages? \d{2,3}\b", told)
+    reported = " ".join((inspect.getdoc(formulas("acromill")[name]) or "").partition("\n\n")[0].split())
+    assert re.search(r"\(pages? \d{2,3}\b", reported)
 
 
 @pytest.mark.parametrize(

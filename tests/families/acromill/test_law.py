@@ -100,7 +100,7 @@ def test_an_axis_beyond_its_excess_error_ends_with_the_alarm() -> None:
     assert [alarm.code for alarm in trace.alarms] == ["EXCESS ERROR"]
 
 
-def test_without_an_excess_error_band_the_result_says_so() -> None:
+def test_without_an_excess_error_band_the_result_shows_it() -> None:
     trace = simulate(
         file_of(axes__excess_error_band=Value(0.0, "mm")), "step", settings={"move.distance": 1.0}
     )
@@ -108,7 +108,7 @@ def test_without_an_excess_error_band_the_result_says_so() -> None:
     assert any("axes.excess_error_band is 0" in line for line in trace.assumptions)
 
 
-def test_axes_are_as_many_as_the_number_of_axes_says() -> None:
+def test_axes_are_as_many_as_the_number_of_axes_shows() -> None:
     assert simulated_axes(file_of()) == ("X", "Y", "Z", "A", "B", "C", "U", "V")
     assert simulated_axes(file_of(view__number_of_axes=Value(2, ""))) == ("X", "Y")
 
@@ -128,7 +128,7 @@ def test_axes_are_as_many_as_the_number_of_axes_says() -> None:
         ("servo__d_gain", None, "servo.d_gain is not set for axis X"),
     ],
 )
-def test_what_cannot_be_simulated_is_said_in_a_sentence(
+def test_what_cannot_be_simulated_is_shown_in_a_sentence(
     parameter: str, value: Value | None, message: str
 ) -> None:
     with pytest.raises(SimulationError, match=message):
@@ -180,7 +180,7 @@ def volts(io: dict[int, float], s: list[float] | None = None, **p: float) -> flo
     return signals[OUTPUT] if signals[STOP] == 0.0 else -99.0
 
 
-def test_a_new_file_says_that_nothing_damps_it_and_that_d_gain_does() -> None:
+def test_a_new_file_shows_that_nothing_damps_it_and_that_d_gain_does() -> None:
     # Page 59: D Gain is delivered as 0; page 115 sets it before P Gain.
     file = file_of(servo__d_gain=Value(0.0, "Vs/count"), servo__p_gain=Value(0.00244, "V/count"))
     unstable = simulate(file, "step", "X", system="metric")
@@ -218,13 +218,13 @@ def test_the_integral_waits_until_the_axis_has_not_been_commanded_for_its_delay(
     assert [volts({COMMAND: 10.0}, s, **gains) for _ in range(4)] == pytest.approx([0.0, 0.0, 1.0, 2.0])
 
 
-def test_the_derivative_is_sampled_every_derivative_width_and_held() -> None:
+def test_the_derivative_is_sampled_every_derivative_width_and_kept() -> None:
     s = [0.0] * loop.STATE
     seen = [volts({COMMAND: each}, s, D_GAIN=0.001, D_PERIODS=2.0) for each in (2.0, 3.0, 6.0, 7.0)]
     assert seen == pytest.approx([1.0, 1.0, 2.0, 2.0])  # (2 - 0) and (6 - 2) pulses in 2 ms
 
 
-def test_the_torque_limit_stands_behind_gains_and_filters() -> None:
+def test_the_torque_limit_is_behind_gains_and_filters() -> None:
     assert volts({COMMAND: 50.0}, P_GAIN=1.0, TORQUE_LIMIT=4.0) == 4.0
     assert volts({COMMAND: -50.0}, P_GAIN=1.0, TORQUE_LIMIT=4.0) == -4.0
 

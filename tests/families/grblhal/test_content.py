@@ -45,7 +45,7 @@ def test_a_content_is_written_in_order_and_read_back() -> None:
     )
 
 
-def test_a_grbl_that_says_nothing_of_its_axes_has_as_many_as_its_offsets() -> None:
+def test_a_grbl_that_shows_nothing_of_its_axes_has_as_many_as_its_offsets() -> None:
     grbl = GrblContent(("[VER:1.1h.20190830:]",), {0: "10"}, {"G54": "0.000,0.000,0.000"}, {0: ""})
     assert (grbl.axes, grbl.describes_itself) == (("X", "Y", "Z"), False)
     assert read_content(write_content(grbl)) == grbl

@@ -38,7 +38,7 @@ from tests.families.grblhal.conversation import Player, answers, recorded
 from tests.families.grblhal.faulty_grbl import download_with_faults
 
 
-def test_the_control_is_identified_by_what_it_says(bench: Bench) -> None:
+def test_the_control_is_identified_by_what_it_shows(bench: Bench) -> None:
     who = bench.driver.identify()
     assert (who.family, who.protocol, who.name) == ("grblhal", "grbl", "grblHAL on Emulated")
     assert (who.revision, who.axes, who.in_estop) == ("1.1f.20260817", ("X", "Y", "Z"), None)
@@ -101,7 +101,7 @@ def test_what_the_control_would_not_store_as_it_is_is_never_sent(
     assert sent(bench) == []
 
 
-def test_a_file_that_sets_only_homing_says_what_goes_with_it(bench: Bench) -> None:
+def test_a_file_that_sets_only_homing_shows_what_goes_with_it(bench: Bench) -> None:
     put(bench, {22: "1", 20: "1", 676: "15"})
     file = edited(bench)
     for address in [a for a in file.values if a != file.find("$22")]:
@@ -205,11 +205,11 @@ def test_an_answer_that_comes_slowly_is_no_silence(bench: Bench) -> None:
     assert SILENT not in stages
 
 
-def test_what_somebody_has_changed_meanwhile_is_not_overwritten(bench: Bench) -> None:
+def test_what_a_user_has_changed_meanwhile_is_not_overwritten(bench: Bench) -> None:
     present = current(bench)
     wanted = write_content(replace(present, settings={**present.settings, 130: "5.000"}))
 
-    def person(_: bytes) -> str:
+    def approves(_: bytes) -> str:
         bench.firmware.settings.store(131, "7")
         return "kept"
 
@@ -217,7 +217,7 @@ def test_what_somebody_has_changed_meanwhile_is_not_overwritten(bench: Bench) ->
         ImageChangedError,
         match="somebody has changed the settings since they were read; nothing was replaced",
     ):
-        download(bench.driver, WantedContent(wanted, ""), person)
+        download(bench.driver, WantedContent(wanted, ""), approves)
     assert sent(bench) == []
 
 
@@ -251,7 +251,7 @@ def test_settings_that_need_a_restart_are_named_and_nothing_is_restarted(bench: 
     assert b"RST" not in everything
 
 
-def test_power_lost_while_the_memory_is_written_is_told_as_defaults(bench: Bench) -> None:
+def test_power_lost_while_the_memory_is_written_is_reported_as_defaults(bench: Bench) -> None:
     put(bench, {130: "300.000", 131: "300.000", 132: "300.000", 30: "24000.000"})
     bench.firmware.answer()
     bench.spoil_out = _power_off_at_save(bench)
@@ -273,7 +273,7 @@ def _power_off_at_save(bench: Bench) -> Callable[[bytes], bytes]:
     return cut
 
 
-def test_a_break_after_the_last_answer_is_told_as_new_and_read(bench: Bench) -> None:
+def test_a_break_after_the_last_answer_is_reported_as_new_and_read(bench: Bench) -> None:
     present = current(bench)
     wanted = replace(present, settings={**present.settings, 110: "600.000"})
 
@@ -357,7 +357,7 @@ def test_a_line_that_changes_bytes_now_and_then_is_read_until_two_readings_agree
     assert current(bench) == first
 
 
-def test_what_is_no_grbl_is_told(bench: Bench) -> None:
+def test_what_is_no_grbl_is_reported(bench: Bench) -> None:
     bench.spoil_out = lambda data: data.replace(b"[VER:", b"[XYZ:")
     with pytest.raises(ProtocolMismatchError, match="what answers there is no Grbl control"):
         bench.driver.identify()
@@ -385,7 +385,7 @@ def test_the_emulated_control_does_with_settings_what_the_recorded_firmware_did(
             assert identity_word == [text for text in real if not text.startswith("[HOME:")], command
 
 
-def test_a_fault_of_this_computer_between_two_settings_is_told_with_what_the_control_contains(
+def test_a_fault_of_this_computer_between_two_settings_is_reported_with_what_the_control_contains(
     bench: Bench,
 ) -> None:
     def fails(data: bytes) -> bytes:
@@ -408,7 +408,7 @@ def test_a_fault_of_this_computer_between_two_settings_is_told_with_what_the_con
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_whatever_fails_the_copy_is_whole_and_what_is_told_is_true(seed: int, tmp_path: Path) -> None:
+def test_whatever_fails_the_copy_is_whole_and_what_is_reported_is_true(seed: int, tmp_path: Path) -> None:
     assert download_with_faults(seed, tmp_path) == []
 
 
@@ -449,7 +449,7 @@ def test_a_number_that_the_line_has_changed_is_written_again(bench: Bench) -> No
 
 
 @pytest.mark.parametrize(("others", "at"), [(2, "unknown"), (3, "defaults")])
-def test_three_settings_that_nobody_has_touched_are_more_than_a_damaged_byte(
+def test_three_settings_that_were_not_touched_are_more_than_a_damaged_byte(
     bench: Bench, others: int, at: str
 ) -> None:
     present = current(bench)

@@ -118,14 +118,14 @@ def test_a_greeting_in_an_answer_is_a_restart() -> None:
 
 @pytest.mark.parametrize("answer", [b"", b"$0=5.0\r\n", b"o", b"<Idle>\r\n" * 3])
 def test_silence_ends_every_wait_and_is_shown(answer: bytes) -> None:
-    told: list[tuple[str, int]] = []
+    reported: list[tuple[str, int]] = []
     script = Script([b"error:3\r\n", answer])
-    line = script.line(progress=lambda stage, done, total: told.append((stage, done)))
+    line = script.line(progress=lambda stage, done, total: reported.append((stage, done)))
     began = script.clock.now
     with pytest.raises(ControlSilentError, match="the control has not answered for 8 s"):
         line.ask("$$")
     assert script.clock.now - began < 9
-    assert ("silent", 2) in told
+    assert ("silent", 2) in reported
 
 
 @pytest.mark.parametrize("answer", [b"x" * 20_000, b"[x]\r\n" * 300_000])
@@ -134,7 +134,7 @@ def test_an_answer_without_an_end_is_cut_off(answer: bytes) -> None:
         Script([b"error:3\r\n", answer]).line().ask("$$")
 
 
-def test_nobody_answers_at_all() -> None:
+def test_nothing_answers_at_all() -> None:
     script = Script([])
     with pytest.raises(ControlSilentError):
         script.line()

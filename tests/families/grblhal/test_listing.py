@@ -160,7 +160,7 @@ def test_a_part_of_a_listing_is_read_as_one_of_grblhal() -> None:
     }
 
 
-def test_the_steps_tell_how_many_axes_there_are() -> None:
+def test_the_steps_report_how_many_axes_there_are() -> None:
     text = "".join(f"${100 + n}=80\n" for n in range(5))
     assert read(text)["build.axes", ""] == Value("XYZAB")
     assert read(text + "$376=1\n")["axis.steps", "A"] == Value(80.0, "steps/deg")
@@ -198,7 +198,7 @@ def test_every_text_that_is_no_value_is_named_at_once_and_can_be_kept() -> None:
         ("$0=0x05\n", "is not a number"),
     ],
 )
-def test_what_cannot_be_meant_is_refused_with_its_line(text: str, message: str) -> None:
+def test_what_cannot_be_understood_is_refused_with_its_line(text: str, message: str) -> None:
     with pytest.raises(FormatError, match=message):
         read(text)
 
@@ -295,7 +295,7 @@ def test_the_numbers_of_grbl_08_mean_other_settings_and_are_read_by_those_of_tod
     )
 
 
-def test_remarks_of_what_grbl_has_no_more_show_the_age_of_a_few_lines() -> None:
+def test_remarks_of_what_grbl_no_longer_has_show_the_age_of_a_few_lines() -> None:
     text = (
         "$0=25.464 (x, step/mm)\n$1=24.615 (y, step/mm)\n$4=15000.000 (default feed, mm/min)\n"
         "$8=100.000 (acceleration, mm/sec^2)\n"

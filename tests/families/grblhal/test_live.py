@@ -82,7 +82,7 @@ def test_after_a_lost_line_nothing_is_taken_for_known_until_it_was_read(
     assert live.start_file.values[address].value == 10
 
 
-def test_somebody_else_who_changes_the_control_is_noticed(bench: Bench, live: LiveTuning) -> None:
+def test_a_user_else_who_changes_the_control_is_noticed(bench: Bench, live: LiveTuning) -> None:
     assert live.file is not None
     bench.firmware.receive(b"$130=300\n")
     bench.firmware.answer()

@@ -51,7 +51,7 @@ def test_rates_of_each_axis_come_and_go_with_an_option(bench: Bench) -> None:
     assert bench.driver.fetch() == before
 
 
-def test_offsets_and_harmless_start_up_lines_are_put_back_and_the_rest_is_told(bench: Bench) -> None:
+def test_offsets_and_harmless_start_up_lines_are_put_back_and_the_rest_is_reported(bench: Bench) -> None:
     bench.firmware.offsets |= {"G54": "1.500,-2.250,3.000", "G28": "5.000,0.000,0.000"}
     bench.firmware.startup.update({0: "G21G54", 1: "M3S100"})
     copy = bench.driver.fetch()
@@ -131,7 +131,7 @@ def test_a_start_up_line_that_does_anything_is_not_sent(bench: Bench, line: str)
     assert f"$N0={line} is not put back" in outcome.text
 
 
-def test_a_copy_of_another_build_goes_back_by_the_numbers_or_says_what_is_not_there(tmp_path: Path) -> None:
+def test_a_copy_of_another_build_goes_back_by_the_numbers_or_shows_what_is_not_there(tmp_path: Path) -> None:
     three, four = Bench(tmp_path / "3"), Bench(tmp_path / "4", axes="XYZA")
     three.firmware.settings.store(130, "300")
     three.firmware.offsets["G54"] = "1.000,2.000,3.000"
@@ -161,7 +161,7 @@ def test_a_copy_in_inches_is_not_put_on_other_axes_in_millimeters(tmp_path: Path
         )
 
 
-def test_a_file_of_another_build_is_mapped_by_number_and_says_what_is_not_there(tmp_path: Path) -> None:
+def test_a_file_of_another_build_is_mapped_by_number_and_shows_what_is_not_there(tmp_path: Path) -> None:
     three, four = Bench(tmp_path / "3"), Bench(tmp_path / "4", axes="XYZA")
     file = edited(three, n130=300.0)
     assert download(

@@ -114,8 +114,8 @@ def test_a_file_of_three_axes_and_a_copy_of_five_go_to_five_real_axes(
 
 def _settings(control: RealControl, *numbers: int) -> list[str]:
     """Return what a control shows of these settings, over a separate line."""
-    shown = dict(text.split("=") for text in _ask(control, "$$"))
-    return [shown[f"${number}"] for number in numbers]
+    displayed = dict(text.split("=") for text in _ask(control, "$$"))
+    return [displayed[f"${number}"] for number in numbers]
 
 
 def _ask(control: RealControl, *commands: str) -> list[str]:
@@ -149,7 +149,7 @@ def test_a_file_and_a_copy_of_five_real_axes_go_to_three(
 
 
 @pytest.mark.parametrize("seed", range(3 if CAMPAIGN else 0))
-def test_power_cut_in_a_download_leaves_old_new_some_of_both_or_defaults_and_says_which(
+def test_power_cut_in_a_download_leaves_old_new_some_of_both_or_defaults_and_shows_which(
     seed: int, tmp_path: Path
 ) -> None:
     assert power_cut(seed, tmp_path) == []
@@ -191,16 +191,16 @@ def power_cut(seed: int, folder: Path) -> list[str]:
                 control.kill()
                 threading.Timer(0.3, control.start).start()
 
-        told, new = "", ()
+        reported, new = "", ()
         try:
-            told = download(
+            reported = download(
                 driver,
                 WantedContent(write_content(wanted), ""),
                 lambda old: str(kept.append(old)),
                 Exchange(pull),
             ).at_control
         except TransferError as error:
-            told, new = error.at_control, error.new
+            reported, new = error.at_control, error.new
         driver.close()
         after = read_content(driver.fetch()).settings
         fresh = {n for n in changes if after[n] == wanted.settings[n]}
@@ -216,8 +216,8 @@ def power_cut(seed: int, folder: Path) -> list[str]:
         }
         found = (
             []
-            if truth[told]
-            else [f"seed {seed}: said {told} {new}, and new are {sorted(fresh)} of {sorted(changes)}"]
+            if truth[reported]
+            else [f"seed {seed}: said {reported} {new}, and new are {sorted(fresh)} of {sorted(changes)}"]
         )
         if kept != [write_content(own)]:
             found.append(f"seed {seed}: the copy is not what the control contained")

@@ -39,8 +39,8 @@ def test_what_was_recorded_is_what_it_answers(control: RealControl) -> None:
     assert set(THREE_AXES.splitlines()) - {b"[NVS STORAGE:*EEPROM]"} <= lines
     others = {line.partition(b":")[0] for line in lines - set(THREE_AXES.splitlines())}
     assert others == {b"[SETTINGDESCR", b"[ALARMCODE", b"[ERRORCODE"}
-    shown = read_content(content).settings
-    assert "".join(f"${n}={text}\n" for n, text in sorted(shown.items())) == LISTING
+    displayed = read_content(content).settings
+    assert "".join(f"${n}={text}\n" for n, text in sorted(displayed.items())) == LISTING
     assert schema_of(content).signature == schema_of(THREE_AXES).signature
 
 

@@ -156,8 +156,8 @@ def test_several_configurations_or_none_in_a_folder_are_named(folder: Path) -> N
 
 
 def test_a_program_that_runs_uses_what_its_pins_show(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    shown = {"ini.0.ferror": "1.5", "ini.0.max_limit": "8.100001", "ini.0.backlash": "0"}
-    monkeypatch.setattr(running, "pins", lambda _kind: shown)
+    displayed = {"ini.0.ferror": "1.5", "ini.0.max_limit": "8.100001", "ini.0.backlash": "0"}
+    monkeypatch.setattr(running, "pins", lambda _kind: displayed)
     process = folder / "proc" / "77"
     process.mkdir(parents=True)
     process.joinpath("cmdline").write_bytes(b"/usr/bin/milltask\0-ini\0%s\0" % bytes(folder / "mill.ini"))

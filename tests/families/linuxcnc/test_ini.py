@@ -95,7 +95,7 @@ def test_what_linuxcnc_passes_over_in_silence_is_named(tmp_path: Path, text: str
     assert list(read(tmp_path, text).unknown) == [name]
 
 
-def test_a_key_of_another_version_says_of_which_one(tmp_path: Path) -> None:
+def test_a_key_of_another_version_shows_of_which_one(tmp_path: Path) -> None:
     text = "[SPINDLE_0]\nMAX_VELOCITY = 6000\nMAX_FORWARD_VELOCITY = 6000\nMIN_FORWARD_VELOCITY = 60\n"
     file = read(tmp_path, text)
     assert file.machine == "2.9"

@@ -100,7 +100,7 @@ def test_a_homed_axis_stops_at_its_overtravel(bench: Bench) -> None:
         ("mdi G2 X1", "G0, G1 and G28"),
     ],
 )
-def test_what_is_not_possible_is_said_in_words(bench: Bench, line: str, words: str) -> None:
+def test_what_is_not_possible_is_shown_in_words(bench: Bench, line: str, words: str) -> None:
     with pytest.raises(ValueError, match=words):
         bench.give(line)
 
@@ -109,9 +109,9 @@ def test_the_screen_shows_every_axis_and_e_stop(bench: Bench) -> None:
     """Chapter 2: a download needs E-STOP; the house protocol shows no positions."""
     bench.give("jog X+ second")
     bench.panel.advance(bench.control, 0.5)
-    shown = bench.panel.screen(bench.control)
-    assert [axis.axis for axis in shown.axes] == ["X", "Y", "Z", "B"]
-    assert shown.axes[0].states == ("not homed", "moving")
-    assert shown.axes[0].following_error
+    displayed = bench.panel.screen(bench.control)
+    assert [axis.axis for axis in displayed.axes] == ["X", "Y", "Z", "B"]
+    assert displayed.axes[0].states == ("not homed", "moving")
+    assert displayed.axes[0].following_error
     bench.control.set_estop(True)
     assert bench.panel.screen(bench.control).state == "E-STOP"

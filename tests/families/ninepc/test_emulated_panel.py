@@ -39,20 +39,20 @@ def mill(sound_mill: ParameterFile) -> ParameterFile:
 class Operator:
     """Somebody at the keys: gives a command and reads the lines that come."""
 
-    def __init__(self, emulator: Emulator, control: Control, shown: list[str]) -> None:
-        self.control, self._emulator, self._shown = control, emulator, shown
-        self.at_power_up = list(shown)
+    def __init__(self, emulator: Emulator, control: Control, displayed: list[str]) -> None:
+        self.control, self._emulator, self._displayed = control, emulator, displayed
+        self.at_power_up = list(displayed)
 
     def keys(self, line: str) -> str:
         """Give one command and return what is shown."""
-        self._shown.clear()
+        self._displayed.clear()
         self._emulator.operate(line)
         self._emulator._obey()
         if line == "restart":
             self._emulator._restart_due = False
             self._emulator._report(self._emulator._restarted)
             self._emulator._started()
-        return "\n".join(self._shown)
+        return "\n".join(self._displayed)
 
 
 @pytest.fixture
@@ -61,16 +61,16 @@ def at(tmp_path: Path) -> Iterator[Callable[..., Operator]]:
     controls = []
 
     def switch_on(file: ParameterFile, axes: int = 8) -> Operator:
-        shown: list[str] = []
+        displayed: list[str] = []
         identity = Identity("9pc", file.schema.signature)
         control = Control(tmp_path / "state", identity, encode_image(file), accept=decode_image)
         controls.append(control)
         control._record.changed_at_control = True
         emulator = Emulator(
-            control, mock.Mock(), patch=patch_image, panel=NinePcPanel(axes), say=shown.append
+            control, mock.Mock(), patch=patch_image, panel=NinePcPanel(axes), say=displayed.append
         )
         emulator._started()
-        return Operator(emulator, control, shown)
+        return Operator(emulator, control, displayed)
 
     yield switch_on
     for control in controls:
@@ -120,7 +120,7 @@ def test_too_many_axes_stay_in_estop(mill, at) -> None:
         ),
     ],
 )
-def test_what_the_manual_names_holds_it_in_estop(mill, address, value, reason) -> None:
+def test_what_the_manual_names_contains_it_in_estop(mill, address, value, reason) -> None:
     mill.set(address, Value(value))
     assert list(estop_reasons(mill, 8)) == [reason]
 
@@ -134,7 +134,7 @@ def test_tool_offset_modes_that_do_not_go_together_hold_it_with_the_printed_mess
 
 
 @pytest.mark.parametrize("code", [0, 204, 504, 608])  # page A-6
-def test_a_code_of_the_dac_monitor_that_is_a_function_and_an_axis_holds_nothing(mill, code) -> None:
+def test_a_code_of_the_dac_monitor_that_is_a_function_and_an_axis_stops_nothing(mill, code) -> None:
     mill.set(("patch.dac_monitor", "2"), Value(code))
     assert list(estop_reasons(mill, 8)) == []
 
@@ -147,7 +147,7 @@ def test_a_control_as_it_is_delivered_is_not_configured_and_shows_nothing(mill, 
 
 
 @pytest.mark.parametrize("image", [b"garbage", encode_image(new_file("num"))])
-def test_an_amp_that_cannot_be_read_holds_it_and_ends_nothing(mill, tmp_path: Path, image: bytes) -> None:
+def test_an_amp_that_cannot_be_read_keeps_it_and_ends_nothing(mill, tmp_path: Path, image: bytes) -> None:
     control = Control(tmp_path, Identity("9pc", mill.schema.signature), image)
     control._record.changed_at_control = True
     assert NinePcPanel().started(control).estop_reason == "its AMP cannot be read"

@@ -103,7 +103,7 @@ def test_sercos_cycles_divide_the_system_scan(scan_ms: float, expected: tuple[in
         pytest.param(1, 4, None, id="7-4 more are possible at 1 ms and 4 MHz, no number is given"),
     ],
 )
-def test_the_ring_holds_so_many_servos(cycle_ms: float, baud_mhz: float, expected: int | None) -> None:
+def test_the_ring_contains_so_many_servos(cycle_ms: float, baud_mhz: float, expected: int | None) -> None:
     assert ninepc.sercos_servos(cycle_ms, baud_mhz) == expected
 
 

@@ -31,7 +31,7 @@ def test_a_table_is_written_as_it_was_read(text: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "says"),
+    ("text", "states"),
     [
         ("", "begins with"),
         ("deviation - mm", "begins with"),
@@ -48,10 +48,10 @@ def test_a_table_is_written_as_it_was_read(text: str) -> None:
         ("deviation - in 0:0 84.00001:0", "more than 84 in"),
     ],
 )
-def test_what_the_control_would_not_take_is_named(text: str, says: str) -> None:
-    with pytest.raises(CalibrationTextError, match=says):
+def test_what_the_control_would_not_take_is_named(text: str, states: str) -> None:
+    with pytest.raises(CalibrationTextError, match=states):
         read_calibration(text)
-    assert says in calibration_fault(text, turns=False)
+    assert states in calibration_fault(text, turns=False)
 
 
 def test_two_percent_count_from_the_point_that_was_entered_before() -> None:

@@ -150,7 +150,7 @@ def test_a_reversed_follower_orients_to_the_mirrored_angle() -> None:
     assert ninepc.mirrored_angle(0) == 0
 
 
-def test_the_follower_stands_behind_by_the_offset() -> None:
+def test_the_follower_is_behind_by_the_offset() -> None:
     # Page 14-6: offset 60, controlling spindle at 80: 20, or -20 with the reversed direction.
     assert ninepc.follower_position(80, 60, is_reversed=False) == 20
     assert ninepc.follower_position(80, 60, is_reversed=True) == -20

@@ -118,7 +118,7 @@ def test_a_needed_parameter_that_is_not_set_is_named(axis: Axis, parameter: str)
         ({"servo.velocity_screw_teeth": 0.0}, "servo.velocity_screw_teeth@1 is 0; it must be above 0"),
     ],
 )
-def test_an_axis_that_cannot_be_simulated_says_why(axis: Axis, values: Values, words: str) -> None:
+def test_an_axis_that_cannot_be_simulated_shows_why(axis: Axis, values: Values, words: str) -> None:
     with pytest.raises(SimulationError) as error:
         axis(values)
     assert words in str(error.value)
@@ -201,7 +201,7 @@ def test_an_analog_axis_is_scaled_by_its_voltages_at_rapid(axis: Axis) -> None:
         ({"feedrate.rapid": None}, "feedrate.rapid is not set"),
     ],
 )
-def test_an_analog_axis_without_a_scale_says_why(axis: Axis, values: Values, words: str) -> None:
+def test_an_analog_axis_without_a_scale_shows_why(axis: Axis, values: Values, words: str) -> None:
     with pytest.raises(SimulationError) as error:
         axis({**ANALOG, **values})
     assert words in str(error.value)
@@ -240,7 +240,7 @@ def test_a_standard_motor_takes_its_gains_from_the_tables(axis: Axis) -> None:
     assert any("gains of the file are simulated instead" in note for note in unknown.assumptions)
 
 
-def test_a_feedrate_beyond_the_maximum_motor_speed_is_said(axis: Axis) -> None:
+def test_a_feedrate_beyond_the_maximum_motor_speed_is_shown(axis: Axis) -> None:
     # Page 7-74: 15000 mm/min on 10 mm are 1500 rpm.
     assert any("needs 1500 rpm" in note for note in axis({"servo.max_motor_speed": 1400.0}).assumptions)
     assert not any("rpm" in note for note in axis({"servo.max_motor_speed": 1500.0}).assumptions)

@@ -104,9 +104,11 @@ def test_an_analog_servo_shows_its_following_error(axis: Axis) -> None:
         axis({**analog, **TEN_VOLTS, CODE_86: 101.0}, {UNIT_86: 0.01})
 
 
-def test_the_result_says_that_the_unit_is_not_printed(axis: Axis) -> None:
+def test_the_result_shows_that_the_unit_is_not_printed(axis: Axis) -> None:
     law = axis({**TEN_VOLTS, CODE_86: 201.0}, {UNIT_86: 0.01})
-    assert any("does not print the unit of the signal: 0.01 is that of" in said for said in law.assumptions)
+    assert any(
+        "does not print the unit of the signal: 0.01 is that of" in message for message in law.assumptions
+    )
 
 
 def test_a_monitor_of_another_axis_is_named_and_is_no_column(axis: Axis) -> None:
@@ -122,7 +124,7 @@ def test_a_monitor_of_another_axis_is_named_and_is_no_column(axis: Axis) -> None
 def test_without_its_unit_nothing_is_shown(axis: Axis) -> None:
     law = axis({**TEN_VOLTS, CODE_86: 201.0})
     assert len(law.monitors) == len(samples.MONITORS) == samples.DAC_MONITOR
-    assert not any("DAC" in said for said in law.assumptions)
+    assert not any("DAC" in message for message in law.assumptions)
 
 
 @pytest.mark.parametrize(

@@ -109,7 +109,7 @@ def test_a_coded_scale_is_homed_by_three_markers_and_goes_to_the_home_position()
     assert any("7-31 and B-1" in note for note in trace.assumptions)
 
 
-def test_what_is_not_homed_by_a_sequence_is_said() -> None:
+def test_what_is_not_homed_by_a_sequence_is_shown() -> None:
     opened = mill(servo__position_loop_type=Value("open"))  # 5-1
     with pytest.raises(SimulationError, match="not homed"):
         simulate(opened, "home", "1")

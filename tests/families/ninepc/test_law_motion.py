@@ -85,8 +85,8 @@ def test_both_readings_of_the_least_excess_error_are_given(axis: Axis) -> None:
     assert printed_excess_error(loop, 100.0) == pytest.approx(13.2)
     assert sentence_excess_error(loop, 100.0) == pytest.approx(11.0)
     law = axis({"servo.gain_break_point": 2.0, "servo.gain_break_ratio": 0.5, "servo.excess_error": 9.9})
-    told = law.predict(100.0)
-    assert (told["excess_error_printed"].value, told["excess_error_by_sentence"].value) == (
+    reported = law.predict(100.0)
+    assert (reported["excess_error_printed"].value, reported["excess_error_by_sentence"].value) == (
         pytest.approx(13.2),
         pytest.approx(11.0),
     )
@@ -121,7 +121,7 @@ def test_the_table_of_response_times_is_the_equation_but_for_a_slip() -> None:
 # -- torque ----------------------------------------------------------------------------------------
 
 
-def test_a_torque_offset_holds_the_weight_that_would_pull_the_axis_down(axis: Axis) -> None:
+def test_a_torque_offset_carries_the_weight_that_would_pull_the_axis_down(axis: Axis) -> None:
     # Page 7-63: 1 % of the maximum torque (300 % of rated), at rest too; without it the axis sags.
     weight: Values = {"servo.torque_offset": 1.0, "servo.torque_offset_direction": "plus"}
     sag = [
@@ -226,7 +226,7 @@ def test_the_feedrate_is_halved_while_the_following_error_is_above_the_suppressi
 # -- other drives ----------------------------------------------------------------------------------
 
 
-def test_an_analog_axis_reaches_rapid_at_its_voltage_and_follows_as_its_gain_says(axis: Axis) -> None:
+def test_an_analog_axis_reaches_rapid_at_its_voltage_and_follows_as_its_gain_shows(axis: Axis) -> None:
     # Pages 7-41, 7-25: 8 V keep 15000 mm/min, at gain 1 with 15 mm of following error.
     analog: Values = {
         "servo.loop_type": "analog",
@@ -272,9 +272,9 @@ def test_a_well_set_axis_gets_no_advice(axis: Axis) -> None:
 
 def test_a_loose_excess_error_is_brought_down_with_the_limits_below_it(axis: Axis) -> None:
     # Page 7-20: 110 % of the 15 mm at 15000 mm/min.
-    told = advised(axis({"servo.gain_break_ratio": 0.9, "servo.gain_break_point": 150.0}), distance=60.0)
-    assert told["servo.excess_error"] == told["servo.feedrate_suppression"] == pytest.approx(18.4)
-    assert told["servo.gain_break_point"] == pytest.approx(15.0, rel=0.01)
+    reported = advised(axis({"servo.gain_break_ratio": 0.9, "servo.gain_break_point": 150.0}), distance=60.0)
+    assert reported["servo.excess_error"] == reported["servo.feedrate_suppression"] == pytest.approx(18.4)
+    assert reported["servo.gain_break_point"] == pytest.approx(15.0, rel=0.01)
 
 
 def test_an_excess_error_below_the_following_error_is_raised(axis: Axis) -> None:
@@ -293,12 +293,12 @@ def test_a_ramp_that_the_torque_cannot_follow_and_one_that_the_servo_cannot_are_
         "servo.initial_gain": 1.0,
     }
     weak: Values = {**tight, "servo.max_torque_positive": 15.0, "servo.max_torque_negative": 15.0}
-    told = advised(axis({**weak, "accdec.linear_acceleration": 2000.0}), distance=60.0)
+    reported = advised(axis({**weak, "accdec.linear_acceleration": 2000.0}), distance=60.0)
     # 80 % of 15 % of rated torque, rounded down.
-    assert told["accdec.linear_acceleration"] == pytest.approx(0.8 * 15.0 * 95.083, rel=0.01)
+    assert reported["accdec.linear_acceleration"] == pytest.approx(0.8 * 15.0 * 95.083, rel=0.01)
     # Page 10-2: 250 mm/s in 120 ms.
-    told = advised(axis({**tight, "accdec.linear_acceleration": 5000.0}), distance=60.0)
-    assert told["accdec.linear_acceleration"] == pytest.approx(2080.0)
+    reported = advised(axis({**tight, "accdec.linear_acceleration": 5000.0}), distance=60.0)
+    assert reported["accdec.linear_acceleration"] == pytest.approx(2080.0)
 
 
 def test_how_far_the_load_runs_in_its_backlash_is_no_overshoot_of_the_integrator(axis: Axis) -> None:
@@ -320,7 +320,7 @@ def test_a_loop_that_is_not_stable_gets_advice_about_its_loops_alone(axis: Axis)
     }
 
 
-def test_the_lag_that_is_set_counts_in_what_the_result_says_about_the_gains(axis: Axis) -> None:
+def test_the_lag_that_is_set_counts_in_what_the_result_shows_about_the_gains(axis: Axis) -> None:
     fast: Values = {"servo.velocity_proportional_gain": 8000.0}
     assert any("not stable" in note for note in axis(fast).assumptions)
     quick: Values = {"model.delay": 0.1, "model.current_bandwidth": 0.0}
@@ -347,7 +347,7 @@ def test_a_finer_step_and_machine_code_change_nothing(axis: Axis) -> None:
 
 def test_a_band_below_one_count_and_a_gain_break_below_the_cutting_feedrate_are_raised(axis: Axis) -> None:
     # Page 7-22: 15000 mm/min of cutting at gain 1 need 15 mm.
-    told = advised(
+    reported = advised(
         axis(
             {
                 "servo.excess_error": 30.0,
@@ -361,5 +361,5 @@ def test_a_band_below_one_count_and_a_gain_break_below_the_cutting_feedrate_are_
         distance=60.0,
         feedrate=3000.0,
     )
-    assert told["servo.gain_break_point"] == pytest.approx(15.0)
-    assert told["servo.inposition_band"] == pytest.approx(0.02)
+    assert reported["servo.gain_break_point"] == pytest.approx(15.0)
+    assert reported["servo.inposition_band"] == pytest.approx(0.02)

@@ -117,7 +117,7 @@ def test_chatter_of_a_light_axis_is_larger_than_the_overshoot_of_a_heavy_one(axi
 # -- where it does not fit -------------------------------------------------------------------------
 
 
-def test_an_axis_too_heavy_for_its_position_gain_is_not_overdamped_at_1500_and_the_result_says_so(
+def test_an_axis_too_heavy_for_its_position_gain_is_not_overdamped_at_1500_and_the_result_shows_it(
     axis: Axis,
 ) -> None:
     heavy = axis({**MACHINES["heavy"], "servo.initial_gain": 1.0})
@@ -168,7 +168,7 @@ def test_the_procedure_ends_at_the_edge_and_recommends_nothing(bench: Bench) -> 
     assert "tune finds gains with a reserve" in trace.assumptions[0]
 
 
-def test_it_goes_without_torque_filter_and_discharge_as_table_a_a_wants_it(axis: Axis) -> None:
+def test_it_goes_without_torque_filter_and_discharge_as_table_a_a_needs_it(axis: Axis) -> None:
     law = axis({"servo.torque_filter": 50.0, "servo.integrator_discharge": 8.0})
     assert procedure_run(law, {}).result == procedure_run(axis(), {}).result
 
@@ -186,7 +186,7 @@ def test_it_goes_without_torque_filter_and_discharge_as_table_a_a_wants_it(axis:
         ({"servo.initial_gain": 0.001}, {}, "at most 30 s are simulated"),
     ],
 )
-def test_an_axis_that_cannot_be_tuned_says_why(
+def test_an_axis_that_cannot_be_tuned_shows_why(
     axis: Axis, values: Values, settings: Values, words: str, request: pytest.FixtureRequest
 ) -> None:
     law = (

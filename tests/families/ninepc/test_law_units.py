@@ -102,7 +102,7 @@ def test_no_proportional_gain_is_stable_where_the_integral_time_is_shorter_than_
     assert units.highest_rate() == pytest.approx(0.5 * math.pi / units.LAG)
 
 
-def test_an_axis_says_where_its_inertia_is_from(axis: Axis) -> None:
+def test_an_axis_shows_where_its_inertia_is_from(axis: Axis) -> None:
     known, other = axis(), axis({"servo.motor_type": "b530e", "servo.load_inertia_ratio": "r2"})
     unknown = axis({"servo.motor_type": "nonstandard"})
     assert "data sheet" in known.assumed["acceleration_per_output"]
@@ -118,10 +118,10 @@ def test_an_axis_says_where_its_inertia_is_from(axis: Axis) -> None:
 @pytest.mark.parametrize("motor", ["b410g", "b530e"])
 def test_motor_data_from_a_data_sheet_are_assumed_with_their_source(axis: Axis, motor: str) -> None:
     # No manual prints them: of the 530 the mean of those two is in its place.
-    said = axis({"servo.motor_type": motor}).assumed["acceleration_per_output"]
-    assert "data sheet 1326AB Torque Plus (within 10 %), not from a manual" in said
-    assert "model.motor_torque" in said
-    assert "model.motor_inertia" in said
+    message = axis({"servo.motor_type": motor}).assumed["acceleration_per_output"]
+    assert "data sheet 1326AB Torque Plus (within 10 %), not from a manual" in message
+    assert "model.motor_torque" in message
+    assert "model.motor_inertia" in message
 
 
 def test_torque_and_inertia_of_the_motor_can_be_set(axis: Axis) -> None:

@@ -34,8 +34,8 @@ from amp_studio.validate import formulas
 
 @pytest.mark.parametrize("name", formulas("num"))
 def test_the_first_paragraph_of_a_formula_which_is_shown_cites_its_page(name: str) -> None:
-    shown = " ".join((inspect.getdoc(formulas("num")[name]) or "").partition("\n\n")[0].split())
-    assert re.search(r"\b[0-9]+-[0-9]+\b", shown)
+    displayed = " ".join((inspect.getdoc(formulas("num")[name]) or "").partition("\n\n")[0].split())
+    assert re.search(r"\b[0-9]+-[0-9]+\b", displayed)
 
 
 # -- the internal unit, page 4-18 -------------------------------------------------------------------
@@ -101,7 +101,7 @@ def test_the_words_of_p9_are_those_of_page_4_24(name: str, group: int, word: int
     assert f"{name} of group {group}" == axis_name(word)
 
 
-def test_ff_is_no_axis_and_a_code_without_a_name_is_told() -> None:
+def test_ff_is_no_axis_and_a_code_without_a_name_is_reported() -> None:
     assert (axis_name(255.0), axis_name(0x1F), axis_name(9.0)) == ("no axis", "? of group 2", "? of group 1")
     for word in (-1.0, 256.0, 1.5, float("nan")):
         with pytest.raises(ValueError, match="8 bits"):
@@ -191,7 +191,7 @@ def test_the_step_of_a_short_frame_is_that_before_its_shift(
     assert step == measured_step(multi, divi, sensor)
 
 
-def test_a_step_needs_a_denominator_that_holds_the_shift() -> None:
+def test_a_step_needs_a_denominator_that_contains_the_shift() -> None:
     with pytest.raises(ValueError, match="greater than zero"):
         measured_step(1, 0, 0)
     assert measured_step(1, 48, 0x02000060) == 1 / 3
@@ -224,7 +224,7 @@ def test_the_errors_of_bad_signals_are_210_to_241() -> None:
             signal_fault(address)
 
 
-def test_the_first_axis_whose_encoder_nobody_watches_serves_no_spindle_and_no_handwheel() -> None:
+def test_the_first_axis_whose_encoder_is_not_watched_serves_no_spindle_and_no_handwheel() -> None:
     assert unwatched_axis(0x7F, 0x7F, 0, 0) == -1.0
     assert (unwatched_axis(0x7F, 0x73, 0, 0), unwatched_axis(1, 0, 15, 15)) == (2.0, 0.0)
     assert unwatched_axis(0xFF000000, 0, 15, 15) == -1.0

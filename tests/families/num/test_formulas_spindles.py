@@ -70,7 +70,7 @@ def test_the_indexing_reference_is_error_by_gain_up_to_the_limit() -> None:
     assert num.indexing_reference(-0.5, 500, 100) == -100
 
 
-def test_an_indexed_spindle_stands_below_3_of_4096_revolutions_in_a_sample() -> None:
+def test_an_indexed_spindle_is_below_3_of_4096_revolutions_in_a_sample() -> None:
     # Page 8-5; by hand: 12000 samples a minute at 5000 µs.
     assert num.indexing_standstill(5000) == pytest.approx(3 / 4096 * 12000)
     assert num.indexing_standstill(6000) == pytest.approx(7.32421875)
@@ -176,7 +176,7 @@ def test_the_zero_crossing_anticipation_is_the_time_of_the_ramp_in_samples() -> 
 
 
 @pytest.mark.parametrize(
-    ("formula", "arguments", "said"),
+    ("formula", "arguments", "message"),
     [
         (num.spindle_modulo, (0,), "The number of encoder points"),
         (num.largest_measured_speed, (2000, 0), "The sampling period"),
@@ -195,8 +195,8 @@ def test_the_zero_crossing_anticipation_is_the_time_of_the_ramp_in_samples() -> 
         (num.zero_crossing_anticipation, (50, 0, 5000), "The acceleration"),
     ],
 )
-def test_what_makes_no_sense_is_told(
-    formula: Callable[..., float], arguments: tuple[float, ...], said: str
+def test_what_makes_no_sense_is_reported(
+    formula: Callable[..., float], arguments: tuple[float, ...], message: str
 ) -> None:
-    with pytest.raises(ValueError, match=said):
+    with pytest.raises(ValueError, match=message):
         formula(*arguments)

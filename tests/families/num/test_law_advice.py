@@ -52,7 +52,7 @@ def test_a_time_constant_follows_its_kvar() -> None:
     assert moved(file).recommendations == ()
 
 
-def test_an_emax_below_the_following_error_is_calculated_anew() -> None:
+def test_an_emax_below_the_following_error_is_calculated_again() -> None:
     file = mill(max_following_error=5000)
     trace = moved(file)
     assert [alarm.code for alarm in trace.alarms] == ["40 to 71"]
@@ -67,7 +67,7 @@ def test_an_emax_far_above_the_following_error_notices_a_blocked_axis_late() -> 
     assert only(moved(mill(max_following_error=99000))).value == pytest.approx(6600.0, abs=1.0)
 
 
-def test_an_axis_that_stands_outside_its_window_gets_twice_its_error() -> None:
+def test_an_axis_that_is_outside_its_window_gets_twice_its_error() -> None:
     file = mill(in_position_window=5, movement_tolerance=200)
     trace = moved(file, gravity=20.0, velocity_integral=0.0)
     assert trace.result["in_position_time"][0] is None

@@ -34,18 +34,18 @@ def new(tmp_path: Path, *family: str) -> str:
 def simulated(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, Any]:
     capsys.readouterr()
     assert run(["simulate", *arguments, "--json"]) == 0
-    told: dict[str, Any] = json.loads(capsys.readouterr().out)
-    return told
+    reported: dict[str, Any] = json.loads(capsys.readouterr().out)
+    return reported
 
 
-def test_a_new_num_file_says_how_an_axis_is_declared(
+def test_a_new_num_file_shows_how_an_axis_is_declared(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run(["simulate", new(tmp_path, "num"), "step"]) == 2
     assert "No axis is servo-controlled. Declare one in P2N0 and P3N0" in capsys.readouterr().err
 
 
-def test_a_new_num_file_says_in_one_sentence_what_its_axis_needs(
+def test_a_new_num_file_shows_in_one_sentence_what_its_axis_needs(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     words = settings("P2N0=1 P3N0=1 P9N0=0x00 P4N2=3")
@@ -60,11 +60,11 @@ def test_a_new_num_file_says_in_one_sentence_what_its_axis_needs(
 def test_a_new_num_file_moves_with_the_words_of_the_manual(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    told = simulated(capsys, new(tmp_path, "num"), "step", "--axis", "X", *settings(NUM_WORDS))
-    assert told["axis"] == "0"
-    assert told["result"]["steady_following_error"]["value"] == pytest.approx(6.0, abs=0.002)
-    assert told["alarms"] == []
-    assert "P53N0 is not set: 0 is taken, the sin² ramps of older software (6-38)." in told["assumptions"]
+    reported = simulated(capsys, new(tmp_path, "num"), "step", "--axis", "X", *settings(NUM_WORDS))
+    assert reported["axis"] == "0"
+    assert reported["result"]["steady_following_error"]["value"] == pytest.approx(6.0, abs=0.002)
+    assert reported["alarms"] == []
+    assert "P53N0 is not set: 0 is taken, the sin² ramps of older software (6-38)." in reported["assumptions"]
 
 
 def test_words_and_model_of_a_num_axis_can_be_set_for_one_run(
@@ -76,10 +76,10 @@ def test_words_and_model_of_a_num_axis_can_be_set_for_one_run(
         "value"
     ] == pytest.approx(3.0, abs=0.002)
     other = NUM_WORDS + " model.drive_voltage=4.5 model.velocity_bandwidth=80"
-    told = simulated(capsys, path, "step", *settings(other))
-    assert told["result"]["steady_following_error"]["value"] == pytest.approx(3.0, abs=0.002)
-    assert told["result"]["peak_output"]["value"] == pytest.approx(4.5, abs=0.002)
-    assert not any("model.velocity_bandwidth" in each for each in told["assumptions"])
+    reported = simulated(capsys, path, "step", *settings(other))
+    assert reported["result"]["steady_following_error"]["value"] == pytest.approx(3.0, abs=0.002)
+    assert reported["result"]["peak_output"]["value"] == pytest.approx(4.5, abs=0.002)
+    assert not any("model.velocity_bandwidth" in each for each in reported["assumptions"])
 
 
 def test_a_model_setting_that_num_does_not_have_is_refused(
@@ -99,21 +99,21 @@ def test_the_sine_squared_ramp_of_p7n1_keeps_its_acceleration(
     assert sine["alarms"] == []
 
 
-def test_a_new_syntec_file_says_in_one_sentence_what_its_axis_needs(
+def test_a_new_syntec_file_shows_in_one_sentence_what_its_axis_needs(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run(["simulate", new(tmp_path, "syntec", "--axes", "X,Z"), "step"]) == 2
-    told = capsys.readouterr().err
-    assert "The simulation of axis 1 needs values that are not set: resolution.encoder@1" in told
-    assert "control.series, dda.interpolation_time, motion.axis_acceleration@1" in told
+    reported = capsys.readouterr().err
+    assert "The simulation of axis 1 needs values that are not set: resolution.encoder@1" in reported
+    assert "control.series, dda.interpolation_time, motion.axis_acceleration@1" in reported
 
 
 def test_a_new_syntec_file_moves_with_the_values_of_the_slides(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = new(tmp_path, "syntec", "--axes", "X,Z")
-    told = simulated(capsys, path, "step", *settings(SYNTEC_VALUES))
-    assert told["result"]["steady_following_error"]["value"] == pytest.approx(13.333, abs=0.003)
+    reported = simulated(capsys, path, "step", *settings(SYNTEC_VALUES))
+    assert reported["result"]["steady_following_error"]["value"] == pytest.approx(13.333, abs=0.003)
 
 
 def test_too_fast_a_syntec_axis_brings_mot_005(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -130,10 +130,10 @@ def test_a_circle_of_a_num_mill_goes_as_fast_as_its_tolerated_error_allows(
     # 6-32: 50 µm and 60 ms leave the root of 2 R x 50 µm over 60 ms, 447 mm/min with 2 mm; the circle is then
     # smaller by the 50 µm, less what sampling and drive take away
     words = settings("move.radius=2 move.feedrate=5000 P50N0=2000")
-    told = simulated(capsys, str(EXAMPLE), "circle", *words)["result"]
-    assert told["feedrate"]["value"] == pytest.approx(447.21, abs=0.01)
-    assert told["first_order_radius_error"]["value"] == pytest.approx(0.050, abs=1e-5)
-    assert told["radius_error"]["value"] == pytest.approx(0.047, abs=0.003)
+    reported = simulated(capsys, str(EXAMPLE), "circle", *words)["result"]
+    assert reported["feedrate"]["value"] == pytest.approx(447.21, abs=0.01)
+    assert reported["first_order_radius_error"]["value"] == pytest.approx(0.050, abs=1e-5)
+    assert reported["radius_error"]["value"] == pytest.approx(0.047, abs=0.003)
 
 
 def test_after_an_excess_error_the_velocity_drive_brakes_the_axis(
@@ -143,10 +143,10 @@ def test_after_an_excess_error_the_velocity_drive_brakes_the_axis(
     words = settings(NUM_WORDS.replace("P23N0=6600", "P23N0=3000"))
     capsys.readouterr()
     assert run(["simulate", path, "step", *words, "--json"]) == 1
-    told = json.loads(capsys.readouterr().out)
+    reported = json.loads(capsys.readouterr().out)
     # from about 50 mm/s, with a drive of 50 Hz
-    assert 0.1 < told["result"]["stop_distance"]["value"] < 5.0
-    assert told["result"]["stop_position"]["value"] is not None
+    assert 0.1 < reported["result"]["stop_distance"]["value"] < 5.0
+    assert reported["result"]["stop_position"]["value"] is not None
 
 
 def test_a_dry_friction_correction_of_some_micrometres_makes_the_reversals_of_a_circle_smaller(
@@ -181,6 +181,6 @@ def test_the_reversal_error_compensation_makes_reversals_smaller_and_with_the_wr
 def test_without_backlash_the_compensation_of_p18_is_not_used_and_this_is_named(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    told = simulated(capsys, str(EXAMPLE), "step", *settings("P18N0=20"))
-    assert told["result"]["overshoot"]["value"] == 0.0
-    assert any("P18N0 is not used" in each for each in told["assumptions"])
+    reported = simulated(capsys, str(EXAMPLE), "step", *settings("P18N0=20"))
+    assert reported["result"]["overshoot"]["value"] == 0.0
+    assert any("P18N0 is not used" in each for each in reported["assumptions"])

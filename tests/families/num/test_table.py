@@ -47,7 +47,7 @@ def test_the_example_of_the_manual_is_written_byte_for_byte(num: Schema) -> None
     assert FORMAT.write(file) == SAMPLE.replace("P4N0:t0n4", "P4N0:t0n5")
 
 
-def test_what_the_example_leaves_out_is_told(num: Schema) -> None:
+def test_what_the_example_leaves_out_is_reported(num: Schema) -> None:
     """Page 13-14 gives P4 four words and P6 nine, and writes three and five."""
     notes = FORMAT.read(SAMPLE, num, ReadOptions()).notes
     assert notes == [
@@ -61,8 +61,8 @@ def test_every_length_of_the_example_is_checked(num: Schema) -> None:
     lines = SAMPLE.split("\n")
     for n, line in enumerate(lines[:-1]):
         wrong = [*lines[:n], f"{line[:-2]}{int(line[-2:], 16) + 1:02X}", *lines[n + 1 :]]
-        said = fault(num, "\n".join(wrong))
-        assert said.startswith(
+        message = fault(num, "\n".join(wrong))
+        assert message.startswith(
             f"line {n + 1}, column {len(line) - 1}: the line has {len(line) - 3} characters, "
         )
 
@@ -87,7 +87,7 @@ def test_every_length_of_the_example_is_checked(num: Schema) -> None:
         (["P113N0:t9n1", "#-1.5"], ("p.w113_0", ""), Value(-1.5)),
     ],
 )
-def test_a_word_is_what_the_schema_says_of_its_storage(
+def test_a_word_is_what_the_schema_shows_of_its_storage(
     num: Schema, lines: list[str], address: Address, value: Value
 ) -> None:
     file = taken(num, measured(*lines))
@@ -131,7 +131,7 @@ def test_a_value_in_another_unit_is_written_as_the_nearest_word(num: Schema) -> 
 
 
 @pytest.mark.parametrize(
-    ("name", "instance", "value", "said"),
+    ("name", "instance", "value", "message"),
     [
         ("p.w21", "3", Value(100_000_000), "P21N3 Word P21Nx: 100000000 is outside 0 to 99999999"),
         ("p.w5_0", "", Value(256), "P5N0 Word P5N0: 256 is outside 0 to 255"),
@@ -146,11 +146,11 @@ def test_a_value_in_another_unit_is_written_as_the_nearest_word(num: Schema) -> 
     ],
 )
 def test_what_a_word_cannot_hold_is_not_written(
-    num: Schema, name: str, instance: str, value: Value, said: str
+    num: Schema, name: str, instance: str, value: Value, message: str
 ) -> None:
     file = ParameterFile(num)
     file.values[name, instance] = value  # also one that no file contains
-    with pytest.raises(FormatError, match=said):
+    with pytest.raises(FormatError, match=message):
         FORMAT.write(file)
 
 
@@ -158,7 +158,7 @@ def test_what_a_word_cannot_hold_is_not_written(
 
 
 @pytest.mark.parametrize(
-    ("lines", "said"),
+    ("lines", "message"),
     [
         (["P9N0:t6n32", "#0"], "line 2, column 7: P9 of Small NUM has words of type 0, not 6"),
         (["P9N0:t3n32", "#0"], "line 2, column 7: there is no type 3 of words"),
@@ -208,14 +208,14 @@ def test_what_a_word_cannot_hold_is_not_written(
         (["P5N0:t0n3", "#0 0 1"], "line 3, column 6: Small NUM has no P5N2"),
     ],
 )
-def test_a_table_that_cannot_be_meant_is_told_with_its_place(
-    num: Schema, lines: list[str], said: str
+def test_a_table_that_cannot_be_understood_is_reported_with_its_place(
+    num: Schema, lines: list[str], message: str
 ) -> None:
-    assert fault(num, measured(*lines)).startswith(said)
+    assert fault(num, measured(*lines)).startswith(message)
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "said"),
+    ("old", "new", "message"),
     [
         (XOFF, "", "line 30, column 1: the table has no Xoff (ALT 19) at its end: it may have been cut off"),
         (f";09\n{XOFF}", "", "line 29, column 10: the table has no Xoff"),
@@ -251,14 +251,14 @@ def test_a_table_that_cannot_be_meant_is_told_with_its_place(
         ("#1 0;04\n", "#1 0;04\r\n", "line 13, column 8: the line ends otherwise than the first one"),
     ],
 )
-def test_what_is_wrong_around_the_words_is_told_with_its_place(
-    num: Schema, old: str, new: str, said: str
+def test_what_is_wrong_around_the_words_is_reported_with_its_place(
+    num: Schema, old: str, new: str, message: str
 ) -> None:
     assert SAMPLE.count(old) == 1
-    assert fault(num, SAMPLE.replace(old, new)).startswith(said)
+    assert fault(num, SAMPLE.replace(old, new)).startswith(message)
 
 
-def test_a_mixed_line_end_is_told_in_both_directions(num: Schema) -> None:
+def test_a_mixed_line_end_is_reported_in_both_directions(num: Schema) -> None:
     mixed = SAMPLE.replace("\n", "\r\n").replace("#1 0;04\r\n", "#1 0;04\n")
     assert fault(num, mixed).startswith("line 13, column 8: the line ends otherwise than the first one")
 
@@ -326,7 +326,7 @@ def test_words_between_known_ones_are_kept_apart(num: Schema, tmp_path: Path) ->
 
 
 @pytest.mark.parametrize(
-    ("lines", "said"),
+    ("lines", "message"),
     [
         (["P12N0:t0n4", "#0 100"], "line 3, column 4: P12N1: '100' is not hexadecimal from 0 to FF"),
         (["P12N0:t0n2", "#0 1 2"], "line 3, column 6: P12 has 2 words: there is no P12N2"),
@@ -334,13 +334,13 @@ def test_words_between_known_ones_are_kept_apart(num: Schema, tmp_path: Path) ->
         (["P12N0:t0n4", "#0", "P12N1:t1n4", "#0"], "line 4, column 7: a header above gives t0n4 of P12"),
     ],
 )
-def test_what_is_kept_is_checked_by_the_type_the_table_tells(
-    num: Schema, lines: list[str], said: str
+def test_what_is_kept_is_checked_by_the_type_the_table_reports(
+    num: Schema, lines: list[str], message: str
 ) -> None:
-    assert fault(num, measured(*lines), keep_unknown=True).startswith(said)
+    assert fault(num, measured(*lines), keep_unknown=True).startswith(message)
 
 
-def test_entries_of_other_formats_are_left_alone_and_spoilt_ones_told(num: Schema) -> None:
+def test_entries_of_other_formats_are_left_alone_and_spoilt_ones_reported(num: Schema) -> None:
     file = taken(num, SAMPLE)
     file.unknown["home.nonsense@1"] = "3 mm"
     assert FORMAT.write(file) == SAMPLE
@@ -358,11 +358,11 @@ def test_a_table_is_found_by_its_content_and_written_by_its_ending(
 ) -> None:
     monkeypatch.setattr("amp_studio.formats.import_export.load_schema", lambda family: num)
     (tmp_path / "in").write_bytes(SAMPLE.encode("ascii"))
-    told: list[str] = []
-    file = import_file(tmp_path / "in", notify=told.append)
+    reported: list[str] = []
+    file = import_file(tmp_path / "in", notify=reported.append)
     assert export_file(file, tmp_path / name).format.key == "num"
     assert (tmp_path / name).read_bytes() == SAMPLE.encode("ascii")
-    assert len(told) == 3
+    assert len(reported) == 3
 
 
 def test_no_other_format_takes_a_table_for_its_own() -> None:

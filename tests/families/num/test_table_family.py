@@ -38,7 +38,7 @@ def whole(schema: Schema, spelled: dict[int, list[str]]) -> str:
     return measured(*lines)
 
 
-def test_every_word_is_stored_as_its_type_says(real: Schema) -> None:
+def test_every_word_is_stored_as_its_type_shows(real: Schema) -> None:
     """Page 1-3 prints what each type is; the facts say it of each parameter once more."""
     for parameter in real.parameters.values():
         if parameter.storage is not None:
@@ -98,8 +98,8 @@ def test_the_verbs_say_where_a_table_is_wrong_and_make_nothing_of_it(
     table = tmp_path / "in.par"
     table.write_bytes(SAMPLE.replace("#54 A;05", "#54 A;06").encode("ascii"))
     assert run(["import", str(table), "-o", str(tmp_path / "machine.amp")]) == 2
-    said = capsys.readouterr().err.strip()
-    assert said.endswith("line 17, column 7: the line has 5 characters, 05 in hexadecimal, and gives 06")
+    message = capsys.readouterr().err.strip()
+    assert message.endswith("line 17, column 7: the line has 5 characters, 05 in hexadecimal, and gives 06")
     assert not (tmp_path / "machine.amp").exists()
 
 

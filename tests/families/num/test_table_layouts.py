@@ -36,7 +36,7 @@ def test_tables_of_older_software_come_without_types(num: Schema, monkeypatch: p
     assert FORMAT.write(kept_on_disk(file, num, monkeypatch)) == OLD
 
 
-def test_older_software_may_have_words_nobody_knows_too(num: Schema) -> None:
+def test_older_software_may_have_unknown_words_too(num: Schema) -> None:
     table = measured("P5N0", "#1 0 77", "P12N0", "#anything goes", "P96N0", "#A  B")
     file = taken(num, table, keep_unknown=True)
     assert file.unknown == {"P5N2": "#77", "P12N0": "#anything goes"}
@@ -94,7 +94,7 @@ def test_an_end_without_a_line_of_its_own_is_taken_too(num: Schema) -> None:
 
 
 @pytest.mark.parametrize(
-    ("told", "said"),
+    ("reported", "message"),
     [
         ({"job_reference": "12"}, "the job reference '12' is not of eight digits"),
         ({"comment": "9"}, "the comment behind the job reference"),
@@ -104,10 +104,12 @@ def test_an_end_without_a_line_of_its_own_is_taken_too(num: Schema) -> None:
         ({"lines": ["P9N0"]}, "'P9N0' is no line of a table"),
     ],
 )
-def test_what_a_person_spoils_in_the_header_is_told(num: Schema, told: dict[str, object], said: str) -> None:
+def test_what_a_user_spoils_in_the_header_is_reported(
+    num: Schema, reported: dict[str, object], message: str
+) -> None:
     file = taken(num, SAMPLE)
-    file.header.extra["num_table"] = told
-    with pytest.raises(FormatError, match=said):
+    file.header.extra["num_table"] = reported
+    with pytest.raises(FormatError, match=message):
         FORMAT.write(file)
 
 

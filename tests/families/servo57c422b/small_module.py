@@ -99,12 +99,12 @@ def small_module(folder: Path) -> Schema:
     return schema_of(compile_family(folder))
 
 
-def filled(schema: Schema, **said: str) -> ParameterFile:
+def filled(schema: Schema, **message: str) -> ParameterFile:
     """Return a file with values, written as a person does: ``gain_X="3"``, ``point_X__1="-2"`` for
     ``X.1``.
     """
     file = ParameterFile(schema)
-    for key, text in said.items():
+    for key, text in message.items():
         name, _, instance = key.partition("_")
         address = read_address(f"r.{name}@{instance.replace('__', '.')}")
         parameter = schema.parameters[address[0]]

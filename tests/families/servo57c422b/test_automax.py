@@ -72,7 +72,7 @@ PRINTED = {
 }
 
 
-def said_of(file: ParameterFile) -> dict[str, Value]:
+def message_of(file: ParameterFile) -> dict[str, Value]:
     return {f"{a[0]}@{a[1]}": value for a, value in file.values.items()}
 
 
@@ -113,7 +113,7 @@ def test_a_table_has_a_line_a_register_and_two_for_a_double_word(module: Schema)
     assert taken(TABLE, module, TABLE.write(file)).values == file.values
 
 
-def test_a_table_of_somebody_else_is_read_too(module: Schema) -> None:
+def test_a_table_of_a_user_else_is_read_too(module: Schema) -> None:
     file = taken(
         TABLE,
         module,
@@ -128,7 +128,7 @@ def test_a_table_of_somebody_else_is_read_too(module: Schema) -> None:
         135 -1
         """,
     )
-    assert said_of(file) == {
+    assert message_of(file) == {
         "r.gain@X": Value(100),
         "r.gain@Y": Value(-1),
         "r.travel@X": Value(40000, "counts"),
@@ -138,7 +138,7 @@ def test_a_table_of_somebody_else_is_read_too(module: Schema) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         (
             "3 1\n12 5",
@@ -166,14 +166,16 @@ def test_a_table_of_somebody_else_is_read_too(module: Schema) -> None:
         ("3 0x10", "line 1, column 3: '0x10' is no whole number"),
     ],
 )
-def test_a_table_that_cannot_be_meant_is_told_with_its_place(module: Schema, text: str, said: str) -> None:
-    assert told(TABLE, module, text).startswith(said)
+def test_a_table_that_cannot_be_understood_is_reported_with_its_place(
+    module: Schema, text: str, message: str
+) -> None:
+    assert told(TABLE, module, text).startswith(message)
 
 
 def test_the_other_registers_decide_what_a_shared_register_means(module: Schema) -> None:
     """Registers 25 and 26 are one gear ratio or two numbers (page 4-15)."""
     file = taken(TABLE, module, "25 1\n26 3\n38 04H\n2073 256\n2074 0")
-    assert said_of(file) == {
+    assert message_of(file) == {
         "r.modes@X": Value(4),
         "r.over@X": Value(1),
         "r.under@X": Value(3),
@@ -181,7 +183,7 @@ def test_the_other_registers_decide_what_a_shared_register_means(module: Schema)
     }
     assert taken(TABLE, module, TABLE.write(file)).values == file.values
     assert "register 25 is half of Ratio (X axis)" in told(TABLE, module, "25 1\n38 0")
-    assert said_of(taken(TABLE, module, "25 1\n38 04H")) == {"r.modes@X": Value(4), "r.over@X": Value(1)}
+    assert message_of(taken(TABLE, module, "25 1\n38 04H")) == {"r.modes@X": Value(4), "r.over@X": Value(1)}
 
 
 def test_a_value_that_does_not_exist_here_is_not_written(module: Schema) -> None:
@@ -191,7 +193,7 @@ def test_a_value_that_does_not_exist_here_is_not_written(module: Schema) -> None
 
 
 @pytest.mark.parametrize(
-    ("value", "said"),
+    ("value", "message"),
     [
         ({"gain_X": "70000"}, r"register 3, r\.gain@X: 70000 does not fit the 16 bits of Gain"),
         (
@@ -201,17 +203,19 @@ def test_a_value_that_does_not_exist_here_is_not_written(module: Schema) -> None
         ({"sense_X": "Odd"}, r"register 40, r\.sense@X: no code is printed for 'Odd' of Sense"),
     ],
 )
-def test_a_value_that_no_register_can_hold_is_told(module: Schema, value: dict[str, str], said: str) -> None:
+def test_a_value_that_no_register_can_hold_is_reported(
+    module: Schema, value: dict[str, str], message: str
+) -> None:
     file = filled(module, **value)
     for form in (TABLE, TASK):
-        with pytest.raises(FormatError, match=said):
+        with pytest.raises(FormatError, match=message):
             form.write(file)
 
 
 def test_registers_of_no_parameter_and_odd_halves_are_kept_where_that_is_wanted(module: Schema) -> None:
     text = "3 1\n12 5\n300 17\n301 0FFFFH\n"
     file = taken(TABLE, module, text, keep=True)
-    assert said_of(file) == {"r.gain@X": Value(1)}
+    assert message_of(file) == {"r.gain@X": Value(1)}
     assert file.unknown == {"R12": "5", "R300": "17", "R301": "0FFFFH"}
     rows = TABLE.write(file).split("\n")[2:-1]
     assert [row.split("\t")[:2] for row in rows] == [
@@ -229,7 +233,7 @@ def test_registers_of_no_parameter_and_odd_halves_are_kept_where_that_is_wanted(
 
 
 def test_a_dos_file_may_end_with_its_own_sign(module: Schema) -> None:
-    assert said_of(taken(TABLE, module, "3 1\r\n4 2\r\n\x1a")) == {
+    assert message_of(taken(TABLE, module, "3 1\r\n4 2\r\n\x1a")) == {
         "r.gain@X": Value(1),
         "r.limit@X": Value(2, "counts"),
     }
@@ -252,12 +256,12 @@ def test_names_with_other_signs_do_not_spoil_a_dos_file(module: Schema, tmp_path
 
 def test_the_printed_initialization_gives_its_values(servo: Schema) -> None:
     """Page 5-5: every variable of the example is the register its name and remark say."""
-    assert said_of(taken(TASK, servo, INITIALIZATION)) == PRINTED
+    assert message_of(taken(TASK, servo, INITIALIZATION)) == PRINTED
 
 
 def test_the_printed_initialization_comes_back_as_it_was(servo: Schema) -> None:
     file = taken(TASK, servo, INITIALIZATION + COMMAND, keep=True)
-    assert said_of(file) == PRINTED | {"control.command_67@X": Value(0)}
+    assert message_of(file) == PRINTED | {"control.command_67@X": Value(0)}
     assert list(file.unknown) == [f"basic line {n}" for n in (2180, 25000, 25005, 25010, 25015, 25020, 30000)]
     assert file.unknown["basic line 25010"] == "25010 CMD66%=0 \\{67}", (
         "one command is given twice, so nothing tells"
@@ -295,7 +299,7 @@ def test_values_changed_in_a_kept_task_stand_in_its_place(servo: Schema) -> None
 def test_the_printed_numbers_of_a_move_are_read_back_in_engineering_units(servo: Schema) -> None:
     """20 units of 4000 counts at 40 units/s, and 12.5 units/s2 (page 4-48)."""
     file = taken(TASK, servo, "4010 CMD_POS!=80000\n4020 CMD_VEL! = 10485760\n4030 CMD_ACC!=3277")
-    assert said_of(file) == {
+    assert message_of(file) == {
         "command.position@X": Value(80000, "counts"),
         "command.velocity@X": Value(160000.0, "counts/s"),
         "command.acceleration@X": Value(50_000.0, "counts/s2"),
@@ -305,7 +309,7 @@ def test_the_printed_numbers_of_a_move_are_read_back_in_engineering_units(servo:
 def test_a_double_precision_variable_has_its_upper_half_first(servo: Schema) -> None:
     """INT_ENA_X!=80000000H is bit 15 of register 68, 00010000H its bit 0 (page 4-48)."""
     for number, word in (("80000000H", 0x8000), ("00010000H", 1)):
-        values = said_of(taken(TASK, servo, f"15010 INT_ENA_X!={number}"))
+        values = message_of(taken(TASK, servo, f"15010 INT_ENA_X!={number}"))
         assert values == {"interrupt.enable_status@X": Value(word), "interrupt.enable_fault@X": Value(0)}
 
 
@@ -322,14 +326,14 @@ def test_a_cam_of_positions_is_written_word_by_word(servo: Schema) -> None:
     task = TASK.write(file)
     assert "REG_134%=01170H \\ REG_135%=01H \\!" in task
     assert taken(TASK, servo, task).values == file.values == taken(TABLE, servo, TABLE.write(file)).values
-    assert said_of(taken(TASK, servo, "1 CAM_MODE%=0100H\n2 REG_128%=1\n3 REG_132!=1"))[
+    assert message_of(taken(TASK, servo, "1 CAM_MODE%=0100H\n2 REG_128%=1\n3 REG_132!=1"))[
         "cam.position_points@X.0"
     ] == (Value(65536, "counts"))
 
 
 def test_registers_beyond_the_points_of_a_cam_stand_for_nothing(servo: Schema) -> None:
-    said = told(TABLE, servo, "130 1\n128 1\n132 5\n133 5")
-    assert said.startswith("line 4, column 1: register 133 means nothing here: ")
+    message = told(TABLE, servo, "130 1\n128 1\n132 5\n133 5")
+    assert message.startswith("line 4, column 1: register 133 means nothing here: ")
     assert taken(TABLE, servo, "130 1\n128 1\n132 5\n133 5", keep=True).unknown == {"R133": "5"}
 
 
@@ -342,7 +346,7 @@ def test_the_verbs_know_the_formats_by_name_and_by_content(
     source = tmp_path / "axisinit.bas"
     source.write_text(INITIALIZATION, "utf-8")
     assert run(["import", str(source), "-o", str(tmp_path / "a.amp")]) == 0
-    assert said_of(open_file(tmp_path / "a.amp").file) == PRINTED
+    assert message_of(open_file(tmp_path / "a.amp").file) == PRINTED
     assert run(["export", str(tmp_path / "a.amp"), "-o", str(tmp_path / "a.reg")]) == 0
     assert (tmp_path / "a.reg").read_bytes().startswith(b"! Register table of a, ")
     assert b"\r\n19\t" not in (tmp_path / "a.reg").read_bytes(), "an unset register stays as it is"
@@ -350,7 +354,7 @@ def test_the_verbs_know_the_formats_by_name_and_by_content(
     export_file(open_file(tmp_path / "a.amp").file, tmp_path / "b.bas")
     assert import_file(tmp_path / "b.bas").values == open_file(tmp_path / "a.amp").file.values
     (tmp_path / "bare.txt").write_text("R3 18700\nR2051 5\n", "utf-8")
-    assert said_of(import_file(tmp_path / "bare.txt")) == {
+    assert message_of(import_file(tmp_path / "bare.txt")) == {
         "gain.proportional@X": Value(18700),
         "gain.proportional@Y": Value(5),
     }
@@ -378,8 +382,8 @@ def test_the_names_of_registers_are_those_of_the_printed_tasks(servo: Schema) ->
     names = servo.tables["basic-variables"]
     registers = dict(zip(names.column("Variable") or (), names.column("Register") or (), strict=True))
     printed = servo.tables["printed-programs"]
-    for said, name in zip(printed.column("Register") or (), printed.column("Variable") or (), strict=True):
-        numbers = [int(n) for n in str(said).split(", ")]
+    for message, name in zip(printed.column("Register") or (), printed.column("Variable") or (), strict=True):
+        numbers = [int(n) for n in str(message).split(", ")]
         assert (registers[name], len(numbers)) == (numbers[0], 2 if str(name).endswith("!") else 1)
     for name, register in registers.items():
         known = Registers(servo, "module")

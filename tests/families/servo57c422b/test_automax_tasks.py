@@ -13,7 +13,7 @@ from amp_studio.schema import Schema, Value
 from tests.families.servo57c422b.small_module import filled, taken, told
 
 
-def said_of(file: ParameterFile) -> dict[str, Value]:
+def message_of(file: ParameterFile) -> dict[str, Value]:
     return {f"{a[0]}@{a[1]}": value for a, value in file.values.items()}
 
 
@@ -50,7 +50,7 @@ def test_a_task_may_have_more_settings_than_tens_of_lines(servo: Schema) -> None
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("10 REG_300%=1", "line 1, column 4: register 300 is of no parameter"),
         (
@@ -89,8 +89,10 @@ def test_a_task_may_have_more_settings_than_tens_of_lines(servo: Schema) -> None
         ("10 PGAIN%=1 &\n   \\REG_4%=A", "line 1, column 11: PGAIN%: '1 &' is no whole number"),
     ],
 )
-def test_a_task_that_cannot_be_meant_is_told_with_its_place(module: Schema, text: str, said: str) -> None:
-    assert told(TASK, module, text).startswith(said)
+def test_a_task_that_cannot_be_understood_is_reported_with_its_place(
+    module: Schema, text: str, message: str
+) -> None:
+    assert told(TASK, module, text).startswith(message)
 
 
 def test_statements_share_a_line_and_remarks_are_no_statements(module: Schema) -> None:
@@ -101,7 +103,7 @@ def test_statements_share_a_line_and_remarks_are_no_statements(module: Schema) -
         40 !
         50 REG_11%=0 \\REG_12%=1\\
         """
-    assert said_of(taken(TASK, module, text)) == {
+    assert message_of(taken(TASK, module, text)) == {
         "r.gain@X": Value(5),
         "r.limit@X": Value(255, "counts"),
         "r.gain@Y": Value(6),
@@ -115,21 +117,21 @@ def test_what_a_condition_decides_is_no_setting(module: Schema) -> None:
     """
     text = "10 IF A@ THEN PGAIN%=1 \\ REG_4%=2\n20 REG_2051%=3\n"
     file = taken(TASK, module, text, keep=True)
-    assert said_of(file) == {"r.gain@Y": Value(3)}
+    assert message_of(file) == {"r.gain@Y": Value(3)}
     assert TASK.write(file) == text
 
 
-def test_a_setting_that_is_unset_takes_its_separator_along(module: Schema) -> None:
+def test_a_setting_that_is_not_set_takes_its_separator_along(module: Schema) -> None:
     text = "10 STOP \\PGAIN%=1\n20 REG_4%=2\\ CONT\n30 A@=B@ \\REG_2051%=3 \\! y\n40 REG_5%=4\n"
     file = taken(TASK, module, text, keep=True)
     file.values.clear()
     assert TASK.write(file) == "10 STOP \n20  CONT\n30 A@=B@ \\! y\n40 !\n"
 
 
-def test_marks_of_somebody_else_are_text(module: Schema) -> None:
+def test_marks_of_a_user_else_are_text(module: Schema) -> None:
     text = "10 {3} \\ PGAIN%=1 \\ {{line 10}\n20 ! {line 10}\n"
     file = taken(TASK, module, text, keep=True)
-    assert (said_of(file), TASK.write(file)) == ({"r.gain@X": Value(1)}, text)
+    assert (message_of(file), TASK.write(file)) == ({"r.gain@X": Value(1)}, text)
 
 
 def test_a_kept_line_that_has_lost_its_place_is_not_written_anywhere(module: Schema) -> None:
@@ -143,13 +145,13 @@ def test_a_kept_line_that_has_lost_its_place_is_not_written_anywhere(module: Sch
     assert TASK.write(file).endswith("\n2000 PGAIN%=1 \\!Gain (X axis), 1\n")
 
 
-def test_a_kept_line_that_a_person_removes_is_gone(module: Schema) -> None:
+def test_a_kept_line_that_a_user_removes_is_gone(module: Schema) -> None:
     file = taken(TASK, module, "10 PGAIN%=1\n20 STOP\n30 END\n", keep=True)
     del file.unknown["basic line 20"]
     assert TASK.write(file) == "10 PGAIN%=1\n30 END\n"
 
 
-def test_a_sign_that_a_dos_file_does_not_have_is_told(servo: Schema, tmp_path: Path) -> None:
+def test_a_sign_that_a_dos_file_does_not_have_is_reported(servo: Schema, tmp_path: Path) -> None:
     file = taken(TASK, servo, "10 PGAIN%=1\n20 STOP\n", keep=True)
     file.unknown["basic line 20"] = "20 STOP ! Ж"
     with pytest.raises(

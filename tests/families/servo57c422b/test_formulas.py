@@ -191,7 +191,7 @@ def test_two_bytes_share_a_register() -> None:
     ]
 
 
-def test_the_table_holds_1915_words_or_3830_bytes() -> None:
+def test_the_table_contains_1915_words_or_3830_bytes() -> None:
     """Page 4-57: registers 132 to 2046; 956 positions where 957 pairs would fit (erratum e-cam-positions)."""
     assert 2046 - 132 + 1 == 1915
     assert 2 * 1915 == 3830
@@ -233,7 +233,7 @@ def test_the_master_goes_one_increment_from_point_to_point() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "arguments", "said"),
+    ("name", "arguments", "message"),
     [
         ("counts_per_revolution", (1000, 3), "quadrature must be 1, 2 or 4"),
         ("counts_per_revolution", (0, 4), "lines of the encoder"),
@@ -262,6 +262,8 @@ def test_the_master_goes_one_increment_from_point_to_point() -> None:
         ("velocity_word", (float("nan"),), "speed"),
     ],
 )
-def test_an_argument_that_makes_no_sense_is_named(name: str, arguments: tuple[float, ...], said: str) -> None:
-    with pytest.raises(ValueError, match=said):
+def test_an_argument_that_makes_no_sense_is_named(
+    name: str, arguments: tuple[float, ...], message: str
+) -> None:
+    with pytest.raises(ValueError, match=message):
         formulas("57c422b")[name](*arguments)

@@ -74,7 +74,7 @@ def axis_of(**changes: float | None) -> AxisLaw:
 # -- the file --------------------------------------------------------------------------------------
 
 
-def test_a_new_file_says_in_one_sentence_every_register_that_has_to_be_set() -> None:
+def test_a_new_file_shows_in_one_sentence_every_register_that_has_to_be_set() -> None:
     with pytest.raises(SimulationError) as caught:
         simulate(ParameterFile(load_schema("57c422b")), "step", "Y")
     assert "R2051 Proportional Gain, R2052 Integral Gain, R2053 Velocity Gain" in str(caught.value)
@@ -140,7 +140,7 @@ def test_a_velocity_gain_of_0_is_a_drive_with_velocity_reference() -> None:
         ("output__max_voltage", None, "R31 Maximum Voltage Reference"),
     ],
 )
-def test_what_cannot_be_simulated_is_said_in_a_sentence(
+def test_what_cannot_be_simulated_is_shown_in_a_sentence(
     parameter: str, value: float | None, message: str
 ) -> None:
     with pytest.raises(SimulationError, match=message):
@@ -163,7 +163,7 @@ def test_a_velocity_error_beyond_register_9_switches_the_loop_off() -> None:
     assert [alarm.code for alarm in trace.alarms] == ["VELOCITY ERROR"]
 
 
-def test_without_registers_8_and_9_there_is_no_fault_and_the_result_says_so() -> None:
+def test_without_registers_8_and_9_there_is_no_fault_and_the_result_shows_it() -> None:
     trace = simulate(
         file_of(gain__feedforward=0, setup__max_position_error=None, setup__max_velocity_error=None), "step"
     )

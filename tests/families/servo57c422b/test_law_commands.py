@@ -89,7 +89,7 @@ def test_tune_gains_needs_its_increment() -> None:
         ({"model.acceleration_per_output": 1.0}, "gains that are not stable"),
     ],
 )
-def test_a_motor_that_cannot_be_tuned_is_said_in_a_sentence(model: dict[str, float], message: str) -> None:
+def test_a_motor_that_cannot_be_tuned_is_shown_in_a_sentence(model: dict[str, float], message: str) -> None:
     with pytest.raises(SimulationError, match=message):
         simulate(module(), "procedure", settings=model)
 

@@ -92,7 +92,7 @@ def test_a_position_cam_goes_in_straight_lines_between_its_points() -> None:
     assert position_cam(table, 10, 5, base=1000) == 1050  # page 4-51: added to the base position
 
 
-def test_a_position_cam_stands_before_its_reference_and_after_its_end() -> None:
+def test_a_position_cam_is_before_its_reference_and_after_its_end() -> None:
     assert position_cam((0, 100, 50), 10, -3) == 0
     assert position_cam((0, 100, 50), 10, 99) == 50
 

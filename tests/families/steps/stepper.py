@@ -41,11 +41,11 @@ FORMULAS = {"limit_mm": limit_mm}
 def _read(text: str, schema: Schema, _options: ReadOptions) -> TextRead:
     found, file = TextRead(), ParameterFile(schema)
     for n, line in enumerate(text.splitlines()[1:], 1):
-        number, _, said = line.removeprefix("N").partition("=")
+        number, _, message = line.removeprefix("N").partition("=")
         address = file.find(number)
         parameter = schema.parameters[address[0]]
         try:
-            found.values[address] = read_value(parameter, said, schema.units_of(parameter)[0])
+            found.values[address] = read_value(parameter, message, schema.units_of(parameter)[0])
         except InvalidValueError as error:
             raise FormatError(str(error), n + 1) from None
     return found

@@ -123,7 +123,9 @@ def test_it_is_exchanged_over_its_own_protocol(
     assert run(["identify", CONTROL + "?protocol=dnc", "--family", "num"]) == 2, "num does not speak dnc"
 
 
-def test_a_copy_of_what_it_held_goes_back_only_where_the_control_can_tell(path: Path, tmp_path: Path) -> None:
+def test_a_copy_of_what_it_kept_goes_back_only_where_the_control_can_report(
+    path: Path, tmp_path: Path
+) -> None:
     Driver.BENCH["bench"] = b"what nobody can read"
     assert run(["download", str(path), "--to", CONTROL]) == 0
     current = Driver.BENCH["bench"]

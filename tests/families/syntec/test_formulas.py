@@ -117,10 +117,10 @@ def test_the_hardware_basic_time_goes_by_the_series(series: str, expected: float
 def test_the_series_are_those_of_the_parameter_and_of_its_printed_table() -> None:
     schema = load_schema("syntec")
     notes = {c.key: c.note for c in schema.parameter("control.series").choices}
-    told = {
+    reported = {
         key: f"hardware basic time {time:.0f} µs" for key, time in syntec.dda.PRINTED_BASIC_TIMES_US.items()
     } | dict.fromkeys(syntec.dda.WITHOUT_PRINTED_TIME, "no time is printed, 983 µs is assumed")
-    assert {key: note for key, note in notes.items() if note} == told
+    assert {key: note for key, note in notes.items() if note} == reported
     assert schema.tables["hardware-basic-time"].column("Hardware basic time")[:2] == (983.0, 819.0)
 
 
@@ -306,7 +306,7 @@ def test_the_protected_block_is_where_all_axes_are_inside(
 
 
 @pytest.mark.parametrize(
-    ("call", "said"),
+    ("call", "message"),
     [
         (lambda: syntec.encoder_resolution(0, 4), "pulses must be greater than zero"),
         (lambda: syntec.travel_per_motor_turn(10000, 0), "screw_teeth must be greater than zero"),
@@ -319,8 +319,8 @@ def test_the_protected_block_is_where_all_axes_are_inside(
         (lambda: syntec.is_inside_protection([1], [2, 3], [0, 0]), "must be as many"),
     ],
 )
-def test_an_argument_that_makes_no_sense_is_named(call: Callable[[], float], said: str) -> None:
-    with pytest.raises(ValueError, match=said):
+def test_an_argument_that_makes_no_sense_is_named(call: Callable[[], float], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
         call()
 
 

@@ -139,6 +139,6 @@ def test_repeatability_over_the_scatter_of_the_dog() -> None:
     assert near["repeatability"][0] == 0.0  # the same index each time
 
 
-def test_a_zone_is_not_called_unset_where_zones_are_not_simulated() -> None:
+def test_a_zone_is_not_called_not_set_where_zones_are_not_simulated() -> None:
     with pytest.raises(SimulationError, match="Programmable zones of this family are not simulated"):
         simulate(mill(), "travel", "1", {"move.zone": "2"})

@@ -149,7 +149,7 @@ def test_a_control_that_does_not_say_its_signature_takes_nothing() -> None:
         download(Sheet(signature=""), WantedContent(NEW, "s1"), lambda _: "kept")
 
 
-def test_only_a_control_that_says_so_is_out_of_estop() -> None:
+def test_only_a_control_that_shows_it_is_out_of_estop() -> None:
     with pytest.raises(NotInEmergencyStopError):
         download(Sheet(estop=False), WantedContent(NEW, "s1"), lambda _: "kept")
     assert download(Sheet(estop=None), WantedContent(NEW, "s1"), lambda _: "kept").verified
@@ -217,7 +217,7 @@ def test_what_a_control_does_not_have_is_named_before_anything_is_kept_or_sent()
     assert (control.calls, kept) == (["identify", "fetch"], [])
 
 
-def test_a_break_between_two_settings_says_which_are_new() -> None:
+def test_a_break_between_two_settings_shows_which_are_new() -> None:
     control = Settings(b"1=5\n2=6\n3=7\n", breaks_after=1)
     with pytest.raises(ConnectionCutError) as caught:
         download(control, WantedContent(partial(control.encode, b"1=8\n2=9\n"), "s1"), lambda _: "kept")

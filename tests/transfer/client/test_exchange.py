@@ -60,12 +60,12 @@ def bench(rig: Callable[..., Any], new_control: Callable[..., Any]) -> Callable[
 
 def test_a_download_is_kept_sent_restarted_and_read_back(bench: Callable[..., Any]) -> None:
     made, session, shelf = bench()
-    told: list[str] = []
+    reported: list[str] = []
     outcome = download(
         HouseDriver(session),
         WantedContent(NEW, "s1"),
         shelf,
-        Exchange(lambda stage, done, total: told.append(stage)),
+        Exchange(lambda stage, done, total: reported.append(stage)),
     )
     assert (outcome.at_control, outcome.verified, outcome.written, outcome.restart) == (
         "new",
@@ -81,10 +81,10 @@ def test_a_download_is_kept_sent_restarted_and_read_back(bench: Callable[..., An
     )
     assert shelf.kept == [OLD]
     assert made.control.image == NEW
-    assert list(dict.fromkeys(told)) == ["keep", "download", "commit", "restart", "verify"]
+    assert list(dict.fromkeys(reported)) == ["keep", "download", "commit", "restart", "verify"]
 
 
-def test_without_autostart_a_person_must_restart_the_control(bench: Callable[..., Any]) -> None:
+def test_without_autostart_a_user_must_restart_the_control(bench: Callable[..., Any]) -> None:
     made, session, shelf = bench(autostart=False)
     outcome = download(HouseDriver(session), WantedContent(NEW, "s1"), shelf)
     assert (outcome.at_control, outcome.verified, outcome.restart) == ("new", True, "needed")
@@ -189,7 +189,7 @@ def test_what_is_there_already_must_still_be_what_was_approved(bench: Callable[.
     assert not download(HouseDriver(session), WantedContent(NEW, "s1", expected=sha(NEW)), shelf).written
 
 
-def test_what_a_control_has_held_goes_back_under_no_signature(bench: Callable[..., Any]) -> None:
+def test_what_a_control_has_kept_goes_back_under_no_signature(bench: Callable[..., Any]) -> None:
     made, session, shelf = bench()
     download(HouseDriver(session), WantedContent(NEW, "s1"), shelf)
     outcome = download(HouseDriver(session), WantedContent(OLD, "", is_return=True), shelf)
@@ -222,7 +222,7 @@ def test_a_cut_that_leaves_the_end_unknown_names_the_kept_image(bench: Callable[
     assert "kept in machine.before.amp" in str(caught.value)
 
 
-def test_a_control_that_does_not_come_back_is_told(bench: Callable[..., Any]) -> None:
+def test_a_control_that_does_not_come_back_is_reported(bench: Callable[..., Any]) -> None:
     _, session, shelf = bench(lines=1)
     outcome = download(HouseDriver(session), WantedContent(NEW, "s1"), shelf, restart_wait=5)
     assert (outcome.at_control, outcome.verified, outcome.restart) == ("new", False, "missed")
@@ -230,7 +230,7 @@ def test_a_control_that_does_not_come_back_is_told(bench: Callable[..., Any]) ->
     assert "kept in machine.before.amp" in outcome.text
 
 
-def test_a_cancel_while_the_control_restarts_says_that_the_new_image_is_there(
+def test_a_cancel_while_the_control_restarts_shows_that_the_new_image_is_there(
     bench: Callable[..., Any],
 ) -> None:
     made, session, shelf = bench()
@@ -248,7 +248,9 @@ def test_a_cancel_while_the_control_restarts_says_that_the_new_image_is_there(
     assert made.control.image == NEW
 
 
-def test_a_control_that_holds_something_else_after_the_commit_is_found_out(bench: Callable[..., Any]) -> None:
+def test_a_control_that_contains_something_else_after_the_commit_is_found_out(
+    bench: Callable[..., Any],
+) -> None:
     made, session, shelf = bench()
 
     def rot(stage: str, done: int, total: int) -> None:
@@ -299,7 +301,7 @@ def test_where_two_images_first_differ(a: bytes, b: bytes, at: int | None) -> No
     "error", [MemoryError(), OSError(28, "No space left on device"), RuntimeError("odd")]
 )
 @pytest.mark.parametrize(("part", "at_control"), [("OpenDownload", "old"), ("Commit", "unknown")])
-def test_whatever_breaks_a_download_off_is_told_with_what_the_control_holds(
+def test_whatever_breaks_a_download_off_is_reported_with_what_the_control_contains(
     bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch, error: Exception, part: str, at_control: str
 ) -> None:
     def breaks(*_: object) -> None:
@@ -314,7 +316,7 @@ def test_whatever_breaks_a_download_off_is_told_with_what_the_control_holds(
 
 
 @pytest.mark.parametrize("error", [MemoryError(), OSError(24, "Too many open files")])
-def test_whatever_ends_the_reading_back_is_told_with_what_the_control_holds(
+def test_whatever_ends_the_reading_back_is_reported_with_what_the_control_contains(
     bench: Callable[..., Any], monkeypatch: pytest.MonkeyPatch, error: Exception
 ) -> None:
     def breaks(*_: object) -> None:

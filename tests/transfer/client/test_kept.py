@@ -122,18 +122,18 @@ def test_a_copy_that_cannot_be_written_whole_leaves_nothing(
 
 def test_sha256sum_agrees(tmp_path: Path) -> None:
     path = keep_image(GARBAGE, tmp_path, "mill")
-    said = subprocess.run(
+    message = subprocess.run(
         ["sha256sum", "--check", "--strict", digest_path(path).name],
         cwd=tmp_path,
         capture_output=True,
         text=True,
         check=False,
     )
-    assert (said.returncode, said.stdout) == (0, f"{path.name}: OK\n")
+    assert (message.returncode, message.stdout) == (0, f"{path.name}: OK\n")
 
 
 @pytest.mark.parametrize(
-    ("digest", "said"),
+    ("digest", "message"),
     [
         (b"0" * 64 + b"  x.img\n", "is not what was kept"),
         (b"junk", "contains no digest"),
@@ -141,12 +141,12 @@ def test_sha256sum_agrees(tmp_path: Path) -> None:
         (b"\xff" * 64, "contains no digest"),
     ],
 )
-def test_a_copy_that_is_not_what_was_kept_is_refused(digest: bytes, said: str, tmp_path: Path) -> None:
+def test_a_copy_that_is_not_what_was_kept_is_refused(digest: bytes, message: str, tmp_path: Path) -> None:
     path = tmp_path / "x.img"
     save_image(GARBAGE, path)
     digest_path(path).write_bytes(digest)
 
-    with pytest.raises(CopyError, match=said):
+    with pytest.raises(CopyError, match=message):
         open_copy(path)
 
 

@@ -53,14 +53,14 @@ def test_out_of_estop_nothing_is_sent(
 
     assert run(["download", str(mill), "--to", address]) == 2
 
-    said = capsys.readouterr().err.strip().splitlines()[-1]
-    assert "E-stop" in said
+    message = capsys.readouterr().err.strip().splitlines()[-1]
+    assert "E-stop" in message
     assert (tmp_path / "control" / "active.img").read_bytes() == before
     assert panel(process, "estop on") == "estop on"
     assert run(["download", str(mill), "--to", address]) == 0
 
 
-def test_a_control_that_is_restarted_by_hand_says_so(
+def test_a_control_that_is_restarted_by_hand_shows_it(
     mill: Path, start_control: StartControl, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Without autostart the new file is current only after a restart (page 2-14)."""

@@ -77,7 +77,7 @@ def test_a_value_set_after_the_download_was_not_in_it(path: Path) -> None:
     )
 
 
-def test_without_a_record_or_without_the_kept_copy_it_says_so(path: Path) -> None:
+def test_without_a_record_or_without_the_kept_copy_it_shows_it(path: Path) -> None:
     with pytest.raises(NoDownloadError, match=r"No download of mill\.amp is recorded"):
         last_download(mill(9.0), path)
     kept = record(path, mill(0.0), mill(1.0))
@@ -105,7 +105,7 @@ def test_without_a_record_or_without_the_kept_copy_it_says_so(path: Path) -> Non
         {"after": "0" * 64},
     ],
 )
-def test_a_damaged_record_is_no_more_than_no_download(path: Path, line: dict[str, object]) -> None:
+def test_a_damaged_record_counts_as_no_download(path: Path, line: dict[str, object]) -> None:
     record(path, mill(0.0), mill(1.0))
     place = path.with_name("exchanges.jsonl")
     place.write_text(json.dumps(json.loads(place.read_text()) | line) + "\n")

@@ -49,7 +49,7 @@ class Bench:
     address: str
     active: Path
     folder: Path
-    said: Callable[[], tuple[str, str]]
+    printed: Callable[[], tuple[str, str]]
 
     def kept(self) -> list[Path]:
         return sorted(self.folder.glob("*.before-*.img"))
@@ -72,7 +72,7 @@ def bench(
 
 
 @pytest.mark.parametrize("what", HOSTILE if CAMPAIGN else ("garbage", "another schema", "errors"))
-def test_whatever_a_control_holds_is_kept_replaced_and_put_back(
+def test_whatever_a_control_contains_is_kept_replaced_and_put_back(
     what: str, bench: Callable[[bytes], Bench], mill: Path
 ) -> None:
     """Byte for byte, and what the restore replaces is kept just so."""
@@ -85,9 +85,9 @@ def test_whatever_a_control_holds_is_kept_replaced_and_put_back(
     assert first.read_bytes() == at_control
     assert control.active.read_bytes() == sent
 
-    assert control.said()[0].startswith("Download complete and read back equal; the control has restarted")
+    assert control.printed()[0].startswith("Download complete and read back equal; the control has restarted")
     assert run(["restore", str(first), "--to", control.address, "--expect", sha(sent)]) == 0
-    assert control.said()[0].startswith("Restore complete and read back equal; the control has restarted")
+    assert control.printed()[0].startswith("Restore complete and read back equal; the control has restarted")
     assert control.active.read_bytes() == at_control
     [second] = [path for path in control.kept() if path != first]
     assert second.name.startswith("mill.before-")
@@ -98,7 +98,7 @@ def test_whatever_a_control_holds_is_kept_replaced_and_put_back(
     assert control.active.read_bytes() == sent
 
 
-def test_a_control_takes_back_what_it_held_two_downloads_ago(
+def test_a_control_takes_back_what_it_kept_two_downloads_ago(
     bench: Callable[[bytes], Bench], mill: Path, tmp_path: Path
 ) -> None:
     control = bench(GARBAGE)
@@ -114,7 +114,7 @@ def test_a_control_takes_back_what_it_held_two_downloads_ago(
 
 
 @pytest.mark.parametrize("image", [GARBAGE, HOSTILE["another family"], HOSTILE["a value without its unit"]])
-def test_what_a_control_never_held_and_cannot_read_it_refuses(
+def test_what_a_control_never_kept_and_cannot_read_it_refuses(
     image: bytes, bench: Callable[[bytes], Bench], tmp_path: Path
 ) -> None:
     """A copy from another control is no copy of this one."""
@@ -124,45 +124,45 @@ def test_what_a_control_never_held_and_cannot_read_it_refuses(
 
     assert run(["restore", str(copy), "--to", control.address]) == 2
 
-    said = control.said().err.strip().splitlines()[-1]
-    assert "has not contained" in said
-    assert said.endswith("nothing was replaced in the control")
+    printed = control.printed().err.strip().splitlines()[-1]
+    assert "has not contained" in printed
+    assert printed.endswith("nothing was replaced in the control")
     assert control.active.read_bytes() == mill_image()
 
 
-def test_an_empty_control_has_nothing_to_keep_and_says_so(
+def test_an_empty_control_has_nothing_to_keep_and_shows_it(
     bench: Callable[[bytes], Bench], mill: Path
 ) -> None:
     control = bench(b"")
 
     assert run(["upload", "--from", control.address, "-o", str(control.folder / "new.img")]) == 2
-    assert "the control is empty" in control.said().err
+    assert "the control is empty" in control.printed().err
     assert run(["verify", str(mill), "--with", control.address]) == 1
-    assert "The control contains something else: nothing." in control.said().out
+    assert "The control contains something else: nothing." in control.printed().out
     assert run(["download", str(mill), "--to", control.address, "--expect", sha(b"")]) == 0
 
-    assert "It was empty before." in control.said().out
+    assert "It was empty before." in control.printed().out
     assert control.kept() == []
 
 
-def test_a_restore_says_what_is_wrong_with_what_goes_back(
+def test_a_restore_shows_what_is_wrong_with_what_goes_back(
     bench: Callable[[bytes], Bench], mill: Path
 ) -> None:
     """Errors are listed but are no reason to refuse what a control contained."""
     control = bench(mill_image())
     assert run(["download", str(mill), "--to", control.address]) == 0
     [first] = control.kept()
-    control.said()
+    control.printed()
 
     assert run(["restore", str(first), "--to", control.address]) == 0
 
-    said = control.said().err
-    assert "error 1030 Servo Hardware Type" in said
-    assert "goes back with 2 errors, as the control contained it" in said
+    printed = control.printed().err
+    assert "error 1030 Servo Hardware Type" in printed
+    assert "goes back with 2 errors, as the control contained it" in printed
     assert control.active.read_bytes() == mill_image()
 
 
-def test_a_parameter_file_with_errors_that_no_control_held_is_not_restored(
+def test_a_parameter_file_with_errors_that_no_control_kept_is_not_restored(
     bench: Callable[[bytes], Bench], tmp_path: Path
 ) -> None:
     control = bench(mill_image())
@@ -171,7 +171,7 @@ def test_a_parameter_file_with_errors_that_no_control_held_is_not_restored(
 
     assert run(["restore", str(path), "--to", control.address]) == 2
 
-    assert "no image beside it proves that a control contained it" in control.said().err
+    assert "no image beside it proves that a control contained it" in control.printed().err
     assert control.active.read_bytes() == mill_image()
 
 
@@ -196,9 +196,9 @@ def test_without_a_place_to_keep_it_nothing_is_replaced(
 
     assert run(["download", str(mill), "--to", control.address, "--keep", str(nowhere)]) == 2
 
-    said = control.said().err.strip().splitlines()[-1]
-    assert "what the control contains could not be kept (" in said
-    assert said.endswith(": No such file or directory); nothing was replaced in the control")
+    printed = control.printed().err.strip().splitlines()[-1]
+    assert "what the control contains could not be kept (" in printed
+    assert printed.endswith(": No such file or directory); nothing was replaced in the control")
     assert control.active.read_bytes() == GARBAGE
 
 
@@ -217,9 +217,9 @@ def test_only_what_was_approved_is_replaced(verb: str, bench: Callable[[bytes], 
 
     assert run([verb, str(path), "--to", control.address, "--expect", sha(b"seen")]) == 2
 
-    said = control.said().err.strip().splitlines()[-1]
-    assert f"sha256 {SHORT_OF_GARBAGE}…, approved {sha(b'seen')[:12]}…" in said
-    assert said.endswith("nothing was replaced in the control")
+    printed = control.printed().err.strip().splitlines()[-1]
+    assert f"sha256 {SHORT_OF_GARBAGE}…, approved {sha(b'seen')[:12]}…" in printed
+    assert printed.endswith("nothing was replaced in the control")
     assert control.active.read_bytes() == GARBAGE
     assert control.kept() == []
 
@@ -246,11 +246,11 @@ def test_the_digest_that_verify_prints_is_the_one_to_pass_on(
         ["diff", str(mill), control.address],
     ):
         run(verb)
-        printed.append(control.said().out.splitlines()[-1])
+        printed.append(control.printed().out.splitlines()[-1])
     run(["verify", str(mill), "--with", control.address, "--json"])
-    printed.append("sha256 " + json.loads(control.said().out)["sha256"])
+    printed.append("sha256 " + json.loads(control.printed().out)["sha256"])
     run(["diff", str(mill), control.address, "--json"])
-    printed.append("sha256 " + json.loads(control.said().out)["sha256"]["b"])
+    printed.append("sha256 " + json.loads(control.printed().out)["sha256"]["b"])
 
     assert printed == [f"sha256 {sha(mill_image())}"] * 6
     assert image.read_bytes() == mill_image()
@@ -271,20 +271,20 @@ def test_a_file_with_errors_is_not_sent_unless_they_are_accepted(
     control = bench(GARBAGE)
 
     assert run(["download", str(path), "--to", "tcp://127.0.0.1:1"]) == 2
-    out, said = control.said()
+    out, printed = control.printed()
     assert out == ""
-    assert [line.split()[0] for line in said.splitlines()] == ["error"] * 2 + ["amp-studio:"], (
+    assert [line.split()[0] for line in printed.splitlines()] == ["error"] * 2 + ["amp-studio:"], (
         "what is wrong with both axes alike is one line"
     )
     assert (
-        said.splitlines()[-1]
+        printed.splitlines()[-1]
         == f"amp-studio: {path} has 4 errors: nothing was sent (--accept-errors sends it anyway)"
     )
     assert control.active.read_bytes() == GARBAGE
 
     assert run(["download", str(path), "--to", control.address, "--accept-errors"]) == 0
-    out, said = control.said()
-    assert [line.split()[0] for line in said.splitlines()].count("error") == 2
+    out, printed = control.printed()
+    assert [line.split()[0] for line in printed.splitlines()].count("error") == 2
     assert out.startswith("Download complete")
 
 
@@ -294,15 +294,15 @@ def test_an_error_of_the_builders_own_rules_counts(mill: Path, capsys: pytest.Ca
         '    reads: {speed: home.speed_off_switch}\n    check: speed < 1.0\n    message: "Too fast."\n'
     )
     assert run(["download", str(mill), "--to", "tcp://127.0.0.1:1"]) == 2
-    said = capsys.readouterr().err
-    assert "Too fast." in said
-    assert "nothing was sent" in said
+    printed = capsys.readouterr().err
+    assert "Too fast." in printed
+    assert "nothing was sent" in printed
 
 
 # -- verify ------------------------------------------------------------------------------------------
 
 
-def test_verify_tells_a_header_that_differs(bench: Callable[[bytes], Bench], tmp_path: Path) -> None:
+def test_verify_reports_a_header_that_differs(bench: Callable[[bytes], Bench], tmp_path: Path) -> None:
     """The values are the same, a byte is not: exit 1, and the line is named."""
     control = bench(mill_image())
     path = tmp_path / "mine.amp"
@@ -311,16 +311,16 @@ def test_verify_tells_a_header_that_differs(bench: Callable[[bytes], Bench], tmp
     Document.create(file, path).close()
 
     assert run(["verify", str(path), "--with", control.address]) == 1
-    said = control.said().out
-    assert "revision in the header: '3.05'  |  ''" in said
-    assert "All values are the same; only the header (revision) differs." in said
+    printed = control.printed().out
+    assert "revision in the header: '3.05'  |  ''" in printed
+    assert "All values are the same; only the header (revision) differs." in printed
     assert run(["verify", str(path), "--with", control.address, "--json"]) == 1
-    told = json.loads(control.said().out)
-    assert (told["differences"], told["same_bytes"]) == ([], False)
-    assert told["header"] == [{"line": "revision", "a": "3.05", "b": ""}]
+    reported = json.loads(control.printed().out)
+    assert (reported["differences"], reported["same_bytes"]) == ([], False)
+    assert reported["header"] == [{"line": "revision", "a": "3.05", "b": ""}]
 
 
-def test_verify_tells_a_value_in_another_unit(bench: Callable[[bytes], Bench], tmp_path: Path) -> None:
+def test_verify_reports_a_value_in_another_unit(bench: Callable[[bytes], Bench], tmp_path: Path) -> None:
     """25.4 mm and 1 in are the same value and not the same bytes."""
     file = new_file("9pc", "mill", ["X"])
     file.set(file.find("1300"), file.read(file.find("1300"), "1 in"))
@@ -331,34 +331,34 @@ def test_verify_tells_a_value_in_another_unit(bench: Callable[[bytes], Bench], t
 
     assert run(["verify", str(path), "--with", control.address]) == 1
 
-    said = control.said().out
-    assert "0 differ, " in said
-    assert "1300 Home Calibration" in said
-    assert "only the units of some values differ" in said
+    printed = control.printed().out
+    assert "0 differ, " in printed
+    assert "1300 Home Calibration" in printed
+    assert "only the units of some values differ" in printed
 
 
-def test_verify_of_what_cannot_be_read_says_so(bench: Callable[[bytes], Bench], mill: Path) -> None:
+def test_verify_of_what_cannot_be_read_shows_it(bench: Callable[[bytes], Bench], mill: Path) -> None:
     control = bench(GARBAGE)
     assert run(["verify", str(mill), "--with", control.address]) == 1
-    assert "The control contains something else: the control image is not text." in control.said().out
+    assert "The control contains something else: the control image is not text." in control.printed().out
     assert run(["verify", str(mill), "--with", control.address, "--json"]) == 1
-    told = json.loads(control.said().out)
-    assert (told["differences"], told["same_bytes"], told["header"]) == ([], False, [])
-    assert told["unreadable"] == "the control image is not text"
+    reported = json.loads(control.printed().out)
+    assert (reported["differences"], reported["same_bytes"], reported["header"]) == ([], False, [])
+    assert reported["unreadable"] == "the control image is not text"
 
 
 @pytest.mark.parametrize(
     "verb", [["verify", "FILE", "--with"], ["upload", "-o", "new.amp", "--from"], ["diff", "FILE"]]
 )
-def test_who_only_looks_is_not_told_that_nothing_was_replaced(
+def test_who_only_looks_gets_no_word_of_what_was_replaced(
     verb: list[str], mill: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """After a download of unknown outcome that would be the wrong answer to the question."""
     arguments = [str(mill) if word == "FILE" else word for word in verb]
     assert run([*arguments, "tcp://127.0.0.1:1"]) == 2
-    said = capsys.readouterr().err
-    assert "no connection to the control" in said
-    assert "replaced" not in said
+    printed = capsys.readouterr().err
+    assert "no connection to the control" in printed
+    assert "replaced" not in printed
 
 
 # -- uploads -----------------------------------------------------------------------------------------
@@ -373,7 +373,7 @@ def test_an_upload_writes_no_file_of_what_cannot_be_read(
     path = tmp_path / "new.amp"
 
     assert run(["upload", "--from", control.address, "-o", str(path), "--on-fault", "keep"]) == 2
-    assert f"nothing was written (-o {tmp_path / 'new.img'} keeps it byte for byte)" in control.said().err
+    assert f"nothing was written (-o {tmp_path / 'new.img'} keeps it byte for byte)" in control.printed().err
     assert not path.exists()
 
     assert run(["upload", "--from", control.address, "-o", str(tmp_path / "new.img")]) == 0
@@ -385,7 +385,9 @@ def test_an_upload_writes_no_file_of_what_cannot_be_read(
 @pytest.mark.parametrize(
     "port", ["/dev/null", "/dev/zero", "serial:/dev/full", "serial:/etc/passwd", "serial:/tmp"]
 )
-def test_what_is_no_serial_port_is_told(port: str, mill: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_is_no_serial_port_is_reported(
+    port: str, mill: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert run(["verify", str(mill), "--with", port]) == 2
     assert "this is no serial port" in capsys.readouterr().err
 

@@ -39,7 +39,7 @@ def test_over_9600_baud_a_whole_download_makes_two_passes_and_not_three(slow) ->
     assert 2.0 * PASS < seconds < 2.35 * PASS
 
 
-def test_what_was_not_read_is_said(slow) -> None:
+def test_what_was_not_read_is_shown(slow) -> None:
     outcome, _ = exchanged(slow)
     assert outcome.text.startswith(
         "Download complete: the control states the digest of the new image for what it contains, and 6 of 52"
@@ -108,7 +108,7 @@ def test_what_was_just_fetched_to_be_shown_is_not_fetched_again(slow) -> None:
     assert slow.clock.now - begun < 1.35 * PASS
 
 
-def test_what_was_fetched_before_somebody_changed_the_control_is_fetched_again(slow) -> None:
+def test_what_was_fetched_before_a_user_changed_the_control_is_fetched_again(slow) -> None:
     kept: list[bytes] = []
     download(
         HouseDriver(slow.session()),

@@ -37,7 +37,7 @@ def test_a_download_replaces_the_image_and_keeps_the_one_before(make: Callable[.
     assert control.memory.names() == [*LOCK, "active.img", "control.json", "previous.img"]
 
 
-def test_what_it_holds_and_its_state_outlive_the_process(make: Callable[..., Control]) -> None:
+def test_what_it_contains_and_its_state_outlive_the_process(make: Callable[..., Control]) -> None:
     control = make()
     folder = control.memory.folder
     download(control)
@@ -146,7 +146,7 @@ def refuse(image: bytes) -> None:
     raise ValueError("nobody can read it")
 
 
-def test_a_control_takes_back_whatever_it_has_held(make: Callable[..., Control]) -> None:
+def test_a_control_takes_back_whatever_it_has_kept(make: Callable[..., Control]) -> None:
     """Under any signature and unread, also after a restart; what it has not contained it reads."""
     control = make()
     download(control)
@@ -208,7 +208,7 @@ def test_a_memory_of_an_earlier_program_is_taken_over(make: Callable[..., Contro
 
 
 @pytest.mark.parametrize("images", [5, "x", None, {}])
-def test_a_damaged_memory_of_images_is_told(images: object, make: Callable[..., Control]) -> None:
+def test_a_damaged_memory_of_images_is_reported(images: object, make: Callable[..., Control]) -> None:
     control = make()
     folder = control.memory.folder
     control.close()
@@ -251,11 +251,11 @@ def test_a_folder_belongs_to_one_control(make: Callable[..., Control], tmp_path:
     with pytest.raises(StateError, match="control is open in another program"):
         make(tmp_path)
     control.close()
-    for identity, said in (
+    for identity, message in (
         (Identity("num", "s1"), "memory of a 9pc"),
         (Identity("9pc", "s2"), "another parameter schema"),
     ):
-        with pytest.raises(StateError, match=said):
+        with pytest.raises(StateError, match=message):
             Control(tmp_path, identity)
     (tmp_path / "control.json").write_text("{")
     with pytest.raises(StateError, match="damaged"):

@@ -134,7 +134,7 @@ def start_and_die(control: Control, folder: Path, at: int) -> bool:
 
 
 @pytest.mark.parametrize("for_ever", [False, True], ids=["once", "from then on"])
-def test_a_disk_that_fails_at_any_step_of_a_commit_gives_old_or_new_and_says_which(
+def test_a_disk_that_fails_at_any_step_of_a_commit_gives_old_or_new_and_shows_which(
     make: Callable[..., Control], for_ever: bool
 ) -> None:
     at, failed = 0, True
@@ -154,16 +154,16 @@ def test_a_disk_that_fails_at_any_step_of_a_commit_gives_old_or_new_and_says_whi
                 raise OSError(errno.ENOSPC, "No space left on device")
 
         control.memory.on_step = on_step
-        said, code = NEW, None
+        message, code = NEW, None
         try:
             control.commit(Commit(TRANSFER, sha(NEW)))
         except RefusalError as refusal:
-            said, code = OLD, refusal.code
+            message, code = OLD, refusal.code
         assert code in (None, Code.STORAGE)
-        assert control.image == said, f"step {at}"
+        assert control.image == message, f"step {at}"
         control.close()
         control = make(folder)
-        assert control.image == said, f"step {at}: it is the same after the next start"
+        assert control.image == message, f"step {at}: it is the same after the next start"
         assert download(control).sha256 == sha(NEW)
         assert control.memory.read("previous.img") == OLD, f"step {at}"
         control.close()

@@ -101,7 +101,7 @@ def test_a_download_that_no_control_has_begun_is_refused(
         new_control(folder)
 
 
-def test_a_download_of_which_more_has_come_than_there_is_begins_anew(
+def test_a_download_of_which_more_has_come_than_there_is_begins_again(
     new_control: Callable[..., Control], tmp_path: Path
 ) -> None:
     folder = tmp_path / "control"

@@ -118,22 +118,22 @@ def test_a_download_goes_on_in_a_control_that_was_killed(emulate: Callable[..., 
             emulated.append(emulate(tmp_path))
         return connect(parse_endpoint(emulated[-1].address))
 
-    told: list[int] = []
+    reported: list[int] = []
 
     def kill_at_half(stage: str, done: int, total: int) -> None:
         if stage == "download":
-            told.append(done)
+            reported.append(done)
             if done > total // 2 and len(emulated) == 1 and not emulated[0].is_dead:
                 emulated[0].kill()
 
     with Session(open_link, policy=QUICK) as session:
         session.send(Replacement(NEW, OLD, "s1"), Exchange(kill_at_half))
     assert staged[0] > len(NEW) // 2
-    assert staged[0] in told, "it went on where the control said"
+    assert staged[0] in reported, "it went on where the control said"
     assert (tmp_path / "active.img").read_bytes() == NEW
 
 
-def test_a_control_killed_at_any_step_of_the_commit_holds_old_or_new(
+def test_a_control_killed_at_any_step_of_the_commit_contains_old_or_new(
     emulate: Callable[..., Any], tmp_path: Path
 ) -> None:
     """Each time the process kills itself at one step of the commit on the disk, and is started again."""
@@ -181,7 +181,7 @@ def test_a_control_that_stays_dead_after_the_commit_was_asked_for_is_unknown(
     assert (caught.value.at_control, caught.value.kept) == ("unknown", "kept.amp")
 
 
-def test_estop_is_what_the_operator_says(emulate: Callable[..., Any], tmp_path: Path) -> None:
+def test_estop_is_what_the_operator_shows(emulate: Callable[..., Any], tmp_path: Path) -> None:
     emulated = emulate(tmp_path, estop=False)
     with session_at(emulated.address) as session:
         with pytest.raises(NotInEmergencyStopError):
@@ -207,17 +207,17 @@ def test_the_operator_patches_the_image_and_asks_for_the_state(
         emulated.operate("jump") == "refused: 'jump' is no command: "
         "estop on|off, autostart on|off, restart, patch KEY=VALUE, status, quit"
     )
-    said = emulated.operate("status")
+    message = emulated.operate("status")
     digest = hashlib.sha256(b"1 0\n11 5\n").hexdigest()
     assert (
-        said == "status estop=off running=on restart-needed=on autostart=on changed-at-control=on "
+        message == "status estop=off running=on restart-needed=on autostart=on changed-at-control=on "
         f"incarnation=1 size=9 sha256={digest}"
     )
     assert upload(HouseDriver(session_at(emulated.address))) == b"1 0\n11 5\n"
     assert json.loads((tmp_path / "control.json").read_text())["changed_at_control"] is True
 
 
-def test_a_full_control_says_so(emulate: Callable[..., Any], tmp_path: Path) -> None:
+def test_a_full_control_shows_it(emulate: Callable[..., Any], tmp_path: Path) -> None:
     emulated = emulate(tmp_path, faults={"disk_full_at": 10_000})
     with (
         session_at(emulated.address) as session,
@@ -282,22 +282,22 @@ def test_a_client_that_has_long_been_silent_loses_the_line_to_the_next(
         listener.close()
 
 
-def test_serve_says_where_it_listens_and_obeys(new_control: Callable[..., Any]) -> None:
-    said: list[str] = []
+def test_serve_shows_where_it_listens_and_obeys(new_control: Callable[..., Any]) -> None:
+    message: list[str] = []
     assert (
         serve(
             "tcp://127.0.0.1:0",
             new_control(),
             commands=["estop off", "", "patch 1=2", "quit"],
-            say=said.append,
+            say=message.append,
         )
         == 0
     )
-    assert said[0].startswith("listening on tcp://127.0.0.1:")
-    assert said[1:] == ["estop off", "refused: this control cannot be patched", "bye"]
+    assert message[0].startswith("listening on tcp://127.0.0.1:")
+    assert message[1:] == ["estop off", "refused: this control cannot be patched", "bye"]
 
 
-def test_where_nothing_can_be_listened_on_serve_says_so(new_control: Callable[..., Any]) -> None:
+def test_where_nothing_can_be_listened_on_serve_shows_it(new_control: Callable[..., Any]) -> None:
     with pytest.raises(ValueError, match="no address"):
         serve("somewhere", new_control())
     with pytest.raises(LinkError, match="no such port"):
@@ -305,7 +305,7 @@ def test_where_nothing_can_be_listened_on_serve_says_so(new_control: Callable[..
 
 
 @needs_pty
-def test_a_new_client_on_a_serial_line_begins_anew(emulate: Callable[..., Any], tmp_path: Path) -> None:
+def test_a_new_client_on_a_serial_line_begins_again(emulate: Callable[..., Any], tmp_path: Path) -> None:
     """Nobody sees a serial client go; what it has left on the line does no harm to the next."""
     emulated = emulate(tmp_path, "pty:")
     link = connect(parse_endpoint(emulated.address))
@@ -327,7 +327,7 @@ def test_the_port_is_there_again_at_once_after_a_kill(emulate: Callable[..., Any
     session.close()
 
 
-def test_while_a_control_restarts_nobody_gets_through(emulate: Callable[..., Any], tmp_path: Path) -> None:
+def test_while_a_control_restarts_no_client_gets_through(emulate: Callable[..., Any], tmp_path: Path) -> None:
     emulated = emulate(tmp_path, restart_seconds=0.4)
     emulated.operate("restart")
     with pytest.raises((NoConnectionError, ControlSilentError)):

@@ -74,7 +74,7 @@ def test_the_staged_bytes_are_on_the_disk_before_they_become_the_active_image(
 
 @pytest.mark.parametrize("plant", [os.mkfifo, lambda path: path.symlink_to(path.parent.parent / "victim")])
 @pytest.mark.parametrize("name", ["active.img", "part"])
-def test_nothing_is_written_through_what_somebody_has_planted(
+def test_nothing_is_written_through_what_a_user_has_planted(
     tmp_path: Path, plant: Callable[[Path], None], name: str
 ) -> None:
     victim = tmp_path / "victim"

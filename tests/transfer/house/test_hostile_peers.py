@@ -40,7 +40,7 @@ from amp_studio.transfer.house.session import Session
 from amp_studio.transfer.house.window import Window
 from amp_studio.transfer.links.link import LinkError
 from tests.transfer import hostile_clients
-from tests.transfer.hostile_clients import OLD as HELD
+from tests.transfer.hostile_clients import OLD as STORED
 from tests.transfer.hostile_clients import Room, clients_beside_hostile_ones
 from tests.transfer.hostile_controls import exchange_with_hostile_control
 from tests.transfer.images import NEW, OLD, send
@@ -52,7 +52,7 @@ def test_a_hostile_control_costs_a_client_little_and_is_not_believed(seed: int, 
 
 
 @pytest.mark.parametrize("seed", range(31, 34))
-def test_hostile_clients_keep_a_control_from_nobody(seed: int, tmp_path: Path) -> None:
+def test_hostile_clients_do_not_keep_a_control_from_others(seed: int, tmp_path: Path) -> None:
     assert clients_beside_hostile_ones(seed, tmp_path) == []
 
 
@@ -154,10 +154,10 @@ def test_more_staged_than_there_is_cannot_be(lying: Callable[..., Any]) -> None:
 
 
 def test_an_acknowledgement_past_the_end_is_none(lying: Callable[..., Any]) -> None:
-    told: list[tuple[str, int, int]] = []
+    reported: list[tuple[str, int, int]] = []
     made = lying(lambda _, answer: Ack((1 << 32) - 1) if isinstance(answer, Ack) else answer)
-    send(made.session(), progress=lambda *step: told.append(step))
-    assert all(0 <= done <= total for stage, done, total in told if stage != "silent")
+    send(made.session(), progress=lambda *step: reported.append(step))
+    assert all(0 <= done <= total for stage, done, total in reported if stage != "silent")
     assert 3 < made.clock.now < 20, "it had to ask on another line how much is staged"
     assert made.control.image == NEW
 
@@ -300,7 +300,7 @@ def test_bytes_that_are_no_frame_hold_no_line(tmp_path: Path) -> None:
     room.close()
 
 
-def test_whole_frames_hold_the_line_and_another_client_is_told_so(tmp_path: Path) -> None:
+def test_whole_frames_hold_the_line_and_another_client_is_refused(tmp_path: Path) -> None:
     room = Room(tmp_path, [])
     first, second = room.call(), room.call()
     for _ in range(10):
@@ -367,11 +367,11 @@ def test_no_word_of_the_operator_ends_the_control(tmp_path: Path) -> None:
     assert room.said[1] == "refused: a command has 4096 bytes at most"
     assert all(line.isprintable() for line in room.said)
     assert room.said[3].startswith("status estop=on")
-    assert room.control.image == HELD
+    assert room.control.image == STORED
     room.close()
 
 
-def test_a_download_goes_through_where_nobody_is_hostile(tmp_path: Path) -> None:
+def test_a_download_goes_through_where_nothing_is_hostile(tmp_path: Path) -> None:
     """What the seeded tests rest on."""
     room = Room(tmp_path, [])
     session = Session(room.open_link, clock=room.clock, sleep=hostile_clients._turns(room))

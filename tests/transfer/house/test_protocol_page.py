@@ -87,7 +87,7 @@ def examples(page: str) -> list[Example]:
     return found
 
 
-def test_every_message_stands_in_the_table_with_its_fields(page: str) -> None:
+def test_every_message_is_in_the_table_with_its_fields(page: str) -> None:
     rows = {int(row[0], 16): row[1:] for row in table(page, "| type | message |")}
     assert rows.keys() == MESSAGES.keys()
     for number, (name, sender, fields) in rows.items():
@@ -96,7 +96,7 @@ def test_every_message_stands_in_the_table_with_its_fields(page: str) -> None:
         assert sender == {True: "control", False: "client"}[number >= 0x80] or name == "Data"
 
 
-def test_every_flag_and_code_stands_in_its_table(page: str) -> None:
+def test_every_flag_and_code_is_in_its_table(page: str) -> None:
     assert {row[1]: int(row[0]) for row in table(page, "| value | flag |")} == {
         f.name: f.value for f in Flags
     }
@@ -122,10 +122,10 @@ def test_the_check_value(page: str) -> None:
     assert f"`{struct.pack('<I', check).hex(' ')}`" in page
 
 
-def test_every_frame_on_the_page_is_the_message_it_says(page: str) -> None:
-    shown = examples(page)
-    assert len(shown) > 10
-    for example in shown:
+def test_every_frame_on_the_page_is_the_message_it_shows(page: str) -> None:
+    displayed = examples(page)
+    assert len(displayed) > 10
+    for example in displayed:
         (frame,) = FrameDecoder().feed(example.line)
         message = unpack(frame)
         fields = {name: v.hex() if isinstance(v, bytes) else v for name, v in asdict(message).items()}
@@ -137,22 +137,22 @@ def test_every_frame_on_the_page_is_the_message_it_says(page: str) -> None:
         assert encode_frame(frame) == example.line
 
 
-def test_a_control_says_to_the_page_s_client_what_the_page_says(
+def test_a_control_shows_to_the_page_s_client_what_the_page_shows(
     page: str, new_control: Callable[..., Any]
 ) -> None:
     """The last section, played: the client's bytes go in, the control's bytes come out."""
-    _, *shown, refused = examples(page)
+    _, *displayed, refused = examples(page)
     responder = Responder(new_control(initial=b"old\n"))
-    for asked, answered in zip(shown[::2], shown[1::2], strict=True):
+    for asked, answered in zip(displayed[::2], displayed[1::2], strict=True):
         assert (asked.sender, answered.sender) == ("client", "control")
         assert responder.receive(asked.line).hex(" ") == answered.line.hex(" "), asked.message
     assert responder.control.image == b"new\n"
     out_of_estop = Responder(new_control(initial=b"old\n", estop=False))
-    opening = next(example for example in shown if example.message == "OpenDownload")
+    opening = next(example for example in displayed if example.message == "OpenDownload")
     assert out_of_estop.receive(opening.line) == refused.line
 
 
-def test_a_client_says_to_the_page_s_control_what_the_page_says(page: str) -> None:
+def test_a_client_shows_to_the_page_s_control_what_the_page_shows(page: str) -> None:
     """The same from the other side, as far as it is laid down: every request has the bytes of the page."""
     for example in examples(page):
         if example.sender == "client":

@@ -16,7 +16,7 @@ from amp_studio.transfer.house.message import Ack, Flags, pack
 from tests.transfer.images import NEW, OLD, send, sha
 
 
-def test_a_hello_tells_who_the_control_is(rig: Callable[..., Any], control: Callable[..., Any]) -> None:
+def test_a_hello_reports_who_the_control_is(rig: Callable[..., Any], control: Callable[..., Any]) -> None:
     welcome = rig(control=control()).session().hello()
     assert (welcome.family, welcome.signature, welcome.name, welcome.revision) == (
         "9pc",
@@ -39,16 +39,16 @@ def test_an_image_goes_there_and_comes_back(rig: Callable[..., Any], control: Ca
     assert made.control.memory.read("previous.img") == OLD
 
 
-def test_progress_is_told_to_the_last_byte(rig: Callable[..., Any], control: Callable[..., Any]) -> None:
-    told: list[tuple[str, int, int]] = []
+def test_progress_is_reported_to_the_last_byte(rig: Callable[..., Any], control: Callable[..., Any]) -> None:
+    reported: list[tuple[str, int, int]] = []
     session = rig(control=control()).session()
-    session.fetch(Exchange(lambda *step: told.append(step)))
-    send(session, progress=lambda *step: told.append(step))
+    session.fetch(Exchange(lambda *step: reported.append(step)))
+    send(session, progress=lambda *step: reported.append(step))
     for stage, total in (("upload", len(OLD)), ("download", len(NEW)), ("commit", 1)):
-        steps = [done for name, done, _ in told if name == stage]
+        steps = [done for name, done, _ in reported if name == stage]
         assert steps == sorted(steps)
         assert steps[-1] == total
-        assert {of for name, _, of in told if name == stage} == {total}
+        assert {of for name, _, of in reported if name == stage} == {total}
 
 
 def test_an_empty_image_is_an_image_too(rig: Callable[..., Any], new_control: Callable[..., Any]) -> None:

@@ -40,7 +40,7 @@ def keep(image: bytes) -> str:
 
 
 @pytest.mark.parametrize("urgent", [False, True])
-def test_a_download_stopped_at_any_moment_says_what_the_control_holds(
+def test_a_download_stopped_at_any_moment_shows_what_the_control_contains(
     rig: Callable[..., Any], new_control: Callable[..., Any], urgent: bool
 ) -> None:
     ends: set[tuple[str, str]] = set()
@@ -54,11 +54,11 @@ def test_a_download_stopped_at_any_moment_says_what_the_control_holds(
             ).at_control
             was_stopped = False
         except CancelledError as error:
-            at_control, said = error.at_control, str(error)
+            at_control, message = error.at_control, str(error)
         if was_stopped:
-            assert said.startswith("stopped")
-            assert ("nothing was replaced" in said) == (at_control == "old")
-            assert ("kept in kept.amp" in said) == (at_control != "old")
+            assert message.startswith("stopped")
+            assert ("nothing was replaced" in message) == (at_control == "old")
+            assert ("kept in kept.amp" in message) == (at_control != "old")
         truth = {OLD: "old", NEW: "new"}[made.control.image]
         assert at_control in {truth, "unknown"}, f"asked {asks} times: said {at_control}, and it is {truth}"
         if at_control == "old":
@@ -73,7 +73,7 @@ def test_a_download_stopped_at_any_moment_says_what_the_control_holds(
     )
 
 
-def test_a_keyboard_interrupt_after_the_commit_says_that_the_new_image_is_there(
+def test_a_keyboard_interrupt_after_the_commit_shows_that_the_new_image_is_there(
     rig: Callable[..., Any], control: Callable[..., Any]
 ) -> None:
     made = rig(control=control())
@@ -89,13 +89,13 @@ def test_a_keyboard_interrupt_after_the_commit_says_that_the_new_image_is_there(
 
 
 @pytest.mark.parametrize("stage", ["keep", "download", "commit", "restart", "verify"])
-def test_nobody_who_can_be_told_ends_no_exchange(
+def test_a_closed_output_ends_no_exchange(
     rig: Callable[..., Any], control: Callable[..., Any], stage: str
 ) -> None:
     """A closed standard error broke a download off and left the control in whatever state it was."""
 
-    def closed(told: str, done: int, total: int) -> None:
-        if told == stage:
+    def closed(reported: str, done: int, total: int) -> None:
+        if reported == stage:
             raise BrokenPipeError
 
     made = rig(control=control())
@@ -185,22 +185,26 @@ def test_who_stops_while_the_commit_is_not_answered_waits_5_seconds_and_not_at_a
 # -- silence is shown ------------------------------------------------------------------------------
 
 
-def silences(made: Any, told: list[tuple[float, str, int]]) -> Callable[[str, int, int], None]:
-    return lambda stage, done, total: told.append((made.clock.now, stage, done))
+def silences(made: Any, reported: list[tuple[float, str, int]]) -> Callable[[str, int, int], None]:
+    return lambda stage, done, total: reported.append((made.clock.now, stage, done))
 
 
-def test_a_silent_control_is_told_of_within_2_seconds(
+def test_a_silent_control_is_reported_within_2_seconds(
     rig: Callable[..., Any], control: Callable[..., Any]
 ) -> None:
     made = rig(Faults(silent=True), control=control())
-    told: list[tuple[float, str, int]] = []
+    reported: list[tuple[float, str, int]] = []
     with pytest.raises(ControlSilentError):
-        upload(HouseDriver(made.session()), Exchange(silences(made, told)))
-    assert [(stage, seconds) for _, stage, seconds in told] == [("silent", 2), ("silent", 3), ("silent", 4)]
-    assert 1.7 < told[0][0] <= 2.0
+        upload(HouseDriver(made.session()), Exchange(silences(made, reported)))
+    assert [(stage, seconds) for _, stage, seconds in reported] == [
+        ("silent", 2),
+        ("silent", 3),
+        ("silent", 4),
+    ]
+    assert 1.7 < reported[0][0] <= 2.0
 
 
-def test_a_line_that_is_not_made_is_told_of_within_2_seconds(
+def test_a_line_that_is_not_made_is_reported_within_2_seconds(
     rig: Callable[..., Any], control: Callable[..., Any]
 ) -> None:
     """Nobody answers to the first packet of a connection, and it is waited for 3 s."""
@@ -214,33 +218,33 @@ def test_a_line_that_is_not_made_is_told_of_within_2_seconds(
         return open_link(look)
 
     made.open_link = slowly
-    told: list[tuple[float, str, int]] = []
-    assert upload(HouseDriver(made.session()), Exchange(silences(made, told))) == OLD
-    assert told[0][1:] == ("silent", 2)
-    assert told[0][0] <= 2.0
-    assert told[1][1:] == ("silent", 0), "and it is told that this is over"
-    assert [stage for _, stage, _ in told[2:]] == ["upload"] * (len(told) - 2)
+    reported: list[tuple[float, str, int]] = []
+    assert upload(HouseDriver(made.session()), Exchange(silences(made, reported))) == OLD
+    assert reported[0][1:] == ("silent", 2)
+    assert reported[0][0] <= 2.0
+    assert reported[1][1:] == ("silent", 0), "and it is told that this is over"
+    assert [stage for _, stage, _ in reported[2:]] == ["upload"] * (len(reported) - 2)
 
 
-def test_a_line_that_falls_silent_in_the_middle_is_told_of_and_when_it_is_there_again(
+def test_a_line_that_falls_silent_in_the_middle_is_reported_and_when_it_is_there_again(
     rig: Callable[..., Any], control: Callable[..., Any]
 ) -> None:
     made = rig(control=control(), bytes_per_second=2_000)
-    told: list[tuple[float, str, int]] = []
+    reported: list[tuple[float, str, int]] = []
     fallen_silent: list[float] = []
     session = made.session()
 
     def note(stage: str, done: int, total: int) -> None:
-        told.append((made.clock.now, stage, done))
+        reported.append((made.clock.now, stage, done))
         if stage == "download" and done > 60 and not fallen_silent:
             fallen_silent.append(made.clock.now)
             link = session._line._talk.link
             link.read = lambda timeout: made.clock.sleep(timeout) or b""
 
     send(session, progress=note)
-    stages = [(stage, done) for _, stage, done in told]
+    stages = [(stage, done) for _, stage, done in reported]
     assert ("silent", 2) in stages
-    assert told[stages.index(("silent", 2))][0] - fallen_silent[0] <= 2.0
+    assert reported[stages.index(("silent", 2))][0] - fallen_silent[0] <= 2.0
     assert ("silent", 0) in stages[stages.index(("silent", 2)) :]
 
 
@@ -249,14 +253,14 @@ def test_a_control_that_restarts_is_not_called_silent(
 ) -> None:
     made = rig(control=control())
     made.modem._restart_seconds = 9.0
-    told: list[tuple[float, str, int]] = []
+    reported: list[tuple[float, str, int]] = []
     outcome = download(
-        HouseDriver(made.session()), WantedContent(NEW, "s1"), keep, Exchange(silences(made, told))
+        HouseDriver(made.session()), WantedContent(NEW, "s1"), keep, Exchange(silences(made, reported))
     )
     assert outcome.verified
-    restarting = [at for at, stage, _ in told if stage == "restart"]
+    restarting = [at for at, stage, _ in reported if stage == "restart"]
     assert all(later - earlier <= 2.0 for earlier, later in pairwise(restarting))
-    assert not [stage for _, stage, _ in told if stage == "silent"]
+    assert not [stage for _, stage, _ in reported if stage == "silent"]
 
 
 def test_a_cancel_ends_the_wait_for_a_connection(

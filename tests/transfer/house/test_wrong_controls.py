@@ -118,7 +118,7 @@ def test_a_line_begins_with_the_end_of_whatever_was_there_before(
         (lambda control: setattr(control, "_accept", int), ImageRejectedError),
     ],
 )
-def test_a_refusal_becomes_an_error_that_says_nothing_was_replaced(
+def test_a_refusal_becomes_an_error_that_shows_nothing_was_replaced(
     rig: Callable[..., Any],
     control: Callable[..., Any],
     prepare: Callable[[Any], None],
@@ -144,7 +144,7 @@ def test_another_schema_is_refused_by_the_control_too(
         rig(control=control()).session().send(Replacement(NEW, OLD, "s2"))
 
 
-def test_a_full_control_is_said_to_be_full_on_a_dirty_line_too(
+def test_a_full_control_is_shown_to_be_full_on_a_dirty_line_too(
     rig: Callable[..., Any], control: Callable[..., Any]
 ) -> None:
     made = rig(Faults(corrupt_every=211), control=control())
@@ -181,7 +181,7 @@ def test_a_control_that_has_lost_what_was_staged_gets_it_again(
     assert made.control.image == NEW
 
 
-def test_a_control_that_begins_anew_unnoticed_is_asked_again(
+def test_a_control_that_begins_again_unnoticed_is_asked_again(
     rig: Callable[..., Any], new_control: Callable[..., Any]
 ) -> None:
     """On a serial line nobody sees the other end go: it just does not know of anything open any more."""
@@ -344,7 +344,7 @@ class Busy(Responder):
         return encode_frame(pack(Refused(Code.BUSY, "another client has the control"), 0))
 
 
-def test_a_busy_control_is_said_to_be_busy(
+def test_a_busy_control_is_shown_to_be_busy(
     rig: Callable[..., Any], control: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("tests.transfer.null_modem.Responder", Busy)

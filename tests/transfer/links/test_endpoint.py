@@ -61,7 +61,7 @@ def test_the_forms_of_an_address(text: str, expected: Endpoint) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("", "no address"),
         ("machine.amp", "no address"),
@@ -98,15 +98,15 @@ def test_the_forms_of_an_address(text: str, expected: Endpoint) -> None:
         ("tcp://host:70\n?protocol=\x1b[2J", r"\n?protocol=\u001b[2J"),
     ],
 )
-def test_what_is_no_address_is_refused_in_one_sentence(text: str, said: str) -> None:
+def test_what_is_no_address_is_refused_in_one_sentence(text: str, message: str) -> None:
     with pytest.raises(ValueError, match=r".") as caught:
         parse_endpoint(text)
-    assert said in str(caught.value)
+    assert message in str(caught.value)
     assert "\n" not in str(caught.value)
     assert len(str(caught.value)) < 300
 
 
-def test_what_a_person_leaves_open_is_set_by_whoever_speaks_on_the_line() -> None:
+def test_what_a_user_leaves_open_is_set_by_whoever_speaks_on_the_line() -> None:
     table = SerialSettings(baud=9600, bits=7, parity="even", flow="xonxoff")
     assert parse_endpoint("/dev/ttyS0").serial_settings() == SerialSettings(115_200, 8, "none", 1, "none")
     assert parse_endpoint("/dev/ttyS0").with_usual(table).serial_settings() == table

@@ -106,7 +106,7 @@ def test_ipv6_has_brackets() -> None:
 
 
 @pytest.mark.parametrize(
-    ("endpoint", "said"),
+    ("endpoint", "message"),
     [
         ("serial:/dev/no-such-port", "no such port"),
         ("tcp://host.invalid:7090", "not known"),
@@ -114,8 +114,8 @@ def test_ipv6_has_brackets() -> None:
         (f"serial:/dev/{'x' * 5000}", r"^serial:/dev/x{188}: File name too long$"),
     ],
 )
-def test_what_cannot_be_opened_says_why(endpoint: str, said: str) -> None:
-    with pytest.raises(LinkError, match=said):
+def test_what_cannot_be_opened_shows_why(endpoint: str, message: str) -> None:
+    with pytest.raises(LinkError, match=message):
         connect(parse_endpoint(endpoint))
 
 
@@ -164,7 +164,7 @@ def test_a_control_can_be_listened_for_at_a_serial_port() -> None:
 
 
 @needs_pty
-def test_bytes_that_nobody_reads_are_lost_as_on_a_cable_that_is_out(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_bytes_that_are_not_read_are_lost_as_on_a_cable_that_is_out(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("amp_studio.transfer.links.pseudo_terminal.WRITE_LIMIT", 0.05)
     listener = listen(parse_endpoint("pty:"))
     far = listener.accept(0)
@@ -179,17 +179,17 @@ class Loop:
     bytes_per_second = None
 
     def __init__(self) -> None:
-        self.held = b""
+        self.received = b""
 
     def read(self, timeout: float) -> bytes:
-        data, self.held = self.held, b""
+        data, self.received = self.received, b""
         return data
 
     def write(self, data: bytes) -> None:
-        self.held += data
+        self.received += data
 
     def close(self) -> None:
-        self.held = b""
+        self.received = b""
 
 
 def test_a_line_is_cut_after_so_many_bytes_and_only_so_often() -> None:
@@ -220,7 +220,7 @@ def test_bytes_change_and_vanish_on_their_turn(faults: Faults, expected: bytes) 
     link = FaultyLine(faults).wrap(loop)
     for _ in range(9):
         link.write(b"\x00")
-    assert loop.held == expected, "however the bytes are cut into pieces"
+    assert loop.received == expected, "however the bytes are cut into pieces"
 
 
 def test_faults_are_read_from_json() -> None:

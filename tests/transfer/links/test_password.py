@@ -33,7 +33,7 @@ from .secured import CONTROL, PASSWORD, echo
 
 
 @pytest.mark.parametrize("address", ["tcp://127.0.0.1:0", "tls://127.0.0.1:0"])
-def test_the_password_comes_from_the_environment_the_keyring_or_the_person(
+def test_the_password_comes_from_the_environment_the_keyring_or_the_user(
     echoing: Callable[[str, Security], Endpoint], address: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     security = replace(CONTROL, password=PASSWORD) if address.startswith("tls") else Security(PASSWORD)
@@ -141,7 +141,7 @@ def test_a_proof_is_good_for_one_connection_one_certificate_and_one_direction() 
     assert not gate.answer("d", challenge, reflected, NO_TLS)[1]
 
 
-def test_who_guesses_waits_longer_each_time_and_nobody_else_does() -> None:
+def test_who_guesses_waits_longer_each_time_and_others_do_not() -> None:
     now = 0.0
     gate = Gate(PASSWORD, clock=lambda: now)
 
@@ -164,7 +164,7 @@ def test_who_guesses_waits_longer_each_time_and_nobody_else_does() -> None:
 
 
 @pytest.mark.parametrize(
-    "said",
+    "message",
     [
         b"",
         b"\n",
@@ -174,23 +174,23 @@ def test_who_guesses_waits_longer_each_time_and_nobody_else_does() -> None:
         b"PROOF " + b"0" * 64 + b" " + b"0" * 64 + b"\nGET",
     ],
 )
-def test_who_does_not_prove_it_is_not_let_in_and_holds_nobody_up(
-    echoing: Callable[[str, Security], Endpoint], said: bytes, monkeypatch: pytest.MonkeyPatch
+def test_who_does_not_prove_it_is_not_let_in_and_delays_no_other(
+    echoing: Callable[[str, Security], Endpoint], message: bytes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     place = echoing("tcp://127.0.0.1:0", Security(PASSWORD))
     with contextlib.ExitStack() as stack:
         for _ in range(40):  # more than may wait at once
             attacker = stack.enter_context(socket.create_connection(("127.0.0.1", place.port), timeout=60))
             with contextlib.suppress(OSError):
-                attacker.sendall(said)
+                attacker.sendall(message)
         monkeypatch.setenv(passwords.ENVIRONMENT, PASSWORD)
-        if said.startswith(b"PROOF "):
+        if message.startswith(b"PROOF "):
             assert b"WRONG" in attacker.recv(1000) + attacker.recv(1000)
             return
         assert echo(place) == b"\x00\xffframe"
 
 
-def _serve_nobody_until_it_hears(listener: SecuredListener, client: socket.socket) -> None:
+def _serve_no_client_until_it_hears(listener: SecuredListener, client: socket.socket) -> None:
     """Listen, and let nobody in, until there is something for a client to read,
     the end of the connection for one.
     """
@@ -207,7 +207,7 @@ def test_who_comes_right_behind_a_crowd_is_asked_too() -> None:
             stack.enter_context(socket.create_connection(("127.0.0.1", listener.endpoint.port), timeout=60))
             for _ in range(WAITING + 1)
         ]
-        _serve_nobody_until_it_hears(listener, last)
+        _serve_no_client_until_it_hears(listener, last)
         assert last.recv(1000).startswith(b"AMP-STUDIO-PASSWORD 1 ")
 
 
@@ -215,7 +215,7 @@ def test_a_handshake_that_is_never_ended_is_ended_by_the_control(monkeypatch: py
     monkeypatch.setattr("amp_studio.transfer.links.secured.TIME_TO_ENTER", 0.1)
     listener = listen(replace(parse_endpoint("tls://127.0.0.1:0"), security=CONTROL))
     with socket.create_connection(("127.0.0.1", listener.endpoint.port), timeout=60) as client:
-        _serve_nobody_until_it_hears(listener, client)
+        _serve_no_client_until_it_hears(listener, client)
         assert client.recv(1) == b""
     listener.close()
 

@@ -35,7 +35,7 @@ def test_a_control_is_trusted_by_its_authority_or_its_fingerprint(
 
 
 @pytest.mark.parametrize(
-    ("options", "security", "said"),
+    ("options", "security", "message"),
     [
         ("", CONTROL, "its certificate is not trusted"),
         (f"?ca={HERE / 'authority.pem'}", Security("", HERE / "other.pem"), "its certificate is not trusted"),
@@ -50,10 +50,10 @@ def test_a_control_is_trusted_by_its_authority_or_its_fingerprint(
     ],
 )
 def test_another_certificate_is_refused_before_anything_is_sent(
-    echoing: Callable[[str, Security], Endpoint], options: str, security: Security, said: str
+    echoing: Callable[[str, Security], Endpoint], options: str, security: Security, message: str
 ) -> None:
     place = echoing("tls://127.0.0.1:0", security)
-    with pytest.raises(LinkError, match=said):
+    with pytest.raises(LinkError, match=message):
         connect(parse_endpoint(f"tls://127.0.0.1:{place.port}{options}"))
 
 
@@ -91,7 +91,7 @@ def test_old_versions_of_tls_are_refused(echoing: Callable[[str, Security], Endp
 
 
 @pytest.mark.parametrize(
-    ("security", "said"),
+    ("security", "message"),
     [
         (Security("", HERE / "missing.pem"), "cannot be read"),
         (Security("", HERE / "control.pem"), "cannot be used"),
@@ -99,13 +99,13 @@ def test_old_versions_of_tls_are_refused(echoing: Callable[[str, Security], Endp
         (Security("", HERE / "control.pem", HERE / "locked.key"), "encrypted"),
     ],
 )
-def test_a_certificate_that_cannot_be_used_is_refused_at_the_start(security: Security, said: str) -> None:
-    with pytest.raises(ValueError, match=said):
+def test_a_certificate_that_cannot_be_used_is_refused_at_the_start(security: Security, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
         listen(replace(parse_endpoint("tls://127.0.0.1:0"), security=security))
 
 
 @pytest.mark.parametrize(
-    ("address", "security", "said"),
+    ("address", "security", "message"),
     [
         ("tls://127.0.0.1:0", Security(PASSWORD), "needs a certificate"),
         ("tcp://127.0.0.1:0", CONTROL, "write tls://"),
@@ -114,9 +114,9 @@ def test_a_certificate_that_cannot_be_used_is_refused_at_the_start(security: Sec
     ],
 )
 def test_security_that_does_not_fit_the_address_is_refused(
-    address: str, security: Security, said: str
+    address: str, security: Security, message: str
 ) -> None:
-    with pytest.raises(LinkError, match=said):
+    with pytest.raises(LinkError, match=message):
         listen(replace(parse_endpoint(address), security=security))
 
 
@@ -134,7 +134,7 @@ def test_a_password_file_has_it_in_its_first_line(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("host", "has_tls", "has_password", "said"),
+    ("host", "has_tls", "has_password", "message"),
     [
         ("127.0.0.1", False, False, ""),
         ("localhost", False, False, ""),
@@ -145,9 +145,11 @@ def test_a_password_file_has_it_in_its_first_line(tmp_path: Path) -> None:
         ("0.0.0.0", False, True, "without TLS"),
     ],
 )
-def test_who_listens_for_everybody_is_warned(host: str, has_tls: bool, has_password: bool, said: str) -> None:
+def test_who_listens_for_everybody_is_warned(
+    host: str, has_tls: bool, has_password: bool, message: str
+) -> None:
     found = exposure(host, has_tls=has_tls, has_password=has_password)
-    assert (said in found) if said else not found
+    assert (message in found) if message else not found
 
 
 def test_a_password_is_in_no_text() -> None:

@@ -152,17 +152,17 @@ def test_the_rate_of_a_line_counts_every_bit_of_a_byte() -> None:
     assert link.bytes_per_second == pytest.approx(872.7, abs=0.1)
 
 
-def test_closing_a_held_line_does_not_wait_for_it_and_a_free_one_keeps_what_was_written(
+def test_closing_a_kept_line_does_not_wait_for_it_and_a_free_one_keeps_what_was_written(
     port: tuple[int, str],
 ) -> None:
     free = connect(parse_endpoint(f"{port[1]}?flow=xonxoff"))
     free.write(b"last words")
     free.close()
     assert os.read(port[0], 100) == b"last words"
-    held = connect(parse_endpoint(f"{port[1]}?flow=xonxoff"))
+    content = connect(parse_endpoint(f"{port[1]}?flow=xonxoff"))
     os.write(port[0], XOFF)
     start = time.monotonic()
-    held.close()
+    content.close()
     assert time.monotonic() - start < 10, "not the 30 s that a port is given to send the rest"
 
 
@@ -190,7 +190,7 @@ def test_what_a_port_has_not_sent_yet_is_waited_for(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(link, "_flow_limit", FLOW_LIMIT)
     link.close()
     assert (waiting, flushed) == ([0], [])
-    held = SerialLink(parse_endpoint("COM3?flow=rtscts"), Slow())
+    content = SerialLink(parse_endpoint("COM3?flow=rtscts"), Slow())
     waiting[:] = [7]
-    held.close()
+    content.close()
     assert flushed == [True], "the system would wait for half a minute"

@@ -119,7 +119,7 @@ def test_a_lost_acknowledgement_doubles_nothing() -> None:
 
 
 @pytest.mark.parametrize(
-    ("sent", "said"),
+    ("sent", "message"),
     [
         (b"\x18\x18", "given the transfer up"),
         (encode_block(5, b"x", crc=True), "block 5 has come, and block 1 was to come"),
@@ -127,11 +127,11 @@ def test_a_lost_acknowledgement_doubles_nothing() -> None:
         (b"", "has not begun within"),
     ],
 )
-def test_what_goes_wrong_is_said_in_a_sentence(sent: bytes, said: str) -> None:
+def test_what_goes_wrong_is_shown_in_a_sentence(sent: bytes, message: str) -> None:
     near, far = pair()
     near.write(sent)
     patience = type(QUICK)(start=0.3, answer=0.05, ask=0.05, gap=0.05, noise=0.05, quiet=0.02, stall=0.3)
-    with pytest.raises(PlainFileError, match=said):
+    with pytest.raises(PlainFileError, match=message):
         receive_one(ByteLine(far, patience))
 
 
@@ -182,7 +182,7 @@ def test_a_strangers_name_leads_nowhere_else(name: str, saved: str) -> None:
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_whatever_the_other_end_says_it_ends(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_whatever_the_other_end_shows_it_ends(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("amp_studio.transfer.plain.receiver.LARGEST", 5_000)
     wild = Wild(seed)
     line = ByteLine(wild, clock=wild.clock)

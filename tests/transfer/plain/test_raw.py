@@ -55,7 +55,7 @@ def test_what_a_punch_sends_is_read_without_leader_and_trailer(
 
 
 @pytest.mark.parametrize(
-    ("came", "tape", "said"),
+    ("came", "tape", "message"),
     [
         (b"", Tape(), "nothing has come"),
         (b"\0\0\0", Tape(), "nothing has come"),
@@ -63,10 +63,10 @@ def test_what_a_punch_sends_is_read_without_leader_and_trailer(
         (b"%\nN1\nN2 10%", Tape(percent=True), "it may have been cut off"),
     ],
 )
-def test_a_text_that_is_cut_off_is_no_text(came: bytes, tape: Tape, said: str) -> None:
+def test_a_text_that_is_cut_off_is_no_text(came: bytes, tape: Tape, message: str) -> None:
     near, far = pair()
     near.write(came)
-    with pytest.raises(PlainFileError, match=said):
+    with pytest.raises(PlainFileError, match=message):
         read_tape(ByteLine(far, Patience(start=0.05)), tape, 0.02)
 
 

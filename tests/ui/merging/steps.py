@@ -18,35 +18,35 @@ CALIBRATION = ("home.calibration", "1")
 RAPID = ("feedrate.rapid", "1")
 
 
-def show(shown: MergeWindow, address: Address) -> None:
+def show(displayed: MergeWindow, address: Address) -> None:
     """Make the row of a parameter the current one."""
-    row = next(r for r in shown.merge.rows if r.id.part == "value" and r.address == address)
-    shown.tree.show_row(row)
-    assert shown.tree.row() is row
+    row = next(r for r in displayed.merge.rows if r.id.part == "value" and r.address == address)
+    displayed.tree.show_row(row)
+    assert displayed.tree.row() is row
 
 
-def press(shown: MergeWindow, key: str | Qt.Key) -> None:
+def press(displayed: MergeWindow, key: str | Qt.Key) -> None:
     """Press a key in the tree."""
-    shown.tree.setFocus()
-    QTest.keyClick(shown.tree, key)
+    displayed.tree.setFocus()
+    QTest.keyClick(displayed.tree, key)
 
 
-def click(shown: MergeWindow, address: Address, column: int) -> None:
+def click(displayed: MergeWindow, address: Address, column: int) -> None:
     """Click on the cell of a parameter."""
-    show(shown, address)
-    index = shown.tree.currentIndex().siblingAtColumn(column)
-    place = shown.tree.visualRect(index)
+    show(displayed, address)
+    index = displayed.tree.currentIndex().siblingAtColumn(column)
+    place = displayed.tree.visualRect(index)
     QTest.mouseClick(
-        shown.tree.viewport(),
+        displayed.tree.viewport(),
         Qt.MouseButton.LeftButton,
         pos=place.topLeft() + QPoint(16, place.height() // 2),
     )
 
 
-def choose(shown: MergeWindow, column: int, *path: str) -> None:
+def choose(displayed: MergeWindow, column: int, *path: str) -> None:
     """Choose a source in the menu over a column."""
-    menu: QMenu | None = shown.head.buttons[column].menu()
-    shown.head.buttons[column].fill()
+    menu: QMenu | None = displayed.head.buttons[column].menu()
+    displayed.head.buttons[column].fill()
     for name in path:
         assert menu is not None
         found = [a for a in menu.actions() if a.text().replace("&", "") == name]
@@ -56,17 +56,17 @@ def choose(shown: MergeWindow, column: int, *path: str) -> None:
             found[0].trigger()
 
 
-def is_read(shown: MergeWindow) -> Callable[[], bool]:
+def is_read(displayed: MergeWindow) -> Callable[[], bool]:
     """Return a question: is nothing being read any more."""
-    return lambda: not shown._reading  # nothing outside shows the end of what is quick
+    return lambda: not displayed._reading  # nothing outside shows the end of what is quick
 
 
-def merge(shown: MergeWindow, qtbot: QtBot) -> None:
+def merge(displayed: MergeWindow, qtbot: QtBot) -> None:
     """Click on Merge as soon as the result has been checked."""
-    qtbot.waitUntil(shown.outcome.merge.isEnabled, timeout=WAIT_MS)
-    shown.outcome.merge.click()
+    qtbot.waitUntil(displayed.outcome.merge.isEnabled, timeout=WAIT_MS)
+    displayed.outcome.merge.click()
 
 
-def result(shown: MergeWindow, address: Address) -> Value | None:
+def result(displayed: MergeWindow, address: Address) -> Value | None:
     """Return a value of the result."""
-    return shown.merge.result().get(address)
+    return displayed.merge.result().get(address)

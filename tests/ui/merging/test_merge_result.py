@@ -17,7 +17,7 @@ from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.merge.columns import BASE, NAME, RESULT, A, B
 from amp_studio.ui.merge.sources import MergeSource
 from amp_studio.ui.merge.window import MergeWindow
-from tests.ui.conftest import WAIT_MS, Person, on_disk
+from tests.ui.conftest import WAIT_MS, User, on_disk
 
 from .steps import CALIBRATION, EXCESS, RAPID, is_read, merge, press, result, show
 
@@ -42,16 +42,16 @@ def test_the_result_goes_into_the_file_as_one_step_once_no_conflict_is_left(
 
 
 def test_header_and_unknown_entries_come_along_and_go_back_with_one_undo(
-    window: MainWindow, shown: MergeWindow, qtbot
+    window: MainWindow, displayed: MergeWindow, qtbot
 ) -> None:
     file = window.workspace.file
     before = content_of(file)
     other = file.copy()
     other.header.notes, other.unknown["future.thing"] = "new spindle", "7"
-    shown.use(B, MergeSource("other.amp", "", other))
-    shown.tree.selectAll()
-    press(shown, "b")
-    merge(shown, qtbot)
+    displayed.use(B, MergeSource("other.amp", "", other))
+    displayed.tree.selectAll()
+    press(displayed, "b")
+    merge(displayed, qtbot)
     assert (file.header.notes, file.unknown) == ("new spindle", {"future.thing": "7"})
     assert window.workspace.is_dirty
     assert window.save()
@@ -61,45 +61,45 @@ def test_header_and_unknown_entries_come_along_and_go_back_with_one_undo(
 
 
 def test_new_errors_are_shown_before_the_file_gets_them(
-    window: MainWindow, shown: MergeWindow, qtbot
+    window: MainWindow, displayed: MergeWindow, qtbot
 ) -> None:
     other = window.workspace.file.copy()
     other.values[EXCESS] = Value(0.5, "mm")
-    shown.use(B, MergeSource("other.amp", "", other))
-    show(shown, EXCESS)
-    press(shown, "b")
-    qtbot.waitUntil(shown.outcome.found.isEnabled, timeout=WAIT_MS)
-    assert "1 new error" in shown.outcome.found.text()
-    shown.outcome.merge.click()
-    assert shown.findings.isVisible()
+    displayed.use(B, MergeSource("other.amp", "", other))
+    show(displayed, EXCESS)
+    press(displayed, "b")
+    qtbot.waitUntil(displayed.outcome.found.isEnabled, timeout=WAIT_MS)
+    assert "1 new error" in displayed.outcome.found.text()
+    displayed.outcome.merge.click()
+    assert displayed.findings.isVisible()
     assert window.workspace.file.get(EXCESS) == Value(11.0, "mm"), "nothing has been changed yet"
-    assert "Anyway" in shown.outcome.merge.text()
-    shown.outcome.merge.click()
+    assert "Anyway" in displayed.outcome.merge.text()
+    displayed.outcome.merge.click()
     assert window.workspace.file.get(EXCESS) == Value(0.5, "mm")
 
 
-def test_a_result_that_cannot_be_checked_is_not_merged(shown: MergeWindow, monkeypatch, qtbot) -> None:
+def test_a_result_that_cannot_be_checked_is_not_merged(displayed: MergeWindow, monkeypatch, qtbot) -> None:
     def fail(*_: object) -> None:
         raise ValueError("no such rule")
 
     monkeypatch.setattr("amp_studio.ui.merge.check.ResultCheck", fail)
-    other = shown.merge.a.copy()
+    other = displayed.merge.a.copy()
     other.set(EXCESS, Value(12.0, "mm"))
-    shown.use(B, MergeSource("other.amp", "", other))
-    shown.model.choose(shown.merge.differing, "b")
-    qtbot.waitUntil(shown.message.isVisible, timeout=WAIT_MS)
-    assert shown.message.text.text() == "The result cannot be checked, and so not merged: no such rule"
-    assert not shown.outcome.merge.isEnabled()
+    displayed.use(B, MergeSource("other.amp", "", other))
+    displayed.model.choose(displayed.merge.differing, "b")
+    qtbot.waitUntil(displayed.message.isVisible, timeout=WAIT_MS)
+    assert displayed.message.text.text() == "The result cannot be checked, and so not merged: no such rule"
+    assert not displayed.outcome.merge.isEnabled()
 
 
 def test_the_result_is_saved_as_a_new_file_and_the_open_one_stays(
-    three: MergeWindow, window: MainWindow, person: Person, tmp_path: Path
+    three: MergeWindow, window: MainWindow, user: User, tmp_path: Path
 ) -> None:
     show(three, EXCESS)
     press(three, "b")
     mine = window.workspace
     mine.path.write_text(mine.path.read_text().replace("\nvalues:", "\n# by J. Doe\nvalues:", 1))
-    person.chooses(tmp_path / "merged.amp")
+    user.chooses(tmp_path / "merged.amp")
     three.outcome.save.click()
     merged = on_disk(tmp_path / "merged.amp")
     assert (merged.get(EXCESS), merged.get(CALIBRATION)) == (Value(13.0, "mm"), Value(1.0, "mm"))
@@ -107,8 +107,8 @@ def test_the_result_is_saved_as_a_new_file_and_the_open_one_stays(
     assert mine.file.get(EXCESS) == Value(12.0, "mm")
 
 
-def test_the_comparison_is_written_as_a_report(three: MergeWindow, person: Person, tmp_path: Path) -> None:
-    person.chooses(tmp_path / "comparison.csv")
+def test_the_comparison_is_written_as_a_report(three: MergeWindow, user: User, tmp_path: Path) -> None:
+    user.chooses(tmp_path / "comparison.csv")
     three.outcome.report.click()
     written = (tmp_path / "comparison.csv").read_text("utf-8-sig")
     assert "not settled" in written
@@ -117,22 +117,24 @@ def test_the_comparison_is_written_as_a_report(three: MergeWindow, person: Perso
 
 
 def test_a_lathe_is_compared_with_a_mill_and_what_exists_there_only_is_named(
-    shown: MergeWindow, window: MainWindow, checkout: Path
+    displayed: MergeWindow, window: MainWindow, checkout: Path
 ) -> None:
     lathe = open_file(checkout / "examples" / "lathe-ls176" / "LATHE_LS176.amp").file
-    source = shown.sources.other(window.workspace.file, lathe, "LATHE_LS176.amp", "")
-    shown.use(B, source)
-    assert "another machine type (lathe)" in shown.message.text.text()
-    shown.view.only_differences.click()
-    only_there = [r for r in shown.merge.differing if r.id.part == "value" and not shown.model.may_type(r)]
+    source = displayed.sources.other(window.workspace.file, lathe, "LATHE_LS176.amp", "")
+    displayed.use(B, source)
+    assert "another machine type (lathe)" in displayed.message.text.text()
+    displayed.view.only_differences.click()
+    only_there = [
+        r for r in displayed.merge.differing if r.id.part == "value" and not displayed.model.may_type(r)
+    ]
     assert only_there
-    for row in shown.merge.rows:
-        assert all(shown.model.text(row, column) is not None for column in range(RESULT + 1))
-    shown.view.only_active.click()
-    shown.tree.show_row(only_there[0])
-    shown.view.only_active.click()
-    shown.tree.show_row(only_there[0])
-    assert "not on this machine type" in shown.detail.facts.text()
+    for row in displayed.merge.rows:
+        assert all(displayed.model.text(row, column) is not None for column in range(RESULT + 1))
+    displayed.view.only_active.click()
+    displayed.tree.show_row(only_there[0])
+    displayed.view.only_active.click()
+    displayed.tree.show_row(only_there[0])
+    assert "not on this machine type" in displayed.detail.facts.text()
 
 
 def test_a_group_that_was_folded_stays_folded(three: MergeWindow, window: MainWindow, qtbot) -> None:
@@ -144,21 +146,23 @@ def test_a_group_that_was_folded_stays_folded(three: MergeWindow, window: MainWi
     assert folds == [False, *[True] * (len(folds) - 1)]
 
 
-def test_the_machine_type_and_entries_of_others_are_taken_and_not_typed(shown: MergeWindow) -> None:
-    other = shown.merge.a.copy()
+def test_the_machine_type_and_entries_of_others_are_taken_and_not_typed(displayed: MergeWindow) -> None:
+    other = displayed.merge.a.copy()
     other.header.notes, other.header.extra, other.unknown["future.thing"] = "n", {"bay": 7}, "1"
-    shown.use(B, MergeSource("other.amp", "", other))
-    can = {row.id.key: shown.model.may_type(row) for row in shown.merge.differing}
+    displayed.use(B, MergeSource("other.amp", "", other))
+    can = {row.id.key: displayed.model.may_type(row) for row in displayed.merge.differing}
     assert can == {"notes": True, "extra.bay": False, "future.thing": False}
 
 
-def test_two_sources_of_which_none_is_the_open_file_are_not_merged_into_it(shown: MergeWindow) -> None:
-    other = shown.merge.a.copy()
+def test_two_sources_of_which_none_is_the_open_file_are_not_merged_into_it(displayed: MergeWindow) -> None:
+    other = displayed.merge.a.copy()
     other.set(EXCESS, Value(3.0, "mm"))
-    shown.show_merge({A: MergeSource("one.amp", "", other), B: MergeSource("two.amp", "", shown.merge.b)})
-    assert not shown.outcome.merge.isEnabled()
-    assert "Neither A nor B is the open file" in shown.outcome.merge.toolTip()
-    assert shown.outcome.save.isEnabled()
+    displayed.show_merge(
+        {A: MergeSource("one.amp", "", other), B: MergeSource("two.amp", "", displayed.merge.b)}
+    )
+    assert not displayed.outcome.merge.isEnabled()
+    assert "Neither A nor B is the open file" in displayed.outcome.merge.toolTip()
+    assert displayed.outcome.save.isEnabled()
 
 
 def test_the_comparison_follows_an_edit_of_the_file_and_keeps_what_was_chosen(
@@ -204,13 +208,13 @@ def test_it_closes_with_escape_and_with_its_file(three: MergeWindow, window: Mai
 
 def test_a_comparison_that_has_read_a_source_is_freed(window: MainWindow, qtbot) -> None:
     """A connection of its task that leads to the task keeps the window, with both files."""
-    shown = window.files.comparing.open(window.page)
-    shown.start(B, shown.sources.defaults)
-    qtbot.waitUntil(is_read(shown), timeout=WAIT_MS)
+    displayed = window.files.comparing.open(window.page)
+    displayed.start(B, displayed.sources.defaults)
+    qtbot.waitUntil(is_read(displayed), timeout=WAIT_MS)
     qtbot.waitUntil(lambda: not Task.running, timeout=WAIT_MS)
-    kept = weakref.ref(shown.merge)
-    shown.close()
-    del shown
+    kept = weakref.ref(displayed.merge)
+    displayed.close()
+    del displayed
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
     qtbot.waitUntil(lambda: gc.collect(1) >= 0 and kept() is None, timeout=WAIT_MS)
 

@@ -12,34 +12,34 @@ from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.merge.columns import B
 from amp_studio.ui.merge.sources import MergeSource
 from amp_studio.ui.merge.window import MergeWindow
-from tests.ui.conftest import WAIT_MS, Person, action
+from tests.ui.conftest import WAIT_MS, User, action
 
 from .steps import EXCESS, choose, is_read, press, show
 
 
 def test_another_file_is_chosen_and_its_axes_are_matched_by_letter(
-    shown: MergeWindow, window: MainWindow, person: Person, path: Path, qtbot
+    displayed: MergeWindow, window: MainWindow, user: User, path: Path, qtbot
 ) -> None:
     file = new_file("9pc", "mill", ["Y", "X"])
     other = path.with_name("other.amp")
     Document.create(file, other).close()
-    person.chooses(other)
-    choose(shown, B, "Another File…")
-    qtbot.waitUntil(is_read(shown), timeout=WAIT_MS)
-    assert shown.chosen[B].title == "other.amp"
-    assert "Axis Y is axis 1 in other.amp; it is compared with axis 2 here." in shown.message.text.text()
+    user.chooses(other)
+    choose(displayed, B, "Another File…")
+    qtbot.waitUntil(is_read(displayed), timeout=WAIT_MS)
+    assert displayed.chosen[B].title == "other.amp"
+    assert "Axis Y is axis 1 in other.amp; it is compared with axis 2 here." in displayed.message.text.text()
 
 
 def test_a_file_of_another_family_is_refused_in_one_sentence(
-    shown: MergeWindow, person: Person, path: Path, qtbot
+    displayed: MergeWindow, user: User, path: Path, qtbot
 ) -> None:
     other = path.with_name("other.amp")
     Document.create(new_file("num"), other).close()
-    person.chooses(other)
-    choose(shown, B, "Another File…")
-    qtbot.waitUntil(is_read(shown), timeout=WAIT_MS)
-    assert "only files of one family can be compared" in shown.message.text.text()
-    assert shown.chosen[B].is_now
+    user.chooses(other)
+    choose(displayed, B, "Another File…")
+    qtbot.waitUntil(is_read(displayed), timeout=WAIT_MS)
+    assert "only files of one family can be compared" in displayed.message.text.text()
+    assert displayed.chosen[B].is_now
 
 
 @pytest.mark.parametrize(
@@ -53,47 +53,47 @@ def test_a_file_of_another_family_is_refused_in_one_sentence(
     ],
 )
 def test_versions_of_the_file_are_sources(
-    window: MainWindow, shown: MergeWindow, names: list[str], excess: float, qtbot
+    window: MainWindow, displayed: MergeWindow, names: list[str], excess: float, qtbot
 ) -> None:
     window.edits.commit(EXCESS, "5 mm")
     assert window.save()
     window.edits.commit(EXCESS, "6 mm")
-    choose(shown, B, *names)
-    qtbot.waitUntil(is_read(shown), timeout=WAIT_MS)
-    assert shown.merge.b.get(EXCESS) == Value(excess, "mm")
+    choose(displayed, B, *names)
+    qtbot.waitUntil(is_read(displayed), timeout=WAIT_MS)
+    assert displayed.merge.b.get(EXCESS) == Value(excess, "mm")
 
 
-def test_an_earlier_save_is_a_source(window: MainWindow, shown: MergeWindow, qtbot) -> None:
+def test_an_earlier_save_is_a_source(window: MainWindow, displayed: MergeWindow, qtbot) -> None:
     window.edits.commit(EXCESS, "5 mm")
     assert window.save()
-    shown.head.buttons[B].fill()
-    (earlier,) = (a for a in shown.head.buttons[B].menu().actions() if a.text() == "&Earlier Saves")
+    displayed.head.buttons[B].fill()
+    (earlier,) = (a for a in displayed.head.buttons[B].menu().actions() if a.text() == "&Earlier Saves")
     earlier.menu().actions()[0].trigger()
-    qtbot.waitUntil(is_read(shown), timeout=WAIT_MS)
-    assert shown.merge.b.get(EXCESS) == Value(11.0, "mm")
+    qtbot.waitUntil(is_read(displayed), timeout=WAIT_MS)
+    assert displayed.merge.b.get(EXCESS) == Value(11.0, "mm")
 
 
-def test_one_axis_is_compared_with_another(shown: MergeWindow, window: MainWindow, qtbot) -> None:
+def test_one_axis_is_compared_with_another(displayed: MergeWindow, window: MainWindow, qtbot) -> None:
     window.edits.commit(EXCESS, "5 mm")
-    choose(shown, B, "Another Axis", "In the Place of Axis X", "Axis Y")
-    qtbot.waitUntil(is_read(shown), timeout=WAIT_MS)
-    assert shown.merge.b.get(EXCESS) == window.workspace.file.get(("servo.excess_error", "2"))
-    assert shown.chosen[B].title == "Axis Y"
+    choose(displayed, B, "Another Axis", "In the Place of Axis X", "Axis Y")
+    qtbot.waitUntil(is_read(displayed), timeout=WAIT_MS)
+    assert displayed.merge.b.get(EXCESS) == window.workspace.file.get(("servo.excess_error", "2"))
+    assert displayed.chosen[B].title == "Axis Y"
 
 
 def test_a_control_that_does_not_answer_can_be_cancelled_and_the_source_before_it_stays(
-    shown: MergeWindow, qtbot
+    displayed: MergeWindow, qtbot
 ) -> None:
     def read(progress, cancel) -> MergeSource:
         assert cancel.wait(WAIT_MS / 1000)
         raise OSError("stopped")
 
-    shown.read(B, read)
-    qtbot.waitUntil(shown.reading.isVisible, timeout=WAIT_MS)
-    shown.reading.cancel.click()
-    qtbot.waitUntil(is_read(shown), timeout=WAIT_MS)
-    assert not shown.reading.isVisible()
-    assert (shown.chosen[B].is_now, shown.message.isVisible()) == (True, False)
+    displayed.read(B, read)
+    qtbot.waitUntil(displayed.reading.isVisible, timeout=WAIT_MS)
+    displayed.reading.cancel.click()
+    qtbot.waitUntil(is_read(displayed), timeout=WAIT_MS)
+    assert not displayed.reading.isVisible()
+    assert (displayed.chosen[B].is_now, displayed.message.isVisible()) == (True, False)
 
 
 def test_a_file_without_unsaved_work_is_compared_with_its_backup_first(window: MainWindow, qtbot) -> None:
@@ -101,9 +101,9 @@ def test_a_file_without_unsaved_work_is_compared_with_its_backup_first(window: M
     assert window.save()
     assert backup_path(window.workspace.path).is_file()
     action(window, "Compare and Merge With").trigger()
-    shown = window.findChild(MergeWindow)
-    qtbot.waitUntil(lambda: shown.chosen[B].title == "Backup", timeout=WAIT_MS)
-    assert [row.address for row in shown.merge.differing] == [EXCESS]
+    displayed = window.findChild(MergeWindow)
+    qtbot.waitUntil(lambda: displayed.chosen[B].title == "Backup", timeout=WAIT_MS)
+    assert [row.address for row in displayed.merge.differing] == [EXCESS]
 
 
 def test_what_was_taken_from_a_source_is_not_taken_from_the_next_one(three: MergeWindow) -> None:
@@ -115,12 +115,12 @@ def test_what_was_taken_from_a_source_is_not_taken_from_the_next_one(three: Merg
     assert [row.address for row in three.merge.open_conflicts] == [EXCESS]
 
 
-def test_another_open_file_is_a_source(window: MainWindow, shown: MergeWindow, path: Path, qtbot) -> None:
+def test_another_open_file_is_a_source(window: MainWindow, displayed: MergeWindow, path: Path, qtbot) -> None:
     second = path.with_name("second.amp")
     file = open_file(path).file
     file.set(EXCESS, Value(3.0, "mm"))
     second.write_bytes(content_of(file))
     window.open_first(second)
-    choose(shown, B, "second.amp")
-    qtbot.waitUntil(is_read(shown), timeout=WAIT_MS)
-    assert shown.merge.b.get(EXCESS) == Value(3.0, "mm")
+    choose(displayed, B, "second.amp")
+    qtbot.waitUntil(is_read(displayed), timeout=WAIT_MS)
+    assert displayed.merge.b.get(EXCESS) == Value(3.0, "mm")

@@ -30,17 +30,17 @@ def test_rows_have_every_source_in_one_unit_and_the_result(three: MergeWindow) -
     assert three.head.counts == f"3 differ, {three.merge.same} the same"
 
 
-def test_a_mask_is_shown_by_its_names_and_typed_as_its_number(shown: MergeWindow) -> None:
+def test_a_mask_is_shown_by_its_names_and_typed_as_its_number(displayed: MergeWindow) -> None:
     file = new_file("num")
     address, mask = next(
         (a, v) for a, v in file.values.items() if file.schema.parameters[a[0]].bits and v.value
     )
     other = file.copy()
     other.set(address, Value(int(mask.value) ^ 1))
-    shown.show_merge({A: MergeSource("a", "", file), B: MergeSource("b", "", other)})
-    (row,) = shown.merge.differing
-    assert shown.model.cell(row, A).unit == f"0x{mask.value:X}"
-    assert shown.model.read(row, shown.model.text_to_edit(row)).value == mask
+    displayed.show_merge({A: MergeSource("a", "", file), B: MergeSource("b", "", other)})
+    (row,) = displayed.merge.differing
+    assert displayed.model.cell(row, A).unit == f"0x{mask.value:X}"
+    assert displayed.model.read(row, displayed.model.text_to_edit(row)).value == mask
 
 
 def test_figures_change_their_unit_for_all_sources(three: MergeWindow) -> None:
@@ -155,30 +155,32 @@ def test_swapped_sides_keep_what_was_taken(three: MergeWindow) -> None:
 
 
 def test_swapped_sources_without_a_base_take_nothing_that_was_not_chosen(
-    shown: MergeWindow, window: MainWindow
+    displayed: MergeWindow, window: MainWindow
 ) -> None:
-    other = shown.merge.a.copy()
+    other = displayed.merge.a.copy()
     other.set(EXCESS, Value(3.0, "mm"))
-    shown.use(B, MergeSource("other.amp", "", other))
-    shown.view.swap.click()
-    assert result(shown, EXCESS) == Value(11.0, "mm")
-    assert shown.outcome.merge.toolTip() == "Nothing has been taken yet."
-    show(shown, EXCESS)
-    press(shown, "a")
-    assert result(shown, EXCESS) == Value(3.0, "mm")
+    displayed.use(B, MergeSource("other.amp", "", other))
+    displayed.view.swap.click()
+    assert result(displayed, EXCESS) == Value(11.0, "mm")
+    assert displayed.outcome.merge.toolTip() == "Nothing has been taken yet."
+    show(displayed, EXCESS)
+    press(displayed, "a")
+    assert result(displayed, EXCESS) == Value(3.0, "mm")
 
 
-def test_the_result_shows_the_figure_in_degrees_of_an_axis_that_begins_to_turn(shown: MergeWindow) -> None:
-    other = shown.merge.a.copy()
+def test_the_result_shows_the_figure_in_degrees_of_an_axis_that_begins_to_turn(
+    displayed: MergeWindow,
+) -> None:
+    other = displayed.merge.a.copy()
     other.set_checked({("axis.type", "1"): Value("rotary")})
-    shown.use(B, MergeSource("other.amp", "", other))
-    row = next(row for row in shown.merge.differing if row.address == EXCESS)
-    show(shown, ("axis.type", "1"))
-    press(shown, "b")
-    assert shown.merge.result_of(row) == Value(11.0, "mm")
-    assert (shown.model.text(row, RESULT), shown.model.is_refitted(row)) == ("11°", True)
-    press(shown, Qt.Key.Key_Backspace)
-    assert (shown.model.text(row, RESULT), shown.model.is_refitted(row)) == ("11 mm", False)
+    displayed.use(B, MergeSource("other.amp", "", other))
+    row = next(row for row in displayed.merge.differing if row.address == EXCESS)
+    show(displayed, ("axis.type", "1"))
+    press(displayed, "b")
+    assert displayed.merge.result_of(row) == Value(11.0, "mm")
+    assert (displayed.model.text(row, RESULT), displayed.model.is_refitted(row)) == ("11°", True)
+    press(displayed, Qt.Key.Key_Backspace)
+    assert (displayed.model.text(row, RESULT), displayed.model.is_refitted(row)) == ("11 mm", False)
 
 
 def test_rows_are_copied_as_a_spreadsheet_takes_them(three: MergeWindow) -> None:
@@ -191,15 +193,15 @@ def test_rows_are_copied_as_a_spreadsheet_takes_them(three: MergeWindow) -> None
 # -- manners
 
 
-def test_a_screen_reader_is_told_whose_value_it_is_and_whether_the_result_takes_it(
+def test_a_screen_reader_is_reported_whose_value_it_is_and_whether_the_result_takes_it(
     three: MergeWindow,
 ) -> None:
     show(three, CALIBRATION)
     index = three.tree.currentIndex()
-    said = [
+    message = [
         index.siblingAtColumn(column).data(Qt.ItemDataRole.AccessibleTextRole) for column in (A, B, RESULT)
     ]
-    assert said == ["A: 1 mm, taken", "B: 0 mm", "Result: 1 mm"]
+    assert message == ["A: 1 mm, taken", "B: 0 mm", "Result: 1 mm"]
     for widget in (three.tree, three.view.search, three.head.buttons[A], three.findings, three.view.swap):
         assert QAccessible.queryAccessibleInterface(widget).text(QAccessible.Text.Name)
 

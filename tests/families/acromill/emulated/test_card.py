@@ -21,17 +21,17 @@ class Terminal:
 
     def type(self, text: str) -> str:
         self.card.receive(text.encode())
-        shown = b""
+        displayed = b""
         while piece := self.card.answer():
-            shown += piece
-        return shown.decode()
+            displayed += piece
+        return displayed.decode()
 
     def obey(self, line: str) -> str:
         """Return what the card shows between the echo and the prompt."""
-        shown = self.type(line + "\r")
-        assert shown.startswith(line + "\r\n"), shown
-        assert shown.endswith("P00>"), shown
-        return shown[len(line) + 2 : -4]
+        displayed = self.type(line + "\r")
+        assert displayed.startswith(line + "\r\n"), displayed
+        assert displayed.endswith("P00>"), displayed
+        return displayed[len(line) + 2 : -4]
 
 
 @pytest.fixture
@@ -40,7 +40,7 @@ def terminal(tmp_path: Path) -> Terminal:
 
 
 @pytest.mark.parametrize(
-    ("line", "query", "shown"),
+    ("line", "query", "displayed"),
     [
         ("PPU X4096 Y4096", "PPU Y", "4096\r\n"),
         ("EXC AXIS0 4 AXIS1 4 AXIS2 4", "EXC AXIS2", "4\r\n"),
@@ -61,14 +61,14 @@ def terminal(tmp_path: Path) -> Terminal:
     ],
 )
 def test_a_command_sets_and_its_word_without_a_figure_shows(
-    terminal: Terminal, line: str, query: str, shown: str
+    terminal: Terminal, line: str, query: str, displayed: str
 ) -> None:
     assert terminal.obey(line) == ""
-    assert terminal.obey(query) == shown
+    assert terminal.obey(query) == displayed
 
 
 @pytest.mark.parametrize(
-    ("line", "shown"),
+    ("line", "displayed"),
     [
         ("PPX X4", "Unknown command\r\n"),
         ("X4", "Unknown command\r\n"),
@@ -85,8 +85,10 @@ def test_a_command_sets_and_its_word_without_a_figure_shows(
         ("P99999=1", "Number out of range\r\n"),
     ],
 )
-def test_what_the_card_does_not_obey_it_answers_in_words(terminal: Terminal, line: str, shown: str) -> None:
-    assert terminal.obey(line) == shown
+def test_what_the_card_does_not_obey_it_answers_in_words(
+    terminal: Terminal, line: str, displayed: str
+) -> None:
+    assert terminal.obey(line) == displayed
 
 
 def test_every_sign_is_echoed_and_a_line_is_obeyed_at_its_end(terminal: Terminal) -> None:
@@ -138,7 +140,7 @@ def test_a_save_that_is_cut_off_keeps_the_settings_it_came_to(terminal: Terminal
     assert [after.obey(f"PPU {axis}") for axis in "XYZ"] == ["4096\r\n", "4096\r\n", "10000\r\n"]
 
 
-def test_a_full_memory_is_told(terminal: Terminal) -> None:
+def test_a_full_memory_is_reported(terminal: Terminal) -> None:
     terminal.card.settings._memory.full_at = 10
     terminal.obey("PPU X4096")
     assert terminal.obey("ESAVE") == "EEPROM failure (No space left on device)\r\n"

@@ -44,9 +44,9 @@ def test_identify_upload_download_verify_diff_and_restore(
     assert run(["set", str(path), "control.trial_speed=50"]) in (0, 2)
     capsys.readouterr()
     assert run(["verify", str(path), "--with", address]) == 1
-    shown = capsys.readouterr().out
-    assert "Pulses/Unit" in shown
-    assert "The control contains other values." in shown
+    displayed = capsys.readouterr().out
+    assert "Pulses/Unit" in displayed
+    assert "The control contains other values." in displayed
     assert run(["download", str(path), "--to", address, "--accept-errors"]) == 0
     assert (device.settings.values["PGAIN X"], device.settings.values["PPU X"]) == ("0.08", "4096")
     assert run(["verify", str(path), "--with", address]) == 0
@@ -63,6 +63,6 @@ def test_what_the_card_does_not_keep_is_counted_and_not_called_a_difference(
     assert run(["new", "acromill", str(path)]) == 0
     capsys.readouterr()
     assert run(["verify", str(path), "--with", card[0]]) == 0
-    shown = capsys.readouterr().out
-    assert "values of the file are not kept by this control." in shown
-    assert shown.startswith("0 differ, 112 are the same")
+    displayed = capsys.readouterr().out
+    assert "values of the file are not kept by this control." in displayed
+    assert displayed.startswith("0 differ, 112 are the same")

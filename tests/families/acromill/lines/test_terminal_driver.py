@@ -226,7 +226,7 @@ def test_a_setting_that_the_card_takes_otherwise_is_named(bench: CardBench) -> N
         send(bench, small_file(ppu="4096"), [])
 
 
-def test_a_save_that_fails_is_told(bench: CardBench) -> None:
+def test_a_save_that_fails_is_reported(bench: CardBench) -> None:
     bench.card.settings._memory.full_at = 0
     with pytest.raises(ControlFullError, match="the card answers ESAVE with 'EEPROM failure") as caught:
         send(bench, small_file(ppu="4096"), [])
@@ -350,7 +350,7 @@ def test_a_short_copy_is_not_put_back_as_if_it_were_whole(bench: CardBench) -> N
 
 
 @pytest.mark.parametrize("program", [0, 3])
-def test_half_a_line_that_somebody_left_is_taken_away(bench: CardBench, program: int) -> None:
+def test_half_a_line_that_a_user_left_is_taken_away(bench: CardBench, program: int) -> None:
     bench.card.receive(b"PROG%d\rPPU X40" % program)
     assert bench.driver.identify().revision == "1.17.08"
     assert bench.card.settings.values["PPU X"] == "10000"
@@ -421,7 +421,7 @@ def test_a_card_that_does_not_come_back_is_not_known(bench: CardBench) -> None:
 
 
 @pytest.mark.parametrize(("done", "state", "new"), [(0, "old", ()), (1, "mixed", ("PPU X",)), (2, "new", ())])
-def test_ctrl_c_stops_between_two_settings_and_says_which_are_new(
+def test_ctrl_c_stops_between_two_settings_and_shows_which_are_new(
     bench: CardBench, done: int, state: str, new: tuple[str, ...]
 ) -> None:
     cancel = threading.Event()
@@ -491,12 +491,12 @@ def test_a_hostile_other_end_is_bounded(
     assert bench.clock.now < 120
 
 
-def test_silence_is_told_each_second_and_ends(bench: CardBench) -> None:
+def test_silence_is_reported_each_second_and_ends(bench: CardBench) -> None:
     bench.card.receive = lambda _: None
-    told: list[tuple[str, int]] = []
+    reported: list[tuple[str, int]] = []
     with pytest.raises(ControlSilentError, match="the card does not take 'VER': the card does not answer"):
-        bench.driver.identify(Exchange(lambda stage, done, _: told.append((stage, done))))
-    assert told[:2] == [("silent", 2), ("silent", 3)]
+        bench.driver.identify(Exchange(lambda stage, done, _: reported.append((stage, done))))
+    assert reported[:2] == [("silent", 2), ("silent", 3)]
 
 
 def test_a_content_that_was_cut_off_or_is_no_script_is_refused(bench: CardBench) -> None:

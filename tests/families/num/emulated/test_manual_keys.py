@@ -56,7 +56,7 @@ def test_homing_ends_at_the_encoder_zero_and_limits_count_from_then_on(bench: Be
         ("homing Q", "not fitted"),
     ],
 )
-def test_what_is_not_possible_is_said_in_words(bench: Bench, line: str, words: str) -> None:
+def test_what_is_not_possible_is_shown_in_words(bench: Bench, line: str, words: str) -> None:
     with pytest.raises(ValueError, match=words):
         bench.control.operate(line)
 
@@ -65,6 +65,6 @@ def test_the_screen_shows_the_axes_of_the_table(bench: Bench) -> None:
     """The peripheral line carries parameters alone (chapter 13)."""
     bench.control.operate("jog X+ slow")
     bench.control.advance(0.5)
-    shown = bench.control.screen()
-    assert (shown.state, shown.axes[0].axis) == ("menu", "X")
-    assert shown.axes[0].states == ("not homed", "moving")
+    displayed = bench.control.screen()
+    assert (displayed.state, displayed.axes[0].axis) == ("menu", "X")
+    assert displayed.axes[0].states == ("not homed", "moving")

@@ -36,11 +36,11 @@ class Bench:
 
     def send(self, table: bytes) -> bytes:
         """Send a table in pieces, and wait where the control stops it; returns what it has sent."""
-        said = b""
+        message = b""
         for at in range(0, len(table), 200):
             self.control.receive(table[at : at + 200])
-            said += self.control.answer()
-        return said
+            message += self.control.answer()
+        return message
 
 
 @pytest.fixture
@@ -77,7 +77,10 @@ def test_what_was_unloaded_is_loaded_verified_and_outlasts_the_power(bench: Benc
     assert after.unload() == table
     after.press("verify", "enter")
     after.send(table)
-    assert [shown for shown in after.screen if "(VERI)" in shown][:2] == ["(VERI) P0", "(VERI) P1"]
+    assert [displayed for displayed in after.screen if "(VERI)" in displayed][:2] == [
+        "(VERI) P0",
+        "(VERI) P1",
+    ]
     assert after.screen[-1] == "MACHINE SETUP DATA"
 
 
@@ -132,7 +135,7 @@ def test_a_check_stops_at_the_word_that_differs(bench: Bench) -> None:
     assert bench.screen[-2:] == ["(VERI) P9", f"dialogue line: {FILE_ERROR}  [line 3: P9N1 differs]"]
 
 
-def test_bytes_before_the_control_is_ready_are_read_by_nobody(bench: Bench) -> None:
+def test_bytes_before_the_control_is_ready_are_not_read(bench: Bench) -> None:
     bench.send(line("%00000000"))
     bench.press("load")
     bench.send(line("%00000000"))

@@ -26,7 +26,7 @@ class NumBench:
         self.folder = folder
         self.clock = VirtualClock()
         self.screen: list[str] = []
-        self.told: list[str] = []
+        self.texts: list[str] = []
         self.unload_keys: list[str] = []
         self.wrap: Callable[[Link], Link] = lambda link: link
         self.refuses: set[str] = set()
@@ -49,7 +49,7 @@ class NumBench:
     def progress(self, stage: str, done: int, total: int) -> None:
         if total != OPERATOR:
             return
-        self.told.append(stage)
+        self.texts.append(stage)
         for operation, menu in (("unload", "3 UNLOAD"), ("load", "2 LOAD"), ("verify", "4 CHECK")):
             if menu in stage and operation not in self.refuses:
                 self.press("exit", operation, "enter")

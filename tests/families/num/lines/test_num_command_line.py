@@ -33,11 +33,11 @@ def control(
     memory.replace("table", SMALL)
     device = NumControl(DeviceSetup("num", memory, lambda _: None))
     with served(device, f"{request.param}?protocol=peripheral") as (address, service):
-        shown = console.print_notice
+        displayed = console.print_notice
 
         def read(text: str, end: str = "\n") -> None:
             """Be the person at the keys, who reads what the program shows."""
-            shown(text, end=end)
+            displayed(text, end=end)
             for operation, item in (("unload", "3 UNLOAD"), ("load", "2 LOAD")):
                 if item in text:
                     for key in ("exit", operation, "enter", "start")[: 4 if operation == "unload" else 3]:
@@ -54,9 +54,9 @@ def test_identify_upload_download_verify_and_restore(
 ) -> None:
     address, device = control
     assert run(["identify", address]) == 0
-    told = capsys.readouterr()
-    assert "CNC with the job reference 00000000 of the family num" in told.out
-    assert "3 UNLOAD, Enter at READY?" in told.err
+    reported = capsys.readouterr()
+    assert "CNC with the job reference 00000000 of the family num" in reported.out
+    assert "3 UNLOAD, Enter at READY?" in reported.err
     path = tmp_path / "mill.amp"
     assert run(["upload", "--from", address, "-o", str(path), "--on-fault", "keep"]) == 0
     assert run(["set", str(path), "P9N0=7", "--force"]) == 0

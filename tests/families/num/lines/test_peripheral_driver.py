@@ -75,10 +75,10 @@ def send(
 def test_a_download_is_an_unload_a_load_and_an_unload(tmp_path: Path, parity: str) -> None:
     bench = NumBench(tmp_path, parity=parity, is_checked=True)
     before, kept = upload(bench.driver, Exchange(bench.progress)), list[bytes]()
-    bench.told.clear()
+    bench.texts.clear()
     outcome = send(bench, small_file("P9N0=07", "P9N31=08"), kept)
     assert outcome.verified
-    assert bench.told == [UNLOAD_TEXT, LOAD_TEXT, UNLOAD_TEXT]
+    assert bench.texts == [UNLOAD_TEXT, LOAD_TEXT, UNLOAD_TEXT]
     assert (bench.words(9)[0], bench.words(9)[31]) == ("7", "8")
     assert kept == [before]
     assert before.startswith(b"NUM table 1\n%00000000;09\nP0N0:t6n1;09\n")
@@ -106,14 +106,14 @@ def test_a_copy_that_was_kept_goes_back(bench: NumBench) -> None:
 def test_without_parity_on_a_serial_line_two_unloads_are_compared(tmp_path: Path) -> None:
     bench = NumBench(tmp_path, parity="none")
     upload(bench.driver, Exchange(bench.progress))
-    assert len(bench.told) == 2
-    assert bench.told[1].startswith("Nothing on this line (no parity) shows a damaged character")
+    assert len(bench.texts) == 2
+    assert bench.texts[1].startswith("Nothing on this line (no parity) shows a damaged character")
 
 
-def test_the_control_checks_each_unload_where_the_person_asks_for_it(tmp_path: Path) -> None:
+def test_the_control_checks_each_unload_where_the_user_asks_for_it(tmp_path: Path) -> None:
     bench = NumBench(tmp_path, parity="none", has_checked=True)
     upload(bench.driver, Exchange(bench.progress))
-    assert [text[:52] for text in bench.told] == [UNLOAD_TEXT[:52], CHECK_TEXT[:52]]
+    assert [text[:52] for text in bench.texts] == [UNLOAD_TEXT[:52], CHECK_TEXT[:52]]
     assert bench.screen[-3:] == ["(VERI) P119", "(VERI) P120", "MACHINE SETUP DATA"]
 
 
@@ -121,8 +121,10 @@ def test_a_check_that_stops_at_a_word_has_the_table_unloaded_again(tmp_path: Pat
     bench = NumBench(tmp_path, parity="none", has_checked=True)
     bench.wrap = lambda link: OneFault(link, 9_003, 1)
     content = upload(bench.driver, Exchange(bench.progress))
-    assert bench.told[2].startswith("The control has stopped the table.")
-    assert bench.told[3].startswith("The control has found another table than its own: unload it once more. ")
+    assert bench.texts[2].startswith("The control has stopped the table.")
+    assert bench.texts[3].startswith(
+        "The control has found another table than its own: unload it once more. "
+    )
     assert [line for line in bench.screen if "FILE ERROR" in line] == [
         "dialogue line: FILE ERROR (INCORRECT TAPE?)  [line 445: P89N12 differs]"
     ]
@@ -138,24 +140,26 @@ def test_what_the_operator_types_behind_the_job_reference_is_no_content(bench: N
     assert upload(bench.driver, Exchange(bench.progress)) == plain
 
 
-def test_a_load_that_another_job_reference_holds_goes_on_when_the_operator_has_corrected_it(
+def test_a_load_that_another_job_reference_stops_goes_on_when_the_operator_has_corrected_it(
     bench: NumBench,
 ) -> None:
     bench.unload_keys = ["reference 00000001"]
-    told: Callable[[str, int, int], None] = bench.progress
+    original: Callable[[str, int, int], None] = bench.progress
 
     def progress(stage: str, done: int, total: int) -> None:
         if stage == STOPPED_TEXT:
             assert bench.screen[-1] == "dialogue line: %00000001"
             bench.press("reference 00000000")
-        told(stage, done, total)
+        original(stage, done, total)
 
     bench.progress = progress
     assert send(bench, small_file(), []).verified
     assert bench.words(9)[0] == "7"
 
 
-def test_a_load_that_the_control_stops_for_good_is_told_and_what_it_contains_is_read(bench: NumBench) -> None:
+def test_a_load_that_the_control_stops_for_good_is_reported_and_what_it_contains_is_read(
+    bench: NumBench,
+) -> None:
     """P9N0 and P9N31 are in two data lines; a character of the line between them is damaged on its way."""
     damage = iter([b"P9N10"])
 
@@ -173,15 +177,15 @@ def test_a_load_that_the_control_stops_for_good_is_told_and_what_it_contains_is_
         == "the control has stopped the table for 300 s; the control contains the new P9N0 and the old values"
         " of the rest (what it contained before is kept in kept)"
     )
-    assert bench.told[-3:-1] == [
+    assert bench.texts[-3:-1] == [
         STOPPED_TEXT,
         "the control has stopped the table for 300 s. End the load at the control",
     ]
-    (shown,) = [line for line in bench.screen if "FILE ERROR" in line]
-    assert shown.endswith(": a character with a parity error]")
+    (displayed,) = [line for line in bench.screen if "FILE ERROR" in line]
+    assert displayed.endswith(": a character with a parity error]")
 
 
-def test_a_person_who_does_not_unload_after_a_break_is_told_that_it_is_not_known(bench: NumBench) -> None:
+def test_after_a_break_without_an_unload_it_is_reported_as_not_known(bench: NumBench) -> None:
     seen = 0
 
     class Cutting(FaultyLink):
@@ -200,7 +204,7 @@ def test_a_person_who_does_not_unload_after_a_break_is_told_that_it_is_not_known
     assert bench.clock.now < 200
 
 
-def test_a_load_that_nobody_began_at_the_control_is_noticed(bench: NumBench) -> None:
+def test_a_load_that_was_not_begun_at_the_control_is_noticed(bench: NumBench) -> None:
     bench.refuses.add("load")
     outcome = send(bench, small_file(), [])
     assert (outcome.verified, outcome.at_control) == (False, "old")
@@ -208,11 +212,11 @@ def test_a_load_that_nobody_began_at_the_control_is_noticed(bench: NumBench) -> 
 
 
 def test_ctrl_c_before_the_last_unload_does_not_claim_that_the_control_has_taken_it(bench: NumBench) -> None:
-    cancel, told = threading.Event(), bench.progress
+    cancel, original = threading.Event(), bench.progress
 
     def progress(stage: str, done: int, total: int) -> None:
-        told(stage, done, total)
-        if stage == UNLOAD_TEXT and bench.told.count(UNLOAD_TEXT) == 2:
+        original(stage, done, total)
+        if stage == UNLOAD_TEXT and bench.texts.count(UNLOAD_TEXT) == 2:
             cancel.set()
 
     bench.refuses.add("load")
@@ -223,12 +227,12 @@ def test_ctrl_c_before_the_last_unload_does_not_claim_that_the_control_has_taken
 
 
 @pytest.mark.parametrize(("lines", "state"), [(0, "old"), (2, "old"), (3, "unknown"), (200, "unknown")])
-def test_ctrl_c_leaves_no_half_line_and_says_what_is_known(bench: NumBench, lines: int, state: str) -> None:
+def test_ctrl_c_leaves_no_half_line_and_shows_what_is_known(bench: NumBench, lines: int, state: str) -> None:
     cancel = threading.Event()
-    told = bench.progress
+    original = bench.progress
 
     def progress(stage: str, done: int, total: int) -> None:
-        told(stage, done, total)
+        original(stage, done, total)
         if (stage, done) == ("download", lines) or (lines == 0 and stage == LOAD_TEXT):
             cancel.set()
 
@@ -260,7 +264,7 @@ class OneFault(FaultyLink):
 def test_a_damaged_unload_is_asked_for_again(bench: NumBench) -> None:
     bench.wrap = lambda link: OneFault(link, 9_000, 4)
     upload(bench.driver, Exchange(bench.progress))
-    assert bench.told == [
+    assert bench.texts == [
         UNLOAD_TEXT,
         "the table has arrived damaged: a character with a parity error in line 445: unload it once more. "
         + UNLOAD_TEXT,
@@ -271,7 +275,8 @@ def test_a_lost_byte_is_found_by_the_length_of_its_line(bench: NumBench) -> None
     bench.wrap = lambda link: OneFault(link, 9_000, 0)
     upload(bench.driver, Exchange(bench.progress))
     assert (
-        "the table has arrived damaged (the parameter table of the control: line 445, column" in bench.told[1]
+        "the table has arrived damaged (the parameter table of the control: line 445, column"
+        in bench.texts[1]
     )
 
 
@@ -320,7 +325,7 @@ def test_a_hostile_other_end_is_bounded(
     assert bench.clock.now < 3_700
 
 
-def test_a_control_that_holds_a_load_for_ever_is_left(bench: NumBench) -> None:
+def test_a_control_that_pauses_a_load_for_ever_is_left(bench: NumBench) -> None:
     content = upload(bench.driver, Exchange(bench.progress))
 
     def open_link(_look: Callable[[], None]) -> Link:

@@ -236,7 +236,7 @@ def test_an_enabled_bit_causes_an_interrupt_and_another_does_not(module: Module)
 
 
 @pytest.mark.parametrize("register", [72, 73, 74, 99, 2120, 4095])
-def test_what_the_module_writes_nobody_else_does(module: Module, register: int) -> None:
+def test_what_the_module_writes_nothing_else_writes(module: Module, register: int) -> None:
     before = module.read(register)
     module.write(register, before ^ 0xFF)
     assert module.read(register) == before
@@ -250,14 +250,14 @@ def rack(tmp_path: Path) -> Rack:
     return Rack(DeviceSetup("57c422b", Memory(tmp_path), print))
 
 
-def said(rack: Rack, data: bytes) -> bytes:
+def message(rack: Rack, data: bytes) -> bytes:
     rack.receive(data)
     return rack.answer()
 
 
 def test_a_request_is_answered_with_its_number(rack: Rack) -> None:
-    assert said(rack, framed(5, "W 3 160")) == framed(5, "W 3 160")
-    assert said(rack, framed(6, "R 2 2")) == framed(6, "R 2 0 160")
+    assert message(rack, framed(5, "W 3 160")) == framed(5, "W 3 160")
+    assert message(rack, framed(6, "R 2 2")) == framed(6, "R 2 0 160")
 
 
 @pytest.mark.parametrize(
@@ -272,13 +272,13 @@ def test_a_request_is_answered_with_its_number(rack: Rack) -> None:
     ],
 )
 def test_a_damaged_line_gets_no_answer_and_the_next_one_does(rack: Rack, line: bytes) -> None:
-    assert said(rack, line) == b""
-    assert said(rack, framed(2, "R 0 1")) == framed(2, "R 0 0")
+    assert message(rack, line) == b""
+    assert message(rack, framed(2, "R 0 1")) == framed(2, "R 0 0")
 
 
 @pytest.mark.parametrize("request_", ["R 4096 1", "R 4095 2", "R 0 0", "R 0 33", "W 4096 1", "W 0 65536"])
 def test_registers_that_there_are_not_are_refused(rack: Rack, request_: str) -> None:
-    assert said(rack, framed(1, request_)).startswith(b"1 E there ")
+    assert message(rack, framed(1, request_)).startswith(b"1 E there ")
 
 
 @pytest.mark.parametrize(

@@ -111,7 +111,7 @@ def test_the_handshake_ends_with_clear_command_registers_whoever_clears_them(
     assert (bench.words[66], bench.words[72] >> 15) == (0, 0)
 
 
-def test_a_module_that_does_not_acknowledge_is_told_with_what_it_contains(bench: RackBench) -> None:
+def test_a_module_that_does_not_acknowledge_is_reported_with_what_it_contains(bench: RackBench) -> None:
     bench.rack.module._obey = lambda axis: None
     with pytest.raises(
         ControlSilentError, match=r"axis X does not acknowledge the command \(R72, bit 15\)"
