@@ -35,7 +35,7 @@ from .law_axis import ModuleAxis
 from .law_cam_table import CAM
 from .law_commands import COMMANDS
 from .law_facts import MOTION, ids
-from .law_home import homing, travel
+from .law_home import homing, jogging, travel
 from .law_machine_tests import machine_tests
 from .law_registration import probing
 from .law_tune import Scales
@@ -155,6 +155,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         linear_parameters=_linear(p),
         homing=partial(homing, read),
         travel=partial(travel, read, _ramps(read)["linear"]),
+        jogging=partial(jogging, read, _ramps(read)["linear"]),
         read=read,
         names={parameter: _named(parameter, read.axis) for parameter in COMMAND_DATA},
         scales=Scales(*(_scale(read, name) for name in _SCALES)),

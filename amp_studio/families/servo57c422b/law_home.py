@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Literal
 
-from amp_studio.sim import AxisParameters, Homing, Ramp, SimulationError, Travel
+from amp_studio.sim import AxisParameters, Homing, Jogging, Ramp, SimulationError, Travel
 
 from . import switch_bits as bits
 from .law_facts import MOTION, ids
@@ -90,3 +90,18 @@ def travel(read: AxisParameters, ramp: Ramp) -> Travel:
         stop=None if coasts else ramp,
         coasts=coasts,
     )
+
+
+JOGGED = (
+    "A jog is velocity control (4-25): bit 2 of register 65 begins it, bit 4 is its direction, and without"
+    " bit 2 the axis decelerates. It has the velocity of registers 19, 20 and the rates of 21 to 24; the time"
+    " of the button is that of the application program, which writes the bits."
+)
+
+
+def jogging(read: AxisParameters, ramp: Ramp) -> Jogging:
+    """Return the jog of an axis: velocity control (4-25). Raises SimulationError for a velocity that is not
+    set.
+    """
+    speed = read.number(ids.command_velocity)
+    return Jogging({"velocity control": abs(speed)}, ramp=ramp, page="4-25", notes=(JOGGED,))

@@ -94,3 +94,11 @@ def test_software_overtravel_stops_by_the_deceleration_or_lets_the_axis_coast() 
 def test_without_it_or_on_a_rotary_axis_there_is_no_limit(switches: int, encoder: int) -> None:
     with pytest.raises(SimulationError, match="No limit"):
         travel(switches, encoder)
+
+
+def test_a_jog_is_velocity_control_at_registers_19_and_21_to_24() -> None:
+    """Page 4-25: the application program sets bit 2 of register 65 and takes it back."""
+    trace = simulate(press(), "jog", "X", {"move.hold": 2.0, "move.direction": "minus"})
+    assert trace.columns["command_velocity"].min() == pytest.approx(-40000.0 * 60.0)
+    assert trace.result["stop_position"][0] == pytest.approx(-80000.0, abs=10.0)
+    assert trace.alarms == ()
