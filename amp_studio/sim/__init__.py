@@ -58,7 +58,8 @@ if TYPE_CHECKING:
     from .motion_check import MotionCheck, check_motion
     from .parameter_roles import ParameterRoles
     from .path.job import ProgramJob, ProgramVersion, WhatIf, versions, what_if
-    from .path.picture import path_picture
+    from .path.moment import PathMoment, moment_at
+    from .path.picture import limit_sort, path_picture
     from .path.program import ProgramRun
     from .path.result import limited_by, line_rows, program_csv, program_summary, program_text, try_summary
     from .path.typed import typed_places, typed_steps, typed_values

@@ -16,6 +16,7 @@ from amp_studio.sim import (
     ProgramJob,
     Ramp,
     SimulationError,
+    moment_at,
     run_axis,
     typed_steps,
     versions,
@@ -348,3 +349,16 @@ def test_a_program_is_run_over_a_row_of_values_and_under_other_files(router: Par
     for text in ("speeds.rapid=1:2%", "speeds.rapid=5", "speeds.rapid=1:2:1", "speeds.rapid=1:2:9999"):
         with pytest.raises(SimulationError):
             typed_steps(router, text)
+
+
+def test_a_moment_is_on_the_path_with_the_speed_of_its_ramp(router: ParameterFile) -> None:
+    text = ["G21 G200 F1", "F6000 X-50", "G3 X-60 Y-10 I0 J-10", "G1 Y-30"]
+    plan = planned(router, text, rules(500.0))
+    moments = [moment_at(plan, float(time)) for time in np.linspace(0.0, plan.time, 2001)]
+    places = np.array([each.place for each in moments if each])
+    speeds = np.array([each.speed for each in moments if each])
+    step = plan.time / 2000.0
+    gone = np.linalg.norm(np.diff(places, axis=0), axis=1) / step
+    assert np.abs(gone - 0.5 * (speeds[1:] + speeds[:-1])).max() < 1.0
+    assert places[0].tolist() == [0.0, 0.0, 0.0]
+    assert places[-1].tolist() == pytest.approx([-60.0, -30.0, 0.0])

@@ -11,6 +11,7 @@ from pytestqt.qtbot import QtBot
 from amp_studio.files import open_file
 from amp_studio.schema import Address, Value
 from amp_studio.ui.base.task import Task
+from amp_studio.ui.motion.program_play import STEPS
 from amp_studio.ui.motion.program_window import ProgramWindow
 
 from .conftest import WAIT_MS
@@ -82,3 +83,28 @@ def test_what_cannot_be_read_is_a_sentence(window: ProgramWindow, tmp_path: Path
     enter(window, "zero", "here")
     window.open_program(ROUTER / "plate.nc")
     assert "places of axes" in window.summary.text()
+
+
+def test_an_empty_block_shows_what_is_active_after_power_up(window: ProgramWindow) -> None:
+    enter(window, "block", "")
+    texts = [window.words.item(n, 2).text() for n in range(window.words.rowCount())]
+    assert "plane: plane of X and Y" in texts
+
+
+def test_a_moment_of_a_program_is_shown_where_the_axes_are_then(window: ProgramWindow, qtbot: QtBot) -> None:
+    window.open_program(ROUTER / "plate.nc")
+    qtbot.waitUntil(lambda: window.outcome is not None, timeout=10 * WAIT_MS)
+    assert window.outcome is not None
+    assert sum(part.seconds for part in window.bar.parts) == pytest.approx(window.outcome.plan.time, rel=1e-4)
+    assert "feed as programmed" in window.bar.accessibleDescription()
+    window.play.slider.setValue(STEPS)
+    assert window.plot.picture is not None
+    scene = window.plot.picture.above
+    assert scene is not None
+    assert window.outcome.plan.geometry.ends[-1][:2].tolist() == pytest.approx(list(scene.dots[0].at))
+    assert window.lines.currentRow() == window.outcome.plan.path.line[-1] - 1
+    window.play.button.click()  # from the start again
+    assert window.play.slider.value() < STEPS
+    assert window.play.button.text() == "&Pause"
+    window.play.button.click()
+    assert window.play.button.text() == "&Play"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,7 +22,7 @@ from .profiles import path_points
 BEYOND = 1e-6
 """u: an axis on its limit is not beyond it."""
 ON_ARC = 1e-3
-"""u between an arc and the straight pieces that are looked at for zones."""
+"""u between an arc and the straight pieces that are checked against zones."""
 
 
 @dataclass(frozen=True)
@@ -83,6 +84,36 @@ def _extent(plan: ProgramPlan, path: ToolPath) -> tuple[PathRows, PathRows]:
             ):
                 least[n, axis], most[n, axis] = min(least[n, axis], place), max(most[n, axis], place)
     return least, most
+
+
+@dataclass(frozen=True)
+class GuardedBox:
+    """A zone, or the limits of travel, in the axes of a path."""
+
+    name: str
+    sides: dict[str, tuple[float, float]]
+    """Letter of an axis -> (least, greatest) u."""
+    keeps_in: bool
+    """Whether it is the limits of travel."""
+
+
+def guarded_boxes(
+    plan: ProgramPlan, machine: BoundMachine, axes: Sequence[AxisLaw]
+) -> tuple[GuardedBox, ...]:
+    """Return the limits of travel, and the zones that are on at power-up or in the program."""
+    path = plan.path
+    if not path.zero_known:
+        return ()
+    found: list[GuardedBox] = []
+    for letter, axis in zip(path.axes, axes, strict=True):
+        with suppress(SimulationError):
+            limits = axis.travel().limits if axis.travel is not None else {}
+            found += [GuardedBox(title, {letter: edges}, keeps_in=True) for title, edges in limits.items()]
+    for zone in machine.law.zones(machine, machine.fitted) if machine.law.zones else ():
+        if any(_is_on(zone, numbers) for numbers in path.zone_sets):
+            sides = {machine.letter(axis) or axis: side for axis, side in zone.sides.items()}
+            found.append(GuardedBox(zone.name, sides, keeps_in=False))
+    return tuple(found)
 
 
 def zones_met(plan: ProgramPlan, machine: BoundMachine) -> Iterator[PathAlarm]:

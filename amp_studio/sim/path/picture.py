@@ -2,16 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
 
-from amp_studio.drawing import Curve, Picture, Polyline, Scale, Scene, ShapeSort, Text, panel_of
+from amp_studio.drawing import (
+    Curve,
+    Dot,
+    FilledArea,
+    Picture,
+    Polyline,
+    Scale,
+    Scene,
+    ShapeSort,
+    Text,
+    panel_of,
+)
 from amp_studio.files import ParameterFile
 from amp_studio.sim.path_rules import Indices, PathRows
 from amp_studio.sim.rounding import value_text
 
+from .moment import PathMoment
 from .planner import ProgramPlan
 from .profiles import path_points
 from .program import ProgramRun
@@ -27,8 +40,8 @@ TILT = ((0.866, 0.5), (-0.5, 0.433), (0.0, 0.75))
 """What a unit of X, Y, Z is in the tilted picture: right, up."""
 
 
-def path_picture(file: ParameterFile, run: ProgramRun) -> Picture:
-    """Return the picture of a program."""
+def path_picture(file: ParameterFile, run: ProgramRun, moment: PathMoment | None = None) -> Picture:
+    """Return the picture of a program, with a dot where the axes are at one moment."""
     plan = run.plan
     facts = [f"{plan.path.blocks} blocks, {value_text(plan.time, 's', 4)}"]
     letters = limit_letters(run)
@@ -44,8 +57,8 @@ def path_picture(file: ParameterFile, run: ProgramRun) -> Picture:
     if run.contour is not None:
         error = Curve("contour error", run.contour.time, 1000.0 * run.contour.error, "now", dense=True)
         panels.append(panel_of("contour error", (error,), ("time", "s"), "µm"))
-    plan_scene = path_scene(file, run, letters, tilted=False)
-    tilted = path_scene(file, run, letters, tilted=True)
+    plan_scene = path_scene(file, run, letters, moment, tilted=False)
+    tilted = path_scene(file, run, letters, moment, tilted=True)
     return Picture(
         "program", tuple(facts), tuple(panels), plan_scene, tilted, bool(run.alarms), run.assumptions
     )
@@ -62,7 +75,9 @@ def _speed(plan: ProgramPlan) -> Scene:
     return panel_of("speed along the path", (curve,), ("time", "s"), "mm/min")
 
 
-def path_scene(file: ParameterFile, run: ProgramRun, letters: dict[int, str], *, tilted: bool) -> Scene:
+def path_scene(
+    file: ParameterFile, run: ProgramRun, letters: dict[int, str], moment: PathMoment | None, *, tilted: bool
+) -> Scene:
     """Return the path in plan (the first two axes) or tilted (three), coloured by what limits it."""
     plan = run.plan
     points, rows = path_points(plan, WITHIN)
@@ -78,7 +93,7 @@ def path_scene(file: ParameterFile, run: ProgramRun, letters: dict[int, str], *,
         letter = "R" if rapid else letters.get(int(by[row]), "")
         kept = [*range(first, last, step), last]
         lines.append(
-            Polyline(tuple((float(flat[n, 0]), float(flat[n, 1])) for n in kept), _sort(letter), rapid)
+            Polyline(tuple((float(flat[n, 0]), float(flat[n, 1])) for n in kept), limit_sort(letter), rapid)
         )
         if letter and letter not in seen:
             seen.add(letter)
@@ -98,10 +113,42 @@ def path_scene(file: ParameterFile, run: ProgramRun, letters: dict[int, str], *,
         x=Scale("" if tilted else axes[0], "mm", left, right, is_written=not tilted),
         y=Scale("" if tilted else axes[min(1, len(axes) - 1)], "mm", low, high, is_written=not tilted),
         equal=True,
-        lines=tuple(lines),
+        areas=() if tilted else tuple(_zones(run, axes, (left, right), (low, high))),
+        lines=(*lines, *(() if tilted else _limits(run, axes, (left, right), (low, high)))),
+        dots=() if moment is None else (_dot(moment, tilted=tilted),),
         texts=tuple(texts),
         share=2.2,
     )
+
+
+def _dot(moment: PathMoment, *, tilted: bool) -> Dot:
+    x, y = _flat(moment.place[None, :], tilted=tilted)[0].tolist()
+    return Dot((x, y))
+
+
+def _zones(
+    run: ProgramRun, axes: Sequence[str], wide: tuple[float, float], tall: tuple[float, float]
+) -> Iterator[FilledArea]:
+    """Yield the zones in the plane of the first two axes that reach into the picture."""
+    everywhere = (-math.inf, math.inf)
+    for box in run.guarded:
+        if not box.keeps_in and set(box.sides) & set(axes[:2]):
+            (left, right), (low, high) = (box.sides.get(axis, everywhere) for axis in axes[:2])
+            if left < wide[1] and right > wide[0] and low < tall[1] and high > tall[0]:
+                yield FilledArea(left, low, right, high, "outside", box.name)
+
+
+def _limits(
+    run: ProgramRun, axes: Sequence[str], wide: tuple[float, float], tall: tuple[float, float]
+) -> Iterator[Polyline]:
+    """Yield the limits of travel that lie in the picture."""
+    for box in run.guarded:
+        for edge in box.sides.get(axes[0], ()) if box.keeps_in else ():
+            if wide[0] < edge < wide[1]:
+                yield Polyline(((edge, tall[0]), (edge, tall[1])), "limit", True)
+        for edge in box.sides.get(axes[1], ()) if box.keeps_in and len(axes) > 1 else ():
+            if tall[0] < edge < tall[1]:
+                yield Polyline(((wide[0], edge), (wide[1], edge)), "limit", True)
 
 
 def _flat(points: PathRows, *, tilted: bool) -> PathRows:
@@ -119,7 +166,8 @@ def _span(values: PathRows) -> tuple[float, float]:
     return low - room, high + room
 
 
-def _sort(letter: str) -> ShapeSort:
+def limit_sort(letter: str) -> ShapeSort:
+    """Return the colour of a limit by its letter."""
     if letter == "R":
         return "dim"
     place = ord(letter) - ord("B") if letter else -1

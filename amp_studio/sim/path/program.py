@@ -20,7 +20,7 @@ from amp_studio.sim.model import assumptions
 from amp_studio.sim.run import bound_machine
 
 from .contour import ContourError, contour_error
-from .limits_met import PathAlarm, limits_met, zones_met
+from .limits_met import GuardedBox, PathAlarm, guarded_boxes, limits_met, zones_met
 from .planner import ProgramPlan, plan_program
 
 LONGEST_WAIT = 5.0
@@ -41,6 +41,8 @@ class ProgramRun:
     read: tuple[Address, ...]
     """Values that were read."""
     assumptions: tuple[str, ...]
+    guarded: tuple[GuardedBox, ...] = ()
+    """Zones and limits of travel."""
 
 
 def run_program(
@@ -93,7 +95,15 @@ def run_program(
     if path.fault is not None:
         fault = path.fault
         alarms.append(PathAlarm(fault.line, plan.time, fault.code, fault.message))
-    return ProgramRun(plan, tuple(alarms), contour, why, tuple(read), tuple(dict.fromkeys(notes)))
+    return ProgramRun(
+        plan,
+        tuple(alarms),
+        contour,
+        why,
+        tuple(read),
+        tuple(dict.fromkeys(notes)),
+        guarded_boxes(plan, machine, axes),
+    )
 
 
 def home_positions(file: ParameterFile, letters: Sequence[str]) -> list[float]:

@@ -27,15 +27,18 @@ from PySide6.QtWidgets import (
 
 from amp_studio.errors import AmpStudioError
 from amp_studio.files import ParameterFile
-from amp_studio.programs import BlockReader, ProgramBlockError, read_program
+from amp_studio.programs import BlockReader, ProgramBlockError, power_up, read_program
 from amp_studio.schema import Address, Value
 from amp_studio.sim import (
+    PathMoment,
     ProgramJob,
     ProgramRun,
     SimulationError,
     WhatIf,
+    limit_sort,
     limited_by,
     line_rows,
+    moment_at,
     path_picture,
     try_summary,
     typed_places,
@@ -51,6 +54,8 @@ from amp_studio.ui.base.theme import GAP2, GAP3, font
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.forms.form import Field, FieldForm
 from amp_studio.ui.forms.segment import Segment
+
+from .program_play import PlayBar, TimeBar, TimePart
 
 MOST_LINES = 5000
 """Lines of a program that are listed; the rest is computed too."""
@@ -103,6 +108,8 @@ class ProgramWindow(QDialog):
         )
         self.view.show_choice("plan")
         self.view.chosen.connect(lambda _key: self._draw())
+        self.bar, self.play = TimeBar(), PlayBar()
+        self.play.moved.connect(self._show_moment)
         self.form = FieldForm(self._fields())
         self.form.entered.connect(self._entered)
         self._lay_out()
@@ -115,7 +122,9 @@ class ProgramWindow(QDialog):
                 "block",
                 self.tr("&Block"),
                 hint="G1 X10 F200",
-                tip=self.tr("Enter shows each word as this file has it read; a code stays active"),
+                tip=self.tr(
+                    "Enter shows each word as this file has it read; empty, what is active after power-up"
+                ),
             ),
             Field(
                 "zero",
@@ -147,7 +156,7 @@ class ProgramWindow(QDialog):
         left, middle, right = QWidget(), QWidget(), QWidget()
         for side, parts in (
             (left, (self.form, self.words, self.lines)),
-            (middle, (self.view, self.plot)),
+            (middle, (self.view, self.plot, self.bar, self.play)),
             (right, (self.limits, self.tries)),
         ):
             column = QVBoxLayout(side)
@@ -185,7 +194,10 @@ class ProgramWindow(QDialog):
             self.start(self._job, self._name)
 
     def _read_block(self, text: str) -> None:
-        """Show the words of a block."""
+        """Show the words of a block; without one, what is active after power-up."""
+        if not text.strip():
+            self._show_power_up()
+            return
         try:
             block = BlockReader(self._read()).read(text)
         except ProgramBlockError as error:
@@ -205,6 +217,19 @@ class ProgramWindow(QDialog):
             ],
         )
         self._say("; ".join(block.faults) or "; ".join(block.assumptions))
+
+    def _show_power_up(self) -> None:
+        """Show the codes after power-up, what changes them, and the calls of the builder's programs."""
+        found = power_up(self._read())
+        short = self._file.machine_schema.short
+        _fill(
+            self.words,
+            [
+                (line.code, "", f"{line.what}: {line.meaning}", ", ".join(map(short, line.params)))
+                for line in (*found.active, *found.changes, *found.calls)
+            ],
+        )
+        self._say(self.tr("What is active after power-up, what changes it, and what calls a program."))
 
     # -- a program -----------------------------------------------------------------
 
@@ -299,14 +324,28 @@ class ProgramWindow(QDialog):
             words.append(self.tr("largest contour error {error}").format(error=error))
         words += [f"{self.tr('Line')} {alarm.line}: {alarm.code} {alarm.message}" for alarm in run.alarms[:2]]
         self._say("; ".join(words))
-        self._draw()
+        self.bar.show_parts(
+            [
+                TimePart(row["letter"], worded(row["name"]), row["time_s"], limit_sort(row["letter"]))
+                for row in limited_by(self._file, run)
+            ]
+        )
+        self.play.show_program(run.plan.time)
 
-    def _draw(self) -> None:
+    def _show_moment(self, _seconds: float) -> None:
+        """Draw where the axes are, and show the block that is run."""
+        moment = self._draw()
+        if moment is not None and moment.line <= self.lines.rowCount():
+            self.lines.selectRow(moment.line - 1)
+
+    def _draw(self) -> PathMoment | None:
         if self.outcome is None:
-            return
-        picture = path_picture(self._file, self.outcome)
+            return None
+        moment = moment_at(self.outcome.plan, self.play.moment)
+        picture = path_picture(self._file, self.outcome, moment)
         above = picture.close if self.view.choice == "tilted" else picture.above
         self.plot.draw(replace(picture, above=above, close=None))
+        return moment
 
     def _show_try(self, values: Mapping[Address, Value], tried: WhatIf) -> None:
         assert self.outcome is not None
@@ -337,6 +376,7 @@ class ProgramWindow(QDialog):
         self.summary.setText(text)
 
     def _stop(self) -> None:
+        self.play.pause()
         if self._task is not None:
             self._task.cancelled.set()
             self._task = None
