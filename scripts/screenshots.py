@@ -298,6 +298,8 @@ class Stage:
         emulated.start("9pc", "mill")
         settle(lambda: emulated.address)
         control, window = self.window.control, self.window
+        window.save()  # the saved file is sent
+        settle()
         control.exchanges.choose(window.workspace, emulated.address)
         emulated.send("estop off")
         control.show("send")

@@ -12,6 +12,7 @@ import pytest
 from PySide6.QtWidgets import QApplication
 
 from amp_studio.languages import own_texts
+from amp_studio.report import language_of
 from amp_studio.schema import Value
 from amp_studio.ui.base.figures import sentence, written
 from amp_studio.ui.base.translated import speak, worded
@@ -114,3 +115,17 @@ def test_the_report_has_the_language_of_the_window_until_another_is_chosen(windo
     assert choice.contents.language == "de", "the order was chosen, not the language"
     choice.contents = replace(choice.contents, language="en")
     assert choice.contents.language == "en"
+
+
+def test_how_an_exchange_ended_is_german() -> None:
+    german = language_of("de")
+    ended = german.message(
+        "Download complete and read back equal. Restart the control to make it current."
+        " What it contained before is kept in /tmp/mill.img."
+    )
+    assert ended == (
+        "Übertragung fertig und gleich zurückgelesen. Damit es gilt, die Steuerung neu starten."
+        " Was sie vorher enthielt, liegt in /tmp/mill.img."
+    )
+    away = german.message("no connection to the control (tcp://10.0.0.1:9600: nothing listens there)")
+    assert away == "keine Verbindung zur Steuerung (tcp://10.0.0.1:9600: dort antwortet nichts)"

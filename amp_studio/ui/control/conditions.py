@@ -7,6 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
+from PySide6.QtGui import QFontMetrics, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from amp_studio.files import ParameterFile
@@ -95,6 +96,7 @@ class ConditionLine(QWidget):
         self._row.setSpacing(GAP2)
         self._row.addStretch(1)
         self._made: list[tuple[QLabel, QLabel]] = []
+        self._conditions: list[ControlCondition] = []
 
     def show_conditions(self, conditions: list[ControlCondition]) -> None:
         """Show them; nothing else of the page moves."""
@@ -105,16 +107,32 @@ class ConditionLine(QWidget):
             for widget in (mark, text):
                 self._row.insertWidget(self._row.count() - 1, widget)
             self._made.append((mark, text))
+        self._conditions = conditions
+        self._write()
+        self.setAccessibleDescription(", ".join(f"{c.text} {c.rest}".strip() for c in conditions))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._write()
+
+    def _write(self) -> None:
+        """Show each with its details, or without them where they do not all have the room."""
+        conditions, metrics = self._conditions, QFontMetrics(font("text"))
+        words = " ".join(f"{c.text} {c.rest}" for c in conditions)
+        needed = (
+            metrics.horizontalAdvance(words) + len(conditions) * (SMALL_ICON + 2 * GAP2 + GAP4) + 2 * GAP3
+        )
+        has_room = needed <= self.width()
         for n, (mark, text) in enumerate(self._made):
+            text.setContentsMargins(0, 0, GAP4 if has_room else 0, 0)
             is_there = n < len(conditions)
             mark.setVisible(is_there)
             text.setVisible(is_there)
             if is_there:
-                _show(mark, text, conditions[n])
-        self.setAccessibleDescription(", ".join(f"{c.text} {c.rest}".strip() for c in conditions))
+                _show(mark, text, conditions[n], has_rest=has_room)
 
 
-def _show(mark: QLabel, text: QLabel, condition: ControlCondition) -> None:
+def _show(mark: QLabel, text: QLabel, condition: ControlCondition, *, has_rest: bool) -> None:
     looks: dict[bool | None, tuple[str, Token]] = {
         True: ("check", "text"),
         None: ("circle", "dim"),
@@ -125,5 +143,6 @@ def _show(mark: QLabel, text: QLabel, condition: ControlCondition) -> None:
     dim = colour("dim").name()
     text.setText(
         f'<span style="color:{colour(colour_name).name()}">{condition.text}</span>'
-        f' <span style="color:{dim}">{condition.rest}</span>'
+        + (f' <span style="color:{dim}">{condition.rest}</span>' if has_rest else "")
     )
+    text.setToolTip(f"{condition.text} {condition.rest}".strip())

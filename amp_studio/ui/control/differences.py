@@ -8,18 +8,22 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QHeaderView, QTreeWidget, QTreeWidgetItem
+from PySide6.QtGui import QFontMetrics, QKeyEvent, QResizeEvent
+from PySide6.QtWidgets import QTreeWidget, QTreeWidgetItem
 
 from amp_studio.files import Difference, ParameterFile, shown_axes
 from amp_studio.report import Danger, dangers_of_change
 from amp_studio.schema import Address
 from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.places import short_place
-from amp_studio.ui.base.theme import ROW, SMALL_ICON, colour, font, icon, scheme, severity_icon
+from amp_studio.ui.base.theme import GAP2, GAP3, ROW, SMALL_ICON, colour, font, icon, scheme, severity_icon
 from amp_studio.ui.base.translated import facts_in_words
 
 NUMBER, NAME, AXIS, CONTROL, FILE, MIND = range(6)
+_NAME, _LEAST_NAME, _SIDE, _LEAST_SIDE = 260, 130, 150, 96
+_MOST_NUMBER = 84
+"""Widths in pixels of the names and of a side, where there is room and where there is not; and of a number at
+most."""
 _ADDRESS = Qt.ItemDataRole.UserRole + 1
 
 
@@ -58,10 +62,7 @@ class DifferenceTable(QTreeWidget):
         self._file: ParameterFile | None = None
         self._secrets = False
         self.itemClicked.connect(self._click)
-        head = self.header()
-        head.setStretchLastSection(True)
-        for column in (NUMBER, AXIS):
-            head.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
+        self.header().setStretchLastSection(True)
         scheme().changed.connect(self._colour)
 
     def _colour(self) -> None:
@@ -97,11 +98,33 @@ class DifferenceTable(QTreeWidget):
             blocks.setdefault(self._block_of(address, screen_text), []).append(address)
         for title, addresses in sorted(blocks.items(), key=lambda block: block[0].startswith("\0")):
             self._add_block(title, addresses)
-        for column, width in ((NAME, 260), (CONTROL, 150), (FILE, 150)):
-            self.setColumnWidth(column, width)
+        self._share_room()
         first = next(iter(self._items.values()), None)
         if first is not None:
             self.setCurrentItem(first)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._share_room()
+
+    def _share_room(self) -> None:
+        """Give numbers and axes what they need, and both sides their room before the names;
+        a side is never beyond the edge.
+        """
+        metrics = QFontMetrics(font("text", own=True))
+        for column, least in ((NUMBER, 2 * self.indentation() + 2 * GAP2), (AXIS, 2 * GAP3)):
+            texts = [self.headerItem().text(column), *(item.text(column) for item in self._items.values())]
+            self.setColumnWidth(
+                column, min(_MOST_NUMBER, max(map(metrics.horizontalAdvance, set(texts))) + least)
+            )
+        room = self.viewport().width() - self.columnWidth(NUMBER) - self.columnWidth(AXIS)
+        side = min(_SIDE, max(_LEAST_SIDE, room // 4))
+        for column, width in (
+            (NAME, max(_LEAST_NAME, min(_NAME, room - 2 * side - _LEAST_SIDE))),
+            (CONTROL, side),
+            (FILE, side),
+        ):
+            self.setColumnWidth(column, width)
 
     def _block_of(self, address: Address, screen_text: set[str] | None) -> str:
         """Return the title of the block of a value; those that begin with a NUL are folded, at the end."""
@@ -147,6 +170,8 @@ class DifferenceTable(QTreeWidget):
 
     def text_of(self, address: Address, value: object) -> str:
         assert self._file is not None
+        if value is None:
+            return self.tr("not set")
         return show_value(self._file.schema.parameters[address[0]], value, secrets=self._secrets)  # type: ignore[arg-type]  # a value of the difference
 
     def _show_side(self, address: Address) -> None:

@@ -14,7 +14,7 @@ from PySide6.QtGui import QKeySequence, QShortcut
 from amp_studio.files import ParameterFile, describe
 from amp_studio.schema import Value
 from amp_studio.ui.base.theme import scheme
-from amp_studio.ui.base.translated import finding_in_words
+from amp_studio.ui.base.translated import finding_in_words, message_in_words
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.message_bar import MessageKind
 
@@ -224,7 +224,7 @@ class ControlPage(ControlPageParts):
             self.turn("compare")  # which has the field for it
         else:
             again = (self.tr("Try Again"), self.read_for_sheet)
-            self.hand.bar.say(session.error, "warning", again)
+            self.hand.bar.say(message_in_words(session.error), "warning", again)
 
     def _follow(self) -> None:
         session = self.session
@@ -350,7 +350,7 @@ class ControlPage(ControlPageParts):
         if session is None or session.is_busy:
             return None
         if session.phase == "away" and session.error:
-            return session.error, "warning", ((self.tr("Try Again"), session.read),)
+            return message_in_words(session.error), "warning", ((self.tr("Try Again"), session.read),)
         if session.phase == "failed":
             return text_of_failure(session), "error", ()
         if session.phase == "done":

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from amp_studio.ui.base.time_words import in_words
-from amp_studio.ui.base.translated import tr
+from amp_studio.ui.base.translated import message_in_words, tr
 
 from .session import ControlSession
 
@@ -36,7 +36,7 @@ def text_of_content(session: ControlSession | None, name: str, summary: str) -> 
     if session.phase == "connecting":
         return tr("Reading what {name} contains …").format(name=name)
     if session.seen is None:
-        return session.error
+        return message_in_words(session.error)
     if session.seen.why_unreadable:
         return session.seen.why_unreadable
     if not session.seen.content:
@@ -51,7 +51,7 @@ def text_of_proof(session: ControlSession, name: str, kept: Sequence[str]) -> st
     """
     assert session.outcome is not None
     outcome, seen = session.outcome, session.seen
-    lines = [tr("{name} contains all new values.").format(name=name), outcome.text]
+    lines = [tr("{name} contains all new values.").format(name=name), message_in_words(outcome.text)]
     if kept:
         lines.append(tr("Kept as they were: {names}").format(names=", ".join(kept)))
     if seen is not None:

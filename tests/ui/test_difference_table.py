@@ -1,0 +1,43 @@
+"""The table of differences with a control: numbers are seen, and neither side is beyond the edge."""
+
+from __future__ import annotations
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from amp_studio.files import compare, new_file
+from amp_studio.schema import Value
+from amp_studio.ui.control.conditions import ConditionLine, ControlCondition
+from amp_studio.ui.control.differences import CONTROL, FILE, NAME, NUMBER, DifferenceTable
+
+
+@pytest.mark.parametrize("width", [555, 960])
+def test_both_sides_are_seen_and_numbers_are_not_below_the_branches(qtbot: QtBot, width: int) -> None:
+    file, other = new_file("9pc", "mill", ["X", "Y"]), new_file("9pc", "mill", ["X", "Y"])
+    file.set(("home.calibration", "1"), Value(1.5, "mm"))
+    file.set(("servo.lead_screw_pitch", "1"), Value(5.0, "mm"))
+    table = DifferenceTable()
+    qtbot.addWidget(table)
+    table.resize(width, 300)
+    found = compare(file.schema, file.values, other.values).differences
+    table.show_differences(file, found, to_control=True, secrets=False)
+    table.show()
+    rows = [table.topLevelItem(0).child(0), table.topLevelItem(1).child(0)]
+    assert {row.text(NUMBER) for row in rows} == {"1300", "1590"}
+    ends = table.columnViewportPosition(FILE) + table.columnWidth(FILE)
+    assert ends < table.viewport().width()
+    assert table.columnWidth(NUMBER) >= 2 * table.indentation() + 30
+    assert min(table.columnWidth(column) for column in (NAME, CONTROL, FILE)) >= 96
+
+
+def test_conditions_leave_their_details_out_before_a_word_is_cut(qtbot: QtBot) -> None:
+    line = ConditionLine()
+    qtbot.addWidget(line)
+    conditions = [ControlCondition("The same machine", True, "ce5702f60"), ControlCondition("E-stop", None)]
+    line.resize(600, 34)
+    line.show_conditions(conditions)
+    assert "ce5702f60" in line._made[0][1].text()
+    line.resize(200, 34)
+    line.show()
+    assert "ce5702f60" not in line._made[0][1].text()
+    assert line._made[0][1].toolTip() == "The same machine ce5702f60"
