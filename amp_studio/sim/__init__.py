@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     from .identification.identify import figure_rows, identified_text, identify, machine_settings
     from .identification.identify_response import identify_response
     from .identification.machine_file import machine_for, read_machine, write_machine
-    from .identification.overlay import laid_over
+    from .identification.overlay import Trigger, laid_over, trigger_of
     from .identification.response import is_response
     from .law import AlarmText, AxisLaw, BoundMachine, Law, Leader, LoopFilter, Prediction, Source, law_of
     from .listings import SimulationListing, listing

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from amp_studio.files import open_file
-from amp_studio.sim import SimulationError, laid_over, picture_of, simulate
+from amp_studio.sim import SimulationError, laid_over, picture_of, simulate, trigger_of
 
 MILL = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
 MOVE = {"move.distance": 20.0, "move.feedrate": 3000.0}
@@ -52,3 +52,40 @@ def test_a_record_in_another_unit_is_converted_and_one_that_does_not_fit_is_one_
             laid_over(trace, written(tmp_path / "bad.csv", head, time, speed))
     with pytest.raises(SimulationError, match="does not rise"):
         laid_over(trace, written(tmp_path / "bad.csv", "time (s),velocity (mm/min)", 0.0 * time, speed))
+
+
+def test_a_trigger_lays_both_over_each_other_where_a_signal_passes_its_level(tmp_path: Path) -> None:
+    trace = simulate(open_file(MILL).file, "step", "1", MOVE, advise=False)
+    time = np.arange(0.0, 2.5, 0.001)
+    speed = np.interp(time - 0.6, trace.columns["time_s"], trace.columns["velocity"])
+    speed += 40.0 * (time < 0.3)  # another motion before: the best lag of all of it would not care
+    record = written(tmp_path / "record.csv", "time (s),velocity (mm/min)", time, speed)
+    found = laid_over(trace, record, trigger_of("velocity > 500", 0.05))
+    assert found.result["record_lag"][0] == pytest.approx(0.6, abs=1e-3)
+    laid = found.columns["recorded_velocity"]
+    passes = found.columns["time_s"][np.argmax(trace.columns["velocity"] > 500.0)]
+    assert found.columns["time_s"][np.isfinite(laid)][0] == pytest.approx(max(0.0, passes - 0.05), abs=2e-3)
+    assert np.nanmax(np.abs(found.columns["difference_velocity"])) < 30.0
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [("velocity", "is no trigger"), ("colour>1", "is no trigger"), ("velocity>1e9", "is no trigger")],
+)
+def test_what_is_no_trigger_is_one_sentence(text: str, words: str) -> None:
+    with pytest.raises(SimulationError, match=words):
+        trigger_of(text)
+
+
+def test_a_level_that_is_never_passed_and_a_signal_that_is_missing_are_named(tmp_path: Path) -> None:
+    trace = simulate(open_file(MILL).file, "step", "1", MOVE, advise=False)
+    time, speed = trace.columns["time_s"][::4], trace.columns["velocity"][::4]
+    record = written(tmp_path / "record.csv", "time (s),velocity (mm/min)", time, speed)
+    for text, words in (
+        ("velocity>90000", "its velocity never goes above 90000, where the trigger is"),
+        ("torque>1", "it has no torque for the trigger"),
+    ):
+        with pytest.raises(SimulationError, match=words):
+            laid_over(trace, record, trigger_of(text))
+    with pytest.raises(SimulationError, match="it must be 0 or more"):
+        trigger_of("velocity>1", -1.0)

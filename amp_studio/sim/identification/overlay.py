@@ -8,7 +8,8 @@ Acoustics, Speech, and Signal Processing 24, 1976).
 
 from __future__ import annotations
 
-from dataclasses import replace
+import re
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -79,16 +80,66 @@ def _factor(name: str, signal: str, unit: str, wanted: str) -> float:
     )
 
 
-def laid_over(trace: Trace, path: Path) -> Trace:
+@dataclass(frozen=True)
+class Trigger:
+    """Where a record begins: its signal passes a level, as at an oscilloscope."""
+
+    signal: str
+    rising: bool
+    level: float
+    """In the unit of the trace."""
+    before: float = 0.0
+    """s of the record that are kept ahead of it; the rest is cut off."""
+
+    def time(self, name: str, time: Series, values: Series) -> float:
+        """Return when a signal passes the level first, between two rows on a line; ``name`` is who has it."""
+        above = values > self.level if self.rising else values < self.level
+        passes = np.flatnonzero(above[1:] & ~above[:-1])
+        if not passes.size:
+            way = "above" if self.rising else "below"
+            raise SimulationError(
+                f"{name}: its {self.signal.replace('_', ' ')} never goes {way} {self.level:g}, where the"
+                f" trigger is; it is between {values.min():g} and {values.max():g}"
+            )
+        n = int(passes[0])
+        share = (self.level - values[n]) / (values[n + 1] - values[n])
+        return float(time[n] + share * (time[n + 1] - time[n]))
+
+
+def trigger_of(text: str, before: float = 0.0) -> Trigger:
+    """Return a trigger as it is written, ``velocity>100``: the level is in the unit of the trace;
+    raises SimulationError.
+    """
+    found = re.fullmatch(r"\s*([a-z _]+?)\s*([<>])\s*([+-]?[0-9]*[.,]?[0-9]+)\s*", text)
+    signal = found[1].replace(" ", "_") if found else ""
+    if found is None or signal not in SIGNALS:
+        known = ", ".join(SIGNALS)
+        raise SimulationError(f"'{text[:40]}' is no trigger: velocity>100, with one of {known}")
+    if before < 0.0:
+        raise SimulationError(f"{before:g} s ahead of the trigger: it must be 0 or more")
+    return Trigger(signal, found[2] == ">", float(found[3].replace(",", ".")), before)
+
+
+def laid_over(trace: Trace, path: Path, trigger: Trigger | None = None) -> Trace:
     """Return a trace with the signals of a record (``recorded_…``) and the differences (``difference_…``,
     record less simulation).
 
+    With a trigger both are laid over each other where their signal passes its level; else by the best lag.
     Raises SimulationError for a record that does not fit, OSError where it cannot be read.
     """
     time, signals = read_channels(path, trace)
     here = trace.columns["time_s"]
     first = next(iter(each for each in SIGNALS if each in signals))
-    lag = _lag(here, trace.columns[first], time, signals[first])
+    if trigger is None:
+        lag = _lag(here, trace.columns[first], time, signals[first])
+    else:
+        first, name = trigger.signal, text_of_name(path.name)
+        if first not in signals:
+            raise SimulationError(f"{name}: it has no {first.replace('_', ' ')} for the trigger")
+        there = trigger.time(name, time, signals[first])
+        lag = there - trigger.time("The simulation", here, trace.columns[first])
+        kept = time >= there - trigger.before
+        time, signals = time[kept], {signal: values[kept] for signal, values in signals.items()}
     columns, units, result = dict(trace.columns), dict(trace.units), dict[str, Figure]()
     for signal, values in signals.items():
         laid = np.interp(here + lag, time, values, left=np.nan, right=np.nan)

@@ -8,7 +8,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli import candidates
-from amp_studio.cli.arguments import AXIS, JSON, OUTPUT, PATH, count, path_of
+from amp_studio.cli.arguments import AXIS, JSON, OUTPUT, PATH, count, path_of, seconds
 from amp_studio.cli.console import assignments, note, print_json, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
@@ -19,7 +19,7 @@ from amp_studio.scenarios import CHARTS, IDENTIFY
 if TYPE_CHECKING:
     from amp_studio import MachineParameters
     from amp_studio.files import ParameterFile
-    from amp_studio.sim import SweepWay, Trace
+    from amp_studio.sim import SweepWay, Trace, Trigger
 
 VERB = Verb(
     __doc__,
@@ -126,6 +126,17 @@ VERB = Verb(
         help="lay the record of the machine over the move: lag, difference and its root mean square",
     ),
     VerbArgument(
+        "--trigger",
+        metavar="SIGNAL>LEVEL",
+        help="--against: lay both over each other where a signal passes a level, as 'velocity>100'",
+    ),
+    VerbArgument(
+        "--pre-trigger",
+        type=seconds,
+        metavar="SECONDS",
+        help="--trigger: how much of the record ahead of it is kept (default: 0)",
+    ),
+    VerbArgument(
         "--chart",
         choices=CHARTS,
         help="frequency with -o: how the open loop is drawn, over the frequency or in a plane",
@@ -199,7 +210,9 @@ def run(options: Options) -> int:
     way = _way(options) if options.scenario == "sweep" else None
     trace = tried.simulate(options.scenario, axis, units=system, way=way, **settings)
     if options.against:
-        trace = laid_over(trace, options.against)
+        trace = laid_over(trace, options.against, _trigger(options))
+    elif options.trigger:
+        raise UsageError("--trigger belongs to --against")
     for message in messages:
         note(message)
     if options.output:
@@ -225,6 +238,16 @@ def _write(options: Options, file: ParameterFile, trace: Trace, before: Trace | 
         write_motion_paper(file, name, trace, options.output, note, before=before, chart=chart, machine=given)
     else:
         write_trace(trace, options.output, note, before=before, chart=chart)
+
+
+def _trigger(options: Options) -> Trigger | None:
+    from amp_studio.sim import trigger_of
+
+    if options.trigger is None:
+        if options.pre_trigger is not None:
+            raise UsageError("--pre-trigger belongs to --trigger")
+        return None
+    return trigger_of(options.trigger, options.pre_trigger or 0.0)
 
 
 def _given_machine(options: Options) -> list[tuple[str, str, str]]:
