@@ -385,8 +385,8 @@ def test_a_simulation_that_cannot_be_is_refused(amp, mill: Path, folder, argumen
 
 
 def test_a_recommendation_of_a_simulation_is_what_set_reads(amp, tmp_path: Path) -> None:
-    path = tmp_path / "mill.amp"
-    path.write_bytes((Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp").read_bytes())
+    path = tmp_path / "mill.amp"  # of a control with one gain: tests/sim/test_solver.py has several
+    path.write_bytes((Path(__file__).parents[2] / "examples/num-1060-mill/MILL_1060.amp").read_bytes())
     advice = amp("simulate", path, "tune", "--for", "stiff", "--json").json["advice"]
     assert advice
     assert advice[0]["price"]

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from amp_studio.sim import SimulationError
 from amp_studio.sim.identification.friction import FrictionFit, fit_friction
@@ -36,6 +35,8 @@ def command(speeds: tuple[float, ...]) -> tuple[Series, Series]:
 
 def record(speeds: tuple[float, ...] = SPEEDS, limit: float = np.inf) -> dict[str, Series]:
     """Return what solve_ivp makes of the machine under a PI loop of the velocity."""
+    from scipy.integrate import solve_ivp  # here, as it takes long: every worker collects all tests
+
     corners, velocities = command(speeds)
     gain, rate = 60.0 * INERTIA, 5.0
 

@@ -7,8 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-import scipy.linalg
-import scipy.signal
 
 from amp_studio.sim import SimulationError
 from amp_studio.sim.tuning import sampled as matrices
@@ -102,6 +100,8 @@ def test_the_bandwidth_is_that_of_python_control(control: ModuleType, model: Lin
 
 
 def test_the_matrix_exponential_is_that_of_scipy() -> None:
+    import scipy.linalg  # here, as it takes long: every worker collects all tests
+
     matrix = np.array([[0.0, 1.0, 0.0], [-9e4, -6.0, 9e4], [3.0, 0.0, -2000.0]])
     assert exponential(matrix * 0.001) == pytest.approx(
         scipy.linalg.expm(matrix * 0.001), rel=1e-9, abs=1e-12
@@ -109,6 +109,8 @@ def test_the_matrix_exponential_is_that_of_scipy() -> None:
 
 
 def test_a_kept_input_moves_the_machine_as_scipy_discretises_it() -> None:
+    import scipy.signal
+
     plant = rigid(40.0, 3.0)
     a, b, *_ = scipy.signal.cont2discrete((plant.a, plant.b, plant.load, np.zeros((1, 1))), PERIOD)
     for found, wanted in zip(zero_order_hold(plant.a, plant.b, PERIOD), (a, b), strict=True):

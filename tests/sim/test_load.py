@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from amp_studio.sim.scenarios.load import run_load
 from tests.sim.tiny import tiny
@@ -16,6 +15,8 @@ GAIN, RATE, PUSH = 20.0, 200.0, 50.0  # 1/s, 1/s, mm/s2 for 1 %
 
 def test_the_sag_is_that_of_the_equations_of_motion() -> None:
     """x'' = PUSH load - RATE (x' + GAIN x): what samples of 0.25 and 1 ms leave out is below a percent."""
+    from scipy.integrate import solve_ivp  # here, as it takes long: every worker collects all tests
+
     trace = run_load(tiny(position_count=0.0), {"move.load": 8.0, "move.duration": 1.0})
     judged = solve_ivp(
         lambda _t, y: [y[1], PUSH * 8.0 - RATE * (y[1] + GAIN * y[0])],

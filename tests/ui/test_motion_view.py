@@ -160,8 +160,9 @@ def test_what_cannot_be_simulated_is_shown_with_a_way_to_what_has_to_be_set(
 
 
 def test_every_scenario_of_the_family_can_be_chosen_and_has_its_own_settings(
-    view: MotionView, qtbot: QtBot
+    view: MotionView, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr("amp_studio.sim.run.recommendations", lambda trial, scenario, own: (tuple(own), ()))
     assert {"step", "frequency", "circle"} <= {
         view.scenario.itemData(n) for n in range(view.scenario.count())
     }

@@ -11,8 +11,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.linalg import expm
-from scipy.optimize import brentq
 
 from amp_studio.families.acromill import formulas as acromill
 from amp_studio.families.acromill import law_plant as plant
@@ -28,6 +26,8 @@ def largest_pole(p_gain: float, d_gain: float, delay: float = plant.DELAY) -> fl
     """Return the size of the largest pole of the sampled loop: double integrator with viscous friction,
     delay, PD.
     """
+    from scipy.linalg import expm  # here, as it takes long: every worker collects all tests
+
     period = plant.SERVO_PERIOD
     a = np.array([[0.0, 1.0], [0.0, -plant.ACCELERATION * plant.VISCOUS]])
     b = np.array([[0.0], [plant.ACCELERATION]])
@@ -65,6 +65,8 @@ def test_the_dry_friction_that_is_left_is_the_pulse_of_error_at_rest() -> None:
 
 
 def test_the_delay_puts_the_limit_of_stability_between_0_08_and_one_step_more() -> None:
+    from scipy.optimize import brentq
+
     limit = brentq(lambda p_gain: largest_pole(p_gain, 0.00021) - 1.0, 0.05, 0.2)
     assert limit == pytest.approx(0.0968, abs=0.0001)
     shortest = brentq(lambda delay: largest_pole(0.11, 0.00021, delay) - 1.0, 0.0005, 0.0007)
