@@ -62,7 +62,7 @@ class Campaign:
     ``run`` gets a seed, how many runs it is to make, and an empty folder; it returns one sentence a
     violation.
     ``whole`` and ``short`` are the runs of ``make faults`` and of the tests (0: it has no part that takes
-    seconds, or tests/cli and tests/transfer have it), ``at_once`` those made with one seed.
+    seconds, or tests/cli, tests/transfer and tests/ui have it), ``at_once`` those made with one seed.
     """
 
     name: str
@@ -152,7 +152,7 @@ def _hostile(exchange: Callable[[int, Path], list[str]], seed: int, runs: int, f
 MANY = 100_000
 
 CAMPAIGNS = (
-    Campaign("a call of the system that fails, in every verb", fail_calls, len(VERBS), 4, len(VERBS)),
+    Campaign("a call of the system that fails, in every verb", fail_calls, len(VERBS), 2, len(VERBS)),
     Campaign(
         "a call of the system that fails, in every exchange",
         exchanges.fail_calls_of_exchanges,
@@ -169,7 +169,7 @@ CAMPAIGNS = (
         3 * len(planted.DEFECTS),
     ),
     Campaign("Ctrl-C at any moment of a change", _stopped, 400, 4, 20),
-    Campaign("kill -9 of the editor", _killed, 60, 1, 5),
+    Campaign("kill -9 of the editor", _killed, 60, 0, 5),
     Campaign("Ctrl-C and SIGTERM at any moment of a download", _stopped_downloads, 100, 0, 5),
     Campaign("Ctrl-C at any moment of an emulated control", _stopped_controls, 100, 0, 10),
     Campaign("download over a bad line, TCP, TLS and pty", download_over_bad_lines, 300, 1, 10),
@@ -179,7 +179,7 @@ CAMPAIGNS = (
     Campaign(
         "ACR terminal over a bad line, power off in the save", _own(own_protocols.terminal_run), 2_000, 3, 100
     ),
-    Campaign("57C422B registers over a bad line", _own(own_protocols.registers_run), 2_000, 2, 100),
+    Campaign("57C422B registers over a bad line", _own(own_protocols.registers_run), 2_000, 1, 100),
     Campaign(
         "house protocol over a bad line, power off in the commit",
         _own(own_protocols.house_run),
@@ -266,7 +266,7 @@ CAMPAIGNS = (
         "odd commands at the screen of a 9/PC", partial(_damaged_in, persons.fuzz_panel), MANY, 10, 1_000
     ),
     Campaign("command lines to be completed", partial(_damaged_in, persons.fuzz_completion), MANY, 20, 5_000),
-    Campaign("odd command lines", partial(_damaged_in, fuzz_command_lines), MANY, 40, 2_000),
+    Campaign("odd command lines", partial(_damaged_in, fuzz_command_lines), MANY, 20, 2_000),
     Campaign("damaged suppressions", partial(_damaged_in, stored.fuzz_suppressions), MANY, 50, 5_000),
     Campaign(
         "damaged memory of an emulated control", partial(_damaged_in, stored.fuzz_memories), MANY, 100, 5_000
