@@ -12,6 +12,7 @@ import ast
 import dataclasses
 import inspect
 import json
+from functools import cache
 from pathlib import Path
 from textwrap import dedent
 from typing import Any
@@ -158,6 +159,7 @@ def _of_project() -> dict[str, Any]:
     }
 
 
+@cache
 def _docstrings(kind: type[Any]) -> dict[str, str]:
     """Return what is in a text below each field of a class."""
     if kind.__module__.partition(".")[0] not in ("amp_studio", __name__):
