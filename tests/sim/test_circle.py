@@ -11,13 +11,6 @@ from amp_studio.sim import SimulationError, Trace
 from amp_studio.sim.scenarios import SCENARIOS
 from tests.sim.tiny import changed, tiny
 
-
-@pytest.fixture(autouse=True)
-def in_python(monkeypatch: pytest.MonkeyPatch) -> None:
-    """No machine code for a law that only tests have: to make it takes longer than they all."""
-    monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
-
-
 SETTINGS = {"move.radius": 20.0, "move.feedrate": 3000.0}
 
 
