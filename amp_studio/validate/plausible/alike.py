@@ -8,7 +8,7 @@ Facts of the family name what differs among like axes without any slip.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Hashable, Iterable, Iterator
+from collections.abc import Hashable, Iterable, Iterator
 from fnmatch import filter as matching
 from functools import lru_cache
 from itertools import combinations
@@ -45,6 +45,13 @@ class _Pair(NamedTuple):
     compared: list[int]
     """A single number."""
     differing: set[str]
+
+
+class _Odd(NamedTuple):
+    """One instance, and how its value came of that of all others."""
+
+    instance: str
+    words: str
 
 
 @lru_cache(maxsize=32)
@@ -101,6 +108,8 @@ class Alike:
         self._rows: dict[str, dict[str, dict[str, _Seen]]] = {}
         """Scope -> instance -> parameter -> what is compared."""
         self._pairs: dict[tuple[str, str, str], _Pair] = {}
+        self._odd: dict[tuple[str, str], _Odd] = {}
+        """Scope and parameter -> the one instance that a slip parts from all others."""
 
     def look_at_all(self) -> None:
         """Compare everything."""
@@ -121,6 +130,9 @@ class Alike:
             for scope, rows in self._rows.items()
             for a, b in combinations(rows, 2)
         }
+        self._odd.clear()
+        for scope, name in {(key[0], name) for key, pair in self._pairs.items() for name in pair.differing}:
+            self._look_at_column(scope, name)
 
     def look_again(self, address: Address) -> bool:
         """Compare one value again; returns whether anything is otherwise."""
@@ -148,7 +160,21 @@ class Alike:
                 pair.differing.discard(name)
             else:
                 pair.differing.add(name)
+        self._look_at_column(scope, name)
         return True
+
+    def _look_at_column(self, scope: str, name: str) -> None:
+        """Note the one instance of at least three, all moving alike, whose value is another by a slip."""
+        self._odd.pop((scope, name), None)
+        column = {instance: row[name] for instance, row in self._rows[scope].items() if name in row}
+        counts = Counter(column.values()) if len(column) > 2 else {}
+        if len(counts) != 2 or min(counts.values()) != 1:
+            return
+        usual = max(counts, key=lambda seen: counts[seen])
+        odd = next(instance for instance, seen in column.items() if seen != usual)
+        words = slip_between(column[odd].key, usual.key) if column[odd].measures == usual.measures else ""
+        if words and (scope != "axis" or all(are_alike(self._file, odd, i) for i in column)):
+            self._odd[scope, name] = _Odd(odd, words)
 
     def _key(self, address: Address) -> _Seen | None:
         """Return what is equal for equal values; None where the value does not count."""
@@ -171,39 +197,22 @@ class Alike:
                     asked.setdefault((scope, name), []).append((a, b, compared - count))
         for (scope, name), pairs in asked.items():
             yield self._finding(scope, name, pairs)
-        for scope, rows in self._rows.items():
-            if len(rows) > 2:
-                yield from self._alone(scope, rows, {name for s, name in asked if s == scope})
+        several = Counter((scope, *odd) for (scope, _), odd in self._odd.items())
+        for (scope, name), odd in self._odd.items():
+            if several[scope, *odd] == 1 and (scope, name) not in asked:
+                yield from self._alone(scope, name, odd.instance)
 
-    def _alone(
-        self, scope: str, rows: dict[str, dict[str, _Seen]], asked: Collection[str]
-    ) -> Iterator[Finding]:
+    def _alone(self, scope: str, name: str, odd: str) -> Iterator[Finding]:
         """Yield what a slip explains on one axis where all others have one value, however unlike they are.
 
-        Another axis is in several values so many times the others: a slip is in one. It agrees with the
-        others in more values than it differs, and moves as they do.
+        Another axis is in several values so many times the others: a slip is in one. And it agrees with the
+        others in more values than it differs.
         """
-        names = {name for (s, _, _), pair in self._pairs.items() if s == scope for name in pair.differing}
-        slips: dict[tuple[str, str], list[str]] = {}
-        for name in sorted(names - set(asked)):
-            column = {instance: row[name] for instance, row in rows.items() if name in row}
-            counts = Counter(column.values())
-            if len(column) < 3 or len(counts) != 2 or min(counts.values()) != 1:
-                continue
-            usual = max(counts, key=lambda seen: counts[seen])
-            odd = next(instance for instance, seen in column.items() if seen != usual)
-            words = slip_between(column[odd].key, usual.key)
-            is_like = scope != "axis" or all(are_alike(self._file, odd, i) for i in column)
-            if words and is_like and column[odd].measures == usual.measures:
-                slips.setdefault((odd, words), []).append(name)
-        for (odd, _), found in slips.items():
-            if len(found) == 1:
-                others = [i for i, row in rows.items() if i != odd and found[0] in row]
-                agree = [self._pairs.get((scope, odd, i)) or self._pairs[scope, i, odd] for i in others]
-                if all(pair.compared[0] > 2 * len(pair.differing) for pair in agree):
-                    counted = [pair.compared[0] - len(pair.differing) for pair in agree]
-                    pairs = [(odd, i, n) for i, n in zip(others, counted, strict=True)]
-                    yield self._finding(scope, found[0], pairs)
+        others = [i for i, row in self._rows[scope].items() if i != odd and name in row]
+        pairs = [self._pairs.get((scope, odd, i)) or self._pairs[scope, i, odd] for i in others]
+        if all(pair.compared[0] > 2 * len(pair.differing) for pair in pairs):
+            agree = [pair.compared[0] - len(pair.differing) for pair in pairs]
+            yield self._finding(scope, name, [(odd, i, n) for i, n in zip(others, agree, strict=True)])
 
     def _slip(self, scope: str, name: str, a: str, b: str) -> bool:
         left, right = self._rows[scope][a][name], self._rows[scope][b][name]
