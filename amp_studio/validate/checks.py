@@ -55,9 +55,9 @@ class Checks:
                 found.append((address, finding))
         self.rules.look_at(plan.read, seen)
         yield from sorted(found, key=lambda filed: order[filed[0]])
-        for first, checks in plan.by_first_read.items():
-            if first is None or self.rules.is_active(first):
-                for check, finding in self.rules.findings(checks):
+        for group in plan.groups:
+            if group.first is None or self.rules.is_active(group.first):
+                for check, finding in self.rules.findings_of(group):
                     yield check.place, finding
 
     def of_value(self, address: Address) -> Finding | None:

@@ -6,7 +6,7 @@ address to the checks that read it, so that an edit runs only those again.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from itertools import count
@@ -31,6 +31,9 @@ from .functions import rule_functions
 FindingPlace = Address | int
 """Where a finding is filed: under the value that is wrong,
 or under the place of the rule's check in the plan."""
+
+_MOST_SOUND = 200
+"""Values of a group of checks before all are forgotten: of so many machines without a value in common."""
 
 
 class Single(NamedTuple):
@@ -112,6 +115,37 @@ class RuleCheck:
         return {single.name: single.address for single in self.singles}
 
 
+@dataclass(frozen=True, eq=False)
+class CheckGroup:
+    """Checks that are made together in a full run."""
+
+    first: Address | None
+    """What all of them come to nothing without, where it is not active."""
+    together: tuple[RuleCheck, ...]
+    """Those that depend on nothing but the values of ``reads``, the machine and the model."""
+    reads: tuple[Address, ...]
+    others: tuple[RuleCheck, ...]
+    sound: Sound
+    """The values with which none of ``together`` finds anything, in whatever file."""
+
+    @classmethod
+    def of(cls, first: Address | None, checks: Sequence[RuleCheck]) -> CheckGroup:
+        """Return the group of some checks."""
+        together = tuple([check for check in checks if not check.lists and not check.is_own])
+        reads = tuple(dict.fromkeys(address for check in together for address in check.reads))
+        others = tuple([check for check in checks if check.lists or check.is_own])
+        return cls(first, together, reads, others, Sound())
+
+
+class Sound(set[Hashable]):
+    """Values that were met; few enough that the groups of all plans take some megabytes."""
+
+    def add(self, values: Hashable) -> None:
+        if len(self) >= _MOST_SOUND:
+            self.clear()
+        super().add(values)
+
+
 @dataclass(frozen=True)
 class Plan:
     """All checks for one schema, machine type and set of rules."""
@@ -140,14 +174,15 @@ class Plan:
         return dict.fromkeys(address for check in self.checks for address in check.reads)
 
     @cached_property
-    def by_first_read(self) -> Mapping[Address | None, tuple[RuleCheck, ...]]:
-        """Address -> checks that come to nothing where its value is not active; None -> the others."""
-        found: dict[Address | None, list[RuleCheck]] = {}
+    def groups(self) -> tuple[CheckGroup, ...]:
+        """The checks by what they read first, as a full run makes them."""
+        found: dict[tuple[bool, Address | None], list[RuleCheck]] = {}
         for check in self.checks:
-            found.setdefault(None if check.is_lenient or not check.reads else check.reads[0], []).append(
-                check
-            )
-        return {first: tuple(checks) for first, checks in found.items()}
+            first = check.reads[0] if check.reads else None
+            found.setdefault((check.is_lenient, first), []).append(check)
+        return tuple(
+            [CheckGroup.of(None if lenient else first, some) for (lenient, first), some in found.items()]
+        )
 
     # What an edit needs is worked out with the first one: most files of a check are only opened.
 

@@ -35,7 +35,7 @@ from .blame import about
 from .builder_rules import LONGEST_TEXT
 from .finding import OWN_FAULT, AddressedValue, Finding
 from .functions import rule_functions
-from .plan import Listed, RuleCheck
+from .plan import CheckGroup, Listed, RuleCheck
 
 _SHOWN = 4
 """Values that a message about a rule shows."""
@@ -123,6 +123,21 @@ class RuleChecks:
                 yield check, self._unusable(check)
             elif broken:
                 yield check, self._finding(check, keys)
+
+    def findings_of(self, group: CheckGroup) -> Iterator[tuple[RuleCheck, Finding]]:
+        """Yield the same of a group; one look at its values is enough where they were found sound before."""
+        keys = tuple(map(self._seen.__getitem__, group.reads))
+        if group.first is None and None in keys:  # some may count though they are inactive
+            own = zip(keys, group.reads, strict=True)
+            keys = tuple([self._inactive(address) if key is None else key for key, address in own])
+        values = (self._file.header.application, keys)
+        if values not in group.sound:
+            found = tuple(self.findings(group.together))
+            if not found:
+                group.sound.add(values)
+            yield from found
+        if group.others:
+            yield from self.findings(group.others)
 
     def finding(self, check: RuleCheck) -> Finding | None:
         """Return what is wrong if the rule is broken; None too where what it needs is not set or inactive."""

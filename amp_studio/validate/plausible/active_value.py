@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, canonical, dimension, show_value
+from amp_studio.schema import ACTIVE, Address, canonical, dimension, show_value
 
 
 class ActiveValue(NamedTuple):
@@ -16,19 +16,29 @@ class ActiveValue(NamedTuple):
     measures: str
 
 
-def active_values(file: ParameterFile, name: str) -> dict[str, ActiveValue]:
-    """Return the active values of a parameter by instance, in the order of the schema."""
-    values, state = file.values, file.evaluation.state
-    schema, seen = file.schema, {}
-    for instance in schema.on(file.machine).instances(schema.parameters[name]):
-        value = values.get((name, instance))
-        if value is None or not state((name, instance)).is_active:
-            continue
-        number = value.value
-        if not isinstance(number, bool | str):
-            number = float(canonical(number, value.unit))
-        seen[instance] = ActiveValue((name, instance), number, dimension(value.unit))
-    return seen
+class ActiveValues(dict[str, dict[str, ActiveValue]]):
+    """Parameter -> its active values by instance, in the order of the schema; each looked up once until
+    ``clear``.
+    """
+
+    def __init__(self, file: ParameterFile) -> None:
+        self._file = file
+
+    def __missing__(self, name: str) -> dict[str, ActiveValue]:
+        file, values = self._file, self._file.values
+        known, here = file.evaluation.known_states(), file.schema.on(file.machine)
+        found: dict[str, ActiveValue] = {}
+        for instance in here.instances(file.schema.parameters[name]):
+            address = name, instance
+            value = values.get(address)
+            if value is None or (known.get(address) or file.evaluation.state(address)) is not ACTIVE:
+                continue
+            number = value.value
+            if not isinstance(number, bool | str):
+                number = float(canonical(number, value.unit))
+            found[instance] = ActiveValue(address, number, dimension(value.unit))
+        self[name] = found
+        return found
 
 
 def sentence(file: ParameterFile, one: ActiveValue) -> str:

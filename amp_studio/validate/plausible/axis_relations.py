@@ -13,7 +13,7 @@ from amp_studio.files import ParameterFile, are_alike, axis_letter
 from amp_studio.schema import AmongAxes, Gears, Proportion, TravelEnds
 from amp_studio.validate.finding import Finding
 
-from .active_value import ActiveValue, active_values, sentence
+from .active_value import ActiveValue, ActiveValues, sentence
 
 AMONG, TABLE, TRAVEL, GEAR, PROPORTION = (
     "plausible.among-axes",
@@ -43,8 +43,8 @@ Check = tuple[tuple[str, ...], Callable[[], list[Finding]]]
 class AxisRelations:
     """What the facts of a family compare among the axes of one file."""
 
-    def __init__(self, file: ParameterFile) -> None:
-        self._file = file
+    def __init__(self, file: ParameterFile, values: ActiveValues) -> None:
+        self._file, self._values = file, values
 
     def checks(self) -> Iterator[Check]:
         """Yield the parameters that a check reads, and the check."""
@@ -61,9 +61,9 @@ class AxisRelations:
             yield (*pair.part_of, *pair.as_of), partial(self._proportion, pair)
 
     def _among(self, fact: AmongAxes) -> list[Finding]:
-        over = active_values(self._file, fact.over) if fact.over else {}
+        over = self._values[fact.over] if fact.over else {}
         numbers: list[tuple[float, ActiveValue]] = []
-        for instance, one in active_values(self._file, fact.of).items():
+        for instance, one in self._values[fact.of].items():
             under = over[instance].number if instance in over else None if fact.over else 1.0
             if isinstance(one.number, float) and one.number and isinstance(under, float) and under:
                 numbers.append((abs(one.number / under), one))
@@ -83,9 +83,9 @@ class AxisRelations:
         return [self._finding(AMONG, AMONG_REASON, one, other) for one, other in found[:1]]
 
     def _travels(self, fact: TravelEnds) -> list[Finding]:
-        lows = active_values(self._file, fact.low) if fact.low else {}
+        lows = self._values[fact.low] if fact.low else {}
         ends = []
-        for instance, high in active_values(self._file, fact.high).items():
+        for instance, high in self._values[fact.high].items():
             low = lows.get(instance)
             if not isinstance(high.number, float) or (fact.low and low is None) or self._is_unlimited(high):
                 continue
@@ -143,7 +143,7 @@ class AxisRelations:
         """Compare X and Y of a table: the motors, screws and ramps of both are of one kind."""
         differing, compared = [], 0
         for name in names:
-            seen = active_values(self._file, name)
+            seen = self._values[name]
             named = {axis_letter(self._file, instance): one for instance, one in seen.items()}
             x, y = named.get("X"), named.get("Y")
             if x is None or y is None or x.measures != y.measures:
@@ -160,7 +160,7 @@ class AxisRelations:
         return [self._finding(TABLE, TABLE_REASON, *differing[0])]
 
     def _gears(self, fact: Gears) -> list[Finding]:
-        lows, highs = active_values(self._file, fact.low), active_values(self._file, fact.high)
+        lows, highs = self._values[fact.low], self._values[fact.high]
         spindles: dict[str, list[tuple[ActiveValue, ActiveValue]]] = {}
         for instance in highs:
             if instance in lows:
@@ -186,7 +186,7 @@ class AxisRelations:
     def _proportion(self, fact: Proportion) -> list[Finding]:
         rows = []
         for name in (*fact.part_of, *fact.as_of):
-            seen = next(iter(active_values(self._file, name).values()), None)
+            seen = next(iter(self._values[name].values()), None)
             if seen is None or not isinstance(seen.number, float):
                 return []
             rows.append(seen)

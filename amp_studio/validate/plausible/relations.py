@@ -9,7 +9,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Quotient, canonical, unit_text, write_figure
 from amp_studio.validate.finding import Finding
 
-from .active_value import ActiveValue, active_values, sentence
+from .active_value import ActiveValue, ActiveValues, sentence
 from .axis_relations import AxisRelations
 from .slip import slip_between
 
@@ -34,6 +34,7 @@ class Relations:
 
     def __init__(self, file: ParameterFile) -> None:
         self._file, facts = file, file.schema.plausible
+        self._values = ActiveValues(file)
         self._checks: list[Callable[[], list[Finding]]] = []
         self._of: dict[str, list[int]] = {}
         """Parameter -> the checks that read it."""
@@ -49,7 +50,7 @@ class Relations:
             self._add(pair, partial(self._needs, pair))
         for one in facts.not_above:
             self._add((one.limit, *one.are), partial(self._above, one.limit, one.are))
-        for names, check in AxisRelations(file).checks():
+        for names, check in AxisRelations(file, self._values).checks():
             self._add(names, check)
         self._found: list[list[Finding]] = [[] for _ in self._checks]
 
@@ -60,11 +61,13 @@ class Relations:
 
     def look_at_all(self) -> None:
         """Make every check."""
+        self._values.clear()
         self._found = [check() for check in self._checks]
 
     def look_again(self, address: Address) -> bool:
         """Make the checks of one value again; returns whether anything is otherwise."""
         is_other = False
+        self._values.clear()
         for n in self._of.get(address[0], ()):
             found = self._checks[n]()
             is_other |= found != self._found[n]
@@ -78,7 +81,7 @@ class Relations:
 
     def _rows(self, names: Sequence[str]) -> Iterator[list[ActiveValue]]:
         """Yield the values of one instance that measure the same."""
-        columns = [active_values(self._file, name) for name in names]
+        columns = [self._values[name] for name in names]
         for instance in columns[0]:
             row = [column[instance] for column in columns if instance in column]
             if len({one.measures for one in row}) == 1:
@@ -96,7 +99,7 @@ class Relations:
         return found
 
     def _twins(self, pair: tuple[str, str]) -> list[Finding]:
-        left, right = (list(active_values(self._file, name).values()) for name in pair)
+        left, right = (list(self._values[name].values()) for name in pair)
         if len(left) != len(right):
             return []
         return [
@@ -114,8 +117,8 @@ class Relations:
         return found
 
     def _above(self, limit: str, names: Sequence[str]) -> list[Finding]:
-        limits, found = active_values(self._file, limit), []
-        for one in (one for name in names for one in active_values(self._file, name).values()):
+        limits, found = self._values[limit], []
+        for one in (one for name in names for one in self._values[name].values()):
             own = limits.get(one.address[1])
             all_of = [own] if own is not None else list(limits.values())
             greatest = [each for each in all_of if each.measures == one.measures]
@@ -127,9 +130,9 @@ class Relations:
         return found
 
     def _quotient(self, fact: Quotient) -> list[Finding]:
-        found, others = [], active_values(self._file, fact.over)
+        found, others = [], self._values[fact.over]
         low, high = fact.between
-        for instance, one in active_values(self._file, fact.of).items():
+        for instance, one in self._values[fact.of].items():
             own = [others[instance]] if instance in others else list(others.values())
             numbers = [
                 (abs(other.number), other)
@@ -158,7 +161,7 @@ class Relations:
                 compared=((needed, instance),),
                 reason=NEEDS_REASON,
             )
-            for instance, one in active_values(self._file, name).items()
+            for instance, one in self._values[name].items()
             if (needed, instance) not in values and evaluation.state((needed, instance)).is_active
         ]
 

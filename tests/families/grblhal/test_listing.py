@@ -417,3 +417,20 @@ def test_a_text_in_quotes_or_before_another_setting_ends_there() -> None:
         text = NETWORK.replace("$74=My;SSID\n", f"{line}\n")
         found = everything(text, machine="grblhal").values
         assert found["wifi.wifi_station_sta_ssid", ""] == Value("Hall" if line[0] == '"' else "Hall;2")
+
+
+def test_a_listing_without_the_spindle_is_no_older_grbl() -> None:
+    """The settings of 0.9 and no more, but a $10 that 0.9 does not have as a rule."""
+    numbers = [
+        *range(7),
+        *range(10, 14),
+        *range(20, 28),
+        *range(100, 103),
+        *range(110, 113),
+        *range(120, 123),
+    ]
+    lines = [f"${n}=1" for n in (*numbers, *range(130, 133))]
+    schema = load_schema("grblhal")
+    assert FORMAT.read("\n".join(lines), schema, ReadOptions()).machine == "grbl-1.1"
+    older = "\n".join(lines).replace("$10=1", "$10=3")
+    assert FORMAT.read(older, schema, ReadOptions()).machine == "grbl-0.9"

@@ -129,6 +129,29 @@ def test_fluidnc_is_read_from_its_configuration_and_from_its_entries() -> None:
     assert found.values["build.axes", ""] == Value("XYZ")
 
 
+def test_what_all_axes_of_fluidnc_agree_in_is_a_setting_of_grbl_and_the_rest_is_kept() -> None:
+    """$23 has the bit of an axis that homes in its negative direction (Grbl v1.1 Configuration)."""
+    home = "    soft_limits: {}\n    homing:\n      cycle: 1\n      positive_direction: {}\n      seek_mm_per_min: {}\n"
+    motor = "    motor0:\n      hard_limits: false\n      pulloff_mm: 1.500\n"
+    axes = "".join(
+        f"  {axis}:\n    steps_per_mm: 80.000\n" + home.format("true", direction, speed) + motor
+        for axis, direction, speed in (
+            ("x", "false", "2000.0"),
+            ("y", "false", "2000.0"),
+            ("z", "true", "900.0"),
+        )
+    )
+    found = read(f"axes:\n{axes}")
+    assert number(found, "limits.soft") is True
+    assert number(found, "homing.pull_off") == 1.5
+    assert number(found, "homing.invert_direction") == 3
+    assert number(found, "homing.seek_rate") is None
+    assert found.unknown["axes/z/homing/seek_mm_per_min"] == "900.0"
+    one = read("axes:\n" + axes.replace("    soft_limits: true\n", "", 1))
+    assert number(one, "limits.soft") is None
+    assert one.unknown["axes/y/soft_limits"] == "true"
+
+
 def test_grbl_esp32_lists_its_settings_by_name() -> None:
     found = read(BY_NAME)
     assert [number(found, "axis.steps", axis) for axis in "XYZ"] == [80.0, 81.0, 82.0]

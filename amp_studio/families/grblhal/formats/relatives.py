@@ -88,6 +88,21 @@ _OF_CONTROL = {
     "spindle/pwm/max": 36,
 }
 """Names of FluidNC and Grbl_ESP32 (SettingsDefinitions.cpp), without capitals -> number."""
+_DIRECTION = "homing/positive_direction"
+_JOINED = {
+    "soft_limits": 20,
+    "motor/hard_limits": 21,
+    _DIRECTION: 23,
+    "homing/feed_mm_per_min": 24,
+    "homing/seek_mm_per_min": 25,
+    "homing/settle_ms": 26,
+    "motor/pulloff_mm": 27,
+}
+"""Entry of an axis of FluidNC -> the setting of Grbl for all axes.
+
+$23 has the bit of each axis that homes in its negative direction. Which axes home, and in which cycle, Grbl
+has in its build: that is kept as text.
+"""
 _MOST = 5000
 
 
@@ -163,7 +178,10 @@ def _by_name(name: str, entries: Iterator[tuple[str, str]]) -> Relative:
     """
     found = Relative(name)
     came: dict[str, str] = {}
+    of_axes = _OfAxes()
     for path, value in entries:
+        if of_axes.take(path.casefold(), value):
+            continue
         number = _number_of(path.casefold())
         if path in came:
             found.kept[f"{path} (earlier)"] = came[path]
@@ -177,7 +195,58 @@ def _by_name(name: str, entries: Iterator[tuple[str, str]]) -> Relative:
             found.settings[number] = {"true": "1", "false": "0", "on": "1", "off": "0"}.get(
                 value.casefold(), value
             )
+    of_axes.join(found)
     return found
+
+
+class _OfAxes:
+    """What FluidNC has for each axis and Grbl for all: one setting where all axes agree, else kept as text.
+
+    An axis without an entry has its default (Machine/Axis.h, Homing.h, Motor.h): no soft and no hard limits.
+    """
+
+    def __init__(self) -> None:
+        self._entries: dict[str, list[tuple[str, str, str]]] = {}
+        """Entry without its axis and motor -> axis, whole path, value."""
+        self._axes: set[str] = set()
+
+    def take(self, path: str, value: str) -> bool:
+        """Take an entry; returns whether it is one of these and not yet there."""
+        axis = re.fullmatch(r"/?axes/([xyzabc])/(?:(motor)[01]/)?(.+)", path.casefold())
+        if axis is None:
+            return False
+        self._axes.add(axis[1])
+        name = f"motor/{axis[3]}" if axis[2] else axis[3]
+        entries = self._entries.setdefault(name, [])
+        if name not in _JOINED or any(path == other for _, other, _ in entries):
+            return False
+        entries.append((axis[1], path, value))
+        return True
+
+    def join(self, found: Relative) -> None:
+        """Put what all axes agree in among the settings, and the rest into what is kept."""
+        for name, entries in self._entries.items():
+            if not entries:
+                continue
+            text = self._joined(name, entries)
+            if text is None or _JOINED[name] in found.settings:
+                found.kept.update({path: value for _, path, value in entries})
+            else:
+                found.settings[_JOINED[name]] = text
+
+    def _joined(self, name: str, entries: list[tuple[str, str, str]]) -> str | None:
+        texts = {text.casefold() for _, _, text in entries}
+        if name == _DIRECTION:
+            negative = {axis for axis, _, text in entries if text.casefold() == "false"}
+            return (
+                str(sum(1 << AXES.index(a.upper()) for a in negative)) if texts <= {"true", "false"} else None
+            )
+        if texts == {"true"}:
+            return "1" if {axis for axis, _, _ in entries} == self._axes else None
+        if texts == {"false"}:
+            return "0"
+        is_number = len(texts) == 1 and re.fullmatch(r"[0-9]+\.?[0-9]*", next(iter(texts)))
+        return entries[0][2] if is_number else None
 
 
 def _number_of(path: str) -> int | None:
