@@ -75,6 +75,7 @@ def migrate(file: ParameterFile, target: str, answers: Mapping[str, str] | None 
     machine = read_meaning(file)
     if not machine.axes:
         raise TargetError("no axis of the file is fitted: there is nothing to migrate")
+    _refuse_crossed(machine)
     written: WrittenMachine = load_part(registration_of(target).migrate)(machine, answers or {})
     # Only now is it known which questions this machine raises: a misspelt answer must not be passed
     # over.
@@ -82,6 +83,19 @@ def migrate(file: ParameterFile, target: str, answers: Mapping[str, str] | None 
     if strange:
         raise TargetError(unknown_name("answer", strange[0], (q.id for q in written.asked)))
     return Migration(machine, target, written, tuple(_entries(file, machine, written)))
+
+
+def _refuse_crossed(machine: MachineMeaning) -> None:
+    """Raise TargetError for an axis with its lower limit above the upper one: nothing could move it."""
+    for axis in machine.axes:
+        low, high = axis.number("travel.low"), axis.number("travel.high")
+        if low is not None and high is not None and low > high:
+            named = [axis.figures[concept].sources for concept in ("travel.low", "travel.high")]
+            params = ", ".join(f"{each.param} {each.raw}" for sources in named for each in sources[:1])
+            raise TargetError(
+                f"The limits of {axis.letter} are crossed, {low:g} above {high:g} ({params}):"
+                " mend the file first"
+            )
 
 
 def _active_values(file: ParameterFile) -> Iterator[tuple[Address, Value]]:

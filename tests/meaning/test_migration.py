@@ -167,6 +167,15 @@ def test_an_answer_that_is_none_is_refused_with_its_question(
         migrate(example("mill-1394"), target, answers)
 
 
+@pytest.mark.parametrize("target", ["linuxcnc", "grblhal"])
+def test_crossed_limits_are_refused_with_their_parameters(target: str) -> None:
+    file = changed(example("mill-1394"), p1320="-500 mm", p1330="8 mm")
+    with pytest.raises(
+        TargetError, match=r"limits of X are crossed, 8 above -500 \(1330 8 mm, 1320 -500 mm\)"
+    ):
+        migrate(file, target)
+
+
 def test_an_axis_with_a_letter_that_cannot_turn_is_asked_about() -> None:
     file = example("mill-1394")
     file.set(("axis.name", "4"), Value("w"))
