@@ -95,7 +95,7 @@ MUTATED = [
     ),
     ({"p1710": "2"}, {"[JOINT_0]P": 33.333333}),
     ({"p1020": "False"}, {"[JOINT_0]MIN_LIMIT": None, "[AXIS_X]MAX_LIMIT": None}),
-    ({"p1310": "9 mm"}, {"[JOINT_0]HOME": 8.0, "[JOINT_0]HOME_OFFSET": 9.0}),
+    ({"p1310": "9 mm"}, {"[JOINT_0]HOME": 7.99, "[JOINT_0]HOME_OFFSET": 9.0}),
     ({"p1211": "500 mm/s2"}, {"[JOINT_0]MAX_ACCELERATION": 500.0}),
     ({"p1340": "-0.005 mm"}, {"[JOINT_0]BACKLASH": 0.005}),
     ({"p1300": "1.5 mm"}, {"[JOINT_0]HOME_OFFSET": 4.5, "[JOINT_0]HOME": 6.0}),

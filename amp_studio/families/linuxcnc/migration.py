@@ -25,6 +25,8 @@ from .kinematics import LETTERS
 from .template import hal_template
 
 _TURNING = "ABC"
+INSIDE = 0.01
+"""mm or deg by which the place of home has to be inside the limits."""
 
 
 @dataclass
@@ -490,9 +492,13 @@ class _Migration:
             axis.number(c) if axis.choice("travel.kind") == "limits" else None
             for c in ("travel.low", "travel.high")
         )
-        within = min(max(at, low if low is not None else at), high if high is not None else at)
+        # The final move of homing ends within a micrometre of HOME, and beyond a limit by any amount is an
+        # error that ends the homing of the other joints (C1507; seen with 2.9.0~pre1).
+        room = INSIDE if low is None or high is None or high - low > 2.0 * INSIDE else 0.0
+        least, most = at if low is None else low + room, at if high is None else high - room
+        within = min(max(at, least), most)
         outcome: GradeKind = "exact" if within == at else "approximate"
-        text = inwards_low(within) if within == low else inwards_high(within)
+        text = inwards_low(within) if within == least else inwards_high(within)
         self.ini.put(j, "HOME", text, self._of(axis, "home.coordinate", outcome))
         self.out.grade(
             axis,
@@ -500,8 +506,8 @@ class _Migration:
             outcome,
             f"[{j}]HOME",
             text,
-            f"it stays at {at:g}, beyond its limits",
-            "it goes on to the limit",
+            f"it stays at {at:g}, at its limit or beyond",
+            f"it goes on to {INSIDE:g} inside the limit, where the homing is no error",
             "the new one",
         )
         self.ini.put(

@@ -85,7 +85,10 @@ def _of_others() -> Iterator[Mutation]:
     router = "acromill-router"
     yield Mutation(router, "as it is", {}, _limits(-711.2, 2.54))
     yield Mutation(
-        router, "minus homing", {"home.direction@X": "neg", "home.preset@X": "-28 in"}, {"ini.0.home": -711.2}
+        router,
+        "minus homing",
+        {"home.direction@X": "neg", "home.preset@X": "-28 in"},
+        {"ini.0.home": -711.19},
     )
     yield Mutation(router, "no limits", {"axes.disable_limit@X": "true"}, _limits(-NO_LIMIT, NO_LIMIT))
     yield Mutation(router, "metric limits", {"axes.soft_limit_minus@X": "-500 mm"}, _limits(-500.0, 2.54))
