@@ -1,8 +1,9 @@
 """The loops of an axis as a diagram: what the command passes on its way to the machine, with the parameters
 that act there and the steady signals at one speed.
 
-The blocks and their order are facts (`LoopRoles`); a block is a row, its parameters are beside it. The
-signals come from the law of the axis and from its machine, as in the scenarios.
+The blocks and their order are facts (`LoopRoles`); a block is a row, its parameters are beside it by their
+numbers, so that the picture is readable where it is low; a click on one leads to it. The signals come from
+the law of the axis and from its machine, as in the scenarios.
 """
 
 from __future__ import annotations
@@ -17,17 +18,20 @@ from amp_studio.sim import SimulationError, bind_axis, law_of, steady_signals, v
 from .figures import ValueReader
 from .shapes import SceneShapes
 
-LEFT, RIGHT = 0.9, 3.3
+LEFT, RIGHT = 0.7, 2.5
 """Sides of the boxes; the picture is 10 wide, the parameters begin beside them."""
-NAMES = 3.8
-BACK, AHEAD, PAST = 0.2, 0.55, 3.65
+NAMES = 2.95
+BACK, AHEAD, PAST = 0.15, 0.42, 2.75
 """Where the lines run that go back, ahead from the command, and past the boxes."""
-ROOM = 0.55
+ROOM = 0.35
 """Between two rows, of the height of a line of text."""
-HEAD = 0.14
+HEAD = 0.1
 """Half an arrowhead."""
 SHARES = (1.0, 0.1)
 """Speeds of the signals, as shares of the rapid feedrate: the second one is near that of cutting."""
+
+NUMBERED, NAMED = 4, 3
+"""Values beside each other, by their numbers and by their names; a block of more has several lines."""
 
 Signal = tuple[float, str]
 
@@ -79,37 +83,50 @@ class LoopDiagram:
         order = ("command", "ahead", "chain", "back")
         rows = sorted(roles.blocks, key=lambda block: order.index(block.place))
         lines = [self._lines(block) for block in rows]
-        self.height = sum(max(len(each), 1) + ROOM for each in lines) + ROOM
+        machine = figures.file.machine_schema
+        is_numbered = any(text.address and machine.number(text.address) for each in lines for text in each)
+        self._across = NUMBERED if is_numbered else NAMED
+        self.height = sum(self._rows(each) + ROOM for each in lines) + ROOM
         top, self._places = self.height - ROOM, dict[str, tuple[float, float]]()
         for block, texts in zip(rows, lines, strict=True):
-            bottom = top - max(len(texts), 1)
+            bottom = top - self._rows(texts)
             self._box(block, texts, bottom, top)
             self._places[block.name] = (bottom, top)
             top = bottom - ROOM
         self._join(rows)
 
+    def _rows(self, texts: list[Text]) -> int:
+        return max(-(-len(texts) // self._across), 1)
+
     def _lines(self, block: LoopBlock) -> list[Text]:
-        """Return the parameters of a block with their values, and the signal behind it."""
+        """Return the parameters of a block with their values, and the signal behind it: by their numbers, one
+        alone with its name.
+        """
         found = []
+        machine = self._figures.file.machine_schema
         for parameter in block.params:
             figure = self._figures.figure(parameter, self._axis, quiet=True)
+            name = self._figures.file.schema.parameters[parameter].name
             if figure is not None:
                 text = figure.text if not figure.inactive else f"{figure.text}, inactive"
                 sort: ShapeSort = "error" if figure.wrong else "dim" if figure.inactive else "ink"
-                found.append(Text((NAMES, 0.0), figure.label, text, "left", figure.address, sort))
+                is_alone = len(block.params) == 1 and not block.signal
+                label = figure.label if is_alone else machine.number(figure.address) or name
+                found.append(Text((NAMES, 0.0), label, text, "left", figure.address, sort))
         if (signal := self._signals.get(block.signal)) is not None:
             name = block.signal.replace("_", " ").removeprefix("steady ")
             found.append(Text((NAMES, 0.0), name, value_text(*signal), "left", sort="now"))
         return found
 
     def _box(self, block: LoopBlock, texts: list[Text], bottom: float, top: float) -> None:
-        self.shapes.areas.append(FilledArea(LEFT, bottom, RIGHT, top, "rail"))
+        self.shapes.areas.append(FilledArea(LEFT, bottom, RIGHT, top, "overlap"))
         edge = ((LEFT, bottom), (RIGHT, bottom), (RIGHT, top), (LEFT, top), (LEFT, bottom))
         self.shapes.lines.append(Polyline(edge))
         middle = 0.5 * (LEFT + RIGHT)
         self.shapes.texts.append(Text((middle, 0.5 * (bottom + top)), block.name, "", "middle"))
         for n, text in enumerate(texts):
-            place = (NAMES, top - n - 0.5)
+            row, column = divmod(n, self._across)
+            place = (NAMES + column * (10.0 - NAMES) / self._across, top - row - 0.5)
             self.shapes.texts.append(Text(place, text.text, text.value, text.anchor, text.address, text.sort))
 
     def _join(self, rows: list[LoopBlock]) -> None:
