@@ -234,9 +234,8 @@ class MainWindow(PartsWindow):
             return
         name = project.name_of(self, workspace.path)
         place = f"{name} — " if name else ""
-        self.setWindowTitle(
-            f"{workspace.path.name}[*]{'' if may_edit else ' [read-only]'} — {place}AMP Studio"
-        )
+        only_seen = "" if may_edit else f" [{self.tr('read-only')}]"
+        self.setWindowTitle(f"{workspace.path.name}[*]{only_seen} — {place}AMP Studio")
         self.setWindowModified(workspace.is_dirty)
 
     def _show_control(self) -> None:

@@ -129,3 +129,20 @@ def test_how_an_exchange_ended_is_german() -> None:
     )
     away = german.message("no connection to the control (tcp://10.0.0.1:9600: nothing listens there)")
     assert away == "keine Verbindung zur Steuerung (tcp://10.0.0.1:9600: dort antwortet nichts)"
+
+
+@pytest.mark.parametrize(
+    ("english", "german"),
+    [
+        (
+            "/hall/mill.amp cannot be written: No space left on device",
+            "/hall/mill.amp kann nicht geschrieben werden: auf dem Datenträger ist kein Platz mehr",
+        ),
+        (
+            "mill.amp cannot be changed: its folder cannot be written to",
+            "mill.amp kann nicht geändert werden: der Ordner ist schreibgeschützt",
+        ),
+    ],
+)
+def test_why_a_file_is_not_written_is_german(english: str, german: str) -> None:
+    assert language_of("de").message(english) == german

@@ -28,7 +28,7 @@ from amp_studio.files import (
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.task import in_background
-from amp_studio.ui.base.translated import Translated, counted
+from amp_studio.ui.base.translated import Translated, counted, message_in_words
 from amp_studio.ui.base.workspace import Workspace, earlier_of
 from amp_studio.ui.merge.comparisons import FILTER, Comparisons
 from amp_studio.ui.page.file_page import FilePage
@@ -176,9 +176,9 @@ class Files(Translated):
         try:
             opened = in_background(self.window, self.tr("Opening"), lambda: _opened(Document.open, path))
         except InUseError as error:
-            question = self.tr("{error}.\n\nOpen it read-only?").format(error=error)
+            question = self.tr("{error}.\n\nOpen it read-only?").format(error=message_in_words(str(error)))
             if ask(
-                self.window, self.tr("File in use"), question, self.tr("&Open Read-Only"), self.tr("Cancel")
+                self.window, self.tr("Read-Only"), question, self.tr("&Open Read-Only"), self.tr("Cancel")
             ) != self.tr("&Open Read-Only"):
                 return
             opened = in_background(self.window, self.tr("Opening"), lambda: _opened(Document.view, path))

@@ -21,6 +21,7 @@ from amp_studio.ui.base.garbage import look_again
 from amp_studio.ui.base.questions import ask, show_message
 from amp_studio.ui.base.side_windows import SideWindows
 from amp_studio.ui.base.task import in_background
+from amp_studio.ui.base.translated import message_in_words
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.findings.panel import FindingsPanel
 from amp_studio.ui.page.file_page import FilePage
@@ -151,7 +152,7 @@ class StudioWindow(QMainWindow):
             return act()
         except (OSError, ValueError, KeyError, RuntimeError) as error:
             is_bare = type(error) is KeyError and error.args  # its own text is in quotes
-            show_message(self, title, str(error.args[0]) if is_bare else str(error))
+            show_message(self, title, message_in_words(str(error.args[0]) if is_bare else str(error)))
             return None
 
     def enable(self, *_: object) -> None:
@@ -209,7 +210,7 @@ class StudioWindow(QMainWindow):
             show_message(
                 self,
                 self.tr("Not saved"),
-                self.tr("{error}.\n\nYour work is still open.").format(error=error),
+                self.tr("{error}.\n\nYour work is still open.").format(error=message_in_words(str(error))),
             )
             return False
         if workspace.document.notes:
