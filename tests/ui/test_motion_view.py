@@ -361,3 +361,21 @@ def test_another_scenario_shows_the_fields_of_its_settings(view: MotionView, qtb
         choose(view, scenario, qtbot)
         assert view.settings.height() >= view.settings.sizeHint().height() > 60, scenario
     assert view.trace.scenario == "step"
+
+
+def test_a_record_of_the_machine_is_laid_over_until_none_is_named(
+    view: MotionView, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    record, plain = tmp_path / "record.csv", view.trace
+    columns = (plain.columns["time_s"][::8], plain.columns["position"][::8] + 1.0)
+    rows = (f"{time!r},{place!r}" for time, place in zip(*map(np.ndarray.tolist, columns), strict=True))
+    record.write_text("time (s),position (mm)\n" + "\n".join(rows))
+    monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(record), ""))
+    view.over.click()
+    settled(view, qtbot)
+    assert view.trace.result["difference_rms_position"][0] == pytest.approx(1.0, abs=0.01)
+    assert any(curve.name == "recorded position" for curve in view.plot.panels[0].curves)
+    monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: ("", ""))
+    view.over.click()
+    settled(view, qtbot)
+    assert "difference_rms_position" not in view.trace.result

@@ -33,6 +33,7 @@ from amp_studio.sim import (
     SimulationListing,
     Trace,
     address_of,
+    laid_over,
     law_of,
     listing,
     picture_of,
@@ -109,6 +110,8 @@ class MotionView(QWidget):
         self._asked: tuple[object, ...] = ()
         self._impossible: SimulationError | None = None
         self._counts = False  # whether the axis moves in counts, not in a length or an angle
+        self._record: Path | None = None
+        """The record of the machine that is laid over."""
         self.trace: Trace | None = None
         self.before: Trace | None = None
         self._kept: dict[tuple[str, str], ParameterFile] = {}
@@ -132,6 +135,10 @@ class MotionView(QWidget):
         )
         self.machine = self.machine_page.form
         self.run_button, self.save_button = QPushButton(self.tr("&Run")), QPushButton(self.tr("&Save…"))
+        self.over = QPushButton(self.tr("&Lay Record Over…"))
+        self.over.setToolTip(
+            self.tr("The record of the machine (CSV) over the simulation, with the difference; none ends it")
+        )
         self.settling, self.all_of_it = (
             QPushButton(self.tr("&Zoom to Settling")),
             QPushButton(self.tr("Show &All")),
@@ -176,7 +183,7 @@ class MotionView(QWidget):
             )
         )
         tools = QHBoxLayout()
-        for widget in (self.chart, self.settling, self.all_of_it):
+        for widget in (self.chart, self.settling, self.all_of_it, self.over):
             tools.addWidget(widget)
         tools.addStretch()
         tools.addWidget(self.run_button)
@@ -226,6 +233,7 @@ class MotionView(QWidget):
         self.run_button.clicked.connect(self.run)
         self.save_button.clicked.connect(self.save)
         self.chart.currentIndexChanged.connect(self._redraw)
+        self.over.clicked.connect(self._ask_record)
         self.settling.clicked.connect(self._zoom_to_settling)
         self.all_of_it.clicked.connect(lambda: self.plot.zoom(None))
         self.against.currentIndexChanged.connect(self.run)
@@ -275,7 +283,7 @@ class MotionView(QWidget):
 
     def _choose(self, *_: object) -> None:
         """Take another scenario or axis, with what was kept for it."""
-        self.before = self._file_before = None
+        self.before = self._file_before = self._record = None
         self._fill(str(self.axis.currentData()))
         self.machine_page.leave_axis(str(self.axis.currentData()))
         self.run()
@@ -342,8 +350,11 @@ class MotionView(QWidget):
         before = self.before if is_same and asked == self._asked else None
         self._asked, self._file_before = asked, file_before
 
+        record = self._record
+
         def work(_: TaskProgress, __: threading.Event) -> _Ran:
             trace = simulate(file, scenario, str(axis) if axis else None, settings)
+            trace = laid_over(trace, record) if record else trace
             return _Ran(trace, file, file_before, _same_move(trace, settings, before, file_before))
 
         self.summary.setText(self.tr("Simulating …"))
@@ -414,6 +425,17 @@ class MotionView(QWidget):
 
     def _zoom_to_settling(self) -> None:
         self.plot.zoom(settling_span(self.trace) if self.trace else None)
+
+    def _ask_record(self) -> None:
+        """Ask for a record of the machine and lay it over the simulation; without one as it was."""
+        text, _ = QFileDialog.getOpenFileName(
+            self,
+            self.tr("Record of the Machine"),
+            str(self._workspace.path.parent),
+            self.tr("Records (*.csv *.txt);;All files (*)"),
+        )
+        self._record = Path(text) if text else None
+        self.run()
 
     def _keep_before(self) -> None:
         if self._file_ran is not None:
