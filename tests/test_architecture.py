@@ -34,6 +34,16 @@ from amp_studio.schema import Parameter, Rule, family_ids, load_schema, program
 from .source_trees import nodes_of, text_of
 
 ROOMS = sorted(path.parent.name for path in Path(amp_studio.__file__).parent.glob("*/__init__.py"))
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _trees_of_these_tests_alone() -> Iterator[None]:
+    """Forget the syntax trees: a million objects, which every later collection of garbage would go through."""
+    yield
+    nodes_of.cache_clear()
+    measure_house.tree_of.cache_clear()
+
+
 CATCH_ALL_NAMES = {"utils", "util", "helpers", "helper", "common", "manager", "misc"}
 
 

@@ -30,6 +30,7 @@ def dangers_of_change(
         (
             (i, f"{i}@{instance}", parameters[i].name, place_of(file, (i, instance)))
             for i, instance in addresses
+            if parameters[i].help.danger
         ),
         language,
     )
