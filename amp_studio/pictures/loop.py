@@ -52,7 +52,7 @@ def draw_loop(file: ParameterFile, roles: LoopRoles, part: str, like: Scene | No
 
 
 def _signals(figures: ValueReader, axis: str, share: float) -> Mapping[str, Signal]:
-    """Return the steady signals at a share of the rapid feedrate; why there are none is a note."""
+    """Return the steady signals at a share of the rapid feedrate; that there are none is a note."""
     file = figures.file
     try:
         bound = bind_axis(file, law_of(file.schema.family.family), axis)
@@ -60,8 +60,8 @@ def _signals(figures: ValueReader, axis: str, share: float) -> Mapping[str, Sign
             raise SimulationError("No rapid feedrate is set")
         found = steady_signals(bound, share * bound.feedrate)
         return {name: _in_units_of(file, *signal) for name, signal in found.items()}
-    except SimulationError as error:
-        figures.add_note(f"The signals are not reckoned: {error.what}", is_remark=True)
+    except SimulationError:
+        figures.add_note("No signals: this axis cannot be simulated as it is set", is_remark=True)
         return {}
 
 

@@ -54,7 +54,7 @@ def test_a_value_out_of_range_is_red_and_one_that_is_not_set_is_named(example):
     file.set(("servo.initial_gain", "1"), None)
     scene = draw(file, "loop", "X")
     assert texts(scene)["1710"] == "not set"
-    assert any(note.text.startswith("The signals are not reckoned") for note in scene.notes)
+    assert any(note.text.startswith("No signals") for note in scene.notes)
 
 
 def test_a_machine_in_inches_has_its_signals_in_inches(example):
