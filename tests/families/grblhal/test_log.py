@@ -196,6 +196,14 @@ def test_no_break_spaces_of_a_web_page_are_spaces(tmp_path: Path, encoding: str)
     assert file.values["stepper.pulse_time", ""].value == 10
 
 
+def test_the_first_setting_behind_the_tags_of_a_page_is_read() -> None:
+    page = "<html><body><pre>" + "<br>\n".join(LINES) + "</pre></body></html>"
+    assert read_log(page).listings[0].settings == SETTINGS
+    rows = [f"| ${n} | {text} | words |" for n, text in {**SETTINGS, 302: "192.168.5.1"}.items()]
+    table = "\n".join(["| Setting | Value |", "|---|---|", *rows])
+    assert read_log(table).listings[0].settings == {**SETTINGS, 302: "192.168.5.1"}
+
+
 def test_the_table_of_a_web_page_is_read(tmp_path: Path) -> None:
     rows = ((0, 10), (1, 25), (2, 0), (110, 500))
     cells = "".join(f'<tr><td class="n">${n}</td><td>{v}</td><td>some words, mm</td></tr>' for n, v in rows)

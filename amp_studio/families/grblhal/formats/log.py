@@ -21,6 +21,7 @@ from __future__ import annotations
 import re
 from collections.abc import Container, Iterator
 from dataclasses import dataclass, field
+from html import unescape
 
 from amp_studio.formats import FormatError
 
@@ -28,6 +29,7 @@ MARK = "\ufeff"
 _ESCAPES = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|[\x00-\x08\x0b-\x1f\x7f\u200b-\u200f]")
 _NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*|,[0-9]+)?|[.,][0-9]+)"
 _THOUSANDS = re.compile(r"[+-]?[0-9]{1,3}(?:,[0-9]{3})+\.[0-9]+")
+_FIGURE = re.compile(rf"{_NUMBER}|(?:[0-9]{{1,3}}\.){{3}}[0-9]{{1,3}}")
 _UNIT = r"(?:[uµm]?s(?:ec)?|mm(?:/\S+)?|steps?/\S+|rpm|hz)(?:\s.*)?"
 _SETTING = re.compile(r"\$(0|[1-9][0-9]{0,4})([\"'`*]{0,4})[ \t]*(:?=|[:|,;\t])[ \t]*")
 _BARE = re.compile(rf"(?:grbl_)?(0|[1-9][0-9]{{0,2}})[ \t]*=[ \t]*({_NUMBER})[ \t]*(?:[(;].*)?")
@@ -62,7 +64,12 @@ _LEAST, _MOST_LISTINGS, _LOOKED_AT = 8, 1000, 20_000
 _MOST_LINES, _LONGEST, _LONGEST_VALUE = 200_000, 65_536, 400
 """A listing has some hundred lines, a log of a day some ten thousand; the longest value is a macro."""
 _CELL = re.compile(r"(\$[0-9]{1,5})[ \t]*</t[dh]>[ \t]*<t[dh][^<>\n]{0,200}>", re.IGNORECASE)
-_TAG = re.compile(r"</?(?:t[dhr]|table|thead|tbody|b|code|span|p)\b[^<>\n]{0,200}>", re.IGNORECASE)
+_MARKUP = re.compile(r"<(?:td|pre|br|html|div|li|p)\b[^<>\n]{0,200}>", re.IGNORECASE)
+_TAG = re.compile(
+    r"</?(?:t[dhr]|table|thead|tbody|html|head|body|pre|br|div|ul|ol|li|b|i|em|strong|code|span|font|a|p|h[1-6])"
+    r"\b[^<>\n]{0,200}>",
+    re.IGNORECASE,
+)
 """Cells and their marks in the table of a web page; what a control writes in < > begins otherwise."""
 _LONGEST_PAGE = 400_000
 _OBJECT = re.compile(r"\{[^{}]{0,4000}\}")
@@ -229,10 +236,11 @@ def _lines(text: str, anywhere: bool) -> Iterator[tuple[int, str, str, list[_Pie
     """Yield number, text, text without what a sender writes before it,
     and the settings of each line that is not empty.
     """
-    if "<td" in text[:_LONGEST_PAGE]:
-        if text.count("<tr") > text.count("\n"):  # a page without lines
-            text = text.replace("<tr", "\n<tr")
-        text = _TAG.sub(" ", _CELL.sub(r"\1=", text))
+    if _MARKUP.search(text, 0, _LONGEST_PAGE):
+        for tag in ("<tr", "<br", "</p>", "</li>", "</div>"):
+            if text.count(tag) > text.count("\n"):  # a page without lines
+                text = text.replace(tag, f"\n{tag}")
+        text = unescape(_TAG.sub(" ", _CELL.sub(r"\1=", text)))
     for n, came in enumerate(re.split(r"\r\n|\r|\n", text.lstrip(MARK)), 1):
         whole = _ESCAPES.sub("", came[:_LONGEST]).replace("\u00a0", " ").strip()
         if n > _MOST_LINES:
@@ -299,10 +307,12 @@ def _settings(whole: str, line: str, anywhere: bool) -> Iterator[_Piece]:
 
 def _cell(cells: str, sign: str) -> str:
     """Return the first cell of a table that is a number, behind words that name the setting or at once;
-    empty where there is none.
+    empty where there is none; the number of an IP address too.
     """
     plain = (cell.strip("\"'`* \t") for cell in cells.split(sign)[:4])
-    return next((cell for cell in plain if re.fullmatch(_NUMBER, cell)), "")
+    return next(
+        (cell for cell in plain if re.fullmatch(rf"{_NUMBER}|(?:\d{{1,3}}\.){{3}}\d{{1,3}}", cell)), ""
+    )
 
 
 def _is_other(line: str) -> bool:

@@ -63,14 +63,17 @@ _TABLE_HEAD = "! Register table"
 _ROW = re.compile(r"(\s*R?)([0-9]{1,9})(\s*[,;=]\s*|\s+)([^\s!]+)", re.IGNORECASE)
 
 
+_DECIMAL = re.compile(r"[+-]?[0-9]+\.[0-9]+")
 _WORD = re.compile(r"[+-]?[0-9][0-9A-F]*H?", re.IGNORECASE)
 
 
 def _is_table(text: str) -> bool:
     """Return whether most lines are rows; a table with a line that is none gets a message about that line."""
     lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("!")]
-    rows = [line for line in lines if (row := _ROW.match(line)) and _WORD.fullmatch(row[4])]
-    return text.startswith(_TABLE_HEAD) or 2 * len(rows) > len(lines)
+    texts = [row[4] if (row := _ROW.match(line)) else "" for line in lines]
+    is_other = sum(bool(_DECIMAL.fullmatch(text)) for text in texts) > 2  # registers are whole numbers
+    is_table = not is_other and 2 * sum(bool(_WORD.fullmatch(text)) for text in texts) > len(lines)
+    return text.startswith(_TABLE_HEAD) or is_table
 
 
 def _write_table(file: ParameterFile) -> str:
