@@ -173,7 +173,7 @@ class Merge:
         group = self.a.schema.group_of.get(row.address[0]) if row.id.part == "value" else None
         if group is None:
             return ENTRIES
-        return f"{group.name}: {group.section}" if group.section else group.name
+        return group.whole_name
 
     # -- the result ------------------------------------------------------------
 

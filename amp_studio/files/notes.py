@@ -94,7 +94,7 @@ def all_notes(file: ParameterFile) -> Iterator[MachineNote]:
     for key in sorted(
         file.header.group_notes, key=lambda k: list(groups).index(k) if k in groups else len(groups)
     ):
-        name = groups[key].section or groups[key].name if key in groups else key
+        name = groups[key].own_name if key in groups else key
         yield MachineNote("group", key, name, file.header.group_notes[key])
     places = file.machine_schema.places
     addresses = {key: read_address(key) for key in file.header.value_notes}

@@ -74,7 +74,7 @@ def entries_of(schema: Schema, machine: str) -> Iterator[Entry]:
     for group in schema.groups:
         if any(here.instances(parameter) for parameter in group.parameters):
             groups.setdefault(group.name, []).append(group.key)
-            title = f"{group.name}: {group.section}" if group.section else group.name
+            title = group.whole_name
             yield Entry("group", title, group.key, (("name", title),), f"Chapter {group.chapter}")
 
 

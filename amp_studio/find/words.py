@@ -91,6 +91,8 @@ def distance(a: str, b: str, most: int) -> int:
     """Return the number of slips between two words, or ``most`` + 1 where there are more."""
     if abs(len(a) - len(b)) > most:
         return most + 1
+    # Row by row over the first word (optimal string alignment: a letter more, less, another, or two swapped).
+    # A swap reaches back two rows, so three are enough.
     before: list[int] = []
     row = list(range(len(b) + 1))
     for i, x in enumerate(a, 1):
@@ -100,6 +102,7 @@ def distance(a: str, b: str, most: int) -> int:
             if i > 1 and j > 1 and x == b[j - 2] and a[i - 2] == y:
                 cost = min(cost, before_that[j - 2] + 1)
             row.append(cost)
+        # No later row has less than the least of this one and the one before, from which a swap goes on.
         if min(row) > most and (not before or min(before) > most):
             return most + 1
     return min(row[-1], most + 1)

@@ -57,7 +57,7 @@ def _by_facts(schema: Schema, order: Commissioning) -> Iterator[_Part]:
 
 def _by_groups(groups: tuple[Group, ...]) -> Iterator[_Part]:
     for group in groups:
-        yield group.key, group.section or group.name, "", "", group.parameters, ()
+        yield group.key, group.own_name, "", "", group.parameters, ()
 
 
 @lru_cache(maxsize=64)

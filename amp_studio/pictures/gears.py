@@ -60,7 +60,7 @@ def _draw_gear(shapes: SceneShapes, gear: _Gear, *, is_first: bool) -> None:
     wrong = any(f is not None and f.wrong for f in gear.figures)
     sort: ShapeSort = "error" if wrong else "now" if is_first else "ink"
     low, high = (gear.low, gear.output_low), (gear.high, gear.output)
-    shapes.lines.append(Polyline(((0.0, gear.rest), low), "dim", dashed=True))
+    shapes.lines.append(Polyline(((0.0, gear.at_standstill), low), "dim", dashed=True))
     shapes.lines.append(Polyline((low, high), sort))
     about = gear.figures[1].address if gear.figures[1] else None
     shapes.texts.append(Text(high, gear.name, f"{gear.high:g}", "above", about))
@@ -94,11 +94,11 @@ class _Gear:
         output: float,
         output_low: float,
         figures: tuple[DrawnValue | None, ...],
-        rest: float = 0.0,
+        at_standstill: float = 0.0,
     ) -> None:
         self.name, self.low, self.high, self.output, self.output_low = name, low, high, output, output_low
-        self.figures, self.rest = figures, rest
-        """Low, high, output, output at low, limit; what is put out at rest."""
+        self.figures, self.at_standstill = figures, at_standstill
+        """Low, high, output, output at low, limit; what is put out at standstill."""
 
 
 def _gear(figures: ValueReader, roles: GearRoles, instance: str) -> _Gear | None:
@@ -123,8 +123,10 @@ def _gear(figures: ValueReader, roles: GearRoles, instance: str) -> _Gear | None
     share = lowest / high.number if high.number else 0.0
     bottom = output_low.number if output_low and output_low.number is not None else top * share
     name = f"gear {instance.partition('.')[2]}" if "." in instance else "spindle"
-    rest = bottom if roles.output_low else 0.0
-    return _Gear(name, lowest, high.number, top, bottom, (low, high, output, output_low, limit), rest)
+    at_standstill = bottom if roles.output_low else 0.0
+    return _Gear(
+        name, lowest, high.number, top, bottom, (low, high, output, output_low, limit), at_standstill
+    )
 
 
 def _beside(figures: ValueReader, roles: GearRoles, instance: str) -> str:

@@ -85,7 +85,7 @@ def _listings(file: ParameterFile, rows: Iterable[ReportRow], by_place: bool) ->
 
 def _group_title(file: ParameterFile, row: ReportRow) -> str:
     group = file.schema.group_of[row.id]
-    return f"{group.name}: {group.section}" if group.section else group.name
+    return group.whole_name
 
 
 # -- by step of commissioning --------------------------------------------------

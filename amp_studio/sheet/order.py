@@ -93,6 +93,8 @@ def _without_new(
     None where there is none or it takes more than half of the budget.
     """
     before = {step: NewValue(step.address, start.file.get(step.address)) for step in steps}
+    # Which steps are done is a bit pattern. What comes of them does not depend on their order: a pattern from
+    # which nothing went on is hopeless however it is reached, and is not tried again.
     everything = (1 << len(steps)) - 1
     done, path, nexts, hopeless = 0, list[int](), [0], set[int]()
     tries = most = budget.left // 2

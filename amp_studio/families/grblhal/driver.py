@@ -109,7 +109,7 @@ class GrblDriver(GrblContentKind, LineDriver):
             try:
                 with self._conversation() as line:
                     if stage == "verify":
-                        line.rest(SETTLE)
+                        line.wait(SETTLE)
                     return write_content(self._read(line, stage))
             except (ConnectionCutError, NoConnectionError):
                 # Before a download a broken line is reported; after one it is worth the patience to
@@ -205,7 +205,7 @@ class GrblDriver(GrblContentKind, LineDriver):
         has_begun = writing.sent.has_begun
         while has_begun and found is None and self._waiting.now() < end and not self._waiting.is_stopped:
             with contextlib.suppress(TransferError), self._conversation() as line:
-                line.rest(SETTLE)
+                line.wait(SETTLE)
                 found = self._read(line)
             if found is None:
                 self._waiting.sleep(PAUSE)

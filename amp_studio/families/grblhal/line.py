@@ -102,7 +102,7 @@ class GrblLine:
             self.close()
             raise
 
-    def rest(self, seconds: float) -> None:
+    def wait(self, seconds: float) -> None:
         """Wait; raises CancelledError."""
         self._begin(seconds + ANSWER, lingers=False)
         end = self._clock() + seconds

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from datetime import datetime
 
 from amp_studio.files import ParameterFile
 from amp_studio.report.axes import place_of, printed_axes, scope_of
 from amp_studio.report.language import Language, language_of
 from amp_studio.report.parameter.manual_page import range_text
-from amp_studio.schema import Bit, Parameter, unit_text
+from amp_studio.schema import Address, Bit, Parameter, unit_text
 
 from .paper import Paper, PaperTable
 
@@ -46,6 +46,23 @@ def form_paper(
     )
 
 
+def _is_there(file: ParameterFile, address: Address, axes: Collection[str]) -> bool:
+    """Return whether a value exists on this machine, and its axis is printed."""
+    is_of_axis = scope_of(file, address) == "axis"
+    if is_of_axis and address[1] not in axes:
+        return False
+    return file.evaluation.state(address).state != "hidden"
+
+
+def _row(file: ParameterFile, address: Address, language: Language) -> tuple[str, ...]:
+    """Return number, name, place, what is allowed, and a line to write on."""
+    parameter, here = file.schema.parameters[address[0]], file.machine_schema
+    number = "" if here.is_disputed(parameter.id) else here.number(address) or ""
+    blank = f"____________ {unit_text(file.evaluation.unit(address, file.header.units))}".rstrip()
+    place = language.text(place_of(file, address))
+    return number, parameter.name, place, _allowed(file, parameter, language), blank
+
+
 def _tables(file: ParameterFile, everything: bool, language: Language) -> Iterator[PaperTable]:
     axes = printed_axes(file)
     for group in file.schema.groups:
@@ -53,24 +70,10 @@ def _tables(file: ParameterFile, everything: bool, language: Language) -> Iterat
         for parameter in group.parameters:
             for instance in file.machine_schema.instances(parameter):
                 address = (parameter.id, instance)
-                is_axis = scope_of(file, address) == "axis"
-                is_there = not is_axis or instance in axes
-                if not everything and (not is_there or file.evaluation.state(address).state == "hidden"):
-                    continue
-                here = file.machine_schema
-                number = "" if here.is_disputed(parameter.id) else here.number(address) or ""
-                blank = f"____________ {unit_text(file.evaluation.unit(address, file.header.units))}".rstrip()
-                rows.append(
-                    (
-                        number,
-                        parameter.name,
-                        language.text(place_of(file, address)),
-                        _allowed(file, parameter, language),
-                        blank,
-                    )
-                )
+                if everything or _is_there(file, address, axes):
+                    rows.append(_row(file, address, language))
         if rows:
-            title = f"{group.name}: {group.section}" if group.section else group.name
+            title = group.whole_name
             yield PaperTable(title, _HEADS, tuple(rows), _SHARES, values_from=3)
 
 

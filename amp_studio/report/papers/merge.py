@@ -52,18 +52,22 @@ def _named(merge: Merge, row: Row) -> tuple[str, str, str]:
     return number, file.schema.parameters[address[0]].name, place_of(file, address)
 
 
+def _texts(merge: Merge, row: Row, sides: tuple[Side, ...], result: ParameterFile) -> list[str]:
+    """Return the values of the sides and of the result, in one unit."""
+    if row.id.part != "value":
+        values = [*map(row.of, sides), merge.result_of(row)]
+        return ["–" if value is None else visible(str(value.value)) for value in values]
+    values = [*map(row.of, sides), result.get(row.address)]
+    unit = next((value.unit for value in values if value is not None and value.unit), "")
+    parameter = merge.a.schema.parameters[row.address[0]]
+    return [show_value(parameter, value) for value in _in_unit(values, unit)]
+
+
 def _values(
     merge: Merge, row: Row, sides: tuple[Side, ...], choice: MergeChoice | None, result: ParameterFile
 ) -> tuple[str, ...]:
     """Return the values of a row in one unit, and that of the result in words."""
-    has = result.get(row.address) if row.id.part == "value" else merge.result_of(row)
-    values = [*(row.of(side) for side in sides), has]
-    if row.id.part != "value":
-        texts = ["–" if value is None else visible(str(value.value)) for value in values]
-    else:
-        unit = next((value.unit for value in values if value is not None and value.unit), "")
-        parameter = merge.a.schema.parameters[row.address[0]]
-        texts = [show_value(parameter, value) for value in _in_unit(values, unit)]
+    texts = _texts(merge, row, sides, result)
     if choice is None:
         texts[-1] = "not settled"
     elif isinstance(choice, Typed):

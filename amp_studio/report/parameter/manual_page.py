@@ -168,10 +168,7 @@ def facts(schema: Schema, parameter: Parameter, machine: str | None = None) -> l
     """Return the short facts of a parameter as (title, text), for one machine type or for all of them."""
     group = schema.group_of[parameter.id]
     found = [("Number", text) for text in number_lines(schema, parameter, machine)]
-    found += [
-        ("Id", parameter.id),
-        ("Group", f"{group.name}: {group.section}" if group.section else group.name),
-    ]
+    found += [("Id", parameter.id), ("Group", group.whole_name)]
     found += [("Instances", text) for text in instances_without_number(schema, parameter, machine)]
     found += [("Range", text) for text in _ranges(schema, parameter)]
     found += [("Unit", parameter.bare)] if parameter.bare else []

@@ -18,6 +18,7 @@ class Group(Model):
 
     key: Key
     name: str
+    """As the manual heads it; the parts of a long group, each in a file, have the same."""
     section: str = ""
     """The part of a long group that is in this file (``Position Loop Parameters``)."""
     chapter: str
@@ -27,6 +28,16 @@ class Group(Model):
     last_states: tuple[GroupState, ...] = ()
     """Each parameter gets them behind its own."""
     parameters: tuple[Parameter, ...]
+
+    @property
+    def whole_name(self) -> str:
+        """Name and part: ``Servo Parameters: Position Loop Parameters``."""
+        return f"{self.name}: {self.section}" if self.section else self.name
+
+    @property
+    def own_name(self) -> str:
+        """What distinguishes it: its part, or its name where it is one file."""
+        return self.section or self.name
 
     def __post_init__(self) -> None:
         """Give each parameter the states of the group."""

@@ -152,7 +152,7 @@ class MovingAxis:
         timing = self._vectors[TIMING]
         timing[kernel.COAST_TIME] = coast
         timing[kernel.REST_TIME] = timing[kernel.SETTLE_TIME] = math.inf
-        self._rest()
+        self._stand_still()
 
     # -- what it is doing ---------------------------------------------------------------
 
@@ -210,7 +210,7 @@ class MovingAxis:
         """Return all that it did so far, with a moment of rest; one that is over ends where it was."""
         if not self.is_over:
             self._end = self.time
-            self._rest()
+            self._stand_still()
             self.advance(REST + self.axis.servo_period)
         whole = np.concatenate(self._kept) if self._kept else self._rows[:0]
         names = [*kernel.COLUMNS, *(name for name, _ in self.axis.monitors)]
@@ -363,12 +363,12 @@ class MovingAxis:
         self._vectors[TIMING][kernel.EMERGENCY] = math.inf
         self.is_over, self.position = False, at
         self.drop()
-        self._rest()
+        self._stand_still()
 
     # -- small parts --------------------------------------------------------------------
 
-    def _rest(self) -> None:
-        """Have the command rest where it is."""
+    def _stand_still(self) -> None:
+        """Have the command stay where it is."""
         self.velocity = 0.0
         self._set_profile([0.0, math.inf, self.position - self._origin, 0.0, 0.0, 0.0, POLYNOMIAL, 0.0])
 

@@ -79,8 +79,8 @@ def leg(distance: float, feedrate: float, ramp: Ramp, entry: float = 0.0, leave:
                 break
             low, high = (middle, high) if taken(middle) <= distance else (low, middle)
         peak = low
-    rest = max(distance - taken(peak), 0.0)
-    even = [Piece(rest / peak, peak)] if rest > 0.0 and peak > 0.0 else []
+    left = max(distance - taken(peak), 0.0)
+    even = [Piece(left / peak, peak)] if left > 0.0 and peak > 0.0 else []
     return [*change(ramp, entry, peak), *even, *change(ramp, peak, leave)]
 
 
@@ -145,7 +145,7 @@ def overridden(
         part = _towards(ramp, velocity, wanted, until - now)
         stop = change(ramp, part[-1].end if part else wanted, 0.0)
         if each is None or gone + length(part) + length(stop) > size:
-            return profile_of([*pieces, *_rest(size - gone, velocity, wanted, ramp)], size, sign)
+            return profile_of([*pieces, *_remaining(size - gone, velocity, wanted, ramp)], size, sign)
         pieces += part
         gone, now = gone + length(part), now + math.fsum(piece.duration for piece in part)
         velocity, wanted = part[-1].end if part else velocity, each.share * feedrate
@@ -163,7 +163,7 @@ def _towards(ramp: Ramp, before: float, after: float, lasts: float) -> list[Piec
     return [*pieces, Piece(lasts, after)] if 0.0 < lasts < math.inf else pieces
 
 
-def _rest(distance: float, velocity: float, feedrate: float, ramp: Ramp) -> list[Piece]:
+def _remaining(distance: float, velocity: float, feedrate: float, ramp: Ramp) -> list[Piece]:
     """Return the pieces to the end of the move; it turns back to a lower velocity where the end is near."""
     if velocity > feedrate:
         down = change(ramp, velocity, feedrate)

@@ -48,13 +48,9 @@ def folder_content(folder: Path) -> FolderContent:
     exchanges = {each.file: each for each in _exchanges(folder)}
     backups = {p for p in names if p.name.lower().endswith(f"{ENDING}.bak")}
     found = tuple(_file(path, names, backups, exchanges.get(path.name)) for path in files)
-    own = {f.backup for f in found}
-    return FolderContent(
-        folder,
-        found,
-        tuple(sorted(b for b in backups if b not in own)),
-        next((p for p in names if p.name == RULES), None),
-    )
+    others = backups - {f.backup for f in found}
+    rules = folder / RULES
+    return FolderContent(folder, found, tuple(sorted(others)), rules if rules in names else None)
 
 
 def _exchanges(folder: Path) -> Iterable[RecordedExchange]:

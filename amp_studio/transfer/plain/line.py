@@ -133,8 +133,8 @@ class ByteLine:
         """Forget what has come; returns whether the other end gives up in it (two CAN)."""
         return bytes([CAN, CAN]) in self.waiting()
 
-    def rest(self) -> None:
-        """Forget what comes until the line is at rest, for some seconds at most."""
+    def wait_until_quiet(self) -> None:
+        """Forget what comes until the line is quiet, for some seconds at most."""
         end = self.now() + max(3.0, 10 * self.quiet)
         while self.now() < end and (self._rest or self.get(1, self.quiet)):
             self._rest.clear()

@@ -73,7 +73,7 @@ class BlockReceiver:
             # Asked for again only when the line is quiet: what is still on its way of a damaged block may
             # contain any byte, and one of them would be taken for the header of the next block.
             if came is Came.DAMAGED:
-                line.rest()
+                line.wait_until_quiet()
             if came is Came.NOTHING and is_first:
                 silences += 1
             else:
@@ -89,7 +89,7 @@ class BlockReceiver:
             for _ in range(LAST_ANSWERS):
                 if not self._line.get(1, self._line.patience.quiet):
                     return
-                self._line.rest()
+                self._line.wait_until_quiet()
                 self._line.put(bytes([ACK]))
 
     def _request(self, silences: int) -> bytes:
@@ -135,5 +135,5 @@ class BlockReceiver:
                 return False
             if not came:
                 break
-            line.rest()
+            line.wait_until_quiet()
         raise PlainFileError("the end of the file was announced once and not confirmed")

@@ -67,7 +67,8 @@ class BlockSender:
             answer = self._answer(line.put(data), line.patience.answer, (ACK, NAK, WANT_CRC))
             if answer == ACK:
                 if late:
-                    line.rest()  # the acknowledgement of an earlier sending is not that of the next block
+                    # The acknowledgement of an earlier sending is not that of the next block.
+                    line.wait_until_quiet()
                 return tries
             late |= answer is None
             if line.now() > end:

@@ -23,7 +23,7 @@ class ControlCondition:
 
     text: str
     met: bool | None
-    rest: str = ""
+    detail: str = ""
 
 
 def conditions_of(session: ControlSession | None, file: ParameterFile) -> list[ControlCondition]:
@@ -109,7 +109,7 @@ class ConditionLine(QWidget):
             self._made.append((mark, text))
         self._conditions = conditions
         self._write()
-        self.setAccessibleDescription(", ".join(f"{c.text} {c.rest}".strip() for c in conditions))
+        self.setAccessibleDescription(", ".join(f"{c.text} {c.detail}".strip() for c in conditions))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
@@ -118,7 +118,7 @@ class ConditionLine(QWidget):
     def _write(self) -> None:
         """Show each with its details, or without them where they do not all have the room."""
         conditions, metrics = self._conditions, QFontMetrics(font("text"))
-        words = " ".join(f"{c.text} {c.rest}" for c in conditions)
+        words = " ".join(f"{c.text} {c.detail}" for c in conditions)
         needed = (
             metrics.horizontalAdvance(words) + len(conditions) * (SMALL_ICON + 2 * GAP2 + GAP4) + 2 * GAP3
         )
@@ -129,10 +129,10 @@ class ConditionLine(QWidget):
             mark.setVisible(is_there)
             text.setVisible(is_there)
             if is_there:
-                _show(mark, text, conditions[n], has_rest=has_room)
+                _show(mark, text, conditions[n], has_detail=has_room)
 
 
-def _show(mark: QLabel, text: QLabel, condition: ControlCondition, *, has_rest: bool) -> None:
+def _show(mark: QLabel, text: QLabel, condition: ControlCondition, *, has_detail: bool) -> None:
     looks: dict[bool | None, tuple[str, Token]] = {
         True: ("check", "text"),
         None: ("circle", "dim"),
@@ -143,6 +143,6 @@ def _show(mark: QLabel, text: QLabel, condition: ControlCondition, *, has_rest: 
     dim = colour("dim").name()
     text.setText(
         f'<span style="color:{colour(colour_name).name()}">{condition.text}</span>'
-        + (f' <span style="color:{dim}">{condition.rest}</span>' if has_rest else "")
+        + (f' <span style="color:{dim}">{condition.detail}</span>' if has_detail else "")
     )
-    text.setToolTip(f"{condition.text} {condition.rest}".strip())
+    text.setToolTip(f"{condition.text} {condition.detail}".strip())

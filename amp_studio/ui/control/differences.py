@@ -138,7 +138,7 @@ class DifferenceTable(QTreeWidget):
         ):
             return "\0" + self.tr("Axes that are not fitted")
         group = self._file.schema.group_of[address[0]]
-        return group.section or group.name
+        return group.own_name
 
     def _add_block(self, title: str, addresses: list[Address]) -> None:
         assert self._file is not None

@@ -21,7 +21,6 @@ from PySide6.QtWidgets import (
     QLineEdit,
     QPushButton,
     QTableWidget,
-    QTableWidgetItem,
     QVBoxLayout,
     QWidget,
 )
@@ -30,6 +29,7 @@ from amp_studio.ui.base.emulated_control import EmulatedControl
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.theme import GAP2, GAP3, font
+from amp_studio.ui.forms.table_items import item_at
 
 from .readings import AxisReadings, Happened, StatusReadings, titled, without_error
 
@@ -243,10 +243,7 @@ class LivePage(QDialog):
                 for value in (axis.following_error, axis.position)
             )
             for column, text in enumerate((axis.axis, place, error, velocity, ", ".join(axis.states))):
-                item = self.axes.item(row, column)
-                if item is None:
-                    item = QTableWidgetItem()
-                    self.axes.setItem(row, column, item)
+                item = item_at(self.axes, row, column)
                 if item.text() != text:
                     item.setText(text)
             self._axes.setdefault(axis.axis, AxisReadings()).add(now, axis)

@@ -83,14 +83,16 @@ class CalculatorDialog(QDialog):
             return
         self.form.set_answer("outcome", shown_result(result))
         if self._address and isinstance(result, (int, float)) and not isinstance(result, bool):
-            label = self._workspace.file.machine_schema.label(self._address)
-            unit = unit_text(self._workspace.typed_unit(self._address))
-            self.use.setText(
-                self.tr("Use the result as the value of {label}{what}").format(
-                    label=label, what=f", in {unit}" if unit else ""
-                )
-            )
-            self.use.setEnabled(self._workspace.may_edit)
+            self._offer_as_value(self._address)
+
+    def _offer_as_value(self, address: Address) -> None:
+        """Offer the result as the value of a parameter, in the unit in which it would be typed."""
+        unit = unit_text(self._workspace.typed_unit(address))
+        text = self.tr("Use the result as the value of {label}{what}").format(
+            label=self._workspace.file.machine_schema.label(address), what=f", in {unit}" if unit else ""
+        )
+        self.use.setText(text)
+        self.use.setEnabled(self._workspace.may_edit)
 
     def _titled(self, text: str) -> str:
         """Return a message with the titles of the formula and of its arguments for their names."""

@@ -32,7 +32,7 @@ class NoteDialog(FormDialog):
             group = file.schema.group_of[address[0]]
             self._group = group.key
             self._texts = {"value": value_note(file, address), "group": group_note(file, group.key)}
-            self._names = {"value": workspace.name_of(address), "group": group.section or group.name}
+            self._names = {"value": workspace.name_of(address), "group": group.own_name}
         self._texts["machine"], self._names["machine"] = machine_note(file), tr("The whole machine")
         self._old, self._about = dict(self._texts), next(iter(self._texts))
         fields = (

@@ -28,6 +28,7 @@ from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.places import place_in_words
 from amp_studio.ui.base.theme import GAP2, ROW, colour
 from amp_studio.ui.base.translated import worded
+from amp_studio.ui.forms.table_items import item_at
 
 from .tuning_target import TuningTarget, effect_words
 
@@ -191,10 +192,7 @@ class ValuesPage(QWidget):
         )
         may = self.target.may_edit and state.is_active
         for column, text in enumerate(texts):
-            item = self.table.item(row, column)
-            if item is None:
-                item = QTableWidgetItem()
-                self.table.setItem(row, column, item)
+            item = item_at(self.table, row, column)
             flags = Qt.ItemFlag.ItemIsSelectable | Qt.ItemFlag.ItemIsEnabled
             item.setFlags(flags | Qt.ItemFlag.ItemIsEditable if column == _VALUE and may else flags)
             item.setText(text)

@@ -146,7 +146,7 @@ class DetailPage(Translated):
         """Return what people noted about a value and about its group."""
         file = self._workspace.file
         group = file.schema.group_of[address[0]]
-        found = (("", value_note(file, address)), (group.section or group.name, group_note(file, group.key)))
+        found = (("", value_note(file, address)), (group.own_name, group_note(file, group.key)))
         return "".join(
             f"<p>{html.escape(text).replace(chr(10), '<br>')}"
             f"{f' <small>{html.escape(about)}</small>' if about else ''}</p>"

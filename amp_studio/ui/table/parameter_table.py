@@ -201,7 +201,7 @@ class ParameterTable(QAbstractTableModel):
             found: list[TableRow] = []
             for block in blocks:
                 group = groups[block[0].parameter.id]
-                found.append(TableRow(block[0].parameter, {}, "", group.section or group.name))
+                found.append(TableRow(block[0].parameter, {}, "", group.own_name))
                 found += sorted(block, key=_is_of_axes)
             return found
         if not 0 < len(of_control) < len(rows):

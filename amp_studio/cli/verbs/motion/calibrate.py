@@ -176,7 +176,7 @@ def _wanted(options: Options, file: ParameterFile, offered: Compensation, axis: 
     if not options.measured:
         return _Found({})
     answers = MeasurementAnswers(
-        options.unit or "", options.error_unit or "", options.sign or "", options.decimal or ""
+        *(getattr(options, name) or "" for name in ("unit", "error_unit", "sign", "decimal"))
     )
     measurement = read_measured_file(options.measured, answers, base_unit(file, offered, axis))
     was_on = None if options.compensation is None else options.compensation == "on"

@@ -324,6 +324,18 @@ def _axis(options: Options, machine: MachineParameters) -> str | None:
     return ",".join(machine.axis(each.strip()) for each in options.axis.split(","))
 
 
+def _check_identify(options: Options) -> None:
+    """Raise UsageError for options that do not fit together."""
+    if options.record is None and options.response is None:
+        raise UsageError(
+            f"Name the record: amp-studio simulate {options.path} {IDENTIFY} RECORD.csv --axis X"
+        )
+    if options.assignments or options.machine_file:
+        raise UsageError(f"{IDENTIFY} takes neither --set nor --machine: it finds the machine")
+    if options.response and options.record:
+        raise UsageError(f"{IDENTIFY} takes a record or --frf, not both")
+
+
 def _identify(options: Options, of: MachineParameters) -> int:
     """Find the machine of an axis in a record of its drive."""
     from amp_studio.sim import (
@@ -337,16 +349,9 @@ def _identify(options: Options, of: MachineParameters) -> int:
         write_machine,
     )
 
-    if options.record is None and options.response is None:
-        raise UsageError(
-            f"Name the record: amp-studio simulate {options.path} {IDENTIFY} RECORD.csv --axis X"
-        )
-    if options.assignments or options.machine_file:
-        raise UsageError(f"{IDENTIFY} takes neither --set nor --machine: it finds the machine")
+    _check_identify(options)
     file, axis = of.file, _axis(options, of)
     if options.response:
-        if options.record:
-            raise UsageError(f"{IDENTIFY} takes a record or --frf, not both")
         trace = identify_response(
             file, options.response, axis, options.scale, options.units, options.quantity, options.turn
         )
