@@ -124,6 +124,7 @@ def _motion(trace: Trace, before: Trace | None) -> Picture:
     panels = [
         _panel(trace, before, alarms, "position", ("recorded_position", "command_position", "position"), 0.9),
         _error(trace, before, alarms),
+        _difference(trace, alarms),
         _panel(trace, before, alarms, "axis less spindle", ("tapping_error",), 1.0),
         _panel(
             trace,
@@ -137,6 +138,12 @@ def _motion(trace: Trace, before: Trace | None) -> Picture:
         _panel(trace, before, alarms, "output", ("output",), 0.8) if _has_own_output(trace) else None,
     ]
     return Picture("", (), linked([p for p in panels if p is not None]), close=_settling(trace, before))
+
+
+def _difference(trace: Trace, alarms: Sequence[NamedPlace]) -> Scene | None:
+    """Return what a record of the machine has more than the simulation, of the first signal that it has."""
+    name = next((each for each in trace.columns if each.startswith("difference_")), "")
+    return _panel(trace, None, alarms, "machine less simulation", (name,), 0.8) if name else None
 
 
 def _has_own_output(trace: Trace) -> bool:
@@ -178,10 +185,11 @@ def _panel(
 
 def _curve(trace: Trace, name: str) -> Curve:
     words, sort = _WORDS.get(name, (name.replace("_", " "), "outside"))
+    known = np.isfinite(trace.columns[name])  # a record does not cover all of the move
     return Curve(
         words,
-        trace.columns["time_s"],
-        trace.columns[name],
+        trace.columns["time_s"][known],
+        trace.columns[name][known],
         sort,
         dashed=sort == "dim",
         is_stepped=name == "command_velocity",

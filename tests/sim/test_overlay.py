@@ -32,9 +32,21 @@ def test_a_record_is_laid_over_by_its_best_lag(tmp_path: Path) -> None:
     assert found.result["record_lag"][0] == pytest.approx(0.4321, abs=5e-4)
     assert found.result["difference_rms_position"][0] == pytest.approx(5.0, abs=0.02)
     assert found.result["difference_rms_following_error"][0] == pytest.approx(0.02, abs=5e-3)
-    assert any(
-        "recorded position" in curve.name for panel in picture_of(found).panels for curve in panel.curves
-    )
+    panels = {panel.title: panel for panel in picture_of(found).panels}
+    assert "recorded position" in {curve.name for curve in panels["position"].curves}
+    (difference,) = panels["machine less simulation"].curves
+    assert np.median(difference.y) == pytest.approx(5.0, abs=0.02)
+
+
+def test_what_a_record_does_not_cover_is_not_drawn(tmp_path: Path) -> None:
+    trace = simulate(open_file(MILL).file, "step", "1", MOVE, advise=False)
+    half = len(trace.columns["time_s"]) // 2
+    columns = (trace.columns["time_s"][:half:4], trace.columns["position"][:half:4])
+    found = laid_over(trace, written(tmp_path / "record.csv", "time (s),position (mm)", *columns))
+    assert np.isnan(found.columns["recorded_position"]).any()
+    for panel in picture_of(found).panels:
+        for curve in panel.curves:
+            assert np.isfinite(curve.y).all(), curve.name
 
 
 def test_a_record_in_another_unit_is_converted_and_one_that_does_not_fit_is_one_sentence(
