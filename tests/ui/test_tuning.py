@@ -15,6 +15,7 @@ from pytestqt.qtbot import QtBot
 from amp_studio.calibration import Compensation, compensation_of
 from amp_studio.files import Document, new_file
 from amp_studio.schema import Value, load_schema, registered_families
+from amp_studio.ui.base.theme import colour, scheme
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.motion.calibration_page import CalibrationPage
@@ -70,6 +71,17 @@ def test_the_command_opens_the_pages_of_the_manual(window: MainWindow, qtbot: Qt
     pages = [tuning.pages.item(n).text() for n in range(tuning.pages.count())]
     assert pages == ["Reversal Error", "Home Calibration", "Axis Calibration", "Servo", "Spindle"]
     tuning.close()
+
+
+def test_every_value_is_painted_in_the_colours_of_a_theme_that_is_chosen_later(tuning: TuningWindow) -> None:
+    try:
+        scheme().choose("dark")
+        for table in (*(page.table for page in tuning.values), calibration(tuning).table):
+            items = (table.item(n, k) for n in range(table.rowCount()) for k in range(table.columnCount()))
+            colours = {item.foreground().color().name() for item in items if item is not None}
+            assert colours <= {colour("text").name(), colour("dim").name()}
+    finally:
+        scheme().choose("light")
 
 
 def test_plus_and_minus_change_the_value_by_a_step_and_each_is_undone(

@@ -48,7 +48,7 @@ class ViewBar(QFrame):
         self.swap.setToolTip(self.tr("Swap A and B (Alt+W)"))
         self.swap.setShortcut("Alt+W")
         row.addWidget(self.swap)
-        names = {"metric": "mm", "inch": "inch"}
+        names = {"metric": "mm", "inch": self.tr("inch")}
         several = systems if len(systems) > 1 else ()
         buttons = self._segment([names.get(system, system) for system in several])
         self.units = dict(zip(several, buttons, strict=True))

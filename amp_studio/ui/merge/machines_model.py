@@ -8,6 +8,7 @@ from pathlib import Path
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QSortFilterProxyModel, Qt
 
 from amp_studio.report import MachineLine
+from amp_studio.ui.base.figures import with_figures
 from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.base.theme import colour, font
 
@@ -55,7 +56,8 @@ class MachinesModel(QAbstractTableModel):
         """Return a value; what most machines have is dim, what departs from it is loud."""
         line, column = self.lines[index.row()], index.column()
         if role in (_Role.DisplayRole, _Role.ToolTipRole):
-            return line.texts[column]
+            text = line.texts[column]
+            return self.tr("not set") if text == "not set" else with_figures(text)
         if role == _Role.AccessibleTextRole:
             departs = self.tr(", unlike most") if column in line.departing else ""
             return f"{self._names[column]}: {line.texts[column]}{departs}"

@@ -41,8 +41,8 @@ from amp_studio.calibration import (
     shown_unit,
 )
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, Value, read_exact, unit_text
-from amp_studio.ui.base.theme import GAP2, ROW, colour, font
+from amp_studio.schema import Value, read_exact, unit_text
+from amp_studio.ui.base.theme import GAP2, ROW, colour, font, scheme
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.forms.form import Field, FieldForm
 
@@ -160,6 +160,7 @@ class CalibrationPage(QWidget):
         splitter.addWidget(right)
         splitter.setChildrenCollapsible(False)
         QVBoxLayout(self).addWidget(splitter)
+        scheme().changed.connect(self._refresh)
 
     # -- what is shown -----------------------------------------------------------
 
@@ -169,10 +170,11 @@ class CalibrationPage(QWidget):
             self.target.changed.disconnect(self._refresh)
         self.target = target
         target.changed.connect(self._refresh)
-        self._refresh([])
+        self._refresh()
 
-    def _refresh(self, _: list[Address]) -> None:
-        assert self.target is not None
+    def _refresh(self, *_: object) -> None:
+        if self.target is None:
+            return
         file, self._filling = self.target.file, True
         axes = axes_of(file)
         if [self.axis.itemData(n) for n in range(self.axis.count())] != list(axes):
@@ -299,7 +301,7 @@ class CalibrationPage(QWidget):
     def _rechoose(self) -> None:
         table = rechosen(self.present(), self.input.currentData(), self.start.currentData())
         self._chosen = (table.input, table.start)
-        self._refresh([])
+        self._refresh()
 
     def _selected(self) -> Fraction | None:
         row, points = self.table.currentRow(), self.present().points
@@ -358,7 +360,7 @@ class CalibrationPage(QWidget):
                 error = self._error(table, at, _number(text) * size)
                 self._set(replaced(table, at, error), self.tr("Replace point of"))
             finally:
-                self._refresh([])
+                self._refresh()
 
         self._guarded(act)
 

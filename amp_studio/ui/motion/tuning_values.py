@@ -24,9 +24,9 @@ from PySide6.QtWidgets import (
 from amp_studio.calibration import CalibrationError, TuningPage, stepped, steps_of
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value, limits, read_exact, unit_text, write_number
-from amp_studio.ui.base.figures import show_value
+from amp_studio.ui.base.figures import sentence, show_value, written
 from amp_studio.ui.base.places import place_in_words
-from amp_studio.ui.base.theme import GAP2, ROW, colour
+from amp_studio.ui.base.theme import GAP2, ROW, colour, scheme
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.forms.table_items import item_at
 
@@ -116,6 +116,7 @@ class ValuesPage(QWidget):
         layout.addWidget(self.note)
         layout.addWidget(self.table, 1)
         layout.addLayout(row)
+        scheme().changed.connect(self._refresh)
 
     def _button(self, text: str, act: Callable[[], object]) -> QPushButton:
         button = QPushButton(text)
@@ -131,7 +132,7 @@ class ValuesPage(QWidget):
             self.target.changed.disconnect(self._refresh)
         self.target = target
         target.changed.connect(self._refresh)
-        self._refresh([])
+        self._refresh()
 
     def addresses(self) -> list[Address]:
         """Return what can be tuned here, one axis after the other."""
@@ -158,8 +159,9 @@ class ValuesPage(QWidget):
         item = self.table.item(self.table.currentRow(), _NAME)
         return item.data(_ADDRESS) if item is not None else None
 
-    def _refresh(self, _: list[Address]) -> None:
-        assert self.target is not None
+    def _refresh(self, *_: object) -> None:
+        if self.target is None:
+            return
         self._filling = True
         row, addresses = self.table.currentRow(), self.addresses()
         self.table.setRowCount(len(addresses))
@@ -187,7 +189,7 @@ class ValuesPage(QWidget):
             self._instance(address),
             file.machine_schema.label(address),
             show_value(parameter, file.get(address)),
-            worded(allowed.text()) if allowed else "",
+            sentence(allowed.text()) if allowed else "",
             effect_words(file.schema, address),
         )
         may = self.target.may_edit and state.is_active
@@ -219,7 +221,7 @@ class ValuesPage(QWidget):
             return
         file = self.target.file
         steps, unit = steps_of(file, address), file.evaluation.unit(address, file.header.units)
-        texts = [f"{write_number(float(step))} {unit_text(unit)}".strip() for step in steps]
+        texts = [f"{written(write_number(float(step)))} {unit_text(unit)}".strip() for step in steps]
         if texts != [self.step.itemText(n) for n in range(self.step.count())]:
             self.step.clear()
             for text, step in zip(texts, steps, strict=True):
@@ -285,7 +287,7 @@ class ValuesPage(QWidget):
             try:
                 self._set(address, target.file.read(address, text), self.tr("Tune"))
             finally:
-                self._refresh([])
+                self._refresh()
 
         self._guarded(act)
 
