@@ -14,7 +14,20 @@ if TYPE_CHECKING:
     from .formats import digits_of, number_of
     from .interpreter import path_letters, tool_path
     from .source import read_program
-    from .toolpath import ARC, DWELL, EXACT, KEPT, LINE, PLANES, RAPID, ROUNDED, SLOW, RowsWriter, ToolPath
+    from .toolpath import (
+        ARC,
+        DWELL,
+        EXACT,
+        KEPT,
+        LINE,
+        MOST_ROWS,
+        PLANES,
+        RAPID,
+        ROUNDED,
+        SLOW,
+        RowsWriter,
+        ToolPath,
+    )
     from .words import ProgramBlockError
 else:
     __getattr__ = front_page(__name__)

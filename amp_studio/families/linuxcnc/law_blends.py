@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from amp_studio.programs import ARC, EXACT, KEPT, LINE, PLANES, RAPID, RowsWriter, ToolPath
+from amp_studio.programs import ARC, EXACT, KEPT, LINE, MOST_ROWS, PLANES, RAPID, RowsWriter, ToolPath
 from amp_studio.sim import Geometry, PathLimit, RowBounds, ShapedPath, SimulationError
 
 from .law_segments import NORMAL, AxisLimits, Point, Segment, segments
@@ -289,7 +289,7 @@ class _Shaping:
         by_tolerance = math.cos(theta) * tolerance / (1.0 - math.sin(theta))
         room = min(one.length, one.nominal * OF_MOVE, two.length * OF_MOVE, by_tolerance)
         largest = math.tan(theta) * room
-        goal = min(max(self._most(one), self._most(two)), self._goal(one, two, phi))
+        goal = self._goal(one, two, phi, max(self._most(one), self._most(two)))
         speed = math.sqrt(NORMAL * acceleration * largest)
         by = ramp_by + self._count
         if speed > goal:
@@ -307,16 +307,23 @@ class _Shaping:
             radius, radius / math.tan(theta), phi, speed, by, acceleration * TANGENTIAL, ramp_by, wanted
         )
 
-    def _goal(self, one: Segment, two: Segment, phi: float) -> float:
-        """Return the speed that the axes have in every direction of a corner (blendParamKinematics)."""
-        planar, _ = self._inscribed(one, two, self._limits.speeds)
+    def _goal(self, one: Segment, two: Segment, phi: float, wanted: float) -> float:
+        """Return the wanted speed, or what the axes have in every direction of a corner if that is less
+        (blendParamKinematics).
+        """
         flat = math.cos(min(phi, math.pi * 0.49))
         a, b = min(one.top, two.top / flat), min(two.top, one.top / flat)
         base = math.dist([a * each for each in one.last], [b * each for each in two.first])
-        return max(a * b * math.sin(phi) / base, planar)
+        between = a * b * math.sin(phi) / base
+        if between >= wanted:
+            return wanted
+        return min(wanted, max(between, self._inscribed(one, two, self._limits.speeds)[0]))
 
     def _inscribed(self, one: Segment, two: Segment, bounds: tuple[float, ...]) -> tuple[float, int]:
         """Return what all directions in the plane of two moves can have, and the axis that bounds it."""
+        moving = [n for n in self._straight if one.last[n] or two.first[n]]
+        if len(moving) == 2:
+            return min((bounds[n], n) for n in moving)
         u = [one.last[n] for n in self._straight]
         v = [two.first[n] for n in self._straight]
         inside = sum(a * b for a, b in zip(u, v, strict=True))
@@ -343,6 +350,8 @@ class _Shaping:
             self._write(one, start, begun)
         parts = max(2, math.ceil(corner.angle / (2.0 * math.sqrt(2.0 * WITHIN / max(corner.radius, WITHIN)))))
         row, path = one.row, self._path
+        if len(self._out.rows.kind) + parts > MOST_ROWS:
+            raise SimulationError(f"The rounded corners of the program become more than {MOST_ROWS} moves")
         middle_to_start = [
             (u * math.cos(corner.angle) - v) / math.sin(corner.angle)
             for u, v in zip(one.last, two.first, strict=True)

@@ -5,6 +5,7 @@ flat arcs become two straight moves, and each move gets its own greatest speed a
 from __future__ import annotations
 
 import math
+from array import array
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
@@ -86,10 +87,28 @@ class AxisLimits:
         return speed, by_speed, ramp, by_ramp
 
 
+class _Chain:
+    """Points that one straight move may replace."""
+
+    def __init__(self) -> None:
+        self.flat = array("d")
+        self.end: Point = ()
+        self.row = 0
+        """Of the last one."""
+
+    def __len__(self) -> int:
+        return len(self.flat) // len(self.end) if self.end else 0
+
+    def add(self, point: Point, row: int) -> None:
+        """Add a point."""
+        self.flat.extend(point)
+        self.end, self.row = point, row
+
+
 def segments(path: ToolPath, geometry: Geometry, limits: AxisLimits) -> Iterator[Segment | int]:
     """Yield the moves of a path in their order, and for each dwell its row. Raises SimulationError."""
     rotary = [n for n, letter in enumerate(path.axes) if letter in "ABC"]
-    chain: list[tuple[Point, int]] = []
+    chain = _Chain()
     begin: Point = tuple(path.start.tolist())
     state: tuple[float, int] | None = None
     ends, kinds = path.ends.tolist(), path.kind.tolist()
@@ -104,17 +123,17 @@ def segments(path: ToolPath, geometry: Geometry, limits: AxisLimits) -> Iterator
         points = _points(path, geometry, row, joins) if kinds[row] in (LINE, ARC) else ()
         now = (feeds[row], rounding[row])
         if chain and (not points or now != state or corners[row] != ROUNDED):
-            yield _straight(path, begin, *chain[-1], limits)
-            begin, chain = chain[-1][0], []
+            yield _straight(path, begin, chain.end, chain.row, limits)
+            begin, chain = chain.end, _Chain()
         state = now
         for point in points:
             if chain and not _on_one_line(begin, point, chain, joins, rotary):
-                yield _straight(path, begin, *chain[-1], limits)
-                begin, chain = chain[-1][0], []
-            chain.append((point, row))
+                yield _straight(path, begin, chain.end, chain.row, limits)
+                begin, chain = chain.end, _Chain()
+            chain.add(point, row)
             if corners[row] != ROUNDED:
-                yield _straight(path, begin, *chain[-1], limits)
-                begin, chain = chain[-1][0], []
+                yield _straight(path, begin, chain.end, chain.row, limits)
+                begin, chain = chain.end, _Chain()
         if points:
             continue
         if kinds[row] == DWELL:
@@ -125,7 +144,7 @@ def segments(path: ToolPath, geometry: Geometry, limits: AxisLimits) -> Iterator
             yield _round(path, geometry, row, begin, limits)
         begin = end
     if chain:
-        yield _straight(path, begin, *chain[-1], limits)
+        yield _straight(path, begin, chain.end, chain.row, limits)
 
 
 def _is_mixed(way: np.ndarray, rotary: list[int]) -> bool:
@@ -150,21 +169,16 @@ def _points(path: ToolPath, geometry: Geometry, row: int, joins: float) -> tuple
     return (tuple(middle.tolist()), end)
 
 
-def _on_one_line(
-    begin: Point, end: Point, chain: list[tuple[Point, int]], joins: float, rotary: list[int]
-) -> bool:
+def _on_one_line(begin: Point, end: Point, chain: _Chain, joins: float, rotary: list[int]) -> bool:
     """Return whether one straight move may replace all points of a chain and go on to another (CN970)."""
-    last = chain[-1][0]
+    last = chain.end
     if joins == 0.0 or len(chain) > MOST_JOINED or any(end[n] != last[n] for n in rotary) or end == begin:
         return False
-    way = [e - b for e, b in zip(end, begin, strict=True)]
-    size = sum(each * each for each in way)
-    for point, _ in chain:
-        off = [p - b for p, b in zip(point, begin, strict=True)]
-        share = min(max(sum(a * b for a, b in zip(way, off, strict=True)) / size, 0.0), 1.0)
-        if math.dist(off, [share * each for each in way]) > joins:
-            return False
-    return True
+    off = np.array(chain.flat).reshape(len(chain), len(begin)) - np.array(begin)
+    way = np.array(end) - np.array(begin)
+    share = np.clip(off @ way / (way @ way), 0.0, 1.0)
+    apart = off - share[:, None] * way
+    return not bool(((apart * apart).sum(axis=1) > joins * joins).any())
 
 
 def _straight(path: ToolPath, begin: Point, end: Point, row: int, limits: AxisLimits) -> Segment:

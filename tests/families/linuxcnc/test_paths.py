@@ -92,6 +92,15 @@ def test_what_is_not_simulated_ends_the_path_with_its_name(
     assert words in message
 
 
+def test_corners_of_a_hostile_program_are_bounded(
+    mill: ParameterFile, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("amp_studio.families.linuxcnc.law_blends.MOST_ROWS", 100)
+    job = ProgramJob(["G64 P9999 F900", *("X-100", "Y-100", "X0", "Y0") * 9], [0.0] * 3, with_contour=False)
+    with pytest.raises(SimulationError, match="more than 100 moves"):
+        job.run(mill)
+
+
 def test_the_block_run_at_the_start_is_read_first() -> None:
     inch = example("linuxcnc-mill", **{"rs274ngc.startup_code": "G20 G61 F10"})
     found = tool_path(inch, ["G1 X-1"])
