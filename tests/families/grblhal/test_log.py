@@ -199,6 +199,9 @@ def test_no_break_spaces_of_a_web_page_are_spaces(tmp_path: Path, encoding: str)
 def test_the_first_setting_behind_the_tags_of_a_page_is_read() -> None:
     page = "<html><body><pre>" + "<br>\n".join(LINES) + "</pre></body></html>"
     assert read_log(page).listings[0].settings == SETTINGS
+    for form in ("$ {n} = {v}", "${n}: {v}", "{n}={v}"):
+        lines = [form.format(n=n, v=text) for n, text in {**SETTINGS, 302: "192.168.5.1"}.items()]
+        assert read_log("\n".join(lines)).listings[0].settings == {**SETTINGS, 302: "192.168.5.1"}, form
     rows = [f"| ${n} | {text} | words |" for n, text in {**SETTINGS, 302: "192.168.5.1"}.items()]
     table = "\n".join(["| Setting | Value |", "|---|---|", *rows])
     assert read_log(table).listings[0].settings == {**SETTINGS, 302: "192.168.5.1"}

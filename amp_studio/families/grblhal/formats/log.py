@@ -29,10 +29,12 @@ MARK = "\ufeff"
 _ESCAPES = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|[\x00-\x08\x0b-\x1f\x7f\u200b-\u200f]")
 _NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*|,[0-9]+)?|[.,][0-9]+)"
 _THOUSANDS = re.compile(r"[+-]?[0-9]{1,3}(?:,[0-9]{3})+\.[0-9]+")
-_FIGURE = re.compile(rf"{_NUMBER}|(?:[0-9]{{1,3}}\.){{3}}[0-9]{{1,3}}")
+_IP = r"(?:[0-9]{1,3}\.){3}[0-9]{1,3}"
+_FIGURE = re.compile(rf"{_NUMBER}|{_IP}")
 _UNIT = r"(?:[uµm]?s(?:ec)?|mm(?:/\S+)?|steps?/\S+|rpm|hz)(?:\s.*)?"
 _SETTING = re.compile(r"\$(0|[1-9][0-9]{0,4})([\"'`*]{0,4})[ \t]*(:?=|[:|,;\t])[ \t]*")
-_BARE = re.compile(rf"(?:grbl_)?(0|[1-9][0-9]{{0,2}})[ \t]*=[ \t]*({_NUMBER})[ \t]*(?:[(;].*)?")
+_BARE = re.compile(rf"(?:grbl_)?(0|[1-9][0-9]{{0,2}})[ \t]*=[ \t]*({_NUMBER}|{_IP})[ \t]*(?:[(;].*)?")
+_SPLIT = re.compile(r"^\$[ ](?=[0-9]{1,5}[ ]*=)")
 _COLUMNS = re.compile(rf"\$(0|[1-9][0-9]{{0,4}})[ ]+({_NUMBER})(?:[ ]{{2,}}(.*)|[ ]?([(;#].*))?")
 _CELLS = "|;\t,"
 """Signs between the cells of a table."""
@@ -266,6 +268,7 @@ def _settings(whole: str, line: str, anywhere: bool) -> Iterator[_Piece]:
         if line == whole:
             yield int(found[1]), found[2], "", "", True
         return
+    line = _SPLIT.sub("$", line)
     if found := _COLUMNS.fullmatch(line):
         yield int(found[1]), found[2], (found[3] or found[4] or "").strip("(;) "), "", False
         return
@@ -289,7 +292,11 @@ def _settings(whole: str, line: str, anywhere: bool) -> Iterator[_Piece]:
         if is_quoted or following:
             value = re.split(r"[\"'`*]|[,;|}\]]\s*$", value, maxsplit=1)[0]
         value = value.strip().strip("\"'`* " if ahead[2] else "\"'` ")
-        if ahead[3] not in ("=", ":=") and not is_quoted and not re.match(rf"{_NUMBER}(?![\w.:])", value):
+        if (
+            ahead[3] not in ("=", ":=")
+            and not is_quoted
+            and not re.match(rf"(?:{_IP}|{_NUMBER})(?![\w.:])", value)
+        ):
             return
         is_plain = (
             ahead[3] == "="
