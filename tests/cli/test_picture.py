@@ -29,6 +29,7 @@ def test_the_pictures_of_a_file_are_listed_with_their_parts(amp, machine: Path) 
         "jog",
         "increments",
         "error",
+        "loop",
         "calibration",
     ]
 
