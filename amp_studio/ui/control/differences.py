@@ -146,8 +146,6 @@ class DifferenceTable(QTreeWidget):
         head.setFont(0, font("text", own=True))
         head.setSizeHint(0, QSize(0, ROW))
         head.setFlags(Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable)
-        self.addTopLevelItem(head)
-        head.setFirstColumnSpanned(True)
         machine = self._file.machine_schema
         for address in addresses:
             row = self.rows[address]
@@ -166,6 +164,9 @@ class DifferenceTable(QTreeWidget):
             head.addChild(item)
             self._items[address] = item
             self._show_side(address)
+        # With all its rows: in the tree each of their texts, icons and fonts would be a change to be shown.
+        self.addTopLevelItem(head)
+        head.setFirstColumnSpanned(True)
         head.setExpanded(not title.startswith("\0"))
 
     def text_of(self, address: Address, value: object) -> str:
