@@ -278,6 +278,19 @@ def test_the_fill_handle_is_dragged(window: MainWindow, file: ParameterFile) -> 
 # -- default and not set -------------------------------------------------------------
 
 
+def test_a_changed_value_names_the_saved_one_under_the_pointer_and_goes_back_to_it(
+    window: MainWindow,
+) -> None:
+    excess = ("servo.excess_error", "1")
+    saved = window.workspace.file.get(excess)
+    window.edits.commit(excess, "12 mm")
+    window.go_to(excess)
+    assert "Saved: 11 mm (Ctrl+Shift+Backspace goes back)" in window.table.values.tip(excess)
+    action(window, "Back to What Was Saved").trigger()
+    assert window.workspace.file.get(excess) == saved
+    assert "Saved:" not in window.table.values.tip(excess)
+
+
 def test_several_values_go_to_default_and_to_not_set_in_one_step(
     window: MainWindow, file: ParameterFile
 ) -> None:

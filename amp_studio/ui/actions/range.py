@@ -249,6 +249,15 @@ class RangeEdits:
         if missing := len(chosen) - len(wanted):
             self.window.show_status(tr("%n values have no printed default and are as before.", "", missing))
 
+    def to_saved(self) -> None:
+        """Set the selected values to what they are in the saved file, as one step."""
+        workspace, chosen = self.window.page_in_front.workspace, self._selected()
+        saved = workspace.document.saved
+        wanted = {a: saved.get(a) for a in chosen if saved.get(a) != workspace.file.get(a)}
+        if not wanted:
+            raise ValueError(tr("What is selected is as in the saved file."))
+        self._apply(plan_values(workspace.file, wanted))
+
     def clear(self) -> None:
         """Clear the selected values: they are not set, and the control keeps its own."""
         workspace = self.window.page_in_front.workspace

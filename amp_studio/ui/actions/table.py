@@ -170,6 +170,13 @@ def _cells() -> tuple[Action[PartsWindow], ...]:
             "Ctrl+Backspace",
             "edit",
         ),
+        own(
+            "edit.saved",
+            tr("Back to What &Was Saved"),
+            lambda w: w.edits.range.to_saved(),
+            "Ctrl+Shift+Backspace",
+            "edit",
+        ),
         own("edit.clear", tr("Clear (&Not Set)"), lambda w: w.edits.range.clear(), _KEY.Delete, "edit"),
         Action(
             "edit.all_axes",

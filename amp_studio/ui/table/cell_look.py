@@ -265,7 +265,9 @@ class ShownValues(Translated):
             lines.append(tr("Note: {text}").format(text=note))
         value, saved = file.get(address), self.workspace.document.saved.get(address)
         if value != saved:
-            lines.append(tr("Saved: {value}").format(value=self.text(address, saved)))
+            lines.append(
+                tr("Saved: {value} (Ctrl+Shift+Backspace goes back)").format(value=self.text(address, saved))
+            )
         if value is not None and self.in_units(address, value) != value:
             entered = show_value(file.schema.parameters[address[0]], value, secrets=self.workspace.secrets)
             lines.append(tr("Entered as {value}").format(value=entered))
