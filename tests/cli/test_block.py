@@ -36,7 +36,7 @@ def test_a_word_that_the_control_refuses_ends_with_1(capsys: pytest.CaptureFixtu
     ("arguments", "sentence"),
     [
         (("block", MILL, "X1 @"), "is no word"),
-        (("block", str(EXAMPLES / "num-1060-mill" / "MILL_1060.amp"), "X1"), "no page here prints"),
+        (("block", str(EXAMPLES / "57c422b-label-press" / "LABEL_PRESS.amp"), "X1"), "no page here prints"),
         (("block", MILL, "X1\n" * 1001), "more than 1000"),
     ],
 )

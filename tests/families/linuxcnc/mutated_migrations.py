@@ -197,9 +197,9 @@ def faults(mutation: Mutation) -> Iterator[str]:
 
 def _pins(mutation: Mutation, written: ParameterFile, listed: dict[str, str]) -> Iterator[str]:
     used = values_of(written, listed)
-    for address, value in used.items():
-        if value != written.get(address):
-            yield f"{address[0]}@{address[1]}: the file has {written.get(address)}, the program uses {value}"
+    for address, in_use in used.items():
+        if in_use != written.get(address):
+            yield f"{address[0]}@{address[1]}: the file has {written.get(address)}, the program uses {in_use}"
     if len(used) < 16:
         yield f"only {len(used)} values were compared"
     for pin, value in mutation.pins.items():
@@ -227,7 +227,7 @@ if __name__ == "__main__":
     for number in [int(each) for each in sys.argv[1:]] or range(len(MUTATIONS)):
         one = MUTATIONS[number]
         try:
-            found = list(faults(one)) or ["as meant"]
+            found = [*faults(one)] or ["as meant"]
             bad += found != ["as meant"] or one.refused
         except AmpStudioError as error:
             found = [f"refused: {error}"]
