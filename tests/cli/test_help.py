@@ -65,6 +65,7 @@ def prepared(tmp_path_factory: pytest.TempPathFactory) -> Path:
     mill, other = (Path(shutil.copy(EXAMPLE, folder / name)) for name in (MILL, "other.amp"))
     for name in ("ROUTER.amp", "plate.nc"):
         shutil.copy(EXAMPLE.parents[1] / "acromill-router" / name, folder)
+    shutil.copy(EXAMPLE.parents[1] / "57c422b-label-press/LABEL_PRESS.amp", folder)
     assert cli.run(["set", str(other), "1300=2"]) == 0
     assert cli.run(["export", str(mill), "-o", str(folder / "values.csv")]) == 0
     for name, text in (

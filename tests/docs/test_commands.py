@@ -54,10 +54,11 @@ CANNOT_RUN = {
 """Command that is not run, and why."""
 
 ROUTER = EXAMPLES / "acromill-router"
+PRESS = {"LABEL_PRESS.amp": EXAMPLES / "57c422b-label-press/LABEL_PRESS.amp"}
 PROGRAM = {"router.amp": ROUTER / "ROUTER.amp", "plate.nc": ROUTER / "plate.nc"}
 
 COPIES = {
-    "docs/commands.md": PROGRAM,
+    "docs/commands.md": PROGRAM | PRESS,
     "docs/commissioning.md": {"mill.amp": MILL},
     "docs/reports.md": {
         "mill.amp": MILL,
@@ -330,7 +331,7 @@ def without_empty(found: object, described: str) -> str:
 def test_the_page_of_commands_has_the_keys_of_every_json_document(
     stage: Stage, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for name, source in {**PROGRAM, "mill.amp": MILL, "second.amp": MILL}.items():
+    for name, source in {**PROGRAM, **PRESS, "mill.amp": MILL, "second.amp": MILL}.items():
         shutil.copy(source, name)
     cli.run(["set", "second.amp", "1750=4"])
     cli.run(["note", "second.amp", "1750", "lower"])
@@ -339,7 +340,7 @@ def test_the_page_of_commands_has_the_keys_of_every_json_document(
         text_of("docs/commands.md").partition("with `--json` |")[2],
         re.MULTILINE,
     )
-    assert len(rows) == 24
+    assert len(rows) == 25
     for line, described in rows:
         capsys.readouterr()
         assert cli.run([*line.split(), "--json"]) in (0, 1)
