@@ -13,7 +13,7 @@ LOCK := build/lock/bin/uv pip compile pyproject.toml --quiet --universal --pytho
 	$(if $(UPGRADE),--upgrade)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test durations mutants campaign tunings slips faults monkey peers peer-grblhal peer-linuxcnc check format schema docs lock bench screenshots man translations wheel clean setup setup-run
+.PHONY: help run test durations mutants campaign tunings slips faults monkey peers peer-grblhal peer-linuxcnc check format schema docs lock bench screenshots man translations wheel bundle clean setup setup-run
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-11s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -104,10 +104,23 @@ man: setup ## write build/amp-studio.1, the man page
 wheel: setup ## build dist/*.whl and the source archive, without the network
 	@$(BIN)/python -m build --no-isolation --outdir dist
 
+bundle: wheel build/bundle/env/ready ## one folder that needs no Python, and a package for Debian, in dist; FAST=1 adds machine code for the simulator
+	@build/bundle/env/bin/pip install --quiet --disable-pip-version-check --no-index --no-deps --force-reinstall dist/amp_studio-*.whl
+	@build/bundle/env/bin/pyinstaller --noconfirm --log-level WARN --workpath build/bundle/work --distpath build/bundle scripts/bundle/amp-studio.spec
+	@sh scripts/bundle/pack.sh build/bundle/amp-studio dist
+	@build/bundle/env/bin/python scripts/bundle/prove.py build/bundle/amp-studio
+
+build/bundle/env/ready: requirements/bundle.lock requirements/run.lock
+	@rm -rf build/bundle/env && $(or $(PYTHON),python3) -m venv build/bundle/env
+	@build/bundle/env/bin/pip install --quiet --disable-pip-version-check --only-binary :all: --require-hashes --no-deps -r $<
+	@$(if $(FAST),build/bundle/env/bin/pip install --quiet --disable-pip-version-check --only-binary :all: --require-hashes --no-deps -r requirements/run.lock)
+	@touch $@
+
 lock: ## write requirements/*.lock again; UPGRADE=1 takes the newest versions
 	@test -x build/lock/bin/uv || { $(or $(PYTHON),python3) -m venv build/lock && build/lock/bin/pip install --quiet $(LOCK_TOOL); }
 	@$(LOCK) --extra fast --group dev --output-file requirements/dev.lock
 	@$(LOCK) --extra fast --group build --constraint requirements/dev.lock --output-file requirements/run.lock
+	@$(LOCK) --group bundle --constraint requirements/dev.lock --output-file requirements/bundle.lock
 	@$(subst pyproject.toml,,$(LOCK)) --group docs --output-file requirements/docs.lock
 
 clean: ## remove everything that make made, .venv too
