@@ -13,7 +13,7 @@ import numpy as np
 from amp_studio.programs import ARC, EXACT, KEPT, LINE, MOST_ROWS, PLANES, RAPID, RowsWriter, ToolPath
 from amp_studio.sim import Geometry, PathLimit, RowBounds, ShapedPath, SimulationError
 
-from .law_segments import NORMAL, AxisLimits, Point, Segment, segments
+from .law_segments import NORMAL, AxisLimits, PathPoint, PathSegment, segments
 
 TANGENTIAL = 0.5
 """Share of the acceleration that is left along an arc (blendmath.h, line 19)."""
@@ -121,7 +121,7 @@ class _Shaping:
 
     def shape(self) -> ShapedPath:
         """Work it out."""
-        previous: Segment | None = None
+        previous: PathSegment | None = None
         begun = tuple(self._path.start.tolist())
         for move in segments(self._path, self._geometry, self._limits):
             if isinstance(move, int):
@@ -151,7 +151,7 @@ class _Shaping:
 
     # -- rows ----------------------------------------------------------------------
 
-    def _end(self, move: Segment, begun: Point) -> None:
+    def _end(self, move: PathSegment, begun: PathPoint) -> None:
         """Write a move with nothing after it: with G64 it has half of its acceleration."""
         move.half = move.corner not in (EXACT, KEPT)
         before = len(self._out.ramp) - 1
@@ -162,7 +162,7 @@ class _Shaping:
             if most < self._out.joint[before]:
                 self._out.joint[before], self._out.joint_by[before] = most, move.ramp_by + self._count
 
-    def _write(self, move: Segment, end: Point, begun: Point, *, is_last: bool = False) -> None:
+    def _write(self, move: PathSegment, end: PathPoint, begun: PathPoint, *, is_last: bool = False) -> None:
         path, row = self._path, move.row
         if end == begun and not move.is_arc:
             return
@@ -186,7 +186,7 @@ class _Shaping:
         cause = move.ramp_by + self._count
         self._out.bound((top, move.top_by), (0.5 * ramp if move.half else ramp, cause))
 
-    def _arc_limits(self, move: Segment, *, is_last: bool) -> tuple[float, float]:
+    def _arc_limits(self, move: PathSegment, *, is_last: bool) -> tuple[float, float]:
         """Return speed and acceleration along an arc; the last one of all gets no others (TS745)."""
         radius = float(self._geometry.radius[move.row])
         along = move.end[third := self._third(move)] - move.begin[third]
@@ -199,7 +199,7 @@ class _Shaping:
             return math.sqrt(NORMAL * whole * radius), move.ramp * TANGENTIAL
         return move.top, move.ramp * math.sqrt(1.0 - (across / whole) ** 2)
 
-    def _third(self, move: Segment) -> int:
+    def _third(self, move: PathSegment) -> int:
         """Return the axis across the plane of an arc."""
         return self._path.axes.index("XYZ"[PLANES[int(self._path.plane[move.row])][2]])
 
@@ -218,7 +218,7 @@ class _Shaping:
 
     # -- where two moves meet --------------------------------------------------------
 
-    def _join(self, one: Segment, two: Segment, begun: Point) -> Point:
+    def _join(self, one: PathSegment, two: PathSegment, begun: PathPoint) -> PathPoint:
         """Write the first of two moves and what is between them; return where the second begins."""
         if one.is_rapid != two.is_rapid:
             return self._stop_between(one, begun, self._change)
@@ -250,13 +250,13 @@ class _Shaping:
             return self._pass(one, begun, slow)
         return self._round(one, two, corner, begun)
 
-    def _turns(self, move: Segment) -> bool:
+    def _turns(self, move: PathSegment) -> bool:
         return any(move.first[n] for n in range(self._count) if n not in self._straight)
 
-    def _most(self, move: Segment) -> float:
+    def _most(self, move: PathSegment) -> float:
         return min(move.wanted * self._figures.greatest_override, move.top)
 
-    def _kinked(self, one: Segment, two: Segment, speed: float) -> float:
+    def _kinked(self, one: PathSegment, two: PathSegment, speed: float) -> float:
         """Return the share of an acceleration that a change of direction takes in a cycle (TP1894)."""
         at_once = speed / self._figures.period + two.acceleration
         share = max(
@@ -264,10 +264,10 @@ class _Shaping:
         )
         return share / TANGENTIAL if one.is_arc or two.is_arc else share
 
-    def _stop_between(self, one: Segment, begun: Point, cause: int) -> Point:
+    def _stop_between(self, one: PathSegment, begun: PathPoint, cause: int) -> PathPoint:
         return self._pass(one, begun, 0.0, cause)
 
-    def _pass(self, one: Segment, begun: Point, speed: float, cause: int | None = None) -> Point:
+    def _pass(self, one: PathSegment, begun: PathPoint, speed: float, cause: int | None = None) -> PathPoint:
         self._write(one, one.end, begun)
         if self._out.joint:
             self._out.joint[-1] = speed
@@ -276,7 +276,7 @@ class _Shaping:
 
     # -- a rounded corner --------------------------------------------------------------
 
-    def _corner(self, one: Segment, two: Segment) -> _Corner | None:
+    def _corner(self, one: PathSegment, two: PathSegment) -> _Corner | None:
         """Return the arc between two straight moves; None where there is none (blendComputeParameters)."""
         cosine = sum(a * b for a, b in zip(one.last, two.first, strict=True))
         theta = 0.5 * math.acos(min(max(-cosine, -1.0), 1.0))
@@ -307,7 +307,7 @@ class _Shaping:
             radius, radius / math.tan(theta), phi, speed, by, acceleration * TANGENTIAL, ramp_by, wanted
         )
 
-    def _goal(self, one: Segment, two: Segment, phi: float, wanted: float) -> float:
+    def _goal(self, one: PathSegment, two: PathSegment, phi: float, wanted: float) -> float:
         """Return the wanted speed, or what the axes have in every direction of a corner if that is less
         (blendParamKinematics).
         """
@@ -319,7 +319,7 @@ class _Shaping:
             return wanted
         return min(wanted, max(between, self._inscribed(one, two, self._limits.speeds)[0]))
 
-    def _inscribed(self, one: Segment, two: Segment, bounds: tuple[float, ...]) -> tuple[float, int]:
+    def _inscribed(self, one: PathSegment, two: PathSegment, bounds: tuple[float, ...]) -> tuple[float, int]:
         """Return what all directions in the plane of two moves can have, and the axis that bounds it."""
         moving = [n for n in self._straight if one.last[n] or two.first[n]]
         if len(moving) == 2:
@@ -334,7 +334,7 @@ class _Shaping:
         found = [(bounds[n] / max(lies[k], 1e-12), n) for k, n in enumerate(self._straight)]
         return min(found)
 
-    def _round(self, one: Segment, two: Segment, corner: _Corner, begun: Point) -> Point:
+    def _round(self, one: PathSegment, two: PathSegment, corner: _Corner, begun: PathPoint) -> PathPoint:
         """Write the first move as far as the corner, and the corner; return where it ends."""
         d = corner.taken
         start = tuple(e - d * u for e, u in zip(one.end, one.last, strict=True))

@@ -18,24 +18,24 @@ MOST_JOINED = 100
 """Points that one straight move replaces (CN978)."""
 NORMAL = math.sqrt(3.0) / 2.0
 """Share of the acceleration across an arc while it speeds up by half of it (CN1682)."""
-Point = tuple[float, ...]
+PathPoint = tuple[float, ...]
 
 
 @dataclass(slots=True)
-class Segment:
+class PathSegment:
     """A move of the planner; lengths u, speeds u/s."""
 
     row: int
     """Of the program's path."""
-    begin: Point
-    end: Point
+    begin: PathPoint
+    end: PathPoint
     length: float
     """Without what a rounded corner takes."""
     nominal: float
     """With it."""
-    first: Point
+    first: PathPoint
     """Directions at its ends, of length 1."""
-    last: Point
+    last: PathPoint
     wanted: float
     """As programmed; infinite in rapid."""
     top: float
@@ -75,7 +75,7 @@ class AxisLimits:
             tuple(accelerations[letter].value for letter in letters),
         )
 
-    def straight(self, direction: Point) -> tuple[float, int, float, int]:
+    def straight(self, direction: PathPoint) -> tuple[float, int, float, int]:
         """Return the greatest speed in a direction and its axis, acceleration and its axis (CN739)."""
         speed, ramp, by_speed, by_ramp = math.inf, math.inf, 0, 0
         for n, share in enumerate(map(abs, direction)):
@@ -92,24 +92,24 @@ class _Chain:
 
     def __init__(self) -> None:
         self.flat = array("d")
-        self.end: Point = ()
+        self.end: PathPoint = ()
         self.row = 0
         """Of the last one."""
 
     def __len__(self) -> int:
         return len(self.flat) // len(self.end) if self.end else 0
 
-    def add(self, point: Point, row: int) -> None:
+    def add(self, point: PathPoint, row: int) -> None:
         """Add a point."""
         self.flat.extend(point)
         self.end, self.row = point, row
 
 
-def segments(path: ToolPath, geometry: Geometry, limits: AxisLimits) -> Iterator[Segment | int]:
+def segments(path: ToolPath, geometry: Geometry, limits: AxisLimits) -> Iterator[PathSegment | int]:
     """Yield the moves of a path in their order, and for each dwell its row. Raises SimulationError."""
     rotary = [n for n, letter in enumerate(path.axes) if letter in "ABC"]
     chain = _Chain()
-    begin: Point = tuple(path.start.tolist())
+    begin: PathPoint = tuple(path.start.tolist())
     state: tuple[float, int] | None = None
     ends, kinds = path.ends.tolist(), path.kind.tolist()
     corners, rounding, feeds = path.corner.tolist(), path.rounding.tolist(), path.feed.tolist()
@@ -153,7 +153,7 @@ def _is_mixed(way: np.ndarray, rotary: list[int]) -> bool:
     return 0 < turning < int(moving.sum())
 
 
-def _points(path: ToolPath, geometry: Geometry, row: int, joins: float) -> tuple[Point, ...]:
+def _points(path: ToolPath, geometry: Geometry, row: int, joins: float) -> tuple[PathPoint, ...]:
     """Return the points of the straight moves of a row; none for an arc that stays one (CN1494)."""
     end = tuple(path.ends[row].tolist())
     if path.kind[row] == LINE:
@@ -169,7 +169,7 @@ def _points(path: ToolPath, geometry: Geometry, row: int, joins: float) -> tuple
     return (tuple(middle.tolist()), end)
 
 
-def _on_one_line(begin: Point, end: Point, chain: _Chain, joins: float, rotary: list[int]) -> bool:
+def _on_one_line(begin: PathPoint, end: PathPoint, chain: _Chain, joins: float, rotary: list[int]) -> bool:
     """Return whether one straight move may replace all points of a chain and go on to another (CN970)."""
     last = chain.end
     if joins == 0.0 or len(chain) > MOST_JOINED or any(end[n] != last[n] for n in rotary) or end == begin:
@@ -181,12 +181,12 @@ def _on_one_line(begin: Point, end: Point, chain: _Chain, joins: float, rotary: 
     return not bool(((apart * apart).sum(axis=1) > joins * joins).any())
 
 
-def _straight(path: ToolPath, begin: Point, end: Point, row: int, limits: AxisLimits) -> Segment:
+def _straight(path: ToolPath, begin: PathPoint, end: PathPoint, row: int, limits: AxisLimits) -> PathSegment:
     length = math.dist(begin, end)
     size = length or 1.0
     direction = tuple((e - b) / size for e, b in zip(end, begin, strict=True))
     top, top_by, acceleration, ramp_by = limits.straight(direction)
-    return Segment(
+    return PathSegment(
         row,
         begin,
         end,
@@ -206,7 +206,7 @@ def _straight(path: ToolPath, begin: Point, end: Point, row: int, limits: AxisLi
     )
 
 
-def _round(path: ToolPath, geometry: Geometry, row: int, begin: Point, limits: AxisLimits) -> Segment:
+def _round(path: ToolPath, geometry: Geometry, row: int, begin: PathPoint, limits: AxisLimits) -> PathSegment:
     """Return an arc: the smaller of the limits of its two axes in every direction (CN1640 to CN1800)."""
     end = tuple(path.ends[row].tolist())
     places = [path.axes.index("XYZ"[n]) for n in PLANES[int(path.plane[row])]]
@@ -223,7 +223,7 @@ def _round(path: ToolPath, geometry: Geometry, row: int, begin: Point, limits: A
         time, by = along / limits.speeds[places[2]], places[2]
     if along / limits.accelerations[places[2]] > ramp_time:
         ramp_time, ramp_by = along / limits.accelerations[places[2]], places[2]
-    return Segment(
+    return PathSegment(
         row,
         begin,
         end,
