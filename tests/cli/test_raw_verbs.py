@@ -28,6 +28,7 @@ READS = {
     "guide": "RAW",
     "find": "RAW axis",
     "block": "RAW",
+    "cam": "RAW --axis X",
     "picture": "RAW",
     "machine-tests": "RAW",
     "simulate": "RAW --list",
@@ -73,6 +74,8 @@ NO_FILE = {
 }
 """Verbs that take none, or a control's content as it is."""
 REFUSED = (
+    "has no cams that are printed",
+    "has no cam: its number of points is 0",
     "no page here prints how its blocks are read",
     "No test program is printed",
     "No axis is fitted",

@@ -22,8 +22,8 @@ def test_the_chapter_has_a_line_for_each_group_of_codes() -> None:
 
 def test_it_can_be_left_out_and_a_family_without_such_pages_has_none() -> None:
     assert build_report(open_file(MILL).file, Contents(without=frozenset({"power-up"}))).power_up == ()
-    num = examples_folder() / "num-1060-mill" / "MILL_1060.amp"
-    assert build_report(open_file(num).file).power_up == ()
+    press = examples_folder() / "57c422b-label-press" / "LABEL_PRESS.amp"
+    assert build_report(open_file(press).file).power_up == ()
 
 
 @pytest.mark.parametrize("ending", [".html", ".txt", ".json"])

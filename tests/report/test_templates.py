@@ -238,7 +238,7 @@ def test_every_block_of_the_documentation_is_one_of_a_standard_template() -> Non
 
 def test_a_block_that_does_not_exist_is_a_mistake(machine: Path, mill: ParameterFile) -> None:
     content, (note,) = printed(machine, mill, "html", EXTENDS_PAGE + "\n{% block chapter %}x{% endblock %}")
-    assert "line 3: there is no block 'chapter'. Known: chapters, colours" in note
+    assert "line 3: there is no block 'chapter'. Known: chapters, checks, colours" in note
     assert b"Home Calibration" in content
     own = "{% block chapters %}{% block mine %}<p>own</p>{% endblock %}{% endblock %}"
     assert printed(machine, mill, "html", EXTENDS_PAGE + own)[1] == [], "a block within a block is printed"

@@ -205,11 +205,14 @@ def test_a_download_is_used_after_the_next_start(running: Program, tmp_path: Pat
 
 def test_it_homes_and_a_jog_ends_at_the_limit_with_the_greatest_speed_of_the_file(running: Program) -> None:
     running.say("set estop off", "set machine on", "set mode manual", "set home -1")
-    status = running.wait(
-        lambda now: all(axis.states == ("homed",) and not axis.velocity for axis in now.axes), 120.0
+    homes = pytest.approx([6.0, 4.0, 0.0, 0.0], abs=0.05)
+    running.wait(
+        lambda now: (
+            all(axis.states == ("homed",) and not axis.velocity for axis in now.axes)
+            and [axis.position for axis in now.axes] == homes
+        ),
+        120.0,
     )
-    homes = [6.0, 4.0, 0.0, 0.0]
-    assert [axis.position for axis in status.axes] == pytest.approx(homes, abs=0.05)
     running.say("set teleop_enable on", "set jog X -99999")
     moving = running.wait(lambda now: abs(now.axes[0].velocity or 0.0) > 59.9)
     assert moving.axes[0].velocity == pytest.approx(-60.0, abs=0.01)
