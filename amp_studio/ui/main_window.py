@@ -153,6 +153,11 @@ class MainWindow(PartsWindow):
         set_apart(page)
         return page
 
+    def close_page(self, page: FilePage) -> None:
+        """Close a file without a question, and forget where it was visited."""
+        self.visited.forget(page)
+        super().close_page(page)
+
     def _show_page(self, page: FilePage | None) -> None:
         """Make the window that of the file in front, or show the welcome page."""
         if self.is_leaving:

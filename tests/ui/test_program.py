@@ -281,6 +281,8 @@ def test_a_closed_file_leaves_nothing_behind_once_the_window_rests(window: MainW
     assert page is not None
     left = weakref.ref(page.workspace.validator)
     qtbot.waitUntil(lambda: not Task.running, timeout=WAIT_MS)
+    window.visited.menu.aboutToShow.emit()
+    assert window.visited.menu.actions()[0].isEnabled(), "the menu of places has one of this file"
     window.close_page(page)
     del page
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)

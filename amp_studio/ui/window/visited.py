@@ -9,7 +9,6 @@ from PySide6.QtWidgets import QMenu
 
 from amp_studio.files import describe
 from amp_studio.schema import Address, Parameter
-from amp_studio.ui.base.modal import is_alive
 from amp_studio.ui.base.translated import Translated
 from amp_studio.ui.page.file_page import FilePage
 
@@ -43,6 +42,12 @@ class VisitedPlaces(Translated):
         """Follow the selection of a page."""
         page.selected.connect(lambda *_: self._note(page))
 
+    def forget(self, page: FilePage) -> None:
+        """Drop the places of a page that closes: they, and the menu, would keep its whole file."""
+        self._at = sum(place.page is not page for place in self._places[: self._at + 1]) - 1
+        self._places = [place for place in self._places if place.page is not page]
+        self.menu.clear()
+
     def _note(self, page: FilePage | None) -> None:
         if self._is_going or page is None or page is not self._window.page:
             return
@@ -65,17 +70,12 @@ class VisitedPlaces(Translated):
         if step < 0 and self._window.leave_control():
             return
         at = self._at + step
-        while 0 <= at < len(self._places) and not self._is_there(self._places[at]):
-            at += step
         if 0 <= at < len(self._places):
             self._go_to(self._places[at])
         elif step < 0:
             self._window.show_status(self.tr("This is the first place that was visited."))
         else:
             self._window.show_status(self.tr("This is the place that was visited last."))
-
-    def _is_there(self, place: _Visit) -> bool:
-        return is_alive(place.page) and place.page in self._window.tabs.pages()
 
     def _go_to(self, place: _Visit) -> None:
         self._at = self._places.index(place)
@@ -90,7 +90,7 @@ class VisitedPlaces(Translated):
         """List the places, the present one first; one that was visited more than once has its last visit."""
         listed: list[_Visit] = []
         for place in reversed(self._places):
-            if self._is_there(place) and not any(self._is_same(place, each) for each in listed):
+            if not any(self._is_same(place, each) for each in listed):
                 listed.append(place)
         names = [self._name_of(place) for place in listed[:_IN_MENU]]
         if [action.data() for action in self.menu.actions()] == (names or [""]):
