@@ -186,7 +186,8 @@ def _lines(
 ) -> Iterator[str]:
     plan = run.plan
     yield f"{plan.path.blocks} blocks, {len(plan.path)} moves, {value_text(plan.time, 's', 5)}"
-    yield "Where the time goes:"
+    if len(plan.path):
+        yield "Where the time goes:"
     for row in limited_by(file, run):
         if row["share"] >= SMALL:
             param = f"  {row['param']}" if row["param"] else ""
