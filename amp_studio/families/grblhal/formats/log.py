@@ -34,6 +34,7 @@ _FIGURE = re.compile(rf"{_NUMBER}|{_IP}")
 _UNIT = r"(?:[uµm]?s(?:ec)?|mm(?:/\S+)?|steps?/\S+|rpm|hz)(?:\s.*)?"
 _SETTING = re.compile(r"\$(0|[1-9][0-9]{0,4})([\"'`*]{0,4})[ \t]*(:?=|[:|,;\t])[ \t]*")
 _BARE = re.compile(rf"(?:grbl_)?(0|[1-9][0-9]{{0,2}})[ \t]*=[ \t]*({_NUMBER}|{_IP})[ \t]*(?:[(;].*)?")
+_DIGIT = re.compile("[0-9]")
 _SPLIT = re.compile(r"^\$[ ](?=[0-9]{1,5}[ ]*=)")
 _COLUMNS = re.compile(rf"\$(0|[1-9][0-9]{{0,4}})[ ]+({_NUMBER})(?:[ ]{{2,}}(.*)|[ ]?([(;#].*))?")
 _CELLS = "|;\t,"
@@ -205,7 +206,7 @@ def _read(text: str, *, anywhere: bool) -> Log:
     heading, before, is_apart = "", (0, 0), False
     """``before`` is number and line of the setting of the line before."""
     for n, whole, line, pieces in _lines(text, anywhere):
-        if not pieces and (startup := _STARTUP.fullmatch(_plain(line))):
+        if not pieces and "$N" in line and (startup := _STARTUP.fullmatch(_plain(line))):
             found.startup[startup[1]] = startup[2].strip()
         elif not pieces and _REFUSED.match(line) and before[1] == n - 1:
             _refuse(found, parts, *before)
@@ -264,11 +265,14 @@ def _plain(whole: str) -> str:
 
 def _settings(whole: str, line: str, anywhere: bool) -> Iterator[_Piece]:
     """Yield the settings of a line."""
+    if not _DIGIT.search(line):
+        return  # most lines of a text that is made to cost time
     if found := _BARE.fullmatch(line):
         if line == whole:
             yield int(found[1]), found[2], "", "", True
         return
-    line = _SPLIT.sub("$", line)
+    if line.startswith("$ "):
+        line = _SPLIT.sub("$", line)
     if found := _COLUMNS.fullmatch(line):
         yield int(found[1]), found[2], (found[3] or found[4] or "").strip("(;) "), "", False
         return
