@@ -104,16 +104,17 @@ man: setup ## write build/amp-studio.1, the man page
 wheel: setup ## build dist/*.whl and the source archive, without the network
 	@$(BIN)/python -m build --no-isolation --outdir dist
 
-bundle: wheel build/bundle/env/ready ## one folder that needs no Python, and a package for Debian, in dist; FAST=1 adds machine code for the simulator
-	@build/bundle/env/bin/pip install --quiet --disable-pip-version-check --no-index --no-deps --force-reinstall dist/amp_studio-*.whl
-	@build/bundle/env/bin/pyinstaller --noconfirm --log-level WARN --workpath build/bundle/work --distpath build/bundle scripts/bundle/amp-studio.spec
+BUNDLE := build/bundle/env$(if $(FAST),-fast)
+bundle: wheel $(BUNDLE)/ready ## one folder that needs no Python, and a package for Debian, in dist; FAST=1 adds machine code for the simulator
+	@$(BUNDLE)/bin/pip install --quiet --disable-pip-version-check --no-index --no-deps --force-reinstall dist/amp_studio-*.whl
+	@$(BUNDLE)/bin/pyinstaller --noconfirm --log-level WARN --workpath build/bundle/work --distpath build/bundle scripts/bundle/amp-studio.spec
 	@sh scripts/bundle/pack.sh build/bundle/amp-studio dist
-	@build/bundle/env/bin/python scripts/bundle/prove.py build/bundle/amp-studio
+	@$(BUNDLE)/bin/python scripts/bundle/prove.py build/bundle/amp-studio
 
-build/bundle/env/ready: requirements/bundle.lock requirements/run.lock
-	@rm -rf build/bundle/env && $(or $(PYTHON),python3) -m venv build/bundle/env
-	@build/bundle/env/bin/pip install --quiet --disable-pip-version-check --only-binary :all: --require-hashes --no-deps -r $<
-	@$(if $(FAST),build/bundle/env/bin/pip install --quiet --disable-pip-version-check --only-binary :all: --require-hashes --no-deps -r requirements/run.lock)
+$(BUNDLE)/ready: requirements/bundle.lock requirements/run.lock
+	@rm -rf $(BUNDLE) && $(or $(PYTHON),python3) -m venv $(BUNDLE)
+	@$(BUNDLE)/bin/pip install --quiet --disable-pip-version-check --only-binary :all: --require-hashes --no-deps -r $<
+	@$(if $(FAST),$(BUNDLE)/bin/pip install --quiet --disable-pip-version-check --only-binary :all: --require-hashes --no-deps -r requirements/run.lock)
 	@touch $@
 
 lock: ## write requirements/*.lock again; UPGRADE=1 takes the newest versions

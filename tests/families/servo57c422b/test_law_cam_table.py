@@ -109,7 +109,9 @@ def test_the_verb_writes_a_cam_and_its_picture(
     path, points = tmp_path / "press.amp", tmp_path / "points.csv"
     path.write_bytes((checkout / "examples" / "57c422b-label-press" / "LABEL_PRESS.amp").read_bytes())
     points.write_text("time [ms];position\n0;0\n200;800\n400;0\n", "utf-8")
-    picture = tmp_path / "cam.svg"
+    before, picture = path.read_bytes(), tmp_path / "cam.svg"
+    wrong = ["cam", str(path), "--axis", "Y", "--points", str(points), "-o", str(tmp_path / "cam.png")]
+    assert (run(wrong), path.read_bytes()) == (2, before), "a picture that cannot be drawn changes nothing"
     assert run(["cam", str(path), "--axis", "Y", "--points", str(points), "-o", str(picture)]) == 0
     assert "cycle time: 0.4 s" in capsys.readouterr().out
     assert present(open_file(path).file, "Y").position.max() == 800.0

@@ -47,6 +47,12 @@ def run(options: Options) -> int:
 
     if options.scans < 0:
         raise UsageError("--scans is 1 or more")
+    if options.output:
+        check_replaced(options.output, options.path)
+        if options.points:
+            check_replaced(options.output, options.points)
+        if options.output.suffix.lower() != ".svg":
+            raise UsageError(f"A picture is drawn as SVG: name the file {options.output.stem}.svg")
     writes = bool(options.points) and not options.dry_run
     with edit(options.path, only_view=not writes) as machine:
         file = machine.file
@@ -63,7 +69,7 @@ def run(options: Options) -> int:
             )
             changes = file.set_checked(cam.settings)
         except (SimulationError, RangeError, InvalidValueError) as error:
-            raise UsageError(f"{error}; nothing was changed") from None
+            raise UsageError(f"{error}; nothing was changed" if writes else str(error)) from None
         if writes and changes:
             machine.save(verb="cam")
     if options.output:
@@ -77,9 +83,6 @@ def _draw(options: Options, cam: CamProfile) -> None:
     from amp_studio.files import write_atomic
     from amp_studio.sim import cam_picture
 
-    check_replaced(options.output, options.path)
-    if options.output.suffix.lower() != ".svg":
-        raise UsageError(f"A picture is drawn as SVG: name the file {options.output.stem}.svg")
     write_atomic(options.output, picture_svg(cam_picture(cam)).encode(), keep_backup=False, notify=note)
     note(f"Written: {options.output}")
 
