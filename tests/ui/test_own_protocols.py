@@ -4,8 +4,10 @@ through the same actions as any other.
 
 from __future__ import annotations
 
+import threading
 from pathlib import Path
 
+from PySide6.QtCore import QTimer
 from pytestqt.qtbot import QtBot
 
 from amp_studio.families.acromill.emulated.card import AcrCard
@@ -50,14 +52,17 @@ def test_an_acr_card_is_verified_and_downloaded_over_its_terminal(
 
 def test_what_a_user_is_to_do_at_the_control_is_shown_until_it_is_done(window: MainWindow) -> None:
     texts: list[str] = []
+    seen = threading.Event()
 
     def work(progress, cancel):
+        assert seen.wait(30)
         progress("At the control: 3 UNLOAD", 0, OPERATOR)
         progress("silent", 5, 0)
         progress("upload", 1, 2)
 
     dialog = ProgressDialog("Work", work, window, "Waiting …", {"upload": "Reading …"})
     dialog.task.progressed.connect(lambda *_: texts.append(dialog.text.text()))
+    QTimer.singleShot(0, seen.set)
     dialog.run()
     assert texts == [
         "At the control: 3 UNLOAD",
