@@ -76,9 +76,23 @@ class BlockReader:
                 line = block.strip()
                 params = self.codes.whole(statement.params)
                 return ReadBlock(
-                    line, (BlockWord(line, "", None, "", statement.meaning, params, statement.page),)
+                    line,
+                    (
+                        BlockWord(
+                            line,
+                            "",
+                            None,
+                            "",
+                            statement.meaning,
+                            params,
+                            statement.page,
+                            assumed=statement.assumed,
+                        ),
+                    ),
                 )
         words = tuple(words_of(block, self.codes.facts.expressions))
+        if (call := self._macro_call(words)) is not None:
+            return ReadBlock(block.strip(), call)
         here = {word.code for word in words if word.letter in "GM"}
         for code in sorted(here):
             known = self.codes.known.get(code)
@@ -93,6 +107,35 @@ class BlockReader:
             seen.add(word.letter)
             found.append(read)
         return ReadBlock(block.strip(), tuple(found))
+
+    def _macro_call(self, words: tuple[TypedWord, ...]) -> tuple[BlockWord, ...] | None:
+        """Return a call whose other words are values of variables; None for another block."""
+        numbers = self.codes.facts.variables
+        begin = 1 if words and words[0].letter == "N" else 0
+        head = self.codes.known.get(words[begin].code) if begin < len(words) else None
+        if head is None or head.facts.does not in ("subroutine", "modal-subroutine"):
+            return None
+        found = [self._word(word, {words[begin].code}) for word in words[: begin + 1]]
+        for word in words[begin + 1 :]:
+            if word.letter not in numbers:
+                found.append(self._word(word, {words[begin].code}))
+                continue
+            number = self.number(word, None, False)
+            meaning = f"value of #{numbers[word.letter]} in the subroutine"
+            found.append(
+                BlockWord(
+                    word.text,
+                    word.letter,
+                    number.value,
+                    "",
+                    meaning,
+                    (),
+                    head.facts.page,
+                    number.fault,
+                    number.assumed,
+                )
+            )
+        return tuple(found)
 
     # -- codes -------------------------------------------------------------------
 
@@ -114,7 +157,7 @@ class BlockReader:
         )
 
     def _code(self, word: TypedWord) -> BlockWord:
-        number = float(word.number) if word.number and "(" not in word.number else None
+        number = float(word.number) if word.number and not word.is_expression else None
         if number is None:
             return BlockWord(word.text, word.letter, None, "", "no number", fault="a code without its number")
         if (call := self.codes.calls.get(word.code)) is not None:
@@ -128,7 +171,15 @@ class BlockReader:
         if facts.only_amp:
             fault = "a parameter can make it active, a program cannot"
         return BlockWord(
-            word.text, word.letter, number, "", facts.meaning, self.codes.whole(named), facts.page, fault
+            word.text,
+            word.letter,
+            number,
+            "",
+            facts.meaning,
+            self.codes.whole(named),
+            facts.page,
+            fault,
+            facts.assumed,
         )
 
     def _call(self, word: TypedWord, number: float, call: Call) -> BlockWord:
@@ -168,6 +219,8 @@ class BlockReader:
     def _of_use(self, word: TypedWord, use: WordUse) -> BlockWord:
         unit = use.unit if isinstance(use.unit, str) else use.unit["in" if self.is_inch() else "mm"]
         number = self.number(word, (use.format, "") if use.format else None, use.whole)
+        if use.bounds and number.value is not None and not use.bounds[0] <= number.value <= use.bounds[1]:
+            number = replace(number, fault=f"{use.bounds[0]:g} to {use.bounds[1]:g} are printed")
         named = (*((use.format,) if use.format else ()), *use.params)
         params = (*self.codes.whole(named), *self._justifying(word, use.format is None))
         return BlockWord(
@@ -244,7 +297,7 @@ class BlockReader:
         """Return the number of a word by its format."""
         if not word.number:
             return self._without_number()
-        if "(" in word.number:
+        if word.is_expression:
             return WordNumber(
                 None, assumed="that the control works out the expression as it is printed for it"
             )

@@ -84,11 +84,11 @@ class ProgramCoordinates:
         self._apply_length()
 
     def _apply_length(self) -> None:
-        if self._length_sign == 0.0 or not self._length:
+        if self._length_sign == 0.0:
             return
         third = self.axis("Z")
         total = 0.0
-        for part in self._path.length_offsets:
+        for part in self._path.length_offsets if self._length else ():
             value = self._file.evaluation.canonical((part, str(self._length)))
             if not isinstance(value, float | int):
                 title = self._file.schema.parameters[part].name
@@ -122,6 +122,8 @@ class ProgramCoordinates:
 
     def set_here(self, values: Mapping[int, float]) -> None:
         """Give the present position other coordinates."""
+        if self.has_map:
+            raise BlockError("Other coordinates for a position under a scale or a turn are not printed")
         shift = list(self._work["set"])
         for place, value in values.items():
             shift[place] += self.programmed[place] - value

@@ -130,8 +130,11 @@ class CycleRuns:
         """``retract``: mm of a chip-breaking cycle, where its page is not printed."""
         self._file, self._path, self._codes, self._moves = file, path, codes, moves
         self._retract, self._words = retract, CycleWords()
+        self._initial = 0.0
+        self.has_run = False
 
-    def run(self, words: BlockNumbers, modal: ModalState) -> None:
+    def run(self, words: BlockNumbers, modal: ModalState, *, begins: bool) -> None:
+        """Run it; the block that ``begins`` the cycle has the first level, where the tool is before it."""
         known = self._codes.known[TypedWord(modal.cycle[0], modal.cycle[1:], "").code]
         plane = tuple(self._moves.at.axis("XYZ"[n]) for n in PLANES[modal.plane])
         third = plane[2]
@@ -148,7 +151,11 @@ class CycleRuns:
             raise ProgramBlockError(
                 f"{modal.cycle} needs the depth and R, in its block or before it", "no-depth"
             )
-        initial = self._moves.at.programmed[third]
+        if begins:
+            self._initial = self._moves.at.programmed[third]
+        self.has_run, initial = True, self._initial
+        if "shift by Q in X" in known.facts.steps and third == self._moves.at.axis("X"):
+            raise ProgramBlockError(f"{modal.cycle} shifts in X, along which it bores in this plane")
         level = stored.level if modal.is_absolute else initial + stored.level
         depth = stored.depth if modal.is_absolute else level + stored.depth
         if not depth < level:

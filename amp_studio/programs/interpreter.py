@@ -10,17 +10,17 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from amp_studio.files import ParameterFile, fitted_axes
-from amp_studio.schema import axis_name
+from amp_studio.schema import ProgramPath, axis_name
 
 from .block import BlockReader
 from .codes import KnownCode
 from .coordinates import ProgramCoordinates
 from .cycles import CycleRuns
-from .expression import worth
+from .flow import TAKES_IN, ProgramFlow
 from .modal import BlockCodes, ModalCodes
 from .moves import PathMoves
 from .single_codes import SingleCodes
-from .toolpath import EXACT, LINE, MOST_ROWS, RAPID, ProgramFault, ToolPath
+from .toolpath import DWELL, EXACT, LINE, MOST_ROWS, RAPID, ProgramFault, ToolPath
 from .word_numbers import BlockNumbers, WordNumbers
 from .words import ProgramBlockError as BlockError
 from .words import words_of
@@ -32,11 +32,6 @@ EVERY = 4096
 
 _PLAIN = re.compile(r"(?:\s|[A-Z]\s*[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))*")
 _PAIRS = re.compile(r"([A-Z])\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))")
-_LABEL = re.compile(r"\s*N\s*([0-9]+)")
-_SETS = re.compile(r"(?:N[0-9]+\s*)?[P#]\s*([0-9]+)\s*=(.*)")
-_BRANCH = re.compile(r"(?:N[0-9]+\s*)?(?:IF\b(.*)\bTHEN\s*)?(GOTO|GOSUB)\s+([0-9]+)\s*")
-_RETURN = re.compile(r"(?:N[0-9]+\s*)?RET\s*")
-_INCLUDE = re.compile(r"\$I\b.*")
 
 BlockProgress = Callable[[int], None]
 """progress(blocks so far); may raise to cancel."""
@@ -64,7 +59,7 @@ class Interpreter:
         self.letters = tuple(axis_name(file.evaluation, axis) or axis for axis in self.axes)
         self.start = list(start) if start is not None else [0.0] * len(self.axes)
         self.notes: list[str] = list(path.assumed)
-        self.parameters: dict[int, float] = {}
+        self.parameters = self._kept_variables(path)
         self.blocks = self.line = 0
         codes = self.reader.codes
         self._modal = ModalCodes(file, self.reader, path, self.notes)
@@ -85,6 +80,16 @@ class Interpreter:
         name = axis_name(self.file.evaluation, axis) or axis
         if len(name) == 1 and name.isalpha():
             yield name
+
+    def _kept_variables(self, path: ProgramPath) -> dict[int, float]:
+        """Return the program parameters of the file, by number."""
+        found = {}
+        for named in path.variables:
+            for instance in self.file.machine_schema.instances(self.file.schema.parameters[named]):
+                value = self.file.evaluation.canonical((named, instance))
+                if isinstance(value, float | int):
+                    found[int(instance)] = float(value)
+        return found
 
     # -- the program ---------------------------------------------------------------
 
@@ -110,51 +115,25 @@ class Interpreter:
                 self._block(value.upper())
 
     def _run(self, lines: Sequence[str], progress: BlockProgress | None) -> None:
-        labels: dict[int, int] | None = None
-        returns: list[int] = []
-        at, statements = 0, bool(self.reader.codes.facts.statements)
-        while at < len(lines) and not self._over:
-            line = lines[at].upper()
-            at += 1
-            self.line = self._moves.line = at
+        flow, rows = ProgramFlow(lines, self.parameters, self.reader.codes, self.notes), self._moves.rows
+        while flow.at < len(lines) and not self._over:
+            line = lines[flow.at].upper()
+            flow.at += 1
+            self.line = self._moves.line = flow.at
             self.blocks += 1
             if self.blocks % EVERY == 0 and progress is not None:
                 progress(self.blocks)
-            if self.blocks > len(lines) + MOST_REPEATED or len(self._moves.rows.kind) > MOST_ROWS:
+            if self.blocks > len(lines) + MOST_REPEATED or len(rows.kind) > MOST_ROWS:
                 raise BlockError(f"The program has no end within {self.blocks - 1} blocks")
-            if statements and ("=" in line or "GO" in line or "RET" in line or "$" in line):
-                target = self._statement(line, returns, at)
-                if target is not None:
-                    if labels is None:
-                        labels = _labels(lines)
-                    at = self._place(labels, target) if target >= 0 else returns.pop()
-                    continue
-                if _SETS.fullmatch(line) or _BRANCH.fullmatch(line) or _INCLUDE.fullmatch(line):
-                    continue
+            if flow.take(line):
+                continue
+            before = len(rows.kind)
             self._block(line)
-
-    def _place(self, labels: Mapping[int, int], label: int) -> int:
-        if label not in labels:
-            raise BlockError(f"No block has the number N{label}")
-        return labels[label]
-
-    def _statement(self, line: str, returns: list[int], after: int) -> int | None:
-        """Execute a branch or an assignment; return the label to go on at, -1 to return, None to go on."""
-        if _RETURN.fullmatch(line):
-            if not returns:
-                raise BlockError("RET comes without a GOSUB before it", "return-without-call")
-            return -1
-        if (found := _BRANCH.fullmatch(line)) is not None:
-            if found[1] is not None and worth(found[1], self.parameters) == 0.0:
-                return None
-            if found[2] == "GOSUB":
-                if len(returns) >= self._path.depth:
-                    raise BlockError(f"Subroutines are more than {self._path.depth} levels deep")
-                returns.append(after)
-            return int(found[3])
-        if (found := _SETS.fullmatch(line)) is not None:
-            self.parameters[int(found[1])] = worth(found[2], self.parameters)
-        return None
+            if flow.calls_after_moves and len(rows.kind) > before and rows.kind[-1] != DWELL:
+                flow.call_after_move()
+        missing = self._path.cycles_taken_in
+        if self._cycles.has_run and missing and not any(TAKES_IN.match(line) for line in lines):
+            self.notes.append(missing)
 
     # -- one block -----------------------------------------------------------------
 
@@ -164,8 +143,6 @@ class Interpreter:
         else:
             expressions = self.reader.codes.facts.expressions
             pairs = [(word.letter, word.number) for word in words_of(line, expressions)]
-        if not pairs:
-            return
         if not pairs:
             return
         codes = self._modal.take(tuple([letter + number for letter, number in pairs if letter in "GM"]))
@@ -196,7 +173,7 @@ class Interpreter:
         motion = codes.motion or modal.motion
         exact = EXACT if codes.is_exact else modal.corner
         if modal.cycle:
-            self._cycles.run(words, modal)
+            self._cycles.run(words, modal, begins=codes.begins_cycle)
             return
         if motion == "":
             raise BlockError("No code of motion is active (G0, G1, G2 or G3)", "no-motion")
@@ -215,15 +192,10 @@ class Interpreter:
             self._moves.go(target, RAPID, exact, modal)
         else:
             self._moves.go(target, LINE, exact, modal)
-
-
-def _labels(lines: Sequence[str]) -> dict[int, int]:
-    """Return number of a block -> its line from 0, the first of each number."""
-    found: dict[int, int] = {}
-    for n, line in enumerate(lines):
-        if (label := _LABEL.match(line.upper())) is not None and len(label[1]) < 12:
-            found.setdefault(int(label[1]), n)
-    return found
+        if codes.probes and self._path.probed:
+            first, last = self._path.probed
+            for number in range(first, last + 1):
+                self.parameters.pop(number, None)
 
 
 def path_letters(file: ParameterFile) -> tuple[str, ...]:

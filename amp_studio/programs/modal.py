@@ -12,7 +12,7 @@ from .block import BlockReader
 from .codes import KnownCode
 from .toolpath import CUTTING, EXACT, KEPT, ROUNDED, SLOW
 from .words import ProgramBlockError as BlockError
-from .words import TypedWord
+from .words import TypedWord, sentence
 
 MOST_SHAPES = 1000
 """Combinations of codes and states whose meaning is kept."""
@@ -38,6 +38,8 @@ class WordReading:
     """Whether the number is what is written."""
     form: Address | None = None
     whole: bool = False
+    bounds: tuple[float, float] | None = None
+    """The least and the largest value, scaled."""
 
 
 @dataclass(frozen=True)
@@ -73,6 +75,9 @@ class BlockCodes:
     """Action of a code that takes the words of the axes for itself; "" without one."""
     motion: str = ""
     is_exact: bool = False
+    probes: bool = False
+    """Whether the move ends at the contact of a probe."""
+    begins_cycle: bool = False
     is_end: bool = False
     sets_rounding: bool = False
     """Whether its words set how far corners are rounded."""
@@ -127,6 +132,8 @@ class ModalCodes:
                 raise BlockError(f"{each}: the control does not do it, {facts.meaning}")
             if facts.does is None:
                 raise BlockError(f"{each} is not simulated: {facts.meaning}")
+            if facts.assumed:
+                self._notes.append(sentence(facts.assumed))
             if group is not None:
                 if group.key in groups:
                     raise BlockError(f"{each} and another code of the group {group.name}", "two-codes")
@@ -149,6 +156,8 @@ class ModalCodes:
                 codes_here.selects += (code_,)
             elif does == "exact-once":
                 codes_here.is_exact = True
+            elif does == "cycle":
+                codes_here.begins_cycle = True
             elif does == "blend":
                 codes_here.sets_rounding = True
             elif does == "zones":
@@ -157,8 +166,8 @@ class ModalCodes:
                 codes_here.is_end = True
             elif does == "machine-once":
                 codes_here.in_machine = True
-            elif does == "line" and code_.group is None:
-                codes_here.motion = does
+            elif does == "probe":
+                codes_here.motion, codes_here.probes = "line", True
             elif does in ("scale", "turn") or (code_.group is None and does != "nothing"):
                 if codes_here.once:
                     raise BlockError(f"{code_.code} and another code that takes the words of the axes")

@@ -7,6 +7,7 @@ import math
 from amp_studio.schema import ProgramPath
 
 from .codes import ControlCodes
+from .flow import MACROS
 from .modal import BlockCodes, ModalState
 from .moves import PathMoves
 from .toolpath import EXACT, RAPID
@@ -40,6 +41,9 @@ class SingleCodes:
             self._at.set_local(words.axes)
         elif does == "set-data":
             self._set_data(words)
+        elif does in MACROS:
+            macro = next(code.code for code in codes.codes if code.facts.does == does)
+            raise BlockError(f"{macro} comes first in its block, whose other words are its variables")
         elif does == "centers":
             number = int(words.roles.get("centers", -1.0))
             if not 0 <= number < len(_CENTERS):
@@ -56,6 +60,8 @@ class SingleCodes:
         if modal.plane != 0:
             raise BlockError("A turn is printed with other axes than those of this plane: not simulated")
         a, b = self._at.axis("X"), self._at.axis("Y")
+        if "turn" not in words.roles:
+            raise BlockError("A turn without R, its angle", "no-number")
         here = self._at.programmed
         around = words.axes.get(a, here[a]), words.axes.get(b, here[b])
         self._at.turn(around, math.radians(words.roles.get("turn", 0.0)))

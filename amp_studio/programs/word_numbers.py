@@ -9,7 +9,7 @@ from .block import BlockReader
 from .expression import worth
 from .modal import BlockCodes, WordReading
 from .words import ProgramBlockError as BlockError
-from .words import TypedWord
+from .words import TypedWord, sentence
 
 LARGEST = 1e7
 """mm or deg: no machine is larger, and every figure below keeps its decimals."""
@@ -44,10 +44,15 @@ class WordNumbers:
             reading = readings.get(letter)
             if reading is None:
                 reading = readings[letter] = self._reading(letter, codes)
-            if reading.plain and text and "(" not in text:
+            if reading.plain and text and "(" not in text and text[0] not in "P#":
                 value = float(text) * reading.scale
+            elif reading.place < 0 and not reading.role and text[:1] in ("P", "#"):
+                continue  # a value for the card, which moves no axis
             else:
                 value = self._number(letter, text, reading) * reading.scale
+            if reading.bounds and not reading.bounds[0] <= value <= reading.bounds[1]:
+                low, high = reading.bounds
+                raise BlockError(f"{letter}{text[:20]}: {low:g} to {high:g} are printed", "out-of-range")
             if not -LARGEST < value < LARGEST:
                 raise BlockError(f"{letter}{text[:20]} is beyond every machine", "out-of-range")
             if reading.place < 0:
@@ -66,13 +71,13 @@ class WordNumbers:
         return words
 
     def _number(self, letter: str, text: str, reading: WordReading) -> float:
-        if "(" in text:
+        if "(" in text or text[:1] in ("P", "#"):
             sign = -1.0 if text.startswith("-") else 1.0
             return sign * worth(text.lstrip("+-"), self._parameters)
         word = TypedWord(letter, text, letter + text)
         number = self._reader.number(word, reading.form, reading.whole)
         if number.assumed:
-            self._notes.append(f"That {number.assumed.removeprefix('that ')}.")
+            self._notes.append(sentence(number.assumed))
         if number.value is None:
             raise BlockError(f"{letter}{text}: {number.fault or 'no number'}", "no-number")
         return number.value
@@ -90,7 +95,10 @@ class WordNumbers:
             )
             form = (use.format, "") if use.format else None
             plain = form is None and facts.zeros is None and not use.whole
-            return WordReading(role=use.role or "", scale=scale, plain=plain, form=form, whole=use.whole)
+            bounds = None if use.bounds is None else (scale * use.bounds[0], scale * use.bounds[1])
+            return WordReading(
+                role=use.role or "", scale=scale, plain=plain, form=form, whole=use.whole, bounds=bounds
+            )
         for axis, meaning, _ in self._reader.axis_words(letter):
             if axis not in self._axes:
                 break

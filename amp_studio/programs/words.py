@@ -16,7 +16,10 @@ _PART = re.compile(
     r"\s+|(?P<skip>/[1-9]?)|(?P<remark>;.*|\([^)]*\))|%"
     r"|(?P<letter>,[A-Z]|\$?[A-Z])[ \t]*(?P<number>[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))?"
 )
-_WITH_EXPRESSION = re.compile(r"(?P<letter>[A-Z])[ \t]*(?P<number>[+-]?" + _EXPRESSION + ")")
+_WITH_EXPRESSION = re.compile(
+    r"(?P<letter>[A-Z])[ \t]*(?P<number>[+-]?" + _EXPRESSION + r"|(?<=T)[P#][0-9]+|(?<=T )[P#][0-9]+)"
+)
+"""A T-word may name a program parameter for its number."""
 
 
 class ProgramBlockError(AmpStudioError, ValueError):
@@ -39,11 +42,21 @@ class TypedWord:
     text: str
 
     @property
+    def is_expression(self) -> bool:
+        """Whether its number has to be worked out."""
+        return "(" in self.number or self.number[:1] in ("P", "#")
+
+    @property
     def code(self) -> str:
         """Its code without zeros in front and behind: G1 for G01, G31.4 for G31.40."""
         whole, _, decimals = self.number.lstrip("+").partition(".")
         rest = decimals.rstrip("0")
         return f"{self.letter}{whole.lstrip('0') or '0'}{'.' + rest if rest else ''}"
+
+
+def sentence(assumed: str) -> str:
+    """Return what is assumed, as ``that it is so``, as a sentence."""
+    return f"That {assumed.removeprefix('that ')}."
 
 
 def words_of(block: str, expressions: bool = False) -> Iterator[TypedWord]:

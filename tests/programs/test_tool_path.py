@@ -148,6 +148,15 @@ def test_a_cycle_is_repeated_by_distances_and_ended_by_g80(router: ParameterFile
         ("G43 H900 Z-1", "is not set"),
         ("é", "is no word"),
         ("X" + "(" * 100 + "1" + ")" * 100, ""),
+        ("G4 F1000", "0.1 to 999.9 are printed"),
+        ("G68 X0 Y0", "without R"),
+        ("G90 G65 P50", "G65 comes first"),
+        ("G65 X1", "needs P"),
+        ("G65 P50 S3", "S is no variable"),
+        ("G65 P50 L0", "is called 1 to"),
+        ("G67 X1", "X1 beside G67"),
+        ("P900=5", "an offset or a position of the control"),
+        ("G19 G76 Y-1 X-2 R-1 Q0.1", "along which it bores"),
     ],
 )
 def test_what_cannot_be_known_ends_the_path_with_its_reason(
@@ -173,6 +182,49 @@ def test_subroutines_return_and_end_at_ten_levels(router: ParameterFile) -> None
     deep = path(router, "N1 F1|GOSUB 1")
     assert deep.fault is not None
     assert "more than 10 levels" in deep.fault.message
+
+
+def test_a_call_gives_its_values_to_the_variables_of_the_subroutine(router: ParameterFile) -> None:
+    """Page 33: X is #1, Y is #2, G is #10; L calls it more often."""
+    found = path(router, "F10 G91|N5 G65 P1000 L2 X-1 Y(0-2) G-0.5|M2|N1000 G1 X(#1) Y(#2)|X(#10)|RET")
+    assert np.round(found.ends[:, 0] / 25.4, 6).tolist() == [-1, -1.5, -2.5, -3]
+    assert found.ends[-1, 1] / 25.4 == pytest.approx(-4)
+    after = path(router, "F10 G91|G65 P50 X-1|X(#1)|M2|N50 G1 X(#1)|RET")
+    assert after.fault is not None
+    assert "P1 has no value" in after.fault.message  # whether it is kept is not printed
+
+
+def test_a_modal_call_comes_after_each_move_until_it_is_ended(router: ParameterFile) -> None:
+    """Page 34."""
+    found = path(router, "F10 G91|G66 P50 A-0.5|G0 X-1|G4 F1|X-1|G67|X-1|M2|N50 G1 Z(#4)|Z(0-#4)|RET")
+    assert found.fault is None
+    assert np.round(found.ends[:, 2] / 25.4, 6).tolist() == [0, -0.5, 0, 0, 0, -0.5, 0, 0]
+
+
+def test_the_first_level_of_a_cycle_is_where_it_begins(router: ParameterFile) -> None:
+    """Page 37: the position of Z at the beginning of the G81 command."""
+    found = path(router, "F10|G0 Z-0.5|G99 G81 X-1 Z-2 R-1|G98 X-2")
+    assert np.round(found.ends[[-4, -1], 2] / 25.4, 6).tolist() == [-1, -0.5]
+
+
+def test_the_offset_without_a_number_is_none() -> None:
+    """Page 25: H0 is the end of an offset."""
+    offsets = {"offset.h_geometric@1": "1 in", "offset.h_wear@1": "0 in"}
+    found = path(example("acromill-router", **offsets), "F10 G43 H1 Z-2|H0 Z-2")
+    assert np.round(found.ends[:, 2] / 25.4, 6).tolist() == [-1, -2]
+
+
+def test_what_no_page_prints_of_a_code_is_assumed_where_a_program_has_it(router: ParameterFile) -> None:
+    found = path(router, "F10 G31 X-1|#1=1|IF #1 = 1 THEN GOTO 5|N5 G81 Z-2 R-1|T P9")
+    assert found.fault is None
+    texts = " ".join(found.assumptions)
+    for words in ("makes no contact", "on page 44 it is input 1", "CYCLES.TXT"):
+        assert words in texts
+    assert "CYCLES.TXT" not in " ".join(path(router, "F10 G81 Z-2 R-1|M2|$I CYCLES.TXT").assumptions)
+    probed = path(router, "#101=1|F10 G31 X-1|X(#101)")
+    assert probed.fault is not None
+    kept = example("acromill-router", **{"p.acromill@150": "-3"})
+    assert path(kept, "F10 X(#150)").ends[0, 0] / 25.4 == pytest.approx(-3)
 
 
 def test_a_program_without_an_end_is_bounded(router: ParameterFile, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -48,6 +48,9 @@ CodeAction = Literal[
     "length-minus",
     "no-length",
     "subroutine",
+    "modal-subroutine",
+    "no-subroutine",
+    "probe",
     "end",
     "zones",
     "nothing",
@@ -162,6 +165,8 @@ class WordUse(Model):
     format: ParameterId | None = None
     whole: bool = False
     """A number of something: no unit, no decimals."""
+    bounds: tuple[float, float] | None = None
+    """The least and the largest number, in its unit."""
     unit: str | dict[Literal["in", "mm"], str] = ""
     params: tuple[ParameterId, ...] = ()
     role: WordRole | None = None
@@ -193,6 +198,8 @@ class ProgramCode(Model):
     """None: a program that has it is refused with its name."""
     zones: tuple[str, ...] = ()
     """Numbers of the zones that are on from this code of ``zones`` on; those it does not name are off."""
+    assumed: str = ""
+    """What no page prints of it, a sentence."""
     steps: tuple[CycleStep, ...] = ()
     """What a cycle does, in its order."""
 
@@ -254,6 +261,8 @@ class ProgramLine(Model):
     meaning: str
     page: Page
     params: tuple[ParameterId, ...] = ()
+    assumed: str = ""
+    """What no page prints of it, a sentence."""
 
 
 class PowerUpValue(Model):
@@ -305,8 +314,16 @@ class ProgramPath(Model):
     """Parts of a tool length, by the number of the offset."""
     peck_clearance: ParameterId | None = None
     """The distance D of a cycle."""
+    cycles_taken_in: str = ""
+    """What is assumed of a program with cycles that takes in no file, a sentence."""
     retract: ParameterId | None = None
     """How far a chip-breaking cycle goes back; without it no page prints it."""
+    variables: tuple[ParameterId, ...] = ()
+    """Program parameters that the control keeps; an instance is the number of one."""
+    offset_variables: tuple[tuple[int, int], ...] = ()
+    """Program parameters, from and to, that are offsets or positions of the control."""
+    probed: tuple[int, int] | None = None
+    """Program parameters that get the positions at the contact of a probe."""
     depth: int = 0
     """How deep subroutines may call each other; 0 without them."""
     assumed: tuple[str, ...] = ()
@@ -337,5 +354,7 @@ class ProgramWords(Model):
     backs: tuple[BackAtPowerUp, ...] = ()
     values: tuple[PowerUpValue, ...] = ()
     statements: tuple[ProgramLine, ...] = ()
+    variables: dict[str, int] = {}
+    """Letter of a call with values -> program parameter that gets its number."""
     path: ProgramPath | None = None
     """None where no path can be worked out."""

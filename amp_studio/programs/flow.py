@@ -1,0 +1,201 @@
+"""Which line of a program is next: branches, subroutines, and calls with values for their variables."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from .codes import ControlCodes
+from .expression import worth
+from .words import ProgramBlockError as BlockError
+from .words import sentence, words_of
+
+MOST_CALLS = 10_000
+"""Repeats of one call."""
+MACROS = ("subroutine", "modal-subroutine", "no-subroutine")
+"""What the codes do whose words are variables: call once, call after each move, end that."""
+
+_LABEL = re.compile(r"\s*N\s*([0-9]+)")
+_SETS = re.compile(r"(?:N[0-9]+\s*)?[P#]\s*([0-9]+)\s*=(.*)")
+_BRANCH = re.compile(r"(?:N[0-9]+\s*)?(?:IF\b(.*)\bTHEN\s*)?(GOTO|GOSUB)\s+([0-9]+)\s*")
+_RETURN = re.compile(r"(?:N[0-9]+\s*)?RET\s*")
+TAKES_IN = re.compile(r"\s*\$I\b.*", re.IGNORECASE)
+"""A line that takes in those of a file."""
+
+
+@dataclass(frozen=True)
+class SubroutineCall:
+    """A subroutine with values for its variables."""
+
+    label: int
+    repeats: int
+    values: Mapping[int, float]
+    """Number of the program parameter -> its value."""
+
+
+@dataclass
+class _Level:
+    """One call that has not returned."""
+
+    back: int
+    """Line that follows it, from 0."""
+    call: SubroutineCall | None = None
+    left: int = 0
+    """Repeats that are left."""
+    is_modal: bool = False
+
+
+class ProgramFlow:
+    """The way of a control through the lines."""
+
+    def __init__(
+        self, lines: Sequence[str], parameters: dict[int, float], codes: ControlCodes, notes: list[str]
+    ) -> None:
+        """``parameters`` are those that the program sets, ``notes`` gets what is assumed; its methods
+        raise ProgramBlockError.
+        """
+        self._lines, self._parameters, self._codes, self._notes = lines, parameters, codes, notes
+        self._facts = codes.facts
+        path = codes.facts.path
+        self._depth = path.depth if path else 0
+        self._guarded = path.offset_variables if path else ()
+        self._labels: dict[int, int] | None = None
+        self._levels: list[_Level] = []
+        self._modal: SubroutineCall | None = None
+        self._macros = {
+            code: str(known.facts.does) for code, known in codes.known.items() if known.facts.does in MACROS
+        }
+        self._macro = re.compile(
+            rf"\s*(?:N\s*[0-9]+\s*)?G\s*0*(?:{'|'.join(code[1:] for code in self._macros)})(?![0-9.])"
+        )
+        self.at = 0
+        """Line that is next, from 0."""
+
+    @property
+    def calls_after_moves(self) -> bool:
+        """Whether a subroutine is called after each move; its own moves call nothing."""
+        return self._modal is not None and not any(level.is_modal for level in self._levels)
+
+    def take(self, line: str) -> bool:
+        """Do a branch, an assignment or a call; return whether the line is one. ``at`` is behind it."""
+        if not self._facts.statements:
+            return False
+        if "=" in line or "GO" in line or "RET" in line or "$" in line:
+            if _RETURN.fullmatch(line):
+                self._return()
+                return True
+            if (found := _BRANCH.fullmatch(line)) is not None:
+                self._notes += [
+                    sentence(each.assumed)
+                    for each in self._facts.statements
+                    if each.assumed and re.match(each.pattern, line)
+                ]
+                if found[1] is None or worth(found[1], self._parameters) != 0.0:
+                    self._branch(found[2], int(found[3]))
+                return True
+            if (found := _SETS.fullmatch(line)) is not None:
+                self._set(int(found[1]), worth(found[2], self._parameters))
+                return True
+            if TAKES_IN.fullmatch(line):
+                return True
+        if self._macros and self._macro.match(line):
+            self._call_macro(line)
+            return True
+        return False
+
+    def call_after_move(self) -> None:
+        """Call the subroutine that is called after each move."""
+        assert self._modal is not None
+        self._enter(_Level(self.at, self._modal, self._modal.repeats, is_modal=True))
+
+    # -- branches ------------------------------------------------------------------
+
+    def _branch(self, what: str, label: int) -> None:
+        if what == "GOSUB":
+            self._push(_Level(self.at))
+        self.at = self._place(label)
+
+    def _push(self, level: _Level) -> None:
+        if len(self._levels) >= self._depth:
+            raise BlockError(f"Subroutines are more than {self._depth} levels deep")
+        self._levels.append(level)
+
+    def _return(self) -> None:
+        if not self._levels:
+            raise BlockError("RET comes without a GOSUB before it", "return-without-call")
+        level = self._levels.pop()
+        if level.call is not None:
+            if level.left > 0:
+                self._enter(level)
+                return
+            # Whether the variables keep what the call gave them is not printed: they have no value then.
+            for number in level.call.values:
+                self._parameters.pop(number, None)
+        self.at = level.back
+
+    def _place(self, label: int) -> int:
+        if self._labels is None:
+            self._labels = _labels(self._lines)
+        if label not in self._labels:
+            raise BlockError(f"No block has the number N{label}")
+        return self._labels[label]
+
+    def _set(self, number: int, value: float) -> None:
+        for first, last in self._guarded:
+            if first <= number <= last:
+                raise BlockError(
+                    f"P{number} is an offset or a position of the control ({first} to {last}):"
+                    " what a program does by setting it is not simulated"
+                )
+        self._parameters[number] = value
+
+    # -- calls with values ---------------------------------------------------------
+
+    def _call_macro(self, line: str) -> None:
+        head, *words = (word for word in words_of(line, self._facts.expressions) if word.letter != "N")
+        does = self._macros[head.code]
+        if does == "no-subroutine":
+            if words:
+                raise BlockError(f"{words[0].text} beside {head.text}: no page prints what it does")
+            self._modal = None
+            return
+        if assumed := self._codes.known[head.code].facts.assumed:
+            self._notes.append(sentence(assumed))
+        numbers: dict[str, float] = {}
+        for word in words:
+            if word.letter in numbers:
+                raise BlockError(f"{word.letter} is given twice in a block", "repeated")
+            if not word.number:
+                raise BlockError(f"{word.letter}: a letter without a number", "no-number")
+            numbers[word.letter] = worth(word.number, self._parameters)
+        label, repeats = numbers.pop("P", None), numbers.pop("L", 1.0)
+        if label is None or label != int(label):
+            raise BlockError(f"{head.text} needs P, the number of the subroutine", "no-number")
+        if repeats != int(repeats) or not 1 <= repeats <= MOST_CALLS:
+            raise BlockError(f"L{repeats:g}: a subroutine is called 1 to {MOST_CALLS} times")
+        if other := sorted(set(numbers) - set(self._facts.variables)):
+            raise BlockError(f"{other[0]} is no variable of a subroutine", "unknown-word")
+        values = {self._facts.variables[letter]: number for letter, number in numbers.items()}
+        call = SubroutineCall(int(label), int(repeats), values)
+        self._place(call.label)
+        if does == "modal-subroutine":
+            self._modal = call
+        else:
+            self._enter(_Level(self.at, call, call.repeats))
+
+    def _enter(self, level: _Level) -> None:
+        assert level.call is not None
+        level.left -= 1
+        self._push(level)
+        self._parameters.update(level.call.values)
+        self.at = self._place(level.call.label)
+
+
+def _labels(lines: Sequence[str]) -> dict[int, int]:
+    """Return number of a block -> its line from 0, the first of each number."""
+    found: dict[int, int] = {}
+    for n, line in enumerate(lines):
+        if (label := _LABEL.match(line.upper())) is not None and len(label[1]) < 12:
+            found.setdefault(int(label[1]), n)
+    return found
