@@ -24,6 +24,8 @@ from amp_studio.report import (
     Contents,
     ExchangeLine,
     PrintedFigure,
+    PrintedProgram,
+    ProgramLimit,
     SetReport,
     print_report,
     run_apart,
@@ -67,6 +69,7 @@ def write_report(
         motion=tuple((motion or motion_figures)(file)) if has_drawings else (),
         exchanges=() if "exchanges" in contents.without or source is None else tuple(exchanges_of(source)),
         checks=tuple(checks_of(file)) if contents.check else (),
+        programs=tuple(programs_of(file, contents.programs)),
     )
 
 
@@ -93,6 +96,7 @@ def set_dossier(
         motion=motion,
         exchanges=() if "exchanges" in contents.without else tuple(exchanges_of(source)),
         checks=tuple(checks_of(file)) if contents.check else (),
+        programs=tuple(programs_of(file, contents.programs)),
     )
 
 
@@ -142,6 +146,36 @@ def checks_of(file: ParameterFile) -> Iterator[CheckedMotion]:
             yield CheckedMotion(check.verdict, check.scenario, check.letter, figures, text)
     except SimulationError:  # a family without a law, a file without axes
         return
+
+
+def programs_of(file: ParameterFile, paths: Sequence[Path]) -> Iterator[PrintedProgram]:
+    """Yield part programs under a file. Raises ProgramBlockError for what is no program, SimulationError
+    where a value is missing or no page prints how the family moves.
+    """
+    if not paths:
+        return
+    from amp_studio.drawing import picture_svg
+    from amp_studio.programs import read_program
+    from amp_studio.sim import ProgramJob, contour_text, limited_by, path_picture
+
+    for path in paths:
+        run = ProgramJob(read_program(path)).run(file)
+        drawn = ""
+        if len(run.plan.path):
+            drawn = picture_svg(path_picture(file, run), width=_WIDTH, unit=_UNIT, small_print=False)
+        yield PrintedProgram(
+            text_of_name(path.name),
+            run.plan.path.blocks,
+            run.plan.time,
+            tuple(
+                ProgramLimit(row["letter"], row["name"], row["param"], row["time_s"], row["share"])
+                for row in limited_by(file, run)
+            ),
+            contour_text(run),
+            tuple(f"Line {alarm.line}: {f'{alarm.code} {alarm.message}'.strip()}" for alarm in run.alarms),
+            drawn,
+            run.assumptions,
+        )
 
 
 def motion_apart(file: ParameterFile) -> tuple[PrintedFigure, ...]:

@@ -35,7 +35,7 @@ from .dangers import dangers_of
 from .drawings import drawings
 from .findings.alike import notes_of, suppressed_notes
 from .language import Language, language_of
-from .model import CheckedMotion, ExchangeLine, PrintedFigure, ProgramState, Report, ReportRow
+from .model import CheckedMotion, ExchangeLine, PrintedFigure, PrintedProgram, ProgramState, Report, ReportRow
 from .parameter.manual_page import help_parts
 from .rows import Rows, row_of, rows_of
 from .sections import numbers_of, sections_of
@@ -56,12 +56,14 @@ def build_report(
     motion: Sequence[PrintedFigure] = (),
     exchanges: Sequence[ExchangeLine] = (),
     checks: Sequence[CheckedMotion] = (),
+    programs: Sequence[PrintedProgram] = (),
 ) -> Report:
     """Return the report of a file as it is in memory; secrets are masked.
 
     ``source`` is its path on disk, ``project`` what its project has about the machine; ``date`` is printed,
     the present time if left out. ``motion`` are drawings of the simulator,
-    ``exchanges`` what the record has of this file, ``checks`` what every scenario found.
+    ``exchanges`` what the record has of this file, ``checks`` what every scenario found,
+    ``programs`` part programs under it.
     """
     contents = contents or Contents()
     language = language_of(contents.language, file.schema.family.family)
@@ -102,6 +104,7 @@ def build_report(
         power_up=() if "power-up" in contents.without else tuple(_power_up(file, language)),
         exchanges=() if "exchanges" in contents.without else tuple(exchanges),
         checks=tuple(checks),
+        programs=tuple(programs),
         family_id=family.family,
         file_data=_file_data(file, source),
         totals=_totals(file, found, now),

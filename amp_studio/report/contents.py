@@ -5,6 +5,7 @@ the choices of the person who prints it.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal
 
 Sort = Literal["axis", "number", "group", "steps"]
@@ -57,6 +58,8 @@ class Contents:
     paper: PaperSize = "a4"
     check: bool = False
     """With a chapter of what `check` finds: every scenario is run for it."""
+    programs: tuple[Path, ...] = ()
+    """Part programs with a chapter each."""
 
     def __post_init__(self) -> None:
         if self.sort not in SORTS:

@@ -274,6 +274,46 @@ class CheckedMotion:
 
 
 @dataclass(frozen=True, slots=True)
+class ProgramLimit:
+    """What limits the feed of a part program, and how long."""
+
+    letter: str
+    """In its picture."""
+    name: str
+    param: str
+    """As it is typed; "" for none."""
+    time_s: float
+    share: float
+
+    @property
+    def texts(self) -> tuple[str, str]:
+        """Time in s and share in %, as they are printed."""
+        return f"{self.time_s:.4g}", f"{100.0 * self.share:.1f}"
+
+
+@dataclass(frozen=True, slots=True)
+class PrintedProgram:
+    """A part program under the file."""
+
+    name: str
+    blocks: int
+    time_s: float
+    limits: tuple[ProgramLimit, ...]
+    """The longest first."""
+    contour: str
+    """Its contour error, or why there is none, in words."""
+    alarms: tuple[str, ...]
+    svg: str
+    assumptions: tuple[str, ...]
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is below its picture, sentences."""
+        whole = f"{self.blocks} blocks, {self.time_s:.4g} s"
+        return whole, self.contour, *self.alarms, *self.assumptions
+
+
+@dataclass(frozen=True, slots=True)
 class ProgramState:
     """A line of what is active in part programs after power-up, and what changes it."""
 
@@ -337,8 +377,15 @@ class Report:
     """The counts of the cover as data."""
     checks: tuple[CheckedMotion, ...] = ()
     """Every scenario that the file allows, where that chapter is asked for."""
+    programs: tuple[PrintedProgram, ...] = ()
+    """The part programs that were given."""
     machine_file: str = ""
     """The parameter file that is printed, without its secrets."""
+
+    @property
+    def program_figures(self) -> tuple[PrintedFigure, ...]:
+        """Their paths."""
+        return tuple(PrintedFigure(each.name, each.svg, each.notes) for each in self.programs)
 
     @property
     def machine_name(self) -> str:

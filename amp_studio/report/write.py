@@ -12,7 +12,7 @@ from amp_studio.validate import NO_RULES, BuilderRules
 from .apart import What, made_apart
 from .build import build_report
 from .contents import Contents
-from .model import CheckedMotion, ExchangeLine, PrintedFigure, Report
+from .model import CheckedMotion, ExchangeLine, PrintedFigure, PrintedProgram, Report
 from .output.data import render_json
 from .output.everything import render_workbook
 from .output.page import render_html
@@ -48,6 +48,7 @@ def print_report(
     motion: Sequence[PrintedFigure] = (),
     exchanges: Sequence[ExchangeLine] = (),
     checks: Sequence[CheckedMotion] = (),
+    programs: Sequence[PrintedProgram] = (),
     notify: Notify = lambda _note: None,
 ) -> bool:
     """Write the documentation of a file, whole or not at all; the file extension of ``path`` sets the format.
@@ -56,9 +57,9 @@ def print_report(
     is printed (now when left out), ``own`` are the builder's rules; ``notify`` is called with each attribute
     of a replaced file that could not be kept, and with the mistake of a project's template. Returns whether
     the project's own template was used, where it has
-    one: False is the standard report in its place. ``motion``, ``exchanges`` and ``checks`` are those of
-    ``build_report``. Raises ValueError for an unknown file extension, ParameterFileError for a project that
-    cannot be read, SaveError when it cannot be written.
+    one: False is the standard report in its place. ``motion``, ``exchanges``, ``checks`` and ``programs`` are
+    those of ``build_report``. Raises ValueError for an unknown file extension, ParameterFileError for a
+    project that cannot be read, SaveError when it cannot be written.
     """
     path, source = Path(path), Path(source) if source else None
     if path.suffix.lower() not in FORMATS:
@@ -75,6 +76,7 @@ def print_report(
         motion=motion,
         exchanges=exchanges,
         checks=checks,
+        programs=programs,
     )
     content, mistake = _rendered(report, path.suffix.lower(), folder)
     write_atomic(path, content, keep_backup=False, notify=notify)
@@ -95,6 +97,7 @@ def set_report(
     motion: Sequence[PrintedFigure] = (),
     exchanges: Sequence[ExchangeLine] = (),
     checks: Sequence[CheckedMotion] = (),
+    programs: Sequence[PrintedProgram] = (),
     notify: Notify = lambda _note: None,
 ) -> SetReport:
     """Return the pages of what ``print_report`` writes as PDF, as pictures with ``ppi`` pixels to the inch:
@@ -111,6 +114,7 @@ def set_report(
         motion=motion,
         exchanges=exchanges,
         checks=checks,
+        programs=programs,
     )
     template = own_template(real_path(source).parent, "report.typ.j2")
     try:

@@ -61,7 +61,15 @@ if TYPE_CHECKING:
     from .path.moment import PathMoment, moment_at
     from .path.picture import limit_sort, path_picture
     from .path.program import ProgramRun
-    from .path.result import limited_by, line_rows, program_csv, program_summary, program_text, try_summary
+    from .path.result import (
+        contour_text,
+        limited_by,
+        line_rows,
+        program_csv,
+        program_summary,
+        program_text,
+        try_summary,
+    )
     from .path.typed import typed_places, typed_steps, typed_values
     from .path_rules import (
         CornerRule,

@@ -8,6 +8,7 @@ meaning.
 from __future__ import annotations
 
 import json
+from dataclasses import asdict
 from typing import Any
 
 from amp_studio.report.findings.note import Note
@@ -77,6 +78,7 @@ def report_data(report: Report) -> dict[str, Any]:
         ],
         "power_up": [{name: getattr(each, name) for name in each.__slots__} for each in report.power_up],
         "checks": [{name: getattr(each, name) for name in each.__slots__} for each in report.checks],
+        "part_programs": [asdict(each) for each in report.programs],
         "exchanges": [{name: getattr(each, name) for name in each.__slots__} for each in report.exchanges],
     }
 

@@ -45,6 +45,14 @@ def render_workbook(report: Report) -> bytes:
             names = tuple(records[0].__slots__)
             lines = [tuple(getattr(each, name) for name in names) for each in records]
             sheets.append(WorkbookSheet(title, names, lines))
+    limits = [
+        (each.name, limit.letter, limit.name, limit.param, limit.time_s, limit.share)
+        for each in report.programs
+        for limit in each.limits
+    ]
+    if limits:
+        heads_of_limits = ("program", "letter", "limit", "parameter", "s", "share")
+        sheets.append(WorkbookSheet("Part programs", heads_of_limits, limits))
     noted = [("Machine", report.remarks), *report.remarked] if report.remarks else report.remarked
     if noted:
         sheets.append(WorkbookSheet("Notes", ("about", "note"), noted))

@@ -41,6 +41,7 @@ def _lines(report: Report, words: Language) -> Iterator[str]:
             yield ""
     yield from _power_up(report, words)
     yield from _checks(report, words)
+    yield from _programs(report, words)
     yield from _exchanges(report, words)
     if "signatures" not in report.contents.without:
         yield from _heading(words.text("Signatures").upper())
@@ -68,6 +69,18 @@ def _checks(report: Report, words: Language) -> Iterator[str]:
         if each.text:
             yield from _wrapped(each.text, "    ")
     yield ""
+
+
+def _programs(report: Report, words: Language) -> Iterator[str]:
+    for each in report.programs:
+        yield from _heading(f"{words.text('Part program').upper()} {each.name}")
+        for limit in each.limits:
+            name = f"{words.sentence(limit.name)}  {limit.param}".rstrip()
+            time, share = limit.texts
+            yield f"  {limit.letter}  {time:>7} s  {share:>5} %  {name}"
+        for line in each.notes:
+            yield from _wrapped(words.sentence(line), "")
+        yield ""
 
 
 def _exchanges(report: Report, words: Language) -> Iterator[str]:

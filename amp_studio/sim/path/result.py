@@ -169,7 +169,7 @@ def program_text(
     return "\n".join(in_text(line, length) for line in _lines(file, run, tries, others))
 
 
-def _contour_line(run: ProgramRun) -> str:
+def contour_text(run: ProgramRun) -> str:
     """Return the contour error in words, or why there is none."""
     contour = run.contour
     if contour is None:
@@ -193,7 +193,7 @@ def _lines(
             param = f"  {row['param']}" if row["param"] else ""
             time = value_text(row["time_s"], "s", 4)
             yield f"  {100.0 * row['share']:5.1f} %  {time:>10}  {row['name']}{param}"
-    yield _contour_line(run)
+    yield contour_text(run)
     if tries:
         yield "What if:"
         yield from (_try_line(file, run, each) for each in tries)

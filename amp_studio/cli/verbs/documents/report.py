@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.cli.arguments import LANGUAGE, OUTPUT, PATH, TEXT
+from amp_studio.cli.arguments import LANGUAGE, OUTPUT, PATH, TEXT, path_of
 from amp_studio.cli.console import note
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_replaced
@@ -33,6 +33,14 @@ VERB = Verb(
         "--check",
         action="store_true",
         help="with a chapter of what check finds in motion (every scenario is run)",
+    ),
+    VerbArgument(
+        "--program",
+        action="append",
+        type=path_of,
+        default=[],
+        metavar="FILE.nc",
+        help="with a chapter of a part program under the file; again for more",
     ),
     LANGUAGE,
     VerbArgument("--inactive", action="store_true", help="also what the control ignores on this machine"),
@@ -73,6 +81,7 @@ def run(options: Options) -> int:
         without=frozenset(options.without or ()),
         paper=options.paper,
         check=options.check,
+        programs=tuple(options.program),
         notify=note,
     )
     print(options.output)

@@ -1,0 +1,70 @@
+"""The chapter of part programs: in each format, and only where they are given."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from amp_studio import dossier
+from amp_studio.files import open_file
+from amp_studio.programs import ProgramBlockError
+from amp_studio.report import Contents, PrintedProgram, ProgramLimit
+
+LIMITS = (
+    ProgramLimit("B", "Rapid Speed", "speeds.rapid", 1.5, 0.75),
+    ProgramLimit("A", "dwell", "", 0.5, 0.25),
+)
+FOUND = PrintedProgram(
+    "plate.nc",
+    21,
+    2.0,
+    LIMITS,
+    "Contour error: at most 9 µm in line 3",
+    ("Line 4: beyond X",),
+    "",
+    ("No load.",),
+)
+BARE = frozenset({"pictures", "motion", "power-up", "exchanges", "signatures"})
+
+
+@pytest.fixture
+def report(checkout: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Return what writes a report of a router in a format, with a program that is given."""
+    monkeypatch.setattr(dossier, "programs_of", lambda _file, paths: iter([FOUND] if paths else ()))
+    file = open_file(checkout / "examples" / "acromill-router" / "ROUTER.amp").file
+
+    def written(ending: str, *programs: Path) -> str:
+        path = tmp_path / f"report.{ending}"
+        dossier.write_report(file, path, Contents(without=BARE, changed_only=True, programs=programs))
+        return path.read_text("utf-8")
+
+    return written
+
+
+@pytest.mark.parametrize("ending", ["html", "txt"])
+def test_the_chapter_is_there_where_a_program_is_given(report, ending: str) -> None:
+    text = report(ending, Path("plate.nc"))
+    for words in ("plate.nc", "21 blocks, 2 s", "at most 9 µm in line 3", "beyond X", "75.0", "speeds.rapid"):
+        assert words in text
+    assert "plate.nc" not in report(ending)
+
+
+def test_the_data_has_what_limits_each_program(report) -> None:
+    found = json.loads(report("json", Path("plate.nc")))["part_programs"]
+    assert [limit["share"] for limit in found[0]["limits"]] == [0.75, 0.25]
+    assert json.loads(report("json"))["part_programs"] == []
+
+
+def test_a_real_program_has_its_path_and_its_time(checkout: Path, tmp_path: Path) -> None:
+    file = open_file(checkout / "examples" / "grblhal-router" / "GRBL_ROUTER.amp").file
+    path = tmp_path / "a.nc"
+    path.write_text("G21 G90\nG1 X-60 F600\n")
+    (found,) = dossier.programs_of(file, [path])
+    assert found.time_s > 6.0
+    assert found.svg.startswith("<svg")
+    assert sum(limit.share for limit in found.limits) == pytest.approx(1.0, abs=0.01)
+    path.write_bytes(bytes(4))
+    with pytest.raises(ProgramBlockError):
+        list(dossier.programs_of(file, [path]))
