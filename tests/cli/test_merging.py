@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -268,7 +269,7 @@ def test_many_machines_are_compared_by_groups_that_agree(amp, mill: Path, tmp_pa
         "group 1, 6 machines: line1, line2, line6, line7, line8, line9",
         "group 2, 2 machines: line4, line5",
         "group 3, 1 machine: line3",
-        f"{'1300 Home Calibration':52} 0 mm (1)  |  2 mm (2, 3)",
+        f"{'1300 Home Calibration':52} 0 mm (1)  |  2 mm (2-3)",
         f"{'2300 Home Calibration':52} 0 mm (1, 3)  |  4 mm (2)",
     ]
     groups = amp("compare", *paths, "--json").json["groups"]
@@ -277,3 +278,19 @@ def test_many_machines_are_compared_by_groups_that_agree(amp, mill: Path, tmp_pa
         ["line4", "line5"],
         ["line3"],
     ]
+
+
+def test_long_lists_of_machines_are_shortened_and_whole_where_that_is_asked_for(
+    amp, mill: Path, tmp_path: Path
+) -> None:
+    text, paths = mill.read_text("utf-8"), [tmp_path / f"machine{n:02}.amp" for n in range(32)]
+    for n, path in enumerate(paths):
+        figure = "1.5 mm" if n < 20 else f"{n} mm"
+        path.write_text(re.sub("(?m)^( *home.calibration@1: ).*", rf"\g<1>{figure}", text), "utf-8")
+    short, whole = (amp("compare", *paths, *more).out.splitlines() for more in ((), ("--in-full",)))
+    assert max(map(len, (*short, *whole))) <= 110
+    assert short[0].startswith("group 1, 20 machines: machine00, ")
+    assert short[1].strip().endswith("machine11, … and 8 more")
+    assert [line.strip() for line in short[-3:-1]] == ["26 mm (8)", "… and 5 more"]
+    assert "machine19" in " ".join(whole)
+    assert [line.strip() for line in whole[-3:-1]] == ["30 mm (12)", "31 mm (13)"]

@@ -295,6 +295,18 @@ def test_the_numbers_of_grbl_08_mean_other_settings_and_are_read_by_those_of_tod
     )
 
 
+def test_a_listing_with_a_few_of_its_remarks_is_read_whole_by_the_numbers_of_its_release() -> None:
+    remarks = {5: " (default seek, mm/min)", 8: " (acceleration, mm/sec^2)", 20: " (homing seek, mm/min)"}
+    found = everything("".join(f"${n}={value}{remarks.get(n, '')}\n" for n, value in enumerate(OLD)))
+    assert found.values["axis.steps", "Z"] == Value(320.0, "steps/mm")
+    assert found.values["classic.pulse_time", ""].value == 30
+    assert len(found.unknown) == 9, "as without a remark"
+
+
+def test_the_names_of_a_tinyg_are_no_settings() -> None:
+    assert not FORMAT.recognises("$gun=1 ; units mode\n$1ma=0\n$1sa=1.8\n$xvm=16000\n$xfr=16000\n$xtm=220\n")
+
+
 def test_remarks_of_what_grbl_no_longer_has_show_the_age_of_a_few_lines() -> None:
     text = (
         "$0=25.464 (x, step/mm)\n$1=24.615 (y, step/mm)\n$4=15000.000 (default feed, mm/min)\n"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli.arguments import BY_LETTER, JSON, LANGUAGE, OUTPUT, PATHS, TEXT
@@ -15,10 +16,21 @@ if TYPE_CHECKING:
     from amp_studio.files import ParameterFile
     from amp_studio.schema import Address, Value
 
+WIDTH = 110
+"""Columns from which on a line about many machines is continued below."""
+
+NAMES, VALUES = 12, 8
+"""Machines of a group, and values of a row, before the rest is a number."""
+
 VERB = Verb(
     __doc__,
     PATHS,
     VerbArgument("--everything", action="store_true", help="also what is the same on all of them"),
+    VerbArgument(
+        "--in-full",
+        action="store_true",
+        help="of many machines every name and every value; else the first of a long list, and how many more",
+    ),
     BY_LETTER,
     OUTPUT.but(required=False, help="the table, as .pdf, .html, .xlsx or .csv"),
     LANGUAGE,
@@ -35,7 +47,7 @@ VERB = Verb(
 def run(options: Options) -> int:
     """Print or write what differs between machines; 1 where anything does."""
     from amp_studio.cli.checks.comparing import matched_by_letter_noted
-    from amp_studio.report import alike_of, machine_groups, machine_names, machine_rows
+    from amp_studio.report import SIDE_BY_SIDE, alike_of, machine_groups, machine_names, machine_rows
 
     files = [opened(path, options).file for path in options.paths]
     if len({file.schema.family.family for file in files}) > 1:
@@ -61,7 +73,10 @@ def run(options: Options) -> int:
             }
         )
     else:
-        _print(files[0], names, rows, alike, groups)
+        if len(files) > SIDE_BY_SIDE:
+            _print_groups(files[0], names, rows, alike, groups, in_full=options.in_full)
+        else:
+            _print(files[0], rows)
         print(f"{len(rows)} listed, {same} are the same on all {len(files)}")
     return int(any(map(any, alike)))
 
@@ -94,26 +109,65 @@ def _json_row(first: ParameterFile, address: Address, values: Sequence[Value | N
     }
 
 
-def _print(
+def _print(first: ParameterFile, rows: Sequence[tuple[Address, Sequence[Value | None]]]) -> None:
+    """Print a line for each value, with that of each machine."""
+    from amp_studio.schema import show_value
+
+    for address, values in rows:
+        texts = (show_value(first.schema.parameters[address[0]], value) for value in values)
+        print(f"{first.machine_schema.named(address):52} {'  |  '.join(texts)}")
+
+
+def _print_groups(
     first: ParameterFile,
     names: Sequence[str],
     rows: Sequence[tuple[Address, Sequence[Value | None]]],
     alike: Sequence[tuple[int, ...]],
     groups: Sequence[tuple[int, ...]],
+    *,
+    in_full: bool,
 ) -> None:
-    """Print a line for each value: those of all machines, or of the groups of many machines."""
-    from amp_studio.report import SIDE_BY_SIDE, counted, groups_by_value
+    """Print the groups of machines that agree, and a line for each value with the groups that have it."""
+    from amp_studio.report import counted, groups_by_value
     from amp_studio.schema import show_value
 
-    is_grouped = len(names) > SIDE_BY_SIDE
-    for number, group in enumerate(groups if is_grouped else (), 1):
-        print(f"group {number}, {counted(len(group), 'machine')}: {', '.join(names[n] for n in group)}")
+    for number, group in enumerate(groups, 1):
+        machines = _first_of([names[n] for n in group], 0 if in_full else NAMES)
+        _print_wrapped(f"group {number}, {counted(len(group), 'machine')}: {', '.join(machines)}")
     for (address, values), same_as in zip(rows, alike, strict=True):
-        texts = [show_value(first.schema.parameters[address[0]], value) for value in values]
-        if is_grouped:
-            by_value = groups_by_value(same_as, groups)
-            texts = [f"{texts[n]} ({', '.join(map(str, numbers))})" for n, numbers in by_value]
-        print(f"{first.machine_schema.named(address):52} {'  |  '.join(texts)}")
+        parameter, name = first.schema.parameters[address[0]], first.machine_schema.named(address)
+        texts = [
+            f"{show_value(parameter, values[n])} ({_runs(numbers)})"
+            for n, numbers in groups_by_value(same_as, groups)
+        ]
+        texts = _first_of(texts, 0 if in_full else VALUES)
+        line = f"{name:52} {'  |  '.join(texts)}"
+        if len(line) <= WIDTH:
+            print(line)
+            continue
+        print(name)
+        for text in texts:
+            _print_wrapped(f"    {text}")
+
+
+def _first_of(texts: list[str], most: int) -> list[str]:
+    """Return the first texts and how many more there are, one of which would take no less room; all for 0."""
+    return texts if not most or len(texts) <= most + 1 else [*texts[:most], f"… and {len(texts) - most} more"]
+
+
+def _runs(numbers: Sequence[int]) -> str:
+    """Return ascending numbers with those that follow each other as one: ``1-3, 7``."""
+    runs: list[list[int]] = []
+    for number in numbers:
+        if runs and number == runs[-1][-1] + 1:
+            runs[-1][1:] = [number]
+        else:
+            runs.append([number])
+    return ", ".join("-".join(map(str, run)) for run in runs)
+
+
+def _print_wrapped(line: str) -> None:
+    print(fill(line, WIDTH, subsequent_indent=" " * 8, break_long_words=False, break_on_hyphens=False))
 
 
 def _by_meaning(options: Options, files: list[ParameterFile]) -> int:

@@ -177,7 +177,11 @@ def _by_remarks(listing: LoggedListing) -> dict[int, str]:
     number does today.
     """
     names = {n: name for n, remark in listing.remarks.items() if (name := _name_of(remark))}
-    return names if sum(_TODAY.get(name) != n for n, name in names.items()) >= _LEAST else {}
+    if sum(_TODAY.get(name) != n for n, name in names.items()) < _LEAST:
+        return {}
+    # A person who types a listing leaves remarks out: the one release that the others show has the names.
+    layout = dict(enumerate(_LAYOUTS.get(_release_of(listing, names), ())))
+    return {n: layout[n] for n in listing.settings.keys() & layout.keys() if not listing.remarks[n]} | names
 
 
 def _name_of(remark: str) -> str:

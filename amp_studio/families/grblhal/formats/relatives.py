@@ -104,6 +104,8 @@ $23 has the bit of each axis that homes in its negative direction. Which axes ho
 has in its build: that is kept as text.
 """
 _MOST = 5000
+_LEAST_NAMED = 3
+"""Settings by name before a text is taken for a listing of them."""
 
 
 @dataclass
@@ -118,7 +120,10 @@ class Relative:
 
 def is_relative(text: str) -> bool:
     """Return whether a text is one of these."""
-    return bool(_MARLIN.search(text) or _FLUIDNC.search(text) or len(_BY_NAME.findall(text)) >= 3)
+    if _MARLIN.search(text) or _FLUIDNC.search(text):
+        return True
+    # TinyG has names behind its $ too, but none with a slash.
+    return sum("/" in name for name, _ in _BY_NAME.findall(text)) >= _LEAST_NAMED
 
 
 def read_relative(text: str) -> Relative:
