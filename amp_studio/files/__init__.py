@@ -109,7 +109,7 @@ if TYPE_CHECKING:
     from .storage import content_of, readable_content
     from .stored_text import storage_text
     from .times import day_and_time, local_time, with_days_and_times, with_local_times
-    from .versions import before_saves, with_defaults
+    from .versions import SavedVersion, before_saves, saved_versions, with_defaults
     from .yaml_text import scalar_text, with_item
 else:
     __getattr__ = front_page(__name__)

@@ -4,13 +4,39 @@ its defaults, its history.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
 
 from amp_studio.schema import InvalidValueError, read_address
 
 from .document import HistoryEntry
 from .parameter_file import ParameterFile
 from .reading import read_stored
+
+
+@dataclass(frozen=True)
+class SavedVersion:
+    """A file as it was before one of its saves."""
+
+    when: str
+    """Of the save, in UTC."""
+    changed: tuple[str, ...]
+    """What the save changed, as the history has it."""
+    file: ParameterFile
+
+
+def saved_versions(file: ParameterFile, history: Sequence[HistoryEntry], most: int) -> Iterator[SavedVersion]:
+    """Yield a saved file as it was before each of its last saves, the newest first; ``history`` is all of
+    it.
+    """
+    seen: list[HistoryEntry] = []
+    for n, (when, saved) in enumerate(groupby(history, key=lambda entry: entry.when)):
+        if n == most:
+            return
+        entries = list(saved)
+        seen += entries
+        yield SavedVersion(when, tuple(entry.param for entry in entries), before_saves(file, seen))
 
 
 def with_defaults(file: ParameterFile) -> ParameterFile:

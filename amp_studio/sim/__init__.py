@@ -57,17 +57,19 @@ if TYPE_CHECKING:
     from .model import assumptions, with_model
     from .motion_check import MotionCheck, check_motion
     from .parameter_roles import ParameterRoles
-    from .path.job import ProgramJob, WhatIf, versions, what_if
+    from .path.job import ProgramJob, ProgramVersion, WhatIf, versions, what_if
     from .path.moment import PathMoment, moment_at
-    from .path.picture import limit_sort, path_picture
+    from .path.picture import PathColours, limit_sort, path_picture
     from .path.program import ProgramRun
     from .path.result import (
         contour_text,
+        limit_tries,
         limited_by,
         line_rows,
         program_csv,
         program_summary,
         program_text,
+        run_against,
         try_summary,
     )
     from .path.typed import typed_places, typed_steps, typed_values

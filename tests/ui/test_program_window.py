@@ -6,9 +6,11 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import pytest
+from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from amp_studio.files import open_file
+from amp_studio.files import SavedVersion, open_file
+from amp_studio.machine import read_assignments
 from amp_studio.schema import Address, Value
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.motion.program_play import STEPS
@@ -33,7 +35,12 @@ def window(qtbot: QtBot, applied: list[dict[Address, Value]]) -> Iterator[Progra
         file.take(values)
         return True
 
-    made = ProgramWindow(file.copy, apply)
+    def earlier() -> list[SavedVersion]:
+        slow = file.copy()
+        slow.set_checked(read_assignments(slow, [("speeds.rapid", "50 in/min")]))
+        return [SavedVersion("2026-11-21T10:00:00+00:00", ("speeds.rapid",), slow)]
+
+    made = ProgramWindow(file.copy, apply, earlier=earlier)
     qtbot.addWidget(made)
     yield made
     Task.end_all()
@@ -59,21 +66,55 @@ def test_a_program_shows_its_time_what_limits_it_and_another_value(
     assert "Open a part program first" in window.summary.text()
     window.open_program(ROUTER / "plate.nc")
     qtbot.waitUntil(lambda: window.outcome is not None, timeout=10 * WAIT_MS)
-    assert window.summary.text().startswith("plate.nc: 21 blocks")
+    assert window.title.text().startswith("plate.nc: 21 blocks")
     assert "feed as programmed" in [window.limits.item(n, 1).text() for n in range(window.limits.rowCount())]
     assert [window.lines.item(n, 1).text() for n in (3, 4)] == ["R", "A"]
     assert window.plot.picture is not None
     window.view.buttons["tilted"].click()
     enter(window, "change", "speeds.rapid=150; speeds.min_corner=+20%")
-    qtbot.waitUntil(lambda: window.tries.rowCount() == 1, timeout=10 * WAIT_MS)
-    assert window.tries.item(0, 2).text().startswith("-")
-    window.apply_button.click()
+    qtbot.waitUntil(lambda: window.tries.table.rowCount() == 1, timeout=10 * WAIT_MS)
+    assert window.tries.table.item(0, 2).text().startswith("-")
+    window.tries.apply_button.click()
     assert applied == [
         {("speeds.rapid", ""): Value(150.0, "in/min"), ("speeds.min_corner", ""): Value(6.0, "in/min")}
     ]
     before = window.outcome
     qtbot.waitUntil(lambda: window.outcome is not before, timeout=10 * WAIT_MS)  # under the file of now
     assert window.outcome.plan.time < before.plan.time
+
+
+def test_changes_that_are_ticked_are_computed_together(window: ProgramWindow, qtbot: QtBot) -> None:
+    window.open_program(ROUTER / "plate.nc")
+    qtbot.waitUntil(lambda: window.outcome is not None, timeout=10 * WAIT_MS)
+    panel = window.tries
+    window.tries.limits_button.click()
+    qtbot.waitUntil(lambda: panel.table.rowCount() >= 3, timeout=20 * WAIT_MS)
+    assert not panel.apply_button.isEnabled()
+    for row in (0, 1):
+        panel.table.item(row, 0).setCheckState(Qt.CheckState.Checked)
+    qtbot.waitUntil(lambda: "Ticked together" in panel.together.text(), timeout=10 * WAIT_MS)
+    assert len(panel.values()) == 2
+    rows = panel.table.rowCount()
+    panel.earlier_button.click()
+    qtbot.waitUntil(lambda: panel.table.rowCount() == rows + 1, timeout=10 * WAIT_MS)
+    assert "speeds.rapid" in panel.table.item(rows, 0).text()
+    assert panel.table.item(rows, 2).text().startswith("+")
+    panel.clear_button.click()
+    assert (panel.table.rowCount(), panel.values()) == (0, {})
+
+
+def test_a_path_is_coloured_by_its_feed_and_by_its_error_too(window: ProgramWindow, qtbot: QtBot) -> None:
+    window.open_program(ROUTER / "plate.nc")
+    qtbot.waitUntil(lambda: window.outcome is not None, timeout=10 * WAIT_MS)
+    for colours, words in (
+        ("feed", "% of the feed"),
+        ("error", "% of 168 µm"),
+        ("limit", "A feed as programmed"),
+    ):
+        window.colours.buttons[colours].click()
+        assert window.plot.picture is not None
+        assert window.plot.picture.above is not None
+        assert words in window.plot.picture.above.subtitle
 
 
 def test_what_cannot_be_read_is_a_sentence(window: ProgramWindow, tmp_path: Path) -> None:

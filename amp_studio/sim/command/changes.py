@@ -85,7 +85,8 @@ def peaks(
         return highest.copy()
     if ramp.kind == "linear" or (ramp.kind == "s-curve" and ramp.jerk == 0.0):
         # An infinite slope takes no way: its share is the limit of the quotient.
-        share = 1.0 / (1.0 + np.where(np.isfinite(deceleration), acceleration / deceleration, 0.0))
+        with np.errstate(invalid="ignore"):  # of two infinite ones
+            share = 1.0 / (1.0 + np.where(np.isfinite(deceleration), acceleration / deceleration, 0.0))
         share = np.where(np.isfinite(acceleration), share, 0.0)
         slope = np.where(np.isfinite(acceleration), acceleration, deceleration)
         slope = np.where(np.isfinite(slope), slope, 1e12)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
+from typing import Literal
 
 import numpy as np
 
@@ -40,7 +42,17 @@ TILT = ((0.866, 0.5), (-0.5, 0.433), (0.0, 0.75))
 """What a unit of X, Y, Z is in the tilted picture: right, up."""
 
 
-def path_picture(file: ParameterFile, run: ProgramRun, moment: PathMoment | None = None) -> Picture:
+PathColours = Literal["limit", "feed", "error"]
+"""What colours a path: what limits the feed, its share of the programmed feed, the contour error."""
+FEED_PARTS = (0.98, 0.75, 0.5)
+"""Shares of the programmed feed that part its colours."""
+ERROR_PARTS = (0.25, 0.5, 0.75)
+"""Shares of the largest contour error that part its colours."""
+
+
+def path_picture(
+    file: ParameterFile, run: ProgramRun, moment: PathMoment | None = None, colours: PathColours = "limit"
+) -> Picture:
     """Return the picture of a program, with a dot where the axes are at one moment."""
     plan = run.plan
     facts = [f"{plan.path.blocks} blocks, {value_text(plan.time, 's', 4)}"]
@@ -57,8 +69,9 @@ def path_picture(file: ParameterFile, run: ProgramRun, moment: PathMoment | None
     if run.contour is not None:
         error = Curve("contour error", run.contour.time, 1000.0 * run.contour.error, "now", dense=True)
         panels.append(panel_of("contour error", (error,), ("time", "s"), "µm"))
-    plan_scene = path_scene(file, run, letters, moment, tilted=False)
-    tilted = path_scene(file, run, letters, moment, tilted=True)
+    classes = _classes(file, run, letters, colours)
+    plan_scene = path_scene(run, classes, moment, tilted=False)
+    tilted = path_scene(run, classes, moment, tilted=True)
     return Picture(
         "program", tuple(facts), tuple(panels), plan_scene, tilted, bool(run.alarms), run.assumptions
     )
@@ -75,14 +88,53 @@ def _speed(plan: ProgramPlan) -> Scene:
     return panel_of("speed along the path", (curve,), ("time", "s"), "mm/min")
 
 
-def path_scene(
-    file: ParameterFile, run: ProgramRun, letters: dict[int, str], moment: PathMoment | None, *, tilted: bool
-) -> Scene:
-    """Return the path in plan (the first two axes) or tilted (three), coloured by what limits it."""
+@dataclass(frozen=True)
+class _Classes:
+    """What colours the rows of a plan."""
+
+    of_rows: Indices
+    """(rows,)"""
+    letters: Mapping[int, str]
+    names: Mapping[str, str]
+    """Letter -> what it is."""
+
+
+def _classes(file: ParameterFile, run: ProgramRun, letters: dict[int, str], colours: PathColours) -> _Classes:
+    plan = run.plan
+    count = len(plan.entry)
+    if colours == "limit":
+        by = main_cause(plan) if count else np.zeros(0, np.int64)
+        return _Classes(
+            by, letters, {letter: limit_name(file, plan.causes[n]) for n, letter in letters.items()}
+        )
+    if colours == "feed":
+        wanted = plan.path.feed[plan.geometry.row]
+        time = np.maximum(plan.times.sum(axis=1), 1e-12)
+        shares = np.where(wanted > 0.0, plan.geometry.length / time / np.maximum(wanted, 1e-12), 1.0)
+        by = np.digitize(-shares, [-part for part in FEED_PARTS])
+        texts = _parts(FEED_PARTS, "from {} % of the feed on", "below {} % of the feed")
+    else:
+        largest = np.zeros(count)
+        if run.contour is not None:
+            np.maximum.at(largest, run.contour.row, np.abs(run.contour.error))
+        whole = float(largest.max()) if count else 0.0
+        by = np.digitize(largest / (whole or 1.0), ERROR_PARTS)
+        whole_text = value_text(1000.0 * whole, "µm", 3)
+        texts = _parts(ERROR_PARTS, f"below {{}} % of {whole_text}", f"from {{}} % of {whole_text} on")
+    found = dict(enumerate("ABCD"))
+    return _Classes(by.astype(np.int64), found, dict(zip(found.values(), texts, strict=True)))
+
+
+def _parts(parts: Sequence[float], text: str, last: str) -> list[str]:
+    return [*(text.format(f"{100.0 * part:g}") for part in parts), last.format(f"{100.0 * parts[-1]:g}")]
+
+
+def path_scene(run: ProgramRun, classes: _Classes, moment: PathMoment | None, *, tilted: bool) -> Scene:
+    """Return the path in plan (the first two axes) or tilted (three), in the colours of its classes."""
     plan = run.plan
     points, rows = path_points(plan, WITHIN)
     flat = _flat(points, tilted=tilted)
-    by = main_cause(plan) if len(plan.entry) else np.zeros(0, np.int64)
+    by, letters = classes.of_rows, classes.letters
     step = max(1, len(flat) // MOST_POINTS)
     lines: list[Polyline] = []
     texts: list[Text] = []
@@ -100,7 +152,7 @@ def path_scene(
             middle = flat[(first + last) // 2 if last - first > 1 else last]
             near = 0.5 * (flat[first] + flat[last]) if last - first == 1 else middle
             texts.append(Text((float(near[0]), float(near[1])), letter, anchor="above"))
-    names = {letter: limit_name(file, plan.causes[n]) for n, letter in letters.items()} | {"R": "rapid"}
+    names = {**classes.names, "R": "rapid"}
     title = "in space" if tilted else "in plan"
     key = ", ".join(f"{letter} {names[letter]}" for letter in sorted(seen))
     (left, right), (low, high) = (_span(flat[:, n]) for n in (0, 1))

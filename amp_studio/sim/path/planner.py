@@ -134,6 +134,8 @@ def plan_program(
     acceleration, ramp_by = _accelerations(path, geometry, rules, table, is_rapid, rules.axis_acceleration)
     slower = rules.axis_acceleration if rules.axis_deceleration is None else rules.axis_deceleration
     deceleration, slower_by = _accelerations(path, geometry, rules, table, is_rapid, slower)
+    for values, by in ((top, top_by), (acceleration, ramp_by), (deceleration, slower_by)):
+        _check_moves(geometry, table, values, by)
     slopes = acceleration, deceleration
     joint, joint_by = _joints(path, geometry, rules, table, top)
     if shaped is not None:
@@ -175,6 +177,15 @@ def plan_program(
         is_rapid,
         wanted,
     )
+
+
+def _check_moves(geometry: Geometry, table: CauseTable, values: PathRows, by: Causes) -> None:
+    """Refuse a speed or a ramp of 0, with which a move would never end."""
+    never = np.flatnonzero((geometry.length > 0.0) & ~(values > 0.0))
+    if len(never):
+        limit = table.limits[int(by[never[0]])]
+        named = limit.param[0] if limit.param else ""
+        raise SimulationError(f"{named or limit.title} is 0: a move along the path would never end", named)
 
 
 def _shape(

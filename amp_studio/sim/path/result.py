@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, show_value
+from amp_studio.schema import Address, Value, show_value
+from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.path_rules import Indices, PathLimit
 from amp_studio.sim.rounding import rounded, value_text
 from amp_studio.sim.unit_system import in_text, length_unit
 
-from .job import ProgramVersion, WhatIf
+from .job import ProgramVersion, WhatIf, scaled
 from .planner import ProgramPlan
 from .program import ProgramRun
 
@@ -83,6 +85,20 @@ def limited_by(file: ParameterFile, run: ProgramRun) -> list[dict[str, Any]]:
     return sorted(rows, key=lambda row: -float(row["time_s"]))
 
 
+def limit_tries(
+    file: ParameterFile, run: ProgramRun, share: float = 1.2, most: int = 5
+) -> Iterator[Mapping[Address, Value]]:
+    """Yield another value of each parameter that limits a program, the longest first: its value times
+    ``share``.
+    """
+    times = run.plan.time_by_cause()
+    for n in sorted(range(len(times)), key=lambda n: -times[n])[: most + 1]:
+        limit = run.plan.causes[n]
+        if limit.param is not None and times[n] > 0.0:
+            with suppress(SimulationError):
+                yield {limit.param: scaled(file, limit.param, share)}
+
+
 def program_summary(
     file: ParameterFile, run: ProgramRun, tries: Sequence[WhatIf] = (), others: Sequence[ProgramVersion] = ()
 ) -> dict[str, Any]:
@@ -117,7 +133,7 @@ def program_summary(
         "blocks": [{"line": line, "time_s": rounded(time, 6)} for line, time in lines.items()],
         "read_blocks": plan.path.blocks,
         "what_if": [try_summary(file, run, each) for each in tries],
-        "versions": [{"file": each.name, **_against(run, each.run, each.why_not)} for each in others],
+        "versions": [{"file": each.name, **run_against(run, each.run, each.why_not)} for each in others],
         "assumptions": list(run.assumptions),
     }
 
@@ -136,10 +152,10 @@ def try_summary(file: ParameterFile, before: ProgramRun, each: WhatIf) -> dict[s
         ],
         "not_allowed": list(each.not_allowed),
     }
-    return found | _against(before, each.run, each.why_not)
+    return found | run_against(before, each.run, each.why_not)
 
 
-def _against(before: ProgramRun, run: ProgramRun | None, why_not: str) -> dict[str, Any]:
+def run_against(before: ProgramRun, run: ProgramRun | None, why_not: str = "") -> dict[str, Any]:
     """Return time and error of another run, and by what they differ."""
     if run is None:
         return {"error": why_not}

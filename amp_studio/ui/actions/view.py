@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QAction
 
-from amp_studio.files import ParameterFile
+from amp_studio.files import ParameterFile, SavedVersion, saved_versions
 from amp_studio.schema import Address, Value, why_not_simulated
 from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.task import in_background
@@ -23,6 +23,10 @@ if TYPE_CHECKING:
 
 
 # -- units and control type ------------------------------------------------
+
+
+MOST_VERSIONS = 5
+"""Earlier versions of a file under which a program is run."""
 
 
 def set_units(window: StudioWindow, system: str) -> None:
@@ -177,7 +181,11 @@ def open_program(window: StudioWindow) -> None:
     def apply(values: Mapping[Address, Value]) -> bool:
         return workspace.edit(tr("Take from the program"), values)
 
-    window.beside.show(ProgramWindow(read, apply, window), workspace)
+    def earlier() -> list[SavedVersion]:
+        document = workspace.document
+        return list(saved_versions(document.as_saved(), document.history(), MOST_VERSIONS))
+
+    window.beside.show(ProgramWindow(read, apply, window, earlier=earlier), workspace)
 
 
 def _motion_view(file: ParameterFile) -> type[MotionView]:

@@ -8,6 +8,7 @@ import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import cast
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QCloseEvent
@@ -15,47 +16,52 @@ from PySide6.QtWidgets import (
     QDialog,
     QFileDialog,
     QHBoxLayout,
-    QHeaderView,
     QLabel,
     QPushButton,
     QSplitter,
-    QTableWidget,
-    QTableWidgetItem,
     QVBoxLayout,
     QWidget,
 )
 
 from amp_studio.errors import AmpStudioError
-from amp_studio.files import ParameterFile
+from amp_studio.files import ParameterFile, SavedVersion, day_and_time
 from amp_studio.programs import BlockReader, ProgramBlockError, power_up, read_program
-from amp_studio.schema import Address, Value
+from amp_studio.schema import Address, Value, read_address
 from amp_studio.sim import (
+    PathColours,
     PathMoment,
     ProgramJob,
     ProgramRun,
+    ProgramVersion,
     SimulationError,
     WhatIf,
     limit_sort,
+    limit_tries,
     limited_by,
     line_rows,
     moment_at,
     path_picture,
+    run_against,
     try_summary,
     typed_places,
     typed_values,
     value_text,
+    versions,
     what_if,
 )
 from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.plot import Plot
+from amp_studio.ui.base.scene_painter import TOKENS
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import Task, TaskProgress
-from amp_studio.ui.base.theme import GAP2, GAP3, font
+from amp_studio.ui.base.theme import GAP2, GAP3, colour, font, scheme
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.forms.form import Field, FieldForm
 from amp_studio.ui.forms.segment import Segment
 
 from .program_play import PlayBar, TimeBar, TimePart
+from .program_tables import fill, read_table
+from .what_if_panel import WhatIfPanel
 
 MOST_LINES = 5000
 """Lines of a program that are listed; the rest is computed too."""
@@ -70,46 +76,65 @@ class ProgramWindow(QDialog):
     """One file; a program is run in a thread, on a copy of the file."""
 
     def __init__(
-        self, read: Callable[[], ParameterFile], apply: Apply, parent: QWidget | None = None
+        self,
+        read: Callable[[], ParameterFile],
+        apply: Apply,
+        parent: QWidget | None = None,
+        *,
+        earlier: Callable[[], Sequence[SavedVersion]] = tuple,
     ) -> None:
         """``read`` returns the file as it is now, in a copy that nobody else changes; ``apply`` takes the
-        values of a try into the file.
+        values of a try into the file; ``earlier`` returns the file before its last saves.
         """
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self._read, self._file, self._apply = read, read(), apply
+        self._read, self._file, self._apply, self._earlier = read, read(), apply, earlier
         self._job: ProgramJob | None = None
         self._name = ""
         self.outcome: ProgramRun | None = None
-        self._tried: Mapping[Address, Value] = {}
         self._task: Task | None = None
         self.setWindowTitle(self.tr("Program"))
         self.setModal(False)
-        self.words = _table(
+        self.words = read_table(
             self.tr("Words of the block"),
             (self.tr("Word"), self.tr("Number"), self.tr("Meaning"), self.tr("Parameters")),
             2,
         )
-        self.lines = _table(
+        self.lines = read_table(
             self.tr("Blocks of the program"), (self.tr("Block"), self.tr("Limit"), self.tr("s"))
         )
-        self.limits = _table(
+        self.limits = read_table(
             self.tr("What limits the feed"), ("", self.tr("What limits"), self.tr("s"), self.tr("%")), 1
         )
-        self.tries = _table(
-            self.tr("What if"), (self.tr("Change"), self.tr("s"), self.tr("%"), self.tr("Error, µm"))
-        )
+        self.tries = WhatIfPanel()
+        self.tries.limits_button.clicked.connect(self._try_limits)
+        self.tries.earlier_button.clicked.connect(self._try_earlier)
+        self.tries.ticked.connect(self._try_together)
+        self.tries.applied.connect(self._apply_ticked)
         self.summary = QLabel()
         self.summary.setFont(font("text", own=True))
         self.summary.setWordWrap(True)
+        self.title = QLabel()
+        self.title.setFont(font("title", own=True))
+        self.title.setWordWrap(True)
+        self.missing = QLabel()
+        self.missing.setFont(font("small", own=True))
         self.plot = Plot()
         self.view = Segment(
             self.tr("Path"), (("plan", self.tr("Plan"), ""), ("tilted", self.tr("Tilted"), ""))
         )
         self.view.show_choice("plan")
-        self.view.chosen.connect(lambda _key: self._draw())
+        self.colours = Segment(
+            self.tr("Colour of the path"),
+            (("limit", self.tr("Limit"), ""), ("feed", self.tr("Feed"), ""), ("error", self.tr("Error"), "")),
+        )
+        self.colours.show_choice("limit")
+        for segment in (self.view, self.colours):
+            segment.chosen.connect(lambda _key: self._draw())
         self.bar, self.play = TimeBar(), PlayBar()
         self.play.moved.connect(self._show_moment)
+        scheme().changed.connect(self._colour_letters)
+        self.words.hide()
         self.form = FieldForm(self._fields())
         self.form.entered.connect(self._entered)
         self._lay_out()
@@ -142,21 +167,21 @@ class ProgramWindow(QDialog):
 
     def _lay_out(self) -> None:
         self.open_button = QPushButton(self.tr("&Open Program…"))
-        self.apply_button = QPushButton(self.tr("&Apply to File"))
-        self.apply_button.setEnabled(False)
-        self.apply_button.setToolTip(self.tr("Take the values of the last try into the file, as one step"))
         close = QPushButton(self.tr("&Close"))
-        for button, step in (
-            (self.open_button, self.ask),
-            (self.apply_button, self._apply_tried),
-            (close, self.close),
-        ):
+        for button, step in ((self.open_button, self.ask), (close, self.close)):
             button.setAutoDefault(False)
             button.clicked.connect(step)
+        self.head = QWidget()
+        row = QHBoxLayout(self.head)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(GAP2)
+        row.addWidget(self.title, 1)
+        for control in (self.view, self.colours, self.open_button):
+            row.addWidget(control)
         left, middle, right = QWidget(), QWidget(), QWidget()
         for side, parts in (
-            (left, (self.form, self.words, self.lines)),
-            (middle, (self.view, self.plot, self.bar, self.play)),
+            (left, (self.form, self.words, self.lines, self.play)),
+            (middle, (self.head, self.plot, self.bar)),
             (right, (self.limits, self.tries)),
         ):
             column = QVBoxLayout(side)
@@ -167,11 +192,11 @@ class ProgramWindow(QDialog):
         splitter = QSplitter(Qt.Orientation.Horizontal)
         for n, side in enumerate((left, middle, right)):
             splitter.addWidget(side)
-            splitter.setStretchFactor(n, (3, 5, 3)[n])
+            splitter.setStretchFactor(n, (3, 5, 4)[n])
         foot = QHBoxLayout()
         foot.addWidget(self.summary, 1)
-        for button in (self.open_button, self.apply_button, close):
-            foot.addWidget(button)
+        foot.addWidget(self.missing)
+        foot.addWidget(close)
         column = QVBoxLayout(self)
         column.setContentsMargins(GAP3, GAP3, GAP3, GAP3)
         column.setSpacing(GAP2)
@@ -204,7 +229,8 @@ class ProgramWindow(QDialog):
             self._say(str(error))
             return
         short = self._file.machine_schema.short
-        _fill(
+        self.words.show()
+        fill(
             self.words,
             [
                 (
@@ -222,7 +248,8 @@ class ProgramWindow(QDialog):
         """Show the codes after power-up, what changes them, and the calls of the builder's programs."""
         found = power_up(self._read())
         short = self._file.machine_schema.short
-        _fill(
+        self.words.show()
+        fill(
             self.words,
             [
                 (line.code, "", f"{line.what}: {line.meaning}", ", ".join(map(short, line.params)))
@@ -272,10 +299,70 @@ class ProgramWindow(QDialog):
         except SimulationError as error:
             self._say(str(error))
             return
+        self._compute([values], is_ticked=True)
+
+    def _compute(self, tries: Sequence[Mapping[Address, Value]], *, is_ticked: bool) -> None:
+        job = self._job
+        assert job is not None
         self._begin(
-            lambda show: what_if(job, self._file, [values], show)[0],
-            lambda tried: self._show_try(values, tried),
+            lambda show: what_if(job, self._file, tries, show),
+            lambda found: self._show_tries(tries, found, is_ticked=is_ticked),
         )
+
+    def _try_limits(self) -> None:
+        """Run the program with more of each parameter that limits it."""
+        if self.outcome is None:
+            self._say(self.tr("Open a part program first."))
+            return
+        tries = list(limit_tries(self._file, self.outcome))
+        if tries:
+            self._compute(tries, is_ticked=False)
+        else:
+            self._say(self.tr("No parameter with a number limits this program."))
+
+    def _try_earlier(self) -> None:
+        """Run the program under the file as it was before its last saves."""
+        job, before = self._job, self.outcome
+        if before is None or job is None:
+            self._say(self.tr("Open a part program first."))
+            return
+        earlier = self._earlier()
+        if not earlier:
+            self._say(self.tr("The file has no earlier versions: its history is empty."))
+            return
+        named = {self._version_name(each): each.file for each in earlier}
+        self._begin(lambda show: versions(job, named, show), self._show_versions)
+
+    def _version_name(self, version: SavedVersion) -> str:
+        short = self._file.machine_schema.short
+        changed = ", ".join(short(read_address(each)) for each in version.changed[:3])
+        more = ", …" if len(version.changed) > 3 else ""
+        return self.tr("Before {time}").format(time=day_and_time(version.when)) + f" ({changed}{more})"
+
+    def _show_versions(self, found: Sequence[ProgramVersion]) -> None:
+        assert self.outcome is not None
+        for each in found:
+            if each.run is None:
+                self._say(each.why_not)
+                continue
+            self.tries.add(each.name, None, run_against(self.outcome, each.run), is_ticked=False)
+        self._say(self.tr("{count} earlier versions").format(count=len(found)))
+
+    def _try_together(self) -> None:
+        """Run the program with all ticked changes: they are computed together, not added."""
+        job = self._job
+        if job is None or len(self.tries.chosen()) < 2:
+            return
+        values = self.tries.values()
+        self._begin(lambda show: what_if(job, self._file, [values], show)[0], self._show_together)
+
+    def _show_together(self, tried: WhatIf) -> None:
+        assert self.outcome is not None
+        if tried.run is None:
+            self._say(tried.why_not)
+            return
+        self.tries.show_together(try_summary(self._file, self.outcome, tried))
+        self._say("; ".join(tried.not_allowed))
 
     def _begin(
         self, work: Callable[[Callable[[str, float], None]], object], show: Callable[..., None]
@@ -299,7 +386,8 @@ class ProgramWindow(QDialog):
 
     def _show(self, run: ProgramRun) -> None:
         self.outcome = run
-        _fill(
+        self.tries.clear()
+        fill(
             self.limits,
             [
                 (
@@ -313,17 +401,19 @@ class ProgramWindow(QDialog):
         )
         assert self._job is not None
         listed = {n: (letter, f"{time:.3g}") for n, (letter, time) in line_rows(run).items()}
-        _fill(
+        fill(
             self.lines,
             [(line, *listed.get(n, ("", ""))) for n, line in enumerate(self._job.lines[:MOST_LINES], 1)],
         )
         time = written(value_text(run.plan.time, "s", 4))
-        words = [f"{self._name}: {run.plan.path.blocks} {self.tr('blocks')}, {time}"]
+        words = [f"{self._name}: {run.plan.path.blocks} {self.tr('blocks')}", time]
         if run.contour is not None:
             error = written(value_text(1000.0 * run.contour.largest, "µm", 3))
             words.append(self.tr("largest contour error {error}").format(error=error))
-        words += [f"{self.tr('Line')} {alarm.line}: {alarm.code} {alarm.message}" for alarm in run.alarms[:2]]
-        self._say("; ".join(words))
+        self.title.setText(", ".join(words))
+        alarms = [f"{self.tr('Line')} {each.line}: {each.code} {each.message}" for each in run.alarms[:2]]
+        self._say("; ".join(alarms))
+        self._colour_letters()
         self.bar.show_parts(
             [
                 TimePart(row["letter"], worded(row["name"]), row["time_s"], limit_sort(row["letter"]))
@@ -331,6 +421,16 @@ class ProgramWindow(QDialog):
             ]
         )
         self.play.show_program(run.plan.time)
+        text = self.tr("Cutter radius compensation and the tool are not simulated. Assumed: {count}")
+        self.missing.setText(text.format(count=len(run.assumptions)))
+        self.missing.setToolTip("\n".join(map(worded, run.assumptions)))
+
+    def _colour_letters(self) -> None:
+        """Write the letters of limits in the colours that the path has."""
+        for table, column in ((self.limits, 0), (self.lines, 1)):
+            for row in range(table.rowCount()):
+                item = table.item(row, column)
+                item.setForeground(colour(TOKENS[limit_sort(item.text())]))
 
     def _show_moment(self, _seconds: float) -> None:
         """Draw where the axes are, and show the block that is run."""
@@ -342,32 +442,30 @@ class ProgramWindow(QDialog):
         if self.outcome is None:
             return None
         moment = moment_at(self.outcome.plan, self.play.moment)
-        picture = path_picture(self._file, self.outcome, moment)
+        colours = cast("PathColours", self.colours.choice or "limit")
+        picture = path_picture(self._file, self.outcome, moment, colours)
         above = picture.close if self.view.choice == "tilted" else picture.above
         self.plot.draw(replace(picture, above=above, close=None))
         return moment
 
-    def _show_try(self, values: Mapping[Address, Value], tried: WhatIf) -> None:
+    def _show_tries(
+        self, values: Sequence[Mapping[Address, Value]], tries: Sequence[WhatIf], *, is_ticked: bool
+    ) -> None:
         assert self.outcome is not None
-        if tried.run is None:
-            self._say(tried.why_not)
-            return
-        found = try_summary(self._file, self.outcome, tried)
-        changed = ", ".join(f"{each['param']} {each['from']} → {each['to']}" for each in found["changes"])
-        error = found.get("contour_error_change", {}).get("value")
-        row = (
-            changed,
-            f"{found['time']['value']:.4g}",
-            f"{100.0 * found['time_change']:+.1f}",
-            "" if error is None else f"{1000.0 * error:+.3g}",
-        )
-        _fill(self.tries, [row], add=True)
-        self._tried = values
-        self.apply_button.setEnabled(True)
-        self._say("; ".join(tried.not_allowed))
+        notes = []
+        for each, tried in zip(values, tries, strict=True):
+            if tried.run is None:
+                notes.append(tried.why_not)
+                continue
+            found = try_summary(self._file, self.outcome, tried)
+            changes = [f"{one['param']}\n{one['from']} → {one['to']}" for one in found["changes"]]
+            self.tries.add("\n".join(changes), each, found, is_ticked=is_ticked)
+            notes += tried.not_allowed
+        self._say("; ".join(notes))
+        self._try_together()
 
-    def _apply_tried(self) -> None:
-        if self._apply(self._tried):
+    def _apply_ticked(self) -> None:
+        if self._apply(self.tries.values()):
             self.run_again()
 
     # -- the window ----------------------------------------------------------------
@@ -384,26 +482,3 @@ class ProgramWindow(QDialog):
     def closeEvent(self, event: QCloseEvent) -> None:  # Qt's name
         self._stop()
         super().closeEvent(event)
-
-
-def _table(name: str, heads: Sequence[str], wide: int = 0) -> QTableWidget:
-    """Return a table that is read; the column ``wide`` has the room that is left."""
-    table = QTableWidget(0, len(heads))
-    table.setAccessibleName(name)
-    table.setHorizontalHeaderLabels(list(heads))
-    table.setEditTriggers(QTableWidget.EditTrigger.NoEditTriggers)
-    table.setSelectionBehavior(QTableWidget.SelectionBehavior.SelectRows)
-    table.verticalHeader().hide()
-    table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-    table.horizontalHeader().setSectionResizeMode(wide, QHeaderView.ResizeMode.Stretch)
-    return table
-
-
-def _fill(table: QTableWidget, rows: Sequence[Sequence[str]], *, add: bool = False) -> None:
-    first = table.rowCount() if add else 0
-    table.setRowCount(first + len(rows))
-    for n, row in enumerate(rows, first):
-        for column, text in enumerate(row):
-            item = QTableWidgetItem(text)
-            item.setToolTip(text)
-            table.setItem(n, column, item)

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from amp_studio.cli import candidates
-from amp_studio.cli.arguments import JSON, OUTPUT, path_of
+from amp_studio.cli.arguments import JSON, OUTPUT, count, path_of
 from amp_studio.cli.console import print_json, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
@@ -50,6 +50,12 @@ VERB = Verb(
         default=[],
         metavar="FILE",
         help="the same program under another file: an older one, or that of another machine",
+    ),
+    VerbArgument(
+        "--history",
+        type=count,
+        metavar="N",
+        help="the same program under the file as it was before each of its last N saves",
     ),
     VerbArgument(
         "--start", metavar="X0,Y0", help="where the axes are at first, in the machine (default: home)"
@@ -112,7 +118,8 @@ def run(options: Options) -> int:
         found = job.run(file, step)
         changes += [values for text in options.over for values in typed_steps(file, text)]
         tries = what_if(job, file, changes, step)
-        others = versions(job, {f"{path}": opened(path).file for path in options.against}, step)
+        files = {f"{path}": opened(path).file for path in options.against} | _earlier(options)
+        others = versions(job, files, step)
     except (ProgramBlockError, SimulationError) as error:
         raise UsageError(f"{error}") from None
     if options.output:
@@ -122,6 +129,24 @@ def run(options: Options) -> int:
     else:
         print(program_text(file, found, tries, others))
     return int(bool(found.alarms))
+
+
+def _earlier(options: Options) -> dict[str, ParameterFile]:
+    """Return the file as it was before its last saves, by when and what they changed."""
+    if not options.history:
+        return {}
+    from amp_studio.files import Document, local_time, real_path, saved_versions
+    from amp_studio.schema import read_address
+
+    path = real_path(options.path)
+    file = opened(path).file
+    short = file.machine_schema.short
+    found = {}
+    for version in saved_versions(file, Document(file, path, None).history(), options.history):
+        changed = ", ".join(short(read_address(each)) for each in version.changed[:3])
+        more = ", …" if len(version.changed) > 3 else ""
+        found[f"before {local_time(version.when)} ({changed}{more})"] = version.file
+    return found
 
 
 def _write(options: Options, file: ParameterFile, found: ProgramRun) -> None:

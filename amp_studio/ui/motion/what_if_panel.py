@@ -1,0 +1,123 @@
+"""A program with other values: what each change brings, and what those that are ticked bring together."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QTableWidgetItem, QVBoxLayout, QWidget
+
+from amp_studio.schema import Address, Value
+from amp_studio.sim import value_text
+from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.theme import GAP, GAP2, font
+
+from .program_tables import fill, read_table
+
+Values = Mapping[Address, Value]
+
+
+def effect(found: Mapping[str, Any]) -> tuple[str, str, str]:
+    """Return time, its change and that of the largest contour error of a try, as they are shown."""
+    error = found.get("contour_error_change", {}).get("value")
+    return (
+        written(f"{found['time']['value']:.4g}"),
+        written(f"{100.0 * found['time_change']:+.1f}"),
+        "" if error is None else written(f"{1000.0 * error:+.3g}"),
+    )
+
+
+class WhatIfPanel(QWidget):
+    """Rows of changes; the ones that are ticked are computed together by who listens to ``ticked``."""
+
+    ticked = Signal()
+    applied = Signal()
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._values: list[Values | None] = []
+        self.table = read_table(
+            self.tr("What if"), (self.tr("Change"), self.tr("s"), self.tr("%"), self.tr("Error, µm"))
+        )
+        self.table.itemChanged.connect(self._changed)
+        self.together = QLabel()
+        self.together.setFont(font("text", own=True))
+        self.together.setWordWrap(True)
+        self.limits_button = QPushButton(self.tr("Try What Li&mits"))
+        self.limits_button.setToolTip(
+            self.tr("Compute the program with 20 % more of each parameter that limits it")
+        )
+        self.earlier_button = QPushButton(self.tr("&Earlier Versions"))
+        self.earlier_button.setToolTip(
+            self.tr("Compute the program under the file as it was before its last saves")
+        )
+        self.apply_button = QPushButton(self.tr("&Apply to File"))
+        self.apply_button.setToolTip(self.tr("Take the ticked values into the file, as one step"))
+        self.apply_button.clicked.connect(self.applied)
+        self.clear_button = QPushButton(self.tr("C&lear"))
+        self.clear_button.clicked.connect(self.clear)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(GAP2)
+        column.addWidget(self.table, 1)
+        column.addWidget(self.together)
+        for pair in ((self.limits_button, self.earlier_button), (self.apply_button, self.clear_button)):
+            row = QHBoxLayout()
+            row.setSpacing(GAP)
+            for button in pair:
+                button.setAutoDefault(False)
+                row.addWidget(button)
+            row.addStretch(1)
+            column.addLayout(row)
+        self._show_buttons()
+
+    # -- rows ------------------------------------------------------------------------
+
+    def add(self, change: str, values: Values | None, found: Mapping[str, Any], *, is_ticked: bool) -> None:
+        """Add a change with its effect; one without values, an earlier version, is not ticked."""
+        self.table.blockSignals(True)
+        fill(self.table, [(change, *effect(found))], add=True)
+        self._values.append(values)
+        if values is not None:
+            item = self.table.item(self.table.rowCount() - 1, 0)
+            item.setFlags(item.flags() | Qt.ItemFlag.ItemIsUserCheckable)
+            item.setCheckState(Qt.CheckState.Checked if is_ticked else Qt.CheckState.Unchecked)
+        self.table.blockSignals(False)
+        self._show_buttons()
+
+    def clear(self) -> None:
+        """Forget all changes."""
+        self._values = []
+        self.table.setRowCount(0)
+        self.together.clear()
+        self._show_buttons()
+
+    def chosen(self) -> Sequence[Values]:
+        """Return the values of the ticked rows; a later one of the same parameter counts."""
+        return [values for n, values in enumerate(self._values) if values is not None and self._is_ticked(n)]
+
+    def values(self) -> Values:
+        """Return the ticked values together."""
+        return {address: value for values in self.chosen() for address, value in values.items()}
+
+    def show_together(self, found: Mapping[str, Any]) -> None:
+        """Show what the ticked changes bring together."""
+        time = written(value_text(found["time"]["value"], "s", 4))
+        text = self.tr("Ticked together: {time}, {share} %").format(time=time, share=effect(found)[1])
+        if "contour_error" in found:
+            error = written(value_text(1000.0 * found["contour_error"]["value"], "µm", 3))
+            text += "; " + self.tr("largest contour error {error}").format(error=error)
+        self.together.setText(text)
+
+    def _is_ticked(self, row: int) -> bool:
+        return self.table.item(row, 0).checkState() == Qt.CheckState.Checked
+
+    def _changed(self, _item: QTableWidgetItem) -> None:
+        self.together.clear()
+        self._show_buttons()
+        self.ticked.emit()
+
+    def _show_buttons(self) -> None:
+        self.apply_button.setEnabled(bool(self.chosen()))
+        self.clear_button.setEnabled(bool(self._values))
