@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     from .law import AlarmText, AxisLaw, BoundMachine, Law, Leader, LoopFilter, Prediction, Source, law_of
     from .listings import SimulationListing, listing
     from .machine_test import MachineTest, MachineTestStep
-    from .model import assumptions, with_model
+    from .model import assumptions
     from .motion_check import MotionCheck, check_motion
     from .parameter_roles import ParameterRoles
     from .path.job import ProgramJob, ProgramVersion, WhatIf, versions, what_if

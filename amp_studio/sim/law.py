@@ -191,6 +191,9 @@ class AxisLaw:
     assumed: Mapping[str, str] = field(default_factory=dict)
     """Figure of the machine that no parameter gives -> why it has its value;
     dropped when it is set by ``model.*``."""
+    settled: Callable[[AxisLaw], AxisLaw] | None = None
+    """settled(axis) -> the axis with what follows from its parameters and its machine together: position
+    rate, rest band, predicted figures. Asked for whenever the machine is another; None where nothing does."""
     after: Callable[[AxisLaw, Leader], AxisLaw] | None = None
     """after(axis, run) -> the axis, for one that goes by the motion of another: run(other) moves that one
     first under the same command, and returns its columns at the servo samples."""

@@ -99,7 +99,8 @@ def with_model(axis: AxisLaw, read: AxisParameters) -> AxisLaw:
         )
     if machine.two_masses:
         machine = _coupled(machine, assumed)
-    return replace(axis, machine=machine, assumed=assumed)
+    found = replace(axis, machine=machine, assumed=assumed)
+    return found if axis.settled is None else axis.settled(found)
 
 
 def _coupled(machine: Machine, assumed: dict[str, str]) -> Machine:

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from amp_studio.files import ParameterFile, open_file
+from amp_studio.files import ParameterFile, content_of, open_file
 from amp_studio.sim import SimulationError, SweepWay, simulate, sweep
 from amp_studio.sim.axis.moves import move_of, until_of
 from amp_studio.sim.binding import bind_axis
-from amp_studio.sim.law import law_of
+from amp_studio.sim.law import AxisLaw, law_of
 from amp_studio.sim.picture import plot_svg
 from amp_studio.sim.variations.batch import FIGURES, run_batch
+from amp_studio.sim.variations.composed import ComposedAxes, agrees
+from amp_studio.sim.variations.job import Axes, SweepJob
 from amp_studio.sim.variations.plan import points_of, read_varied
 from amp_studio.sim.write import trace_summary, trace_text
 
@@ -188,3 +192,42 @@ def test_a_cluster_computes_what_this_computer_does() -> None:
         there = sweep(file, "0", given, way=SweepWay(scheduler=cluster.scheduler_address))
     here = sweep(file, "0", given, way=ALONE)
     assert np.array_equal(there.columns["Ms"], here.columns["Ms"])
+
+
+COMPOSED = (
+    (MILL, "3", ("servo.initial_gain=0.5:1.5:4", "servo.velocity_proportional_gain=1000:2000:4")),
+    (AXES[0][0], "X", ("R3=50:150:3", "R4=0:20:3")),
+    (AXES[1][0], "X", ("servo.p_gain@X=0.0005:0.002:3", "model.viscous_friction=0:0.4:3")),
+    (AXES[4][0], "0", ("model.viscous_friction=0:0.4:3", "model.delay=0.1:1.3:3")),
+)
+
+
+@pytest.mark.parametrize(("example", "axis", "over"), COMPOSED)
+def test_an_axis_put_together_is_the_bound_one(example: str, axis: str, over: tuple[str, ...]) -> None:
+    file = file_of(example)
+    varied = tuple(read_varied(file, axis, each) for each in over)
+    axes = Axes(SweepJob(content_of(file), axis, (), (), varied, motion=True, loops=False))
+    asked: list[Sequence[float]] = []
+    grids = [each.grid() for each in varied]
+    composed = ComposedAxes(lambda point: (asked.append(point), axes.at(point))[1], grids)
+    points = points_of(varied, None, 1).tolist()
+    for point in points:
+        composed.axis(point)  # every value is tried by now
+    tried = len(asked)
+    assert all(agrees(composed.axis(point), axes.at(point)) for point in points)
+    assert len(asked) == tried, "nothing more was bound"
+
+
+def test_a_figure_of_two_varied_ones_is_bound_from_the_file() -> None:
+    bound = bind_axis(file_of(MILL), law_of("9pc"), "3")
+    asked: list[tuple[float, ...]] = []
+
+    def bind(point: Sequence[float]) -> AxisLaw:
+        asked.append(tuple(point))
+        return replace(bound, position_rate=point[0] * point[1], feedrate=point[0])
+
+    composed = ComposedAxes(bind, ((0.0, 1.0, 2.0), (0.0, 1.0, 3.0)))
+    found = composed.axis((2.0, 3.0))
+    assert found is not None
+    assert (found.position_rate, found.feedrate) == (6.0, 2.0)
+    assert asked[-1] == (2.0, 3.0)

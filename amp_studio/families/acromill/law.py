@@ -26,7 +26,6 @@ from amp_studio.sim import (
     Source,
     Trace,
     error_at_speed,
-    with_model,
 )
 
 from . import law_events as events
@@ -107,7 +106,7 @@ def bind(read: AxisParameters) -> AxisLaw:
     rapid = _or(read, ids.speeds_rapid, 1e9, everywhere=True)
     feedrate = rapid or _or(read, ids.max_machine, 1e9, everywhere=True)
     ramp = _or(read, ids.rapid_acc_dec, 1e12, everywhere=True)
-    axis = AxisLaw(
+    return AxisLaw(
         axis=read.axis,
         unit="mm",
         title=f"ACR controller: PID in volts every {period * 1e6:g} µs, amplifier in torque mode",
@@ -119,7 +118,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         velocity_period=period,
         machine=machine,
         output_unit="V",
-        position_rate=1.0,
+        position_rate=1.0,  # and the rest band: `_settled`, with the machine that is going to move
         feedrate=feedrate / 60.0 if feedrate else None,
         inposition_band=band,
         ramps={"linear": Ramp("linear", ramp), "none": Ramp()},
@@ -141,13 +140,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         assumed=plant.REASONS,
         sweep_parameters=[*p[: loop.EXCESS], 0.0, *p[loop.EXCESS + 1 :]],
         linear_parameters=_linear(p),
-    )
-    whole = with_model(axis, read).machine  # the machine that is going to move, for the predicted figures
-    return replace(
-        axis,
-        position_rate=_rate(p, whole),
-        rest_band=_rest_band(p, whole),
-        predict=lambda speed: {"steady_following_error": _predicted(p, whole, speed)},
+        settled=_settled,
     )
 
 
@@ -240,6 +233,17 @@ def _rate(p: Sequence[float], machine: Machine) -> float:
     )
     undamped = math.sqrt(stiffness)
     return min(undamped, stiffness / brake) if brake > 0.0 else undamped
+
+
+def _settled(axis: AxisLaw) -> AxisLaw:
+    """Return the axis with what follows from its gains and its machine together."""
+    p, machine = axis.parameters, axis.machine
+    return replace(
+        axis,
+        position_rate=_rate(p, machine),
+        rest_band=_rest_band(p, machine),
+        predict=lambda speed: {"steady_following_error": _predicted(p, machine, speed)},
+    )
 
 
 def _rest_band(p: Sequence[float], machine: Machine) -> float:

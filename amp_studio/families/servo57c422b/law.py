@@ -26,7 +26,6 @@ from amp_studio.sim import (
     Source,
     Trace,
     error_at_speed,
-    with_model,
 )
 
 from . import law_plant as plant
@@ -125,7 +124,7 @@ def bind(read: AxisParameters) -> AxisLaw:
     assumed = plant.reasons(current_reference=current)
     if per_volt is not None:
         assumed.pop("velocity_per_output", None)
-    axis = ModuleAxis(
+    return ModuleAxis(
         axis=read.axis,
         unit="counts",
         title=f"57C422B: scan of 1.25 ms, drive with {'current' if current else 'velocity'} reference",
@@ -159,12 +158,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         read=read,
         names={parameter: _named(parameter, read.axis) for parameter in COMMAND_DATA},
         scales=Scales(*(_scale(read, name) for name in _SCALES)),
-    )
-    whole = with_model(axis, read).machine  # the machine that is going to move, for the predicted figures
-    return replace(
-        axis,
-        rest_band=_rest_band(p, whole),
-        predict=lambda speed: {"steady_following_error": _predicted(p, whole, speed)},
+        settled=_settled,
     )
 
 
@@ -263,6 +257,16 @@ def _linear(p: Sequence[float]) -> list[float]:
     q = list(p)
     q[loop.WHOLE_WORDS] = q[loop.DEADBAND] = 0.0
     return q
+
+
+def _settled(axis: AxisLaw) -> AxisLaw:
+    """Return the axis with what follows from its gains and its machine together."""
+    p, machine = axis.parameters, axis.machine
+    return replace(
+        axis,
+        rest_band=_rest_band(p, machine),
+        predict=lambda speed: {"steady_following_error": _predicted(p, machine, speed)},
+    )
 
 
 def _rest_band(p: Sequence[float], machine: Machine) -> float:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -14,7 +15,7 @@ import numpy.typing as npt
 from amp_studio.sim.command.ramps import end_of
 from amp_studio.sim.engine import kernel
 from amp_studio.sim.engine.compiled import can_compile, compiled, pays, plain
-from amp_studio.sim.engine.machine import DELAY_SHARE, DELAY_STEPS, machine_array
+from amp_studio.sim.engine.machine import DELAY_SHARE, DELAY_STEPS, Machine, machine_array
 from amp_studio.sim.engine.signals import DIVERGED, FEED_SHARE, MODE, MONITOR, POSITION_LOOP, STOP
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
@@ -169,16 +170,26 @@ def prepared(
     io[FEED_SHARE], io[MODE] = 1.0, POSITION_LOOP
     x[kernel.ENDED] = x[kernel.ALARM_ROW] = -1.0
     x[kernel.SINCE], x[kernel.SHARE] = float(stride), 1.0
-    machine = machine_array(axis.machine, step)
+    machine = _machine_array(axis.machine, step)
     part = machine[DELAY_SHARE] * step
     before, after = (
-        machine_array(axis.machine, span) if part > 0.0 else [*machine] for span in (part, step - part)
+        _machine_array(axis.machine, span) if part > 0.0 else [*machine] for span in (part, step - part)
     )
     line = [0.0] * (int(machine[DELAY_STEPS]) + 2)
     parameters, state = [float(each) for each in axis.parameters], [0.0] * axis.state_size
     rows = np.empty((driven + math.ceil(coast / step / stride), len(kernel.COLUMNS) + len(axis.monitors)))
     push = [float(each) for each in axis.push]
     return [parameters, state, io, machine, before, after, x, line, timing, profile, push], rows
+
+
+@lru_cache(maxsize=256)
+def _figures_of(machine: Machine, step: float) -> tuple[float, ...]:
+    return tuple(machine_array(machine, step))
+
+
+def _machine_array(machine: Machine, step: float) -> list[float]:
+    """Return `machine_array`, computed once for the runs of one machine: a sweep has thousands."""
+    return list(_figures_of(machine, step))
 
 
 def steps(axis: AxisLaw, refine: int = 1) -> tuple[int, int]:

@@ -8,7 +8,7 @@ the law's own unit. Torque is in the unit of the output where the output is a to
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 from amp_studio.sim.errors import SimulationError
 
@@ -91,20 +91,17 @@ class Machine:
     """Whether the position device is at the load (a scale), not at the motor."""
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            if getattr(self, field.name) is None:
+        for name, figure in vars(self).items():
+            if figure is None:
                 continue
-            value = float(getattr(self, field.name))
-            if math.isnan(value) or (math.isinf(value) and "limit" not in field.name):
-                raise SimulationError(f"{words(field.name)} of the machine is {value:g}; it must be finite")
-            if value < 0.0 and field.name != "gravity":
+            value = float(figure)
+            if math.isnan(value) or (math.isinf(value) and "limit" not in name):
+                raise SimulationError(f"{words(name)} of the machine is {value:g}; it must be finite")
+            if value < 0.0 and name != "gravity":
+                raise SimulationError(f"{words(name)} of the machine is {value:g}; it must not be negative")
+            if abs(value) > LARGEST.get(name, math.inf):
                 raise SimulationError(
-                    f"{words(field.name)} of the machine is {value:g}; it must not be negative"
-                )
-            if abs(value) > LARGEST.get(field.name, math.inf):
-                raise SimulationError(
-                    f"{words(field.name)} of the machine is {value:g}; at most {LARGEST[field.name]:g} is"
-                    " simulated"
+                    f"{words(name)} of the machine is {value:g}; at most {LARGEST[name]:g} is simulated"
                 )
         if self.acceleration_per_output == 0.0:
             raise SimulationError("The acceleration per output of the machine is 0; it must be above 0")

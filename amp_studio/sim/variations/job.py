@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -30,6 +30,7 @@ from amp_studio.sim.tuning.loops import Loops
 from amp_studio.sim.tuning.sampled import Matrix
 
 from .batch import FIGURES, run_batch
+from .composed import ComposedAxes, agrees
 from .plan import Varied, typed
 
 LOOP_FIGURES = (
@@ -44,6 +45,9 @@ LOOP_FIGURES = (
 """Figures of the linear loops; ``sound`` is 1 or 0, all others nan for a loop that is not stable."""
 AT_ONCE = 250
 """Variations in one batch."""
+WORTH = 6
+"""Variations for each value of a grid from which axes are put together: three are bound for each.
+Samples have as many values as points."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +83,7 @@ def figures_of(job: SweepJob, points: Matrix) -> Matrix:
 
 def _chunk(job: SweepJob, points: Matrix) -> Matrix:
     found = np.full((len(points), len(job.columns)), np.nan)
-    bound = [(n, *each) for n, each in enumerate(_axes(job).all(points)) if each is not None]
+    bound = [(n, *each) for n, each in enumerate(_axes(job).all(points.tolist())) if each is not None]
     if job.motion:
         runs, moves = [], _Moves()
         for _, axis, own, _ in bound:
@@ -129,7 +133,7 @@ _Bound = tuple[AxisLaw, Mapping[str, ParameterValue], LawMatrices | None]
 """An axis, the settings of its move, its law as matrices where it is that of all."""
 
 
-class _Axes:
+class Axes:
     """Binds the axis of a job for one point after the other."""
 
     def __init__(self, job: SweepJob) -> None:
@@ -138,14 +142,34 @@ class _Axes:
         self.law = law_of(self.file.schema.family.family)
         self.model, self.move = dict(job.model), dict(job.move)
         self._machine = self._machine_alone()
+        self.composed: ComposedAxes | None = None
+        steps = [each.steps for each in job.varied]
+        if all(steps) and math.prod(filter(None, steps)) > WORTH * sum(filter(None, steps)):
+            self.composed = ComposedAxes(self.at, [each.grid() for each in job.varied])
 
-    def all(self, points: Matrix) -> Iterator[_Bound | None]:
-        """Yield what each point makes of the axis; None where it cannot be."""
-        for point in points.tolist():
-            try:
-                yield self._one(point)
-            except (RangeError, SimulationError):
-                yield None
+    def all(self, points: Sequence[Sequence[float]]) -> list[_Bound | None]:
+        """Return what each point makes of the axis; None where it cannot be."""
+        if self.composed is None:
+            return [self._possible(point) for point in points]
+        law = None if self._machine is None else self._machine[1]
+        found = zip(points, map(self.composed.axis, points), strict=True)
+        return [None if axis is None else (axis, self._own(point), law) for point, axis in found]
+
+    def _possible(self, point: Sequence[float]) -> _Bound | None:
+        try:
+            return self._one(point)
+        except (RangeError, SimulationError):
+            return None
+
+    def at(self, point: Sequence[float]) -> AxisLaw | None:
+        """Return the axis of a point; None where it cannot be."""
+        bound = self._possible(point)
+        return None if bound is None else bound[0]
+
+    def _own(self, point: Sequence[float]) -> Settings:
+        """Return the settings of the move of a point."""
+        numbers = {each.name: number for each, number in zip(self.job.varied, point, strict=True)}
+        return self.move | {name: number for name, number in numbers.items() if name.startswith("move.")}
 
     def refuse(self, point: Sequence[float]) -> None:
         """Raise SimulationError with the reason where a point makes no axis."""
@@ -155,9 +179,8 @@ class _Axes:
             raise SimulationError(str(error)) from None
 
     def _one(self, point: Sequence[float]) -> _Bound:
-        varied = list(zip(self.job.varied, point, strict=True))
+        varied, own = list(zip(self.job.varied, point, strict=True)), self._own(point)
         given = {each.name: number for each, number in varied if not each.address}
-        own = self.move | {name: number for name, number in given.items() if name.startswith("move.")}
         model = self.model | {name: number for name, number in given.items() if name.startswith("model.")}
         if self._machine is not None:
             base, law = self._machine
@@ -189,27 +212,9 @@ class _Axes:
                 alone = with_model(base, AxisParameters(_nothing, base.axis, model))
             except SimulationError:
                 return None
-            if alone.machine != axis.machine or _numbers(base) != _numbers(axis):
+            if not agrees(alone, axis):
                 return None
         return None if base is None else (base, LawMatrices.of(base))
-
-
-def _numbers(axis: AxisLaw) -> tuple[object, ...]:
-    """Return all of an axis that a run depends on, but for its machine."""
-    return (
-        list(axis.parameters),
-        axis.linear_parameters and list(axis.linear_parameters),
-        axis.state_size,
-        axis.servo_period,
-        axis.velocity_period,
-        axis.position_rate,
-        axis.feedrate,
-        axis.inposition_band,
-        axis.rest_band,
-        dict(axis.ramps),
-        axis.after is None,
-        list(axis.push),
-    )
 
 
 def _nothing(_parameter: str, _instance: str) -> ParameterValue:
@@ -217,8 +222,8 @@ def _nothing(_parameter: str, _instance: str) -> ParameterValue:
 
 
 @lru_cache(maxsize=2)
-def _axes(job: SweepJob) -> _Axes:
-    return _Axes(job)
+def _axes(job: SweepJob) -> Axes:
+    return Axes(job)
 
 
 def refuse_impossible(job: SweepJob, points: Matrix, found: Matrix) -> None:
