@@ -57,6 +57,7 @@ find_python() {
             return
         fi
     done
+    [ -z "${PYTHON:-}" ] || stop "PYTHON=$PYTHON is not found, does not start, or is none of Python 3.11, 3.12, 3.13 and 3.14"
     stop "Python 3.11, 3.12, 3.13 or 3.14 is needed and was not found; on Debian 12, Ubuntu 24.04 or newer: sudo apt-get install python3 python3-venv"
 }
 
