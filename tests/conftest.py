@@ -11,6 +11,7 @@ import tempfile
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from xml.sax.saxutils import escape
 
 import pytest
 from _pytest.assertion import rewrite
@@ -63,9 +64,10 @@ def _private_folders() -> Path:
 def _the_fonts_of_the_tests(home: Path) -> None:
     """Let fontconfig find the one font of ``tests/fonts`` and none of this computer."""
     file = home / "fonts.conf"
+    fonts, cache = (escape(str(f)) for f in (Path(__file__).with_name("fonts"), home / "cache" / "fontconfig"))
     text = f"""<?xml version="1.0"?>
 <!DOCTYPE fontconfig SYSTEM "fonts.dtd">
-<fontconfig><dir>{Path(__file__).with_name("fonts")}</dir><cachedir>{home / "cache" / "fontconfig"}</cachedir></fontconfig>
+<fontconfig><dir>{fonts}</dir><cachedir>{cache}</cachedir></fontconfig>
 """
     if not file.exists():
         file.write_text(text, encoding="utf-8")
