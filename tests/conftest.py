@@ -64,7 +64,9 @@ def _private_folders() -> Path:
 def _the_fonts_of_the_tests(home: Path) -> None:
     """Let fontconfig find the one font of ``tests/fonts`` and none of this computer."""
     file = home / "fonts.conf"
-    fonts, cache = (escape(str(f)) for f in (Path(__file__).with_name("fonts"), home / "cache" / "fontconfig"))
+    fonts, cache = (
+        escape(str(f)) for f in (Path(__file__).with_name("fonts"), home / "cache" / "fontconfig")
+    )
     text = f"""<?xml version="1.0"?>
 <!DOCTYPE fontconfig SYSTEM "fonts.dtd">
 <fontconfig><dir>{fonts}</dir><cachedir>{cache}</cachedir></fontconfig>
