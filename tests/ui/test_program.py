@@ -37,9 +37,10 @@ application = QApplication([])
 window = MainWindow()
 window.show()
 window.open_first(Path(sys.argv[1]))
-application.processEvents()
+window.grab()  # painted, before any timer of what comes later is due
 assert window.workspace is not None
 print([name for name in {LATE!r} if name in sys.modules])
+application.processEvents()
 window.menus['view.motion'].trigger()
 window.close()
 """
