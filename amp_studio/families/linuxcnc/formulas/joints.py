@@ -43,6 +43,11 @@ def _of_axis(values: Sequence[float | None], axis: str, kinematics: str, joints:
     ]
 
 
+def has_letter(coordinates: str, axis: str) -> bool:
+    """Whether the axes of the machine (T110) have this one; small letters count too."""
+    return axis in coordinates.upper()
+
+
 def letters_wanted(coordinates: str) -> float:
     """How many joints the letters of the axes need (K65): XYYZ needs 4."""
     return float(len(re.findall(f"[{LETTERS}]", coordinates.upper())))
