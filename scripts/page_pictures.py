@@ -196,10 +196,10 @@ def motion(stage: Stage, path: Path) -> QPixmap:
     window = _shown(stage, path)
     window.go_to(("feedrate.rapid", "1"))
     window.menus["view.motion"].trigger()
-    view = window.page.motion
+    view = window.page.pages["motion"]
     settle(lambda: view.trace is not None and not Task.running)
     taken = _grab(window)
-    window.page.show_motion(False)
+    window.page.show_page("")
     return taken
 
 

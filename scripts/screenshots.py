@@ -24,7 +24,12 @@ OUT = TOP / "build" / "screenshots"
 WORK = TOP / "build" / "screenshots-work"
 MOMENT = 1_773_305_100
 """12 March 2026, 08:45 UTC: when every file was last changed."""
-LARGE, SMALL = (1440, 900), (1024, 700)
+LARGE = (1440, 900)
+DOUBLED = (960, 540)
+"""Of a screen of 1920 x 1080 at 200 %, in logical pixels; drawn in twice as many."""
+SIZES = (LARGE, (1024, 700), (1366, 768), (2560, 1440), DOUBLED)
+DARK = (LARGE, (1024, 700))
+"""The sizes of which there is a dark picture too."""
 PATIENCE = 900.0
 """Seconds after which a page that is not ready ends the run: one that never will be,
 whatever else the computer does."""
@@ -46,9 +51,10 @@ from amp_studio.schema import Value  # noqa: E402  # Qt reads the environment th
 from amp_studio.ui.actions import project  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.ui.base.task import Task  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.ui.base.theme import scheme  # noqa: E402  # Qt reads the environment that is set above
-from amp_studio.ui.base.translated import speak  # noqa: E402  # Qt reads the environment that is set above
+from amp_studio.ui.base.translated import speak, tr  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.ui.base.workspace import Workspace  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.ui.main_window import MainWindow  # noqa: E402  # Qt reads the environment that is set above
+from amp_studio.ui.window.settings import UserSettings  # noqa: E402  # Qt reads the environment that is set above
 
 EXCESS, RAPID, CALIBRATION = ("servo.excess_error", "1"), ("feedrate.rapid", "1"), ("home.calibration", "1")
 
@@ -71,9 +77,11 @@ def pause(milliseconds: int) -> None:
     loop.exec()
 
 
-def picture(widget: QWidget) -> QPixmap:
+def picture(widget: QWidget, scale: int = 1) -> QPixmap:
     """Return a window as it is, with what is open over it."""
-    drawn = widget.grab()
+    drawn = QPixmap(widget.size() * scale)
+    drawn.setDevicePixelRatio(scale)
+    widget.render(drawn)
     over = QApplication.activePopupWidget()
     if over is not None and over is not widget:
         painter = QPainter(drawn)
@@ -92,20 +100,26 @@ class Photographer:
         """Return whether a page was asked for."""
         return self.only in name
 
-    def take(self, name: str, widget: QWidget, size: tuple[int, int] | None = None) -> None:
-        """Write a page in light and in dark, in a size or in its own."""
+    def take(self, name: str, widget: QWidget, sizes: tuple[tuple[int, int], ...] = ()) -> None:
+        """Write a page in light and in dark, in each size of the window or in its own."""
         if not self.wants(name):
             return
-        if size:
-            widget.resize(*size)
-        settle()
-        for choice in ("light", "dark"):
-            scheme().choose(choice)
-            settle()
-            suffix = f"-{size[0]}x{size[1]}" if size not in (None, LARGE) else ""
-            picture(widget).save(str(OUT / f"{name}-{choice}-{self.language}{suffix}.png"))
-            self.count += 1
-        scheme().choose("light")
+        for size in sizes or (None,):
+            if size:
+                widget.resize(*size)
+                settle()
+                if (widget.width(), widget.height()) != size:
+                    sys.stdout.write(f"{name}-{self.language}: {size} became {widget.size().toTuple()}\n")
+            for colours in ("light", "dark") if size is None or size in DARK else ("light",):
+                scheme().choose(colours)
+                settle()
+                suffix = "" if size is None or size == LARGE else f"-{size[0]}x{size[1]}"
+                path = OUT / f"{name}-{colours}-{self.language}{suffix}.png"
+                picture(widget, 2 if size == DOUBLED else 1).save(str(path))
+                self.count += 1
+            scheme().choose("light")
+        if sizes:
+            widget.resize(*LARGE)
 
 
 class Stage:
@@ -119,6 +133,7 @@ class Stage:
         for path in self.files.rglob("*"):
             os.utime(path, (MOMENT, MOMENT))
         QSettings("AMP Studio", "AMP Studio").clear()
+        UserSettings().keep_language(photographer.language)
         self.window: Any = MainWindow()  # a file is open on every page but the first
         self.window.resize(*LARGE)
         self.window.show()
@@ -163,8 +178,7 @@ class Stage:
     def welcome(self) -> None:
         """The page that is there before a file is open."""
         settle(self.window.welcome.families.count)
-        self.take("01-welcome", self.window, LARGE)
-        self.take("01-welcome", self.window, SMALL)
+        self.take("01-welcome", self.window, SIZES)
 
     def steps(self) -> None:
         """A new mill at its steps."""
@@ -173,7 +187,7 @@ class Stage:
             file.set(("servo.hardware_type", axis), Value("sercos"))
             file.set(("servo.loop_type", axis), Value("digital"))
         self.show_new("NEW_MILL.amp", file)
-        self.take("02-steps", self.window, LARGE)
+        self.take("02-steps", self.window, SIZES)
 
     def main(self) -> None:
         """Groups, project, findings, filters and the find box on the example mill."""
@@ -181,18 +195,17 @@ class Stage:
         window.open_first(self.path("mill-1394"))
         settle()
         window.go_to(EXCESS)
-        self.take("03-groups", window, LARGE)
-        self.take("03-groups", window, SMALL)
+        self.take("03-groups", window, SIZES)
         window.page.left.show_side("project")
-        self.take("04-project", window, LARGE)
+        self.take("04-project", window, SIZES)
         window.page.left.show_side("groups")
         window.workspace.edit("excess error", {EXCESS: Value(0.001, "mm")})
         window.workspace.edit("loops", {("servo.position_loop_type", a): Value("open") for a in "123"})
         window.workspace.edit("home", {CALIBRATION: Value(1.0, "mm")})
         window.show_panel("Findings")
-        self.take("05-findings", window, LARGE)
+        self.take("05-findings", window, SIZES)
         window.page.filters.choose("unsaved", True)
-        self.take("06-filters", window, LARGE)
+        self.take("06-filters", window, SIZES)
         window.page.filters.clear()
 
     def refusal(self) -> None:
@@ -207,7 +220,7 @@ class Stage:
         QTest.keyClick(field, Qt.Key.Key_A, Qt.KeyboardModifier.ControlModifier)
         QTest.keyClicks(field, "99999999 mm")
         QTest.keyClick(field, Qt.Key.Key_Return)
-        self.take("07-refusal", self.window, LARGE)
+        self.take("07-refusal", self.window, SIZES)
         QTest.keyClick(QApplication.focusWidget() or field, Qt.Key.Key_Escape)
 
     def find(self) -> None:
@@ -218,7 +231,7 @@ class Stage:
         for text in ("servo amp fe limits", "exess error"):
             box.begin(text)
             settle()
-            self.take("08-find-message" if "fe" in text else "09-find-typing-error", self.window, LARGE)
+            self.take("08-find-message" if "fe" in text else "09-find-typing-error", self.window, SIZES)
         box.close_list()
         box.clear()
 
@@ -227,11 +240,10 @@ class Stage:
         page = self.window.page
         self.window.menus["view.pictures"].trigger()
         page.pictures.show_picture("all")
-        self.take("10-pictures", self.window, LARGE)
-        self.take("10-pictures", self.window, SMALL)
+        self.take("10-pictures", self.window, SIZES)
         for name in page.pictures._pictures:
             page.pictures.show_picture(name)
-            self.take(f"11-picture-{name}", self.window, LARGE)
+            self.take(f"11-picture-{name}", self.window, SIZES)
         self.window.menus["view.pictures"].trigger()
 
     def compare(self) -> None:
@@ -246,12 +258,11 @@ class Stage:
         other.set(RAPID, Value(190.0, "mm/s"))
         source = MergeSource("MILL_1394.amp", "hall 2", other)
         shown.show_merge({A: shown.sources.now(), B: source})
-        self.take("12-compare-two", shown, LARGE)
+        self.take("12-compare-two", shown, SIZES)
         base.set(EXCESS, Value(11.0, "mm"))
         base.set(CALIBRATION, Value(0.0, "mm"))
-        shown.show_merge({A: shown.sources.now(), B: source, BASE: MergeSource("Last saved", "", base)})
-        self.take("13-compare-three", shown, LARGE)
-        self.take("13-compare-three", shown, SMALL)
+        shown.show_merge({A: shown.sources.now(), B: source, BASE: MergeSource(tr("Last saved"), "", base)})
+        self.take("13-compare-three", shown, SIZES)
         shown.close()
 
     def exchange(self) -> None:
@@ -283,12 +294,11 @@ class Stage:
             )
         page = self.window.control
         page.recorded()
-        self.take("15-history", self.window, LARGE)
+        self.take("15-history", self.window, SIZES)
         page.several()
-        self.take("15-several", self.window, LARGE)
+        self.take("15-several", self.window, SIZES)
         page.show("hand")
-        self.take("15-by-hand", self.window, LARGE)
-        self.take("15-by-hand", self.window, SMALL)
+        self.take("15-by-hand", self.window, SIZES)
 
     def control_page(self) -> None:
         """The page at the control: without E-stop, with differences, sent, not reached."""
@@ -304,41 +314,71 @@ class Stage:
         emulated.send("estop off")
         control.show("send")
         settle(lambda: control.page.session.in_estop is False or control.page.session.ask())
-        self.take("14-control-estop", window, LARGE)
+        self.take("14-control-estop", window, SIZES)
         emulated.send("estop on")
         settle(lambda: control.page.session.in_estop or control.page.session.ask())
-        self.take("14-control-differences", window, LARGE)
-        self.take("14-control-differences", window, SMALL)
+        self.take("14-control-differences", window, SIZES)
         control.page.checked.setChecked(True)
         control.page.press()
         settle()
-        self.take("14-control-done", window, LARGE)
+        self.take("14-control-done", window, SIZES)
         emulated.stop(wait=True)
         control.page.connect_again()
         settle()
-        self.take("14-control-away", window, LARGE)
+        self.take("14-control-away", window, SIZES)
         control.leave()
 
     def motion(self) -> None:
         """A simulated movement."""
         self.window.go_to(("feedrate.rapid", "1"))
         self.window.menus["view.motion"].trigger()
-        view = self.window.page.motion
+        view = self.window.page.pages["motion"]
         settle(lambda: view.trace is not None and not Task.running)
-        self.take("16-motion", self.window, LARGE)
-        self.take("16-motion", self.window, SMALL)
-        self.window.page.show_motion(False)
-        self.window.resize(*LARGE)
+        self.take("16-motion", self.window, SIZES)
+        self.window.page.show_page("")
 
     def tuning(self) -> None:
-        """Every page of the tuning window."""
-        from amp_studio.ui.actions.tuning import tune
+        """Every step of the page of tuning."""
+        self.window.menus["view.tuning"].trigger()
+        tuning = self.window.page.pages["tuning"]
+        for n in range(tuning.pages.count()):
+            tuning.pages.setCurrentRow(n)
+            settle()
+            self.take(f"17-tuning-{n + 1}", self.window, SIZES)
+        self.window.page.show_page("")
 
-        tune(self.window, self.window.control.exchanges)
-        with self.beside("TuningWindow") as tuning:
-            for n in range(tuning.pages.count()):
-                tuning.pages.setCurrentRow(n)
-                self.take(f"17-tuning-{n + 1}", tuning)
+    def machine(self) -> None:
+        """The check of the machine in motion."""
+        self.window.menus["view.check"].trigger()
+        check = self.window.page.pages["check"]
+        settle(lambda: check.table.rowCount() and not Task.running)
+        check.table.setCurrentCell(0, 0)
+        self.take("17-machine", self.window, SIZES)
+        self.window.page.show_page("")
+
+    def program(self) -> None:
+        """A part program of the router: its path, what limits it, and another value."""
+        window = self.window
+        window.open_first(self.path("acromill-router"))
+        window.menus["view.program"].trigger()
+        page = window.page.pages["program"]
+        self.take("17-program-empty", window, SIZES)
+        page.open_program(self.path("acromill-router").with_name("plate.nc"))
+        settle(lambda: page.outcome is not None and not Task.running)
+        page.form.set_answer("change", "speeds.rapid=150")
+        page.form.entered.emit("change")
+        settle(lambda: page.tries.rowCount() == 1)
+        page.play.slider.setValue(500)
+        self.take("17-program", window, SIZES)
+        window.page.show_page("")
+
+    def migration(self) -> None:
+        """The questions of the way to another control."""
+        self.window.open_first(self.path("mill-1394"))
+        self.window.menus["file.migrate"].trigger()
+        with self.beside("MigrationWindow") as shown:
+            settle()
+            self.take("29-migration", shown, SIZES)
 
     def dialogs(self) -> None:
         """Calculator, tables, steps of undo, and the dialog of a new file."""
@@ -377,8 +417,7 @@ class Stage:
         window.menus["view.preview"].trigger()
         settle(lambda: window.preview.panel is not None and window.preview.panel.view.places)
         settle(lambda: window.preview.panel.is_settled)
-        self.take("24-preview", window, LARGE)
-        self.take("24-preview", window, SMALL)
+        self.take("24-preview", window, SIZES)
         head = window.preview.panel.head
         head.menu.popup(head.mapToGlobal(head.rect().bottomLeft()))
         self.take("25-preview-contents", head.menu)
@@ -396,10 +435,10 @@ class Stage:
         settle(lambda: "= Service" in panel.source)
         settle(lambda: panel.is_settled)
         panel.view.go_to_page(1)
-        self.take("27-preview-template", self.window, LARGE)
+        self.take("27-preview-template", self.window, SIZES)
         path.write_text(path.read_text("utf-8").replace("= Service", "= Service\n#telefone"), "utf-8")
         settle(panel.bar.isVisible)
-        self.take("28-preview-mistake", self.window, LARGE)
+        self.take("28-preview-mistake", self.window, SIZES)
         shutil.rmtree(path.parent)
         settle(panel.bar.isHidden)
 
@@ -437,9 +476,9 @@ class Stage:
         ):
             self.window.open_first(self.path(folder))
             settle()
-            self.take(f"{n}-{folder}", self.window, LARGE)
+            self.take(f"{n}-{folder}", self.window, SIZES)
             self.window.menus["view.pictures"].trigger()
-            self.take(f"{n}-{folder}-pictures", self.window, LARGE)
+            self.take(f"{n}-{folder}-pictures", self.window, SIZES)
             self.window.menus["view.pictures"].trigger()
 
     def close(self) -> None:
@@ -461,6 +500,9 @@ PAGES: tuple[Callable[[Stage], None], ...] = (
     Stage.exchange,
     Stage.motion,
     Stage.tuning,
+    Stage.machine,
+    Stage.program,
+    Stage.migration,
     Stage.dialogs,
     Stage.preview,
     Stage.project_check,

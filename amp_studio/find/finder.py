@@ -99,9 +99,12 @@ class Finder:
         return [self._of_axis(hit, axis) for hit in best if hit.score >= least][:most]
 
     def nearest(self, query: str) -> str:
-        """Return the nearest question that has words which are known; empty where there is none."""
+        """Return the nearest question that has words which are known; empty where there is none but this
+        one.
+        """
         query = query[:_LONGEST]
-        return index_of(self.schema, self.machine).nearest(query) or nearest_synonym(query)
+        near = index_of(self.schema, self.machine).nearest(query) or nearest_synonym(query)
+        return near if near != query.casefold().strip() else ""
 
     # -- what is no matter of words -------------------------------------------------
 

@@ -99,14 +99,15 @@ class SearchIndex:
         return [self._match(score, -n, found[-n]) for score, n in best[:most]]
 
     def nearest(self, query: str) -> str:
-        """Return the question with each unknown word replaced by the nearest known one;
-        empty where nothing is near.
+        """Return the question with its unknown word replaced by the nearest known one; empty where nothing
+        is near, and for several unknown words: what would be near each of them is another question.
         """
-        words = [
-            word if self.vocabulary.like(word) else self.vocabulary.nearest(word) for word in words_of(query)
-        ]
-        text = " ".join(word for word in words if word)
-        return text if text != " ".join(words_of(query)) else ""
+        words = words_of(query)
+        unknown = [word for word in words if not self.vocabulary.like(word)]
+        if len(unknown) != 1:
+            return ""
+        near = self.vocabulary.nearest(unknown[0])
+        return " ".join(near if word == unknown[0] else word for word in words) if near else ""
 
     # -- parts of a search --------------------------------------------------------
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QResizeEvent
-from PySide6.QtWidgets import QLabel, QMainWindow, QStackedWidget, QWidget
+from PySide6.QtWidgets import QLabel, QMainWindow, QWidget
 
 from amp_studio.files import ENDING, axis_instances
 from amp_studio.schema import Address
@@ -30,6 +30,7 @@ from .base.task import Task
 from .base.theme import apply_style
 from .base.translated import tr
 from .base.workspace import Workspace
+from .forms.front_stack import FrontStack
 from .page.file_page import FilePage
 from .page.left_panel import as_side
 from .project.files import ProjectFiles
@@ -70,7 +71,7 @@ class MainWindow(PartsWindow):
         self.visited = VisitedPlaces(self)
         self.pictures = Pictures(self)
         self.preview = ReportPreview(self)
-        self.centre = QStackedWidget()
+        self.centre = FrontStack()
         self.control = ControlDesk(self, self.files, self.centre, self.show_values)
         self.menus = Menus[PartsWindow](self, menus())
         self.project_files = ProjectFiles(
@@ -170,7 +171,7 @@ class MainWindow(PartsWindow):
             self.centre.setCurrentWidget(self.tabs)
             project.notice(self, page.workspace.path.parent)
             self._show_value()
-        self.docks.show_page(None if page is None or page.shows_motion else page)
+        self.docks.show_page(None if page is None or page.turned_to else page)
         self.enable()
 
     def leave_control(self, *_: object) -> bool:

@@ -149,6 +149,7 @@ def test_nothing_is_found_for_noise_and_the_nearest_is_offered_for_a_slip_too_ma
     assert finder.find("qxqxqx zzkk") == []
     assert finder.find("") == finder.find("   ") == finder.find("?!") == []
     assert finder.nearest("ssaamplingg period") == "sampling period"
+    assert finder.nearest("ssaamplingg limmmiit") == "", "near each word is another question"
 
 
 @pytest.mark.parametrize(

@@ -42,6 +42,10 @@ def test_each_group_of_words_leads_to_something_in_a_family(finders: dict[str, F
         ("Endschaltern", "limit switch"),
         ("Not-Halt", "emergency stop"),
         ("axis oscillates at 3 m", "initial gain of position loop at 3 m"),
+        ("ruckelt", "initial gain of position loop"),
+        ("Nullpunkt stimmt nicht", "home calibration"),
+        ("falsche Richtung", "direction invert"),
+        ("Spindel dreht nicht", "spindle enable"),
     ],
 )
 def test_a_word_is_known_begun_mistyped_with_an_ending_and_among_others(query: str, means: str) -> None:

@@ -20,7 +20,7 @@ from amp_studio.ui.dialogs.tables_dialog import TablesDialog
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.merge.machines_dialog import MachinesDialog
 from amp_studio.ui.merge.window import MergeWindow
-from amp_studio.ui.motion.tuning_window import TuningWindow
+from amp_studio.ui.motion.tuning_page import TuningView
 from amp_studio.ui.motion.view import MotionView
 from amp_studio.ui.page.step_list import StepList
 from amp_studio.ui.project.check import ProjectCheckDialog, check_files
@@ -159,7 +159,7 @@ PAGES: dict[str, Callable[[MainWindow], QWidget]] = {
     "machines": by("Compare Machines", MachinesDialog),
     "compare": lambda window: window.files.comparing.open(window.page),
     "motion": by("Motion", MotionView),
-    "tuning": by("Tuning", TuningWindow),
+    "tuning": by("Tuning", TuningView),
     "calculator": by("Calculator", CalculatorDialog),
     "tables": by("Tables of the Manual", TablesDialog),
     "quick edit": lambda window: (window.edits.quick_edit(), opened(window, QuickEdit))[1],
@@ -180,7 +180,7 @@ PAGES: dict[str, Callable[[MainWindow], QWidget]] = {
 def test_each_part_of_a_page_has_a_name_and_a_role_and_tab_reaches_it(window: MainWindow, page: str) -> None:
     window.go_to(EXCESS)
     top = PAGES[page](window)
-    if isinstance(top, TuningWindow):
+    if isinstance(top, TuningView):
         for n in range(top.pages.count()):
             top.pages.setCurrentRow(n)
             QApplication.processEvents()

@@ -24,7 +24,7 @@ from amp_studio.ui.dialogs.note_dialog import NoteDialog
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.merge.columns import B
 from amp_studio.ui.merge.window import MergeWindow
-from amp_studio.ui.motion.tuning_window import TuningWindow
+from amp_studio.ui.motion.tuning_page import TuningView
 from amp_studio.ui.table.block_preview import BlockPreview
 
 from .at_control import at_control, settled
@@ -184,12 +184,12 @@ def one_value_of_the_example_is_taken_back(day: Day) -> None:
 
 def the_reversal_error_is_tuned(day: Day) -> None:
     day.do("Tuning")
-    tuning = day.window.findChildren(TuningWindow)[-1]
+    tuning = day.window.findChildren(TuningView)[-1]
     values = next(p for p in tuning.values if p.page.key == "reversal")
     values.table.setCurrentCell(values.addresses().index(REVERSAL), 2)
     values.increase.click()
     assert day.file.get(REVERSAL) == Value(0.001, "mm")
-    tuning.close()
+    day.do("Values")
     assert day.window.save()
 
 

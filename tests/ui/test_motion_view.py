@@ -310,7 +310,7 @@ def test_leaving_it_runs_nothing_until_a_user_looks_again(
     view: MotionView, window: MainWindow, qtbot: QtBot
 ) -> None:
     view.left.emit()
-    assert not window.page.shows_motion
+    assert not window.page.turned_to
     assert window.table_view.isVisible()
     old = view.trace
     window.workspace.edit("gain", {("servo.initial_gain", "2"): Value(0.5)})
@@ -320,7 +320,7 @@ def test_leaving_it_runs_nothing_until_a_user_looks_again(
     settled(view, qtbot)
     assert (view.trace.axis, old.axis) == ("3", "2"), "the axis that is selected now"
     action(window, "Motion").trigger()
-    assert not window.page.shows_motion
+    assert not window.page.turned_to
 
 
 def test_the_panels_come_back_as_they_were(view: MotionView, window: MainWindow) -> None:
@@ -328,7 +328,7 @@ def test_the_panels_come_back_as_they_were(view: MotionView, window: MainWindow)
     window.workspace.edit("small", {("servo.excess_error", "1"): Value(0.001, "mm")})
     assert not window.findings.isVisible(), "they were folded, and nobody has opened them"
     assert window.detail.isVisible()
-    window.page.show_motion(True)
+    window.page.show_page("motion")
     assert not window.detail.isVisible()
     window.go_to(("servo.excess_error", "1"))
     assert (window.detail.isVisible(), window.findings.isVisible()) == (True, False)

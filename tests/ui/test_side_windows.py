@@ -22,8 +22,6 @@ COMMANDS = {
     "view.settings": "SettingsDialog",
     "file.compare": "MergeWindow",
     "file.migrate": "MigrationWindow",
-    "control.check": "CheckWindow",
-    "control.tune": "TuningWindow",
     "project.compare": "MachinesDialog",
 }
 """What opens a window beside the table -> its class."""
@@ -33,7 +31,7 @@ COMMANDS = {
 def quiet(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let nothing be simulated: only the windows count."""
     nothing: Iterator[object] = iter(())
-    monkeypatch.setattr("amp_studio.ui.motion.check_window.check_motion", lambda _file: nothing)
+    monkeypatch.setattr("amp_studio.ui.motion.check_page.check_motion", lambda _file: nothing)
 
 
 def beside(window: MainWindow) -> list[QWidget]:

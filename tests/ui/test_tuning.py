@@ -1,4 +1,4 @@
-"""The Tuning window: chapter 36 of the 9/PC on the open file, and measured points."""
+"""The page Tuning: chapter 36 of the 9/PC on the open file, and measured points."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.motion.calibration_page import CalibrationPage
 from amp_studio.ui.motion.measured_dialog import MeasuredDialog
+from amp_studio.ui.motion.tuning_page import TuningView
 from amp_studio.ui.motion.tuning_values import ValuesPage
-from amp_studio.ui.motion.tuning_window import TuningWindow
 from tests.ui.conftest import WAIT_MS, User, action
 
 REVERSAL, TABLE = ("servo.reversal_error", "1"), ("calibration.table", "1")
@@ -29,12 +29,11 @@ POINTS = "position [mm],error [um]\n0,0\n100,4\n200,7\n200,13\n100,10\n0,6\n"
 
 
 @pytest.fixture
-def tuning(workspace: Workspace, qtbot: QtBot, user: User) -> TuningWindow:
-    return displayed(TuningWindow(workspace, lambda: None), qtbot)
+def tuning(workspace: Workspace, qtbot: QtBot, user: User) -> TuningView:
+    return displayed(TuningView(workspace, lambda: None), qtbot)
 
 
-def displayed(window: TuningWindow, qtbot: QtBot) -> TuningWindow:
-    window.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose, False)  # qtbot closes it once more
+def displayed(window: TuningView, qtbot: QtBot) -> TuningView:
     qtbot.addWidget(window, before_close_func=lambda w: setattr(w, "control", None))
     window.show()
     with qtbot.waitActive(window, timeout=WAIT_MS):
@@ -42,7 +41,7 @@ def displayed(window: TuningWindow, qtbot: QtBot) -> TuningWindow:
     return window
 
 
-def page(tuning: TuningWindow, key: str) -> ValuesPage:
+def page(tuning: TuningView, key: str) -> ValuesPage:
     """Bring a page of values to the front."""
     (found,) = [p for p in tuning.values if p.page.key == key]
     row = next(
@@ -54,7 +53,7 @@ def page(tuning: TuningWindow, key: str) -> ValuesPage:
     return found
 
 
-def calibration(tuning: TuningWindow) -> CalibrationPage:
+def calibration(tuning: TuningView) -> CalibrationPage:
     titles = [tuning.pages.item(n).text() for n in range(tuning.pages.count())]
     tuning.pages.setCurrentRow(titles.index("Axis Calibration"))
     assert tuning.calibration is not None
@@ -67,13 +66,16 @@ def put_cursor(values: ValuesPage, address: tuple[str, str]) -> None:
 
 def test_the_command_opens_the_pages_of_the_manual(window: MainWindow, qtbot: QtBot) -> None:
     action(window, "Tuning").trigger()
-    (tuning,) = window.findChildren(TuningWindow)
+    (tuning,) = window.findChildren(TuningView)
     pages = [tuning.pages.item(n).text() for n in range(tuning.pages.count())]
     assert pages == ["Reversal Error", "Home Calibration", "Axis Calibration", "Servo", "Spindle"]
-    tuning.close()
+    assert window.page.turned_to == "tuning"
+    assert all(dock.isHidden() for dock in window.docks.docks), "the page has the whole window"
+    action(window, "Tuning").trigger()
+    assert window.page.turned_to == ""
 
 
-def test_every_value_is_painted_in_the_colours_of_a_theme_that_is_chosen_later(tuning: TuningWindow) -> None:
+def test_every_value_is_painted_in_the_colours_of_a_theme_that_is_chosen_later(tuning: TuningView) -> None:
     try:
         scheme().choose("dark")
         for table in (*(page.table for page in tuning.values), calibration(tuning).table):
@@ -84,9 +86,7 @@ def test_every_value_is_painted_in_the_colours_of_a_theme_that_is_chosen_later(t
         scheme().choose("light")
 
 
-def test_plus_and_minus_change_the_value_by_a_step_and_each_is_undone(
-    tuning: TuningWindow, workspace
-) -> None:
+def test_plus_and_minus_change_the_value_by_a_step_and_each_is_undone(tuning: TuningView, workspace) -> None:
     values = page(tuning, "reversal")
     put_cursor(values, REVERSAL)
     assert values.step.currentText() == "0.001 mm"
@@ -98,7 +98,7 @@ def test_plus_and_minus_change_the_value_by_a_step_and_each_is_undone(
     assert workspace.undo_stack.index() == 3
 
 
-def test_a_value_stops_at_the_end_of_its_range(tuning: TuningWindow, workspace) -> None:
+def test_a_value_stops_at_the_end_of_its_range(tuning: TuningView, workspace) -> None:
     values = page(tuning, "reversal")
     put_cursor(values, REVERSAL)
     workspace.edit("set", {REVERSAL: Value(9.9985, "mm")})
@@ -112,7 +112,7 @@ def test_a_file_that_another_program_has_is_not_changed_by_keys_either(
 ) -> None:
     first = Document.open(path)
     second = Workspace(Document.view(path))
-    tuning = displayed(TuningWindow(second, lambda: None), qtbot)
+    tuning = displayed(TuningView(second, lambda: None), qtbot)
     values = page(tuning, "reversal")
     put_cursor(values, REVERSAL)
     QTest.keyClicks(values.table, "+")
@@ -122,7 +122,7 @@ def test_a_file_that_another_program_has_is_not_changed_by_keys_either(
     first.close()
 
 
-def test_a_value_that_is_not_used_is_not_changed(tuning: TuningWindow, workspace) -> None:
+def test_a_value_that_is_not_used_is_not_changed(tuning: TuningView, workspace) -> None:
     workspace.edit("set", {("servo.position_feedback_type", "1"): Value("aqb-no-marker")}, force="test")
     values = page(tuning, "reversal")
     put_cursor(values, REVERSAL)
@@ -132,7 +132,7 @@ def test_a_value_that_is_not_used_is_not_changed(tuning: TuningWindow, workspace
 
 
 def test_a_typed_value_replaces_and_one_out_of_range_is_refused_in_the_bar(
-    tuning: TuningWindow, workspace
+    tuning: TuningView, workspace
 ) -> None:
     values = page(tuning, "home")
     put_cursor(values, ("home.calibration", "2"))
@@ -146,7 +146,7 @@ def test_a_typed_value_replaces_and_one_out_of_range_is_refused_in_the_bar(
     assert "99999999" not in values.table.item(values.table.currentRow(), 2).text()
 
 
-def test_a_number_is_added_to_a_value(tuning: TuningWindow, workspace, user: User) -> None:
+def test_a_number_is_added_to_a_value(tuning: TuningView, workspace, user: User) -> None:
     values = page(tuning, "home")
     put_cursor(values, ("home.calibration", "1"))
     before = workspace.file.get(("home.calibration", "1")).value
@@ -156,7 +156,7 @@ def test_a_number_is_added_to_a_value(tuning: TuningWindow, workspace, user: Use
 
 
 def test_a_tuned_velocity_gain_takes_the_motor_table_off_in_the_same_step(
-    tuning: TuningWindow, workspace
+    tuning: TuningView, workspace
 ) -> None:
     workspace.edit("set", {("servo.standard_motor_values", ""): Value(True)}, force="test")
     values = page(tuning, "servo")
@@ -174,7 +174,7 @@ def test_a_tuned_velocity_gain_takes_the_motor_table_off_in_the_same_step(
 
 
 def test_points_are_put_in_replaced_and_deleted_and_the_first_one_decides_input_and_start(
-    tuning: TuningWindow, workspace, user: User
+    tuning: TuningView, workspace, user: User
 ) -> None:
     table = calibration(tuning)
     table.input.setCurrentIndex(table.input.findData("deviation"))
@@ -206,7 +206,7 @@ def test_points_are_put_in_replaced_and_deleted_and_the_first_one_decides_input_
 
 
 def test_measured_points_are_asked_about_and_become_one_step(
-    tuning: TuningWindow, workspace, user: User, accept: Callable[..., None], tmp_path: Path
+    tuning: TuningView, workspace, user: User, accept: Callable[..., None], tmp_path: Path
 ) -> None:
     path = tmp_path / "laser.csv"
     path.write_text(POINTS)
@@ -260,7 +260,7 @@ def test_a_circle_of_a_ball_bar_asks_which_axis_it_is(workspace, tmp_path: Path,
 # -- manners --------------------------------------------------------------------------------------
 
 
-def demand_manners(tuning: TuningWindow) -> None:
+def demand_manners(tuning: TuningView) -> None:
     """Every view of every page has a name, and no letter of Alt means two things."""
     for n in range(tuning.pages.count()):
         tuning.pages.setCurrentRow(n)
@@ -277,19 +277,19 @@ def demand_manners(tuning: TuningWindow) -> None:
                 assert view.accessibleName(), view
 
 
-def test_every_view_has_a_name_and_no_two_texts_of_a_page_share_a_letter(tuning: TuningWindow) -> None:
+def test_every_view_has_a_name_and_no_two_texts_of_a_page_share_a_letter(tuning: TuningView) -> None:
     demand_manners(tuning)
 
 
 def test_a_family_whose_manual_tunes_nothing_names_that(
-    open_window, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    open_window, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "syntec.amp"
     Document.create(new_file("syntec"), path).close()
     window = open_window(path)
     monkeypatch.setattr("amp_studio.calibration.compensation_of", lambda _family: Compensation())
     action(window, "Tuning").trigger()
-    assert "tuned on line" in user.reads()
+    assert "tuned on line" in window.page.bar.text.text()
 
 
 def test_each_family_has_pages_of_parameters_that_it_has() -> None:

@@ -6,6 +6,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QKeySequence
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -14,7 +17,7 @@ from amp_studio.schema import Value
 from amp_studio.transfer.client.live import LiveTuning
 from amp_studio.transfer.exchange import Exchange
 from amp_studio.ui.base.workspace import Workspace
-from amp_studio.ui.motion.tuning_window import TuningWindow
+from amp_studio.ui.motion.tuning_page import TuningView
 from tests.families.grblhal.bench import Bench, sent
 from tests.ui.conftest import User
 
@@ -31,9 +34,9 @@ def router(qapp: QApplication, tmp_path: Path) -> Workspace:
 
 
 @pytest.fixture
-def live(router: Workspace, tmp_path: Path, qtbot: QtBot, user: User) -> tuple[TuningWindow, Bench]:
+def live(router: Workspace, tmp_path: Path, qtbot: QtBot, user: User) -> tuple[TuningView, Bench]:
     bench = Bench(tmp_path / "control")
-    tuning = TuningWindow(router, lambda: LiveTuning(bench.driver, tmp_path / "router", address="bench"))
+    tuning = TuningView(router, lambda: LiveTuning(bench.driver, tmp_path / "router", address="bench"))
     displayed(tuning, qtbot)
     tuning.switch.buttons["control"].click()
     assert tuning.control is not None
@@ -53,9 +56,9 @@ def test_a_live_value_goes_into_the_control_at_once_and_not_into_the_file(live, 
     assert tuning.message.text.text().endswith("Takes effect: at once.")
     assert "1 value changed" in tuning.state.text()
     assert not router.is_dirty
-    tuning.undo_action.trigger()
+    QTest.keyClick(values.table, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
     assert sent(bench) == ["$120=25.000", "$120=10.000"]
-    tuning.redo_action.trigger()
+    QTest.keySequence(values.table, QKeySequence(QKeySequence.StandardKey.Redo))
     assert sent(bench)[-1] == "$120=25.000"
     tuning.take.click()
     assert router.file.get(ACCELERATION).value == 25
@@ -66,9 +69,9 @@ def test_the_old_values_are_offered_when_the_control_is_left(live, router: Works
     tuning, bench = live
     tuning.target.set("Tune", {ACCELERATION: Value(25.0, "mm/s2")})
     user.answers("Cancel")
-    assert not tuning.close()
+    assert not tuning.may_leave()
     user.answers("Put the Old Values Back")
-    assert tuning.close()
+    assert tuning.may_leave()
     assert sent(bench) == ["$120=25.000", "$120=10.000"]
     assert all("differ" in question for question in user.asked)
 
@@ -90,13 +93,13 @@ def test_after_a_lost_line_the_window_shows_what_is_known_and_reads_again(live, 
     tuning.look.click()
     assert page(tuning, "steps").increase.isEnabled()
     user.answers("Keep Them in the Control")
-    tuning.close()
+    assert tuning.may_leave()
 
 
 def test_a_control_that_takes_everything_at_once_gets_the_values_together(
     workspace: Workspace, qtbot: QtBot, user: User, start_house: Callable[[], LiveTuning]
 ) -> None:
-    tuning = displayed(TuningWindow(workspace, lambda: None), qtbot)
+    tuning = displayed(TuningView(workspace, lambda: None), qtbot)
     tuning._connect = start_house
     tuning.switch.buttons["control"].click()
     tuning.guarded(lambda: tuning.target.set("Tune", {REVERSAL: Value(0.004, "mm")}))

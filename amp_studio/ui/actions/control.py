@@ -13,7 +13,6 @@ from PySide6.QtWidgets import QFileDialog, QStackedWidget
 from amp_studio.files import Document, ParameterFile, settle
 from amp_studio.ui.base.emulated_control import EmulatedControl
 from amp_studio.ui.base.known_controls import ControlVerb
-from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.modal import is_alive
 from amp_studio.ui.base.questions import show_message
 from amp_studio.ui.base.task import in_background
@@ -27,7 +26,6 @@ from amp_studio.validate import Validator, rules_beside
 
 from .file import Files
 from .sheet import sheet_of_control, sheet_of_file
-from .tuning import tune
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client import Copy
@@ -83,16 +81,6 @@ class ControlDesk(Translated):
         page = self._live = LivePage(seen, family, self.window.follow, self.window, emulated=own)
         self.window.beside.show(page)
         page.start()
-
-    def check_in_motion(self) -> None:
-        """Run every scenario that the file in front allows, on a copy of it."""
-        load("amp_studio.sim", "amp_studio.ui.motion.check_window")
-        from amp_studio.ui.motion.check_window import CheckWindow
-
-        workspace = self.window.workspace_in_front
-        window = CheckWindow(workspace.file.copy(), self.window.follow, self.window)
-        self.window.beside.show(window, workspace)
-        window.start()
 
     def _end_live(self, session: ControlSession) -> None:
         """End the readings before an exchange takes the line."""
@@ -312,10 +300,6 @@ class ControlDesk(Translated):
         """Whether something is being written to a control."""
         several = self._page is not None and self._page.several.is_sending
         return several or any(session.phase == "running" for session in self._sessions.values())
-
-    def tune(self) -> None:
-        """Show the pages for tuning."""
-        tune(self.window, self.exchanges)
 
     def restore(self) -> None:
         """Ask for a backup and offer to put it back;

@@ -16,7 +16,7 @@ from amp_studio.ui.base.menu_commands import commands
 from amp_studio.ui.base.modal import is_alive
 from amp_studio.ui.base.questions import show_message
 from amp_studio.ui.base.task import Task
-from amp_studio.ui.base.translated import Translated, worded
+from amp_studio.ui.base.translated import Translated, tr, worded
 from amp_studio.ui.page.file_page import FilePage
 from amp_studio.ui.table.cell_look import prepare_labels
 from amp_studio.ui.window.studio_window import StudioWindow
@@ -140,7 +140,8 @@ class FindSearch(Translated):
         instances = file.machine_schema.instances(file.schema.parameters[hit.key])
         instance = here[1] if here is not None and here[1] in instances else instances[0]
         address = hit.address or (hit.key, instance)
-        value = " ".join(page.table.values.text(address, file.get(address)).split())
+        found = file.get(address)
+        value = tr("not set") if found is None else " ".join(page.table.values.text(address, found).split())
         value = f"{value[:_VALUE_LENGTH]}…" if len(value) > _VALUE_LENGTH else value
         return replace(hit, detail=f"{value}   {hit.detail}")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
@@ -11,7 +12,7 @@ from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem
 
 from amp_studio.find import Hit, HitKind
 from amp_studio.ui.base.theme import FINDING_ROW, GAP, GAP2, ROW, SMALL_ICON, colour, font, paint_icon
-from amp_studio.ui.base.translated import tr
+from amp_studio.ui.base.translated import tr, worded
 
 _ICONS: dict[HitKind, str] = {
     "parameter": "hash",
@@ -34,6 +35,7 @@ _MOST: dict[HitKind, int] = {
 """Rows of each kind, so that none buries the others."""
 _PLAIN = frozenset({"number", "name", "code", "text", "choice", "value", "note", "id", "group"})
 """Reasons that the row itself shows."""
+_TYPED, _PAGE = re.compile("'(.+)' as '(.+)'"), re.compile(r"\bpage \S+$")
 
 
 class FindRow(NamedTuple):
@@ -88,8 +90,17 @@ def _row(hit: Hit, action: QAction | None) -> FindRow:
         mark = "✓ " if action.isCheckable() and action.isChecked() else ""
         keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
         return FindRow(mark + hit.title, "", keys, _ICONS["command"], hit, action)
-    reasons = [reason for reason in hit.why.split(", ") if reason not in _PLAIN]
-    return FindRow(hit.title, hit.detail, ", ".join(reasons), _ICONS[hit.kind], hit)
+    reasons = [_in_words(reason) for reason in hit.why.split(", ") if reason not in _PLAIN]
+    detail = _PAGE.sub(lambda found: worded(found[0]), hit.detail)
+    return FindRow(hit.title, detail, ", ".join(reasons), _ICONS[hit.kind], hit)
+
+
+def _in_words(reason: str) -> str:
+    """Return why something was found in the language of the window; what was found stays as it is."""
+    if found := _TYPED.fullmatch(reason):
+        return tr("'{typed}' as '{found}'").format(typed=found[1], found=found[2])
+    head, colon, rest = reason.partition(": ")
+    return f"{worded(head)}{colon}{rest}"
 
 
 class FindRows(QAbstractListModel):

@@ -90,7 +90,9 @@ class Pictures(QObject):
 
     def toggle(self) -> None:
         """Show the pictures of the file in front, or its table alone."""
-        page, was_away = self.window.page_in_front, self.window.leave_control()
+        page = self.window.page_in_front
+        was_away = self.window.leave_control() or bool(page.turned_to)
+        page.show_page("")
         if page.shows_pictures and was_away:
             self.check(page)  # they are there again
             return

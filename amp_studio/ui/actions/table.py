@@ -13,7 +13,7 @@ from PySide6.QtGui import QKeySequence
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.window.action import Action, ChoiceMenu, FilledMenu, Menu
 
-from . import axis, document, filters, guide, project, view
+from . import axis, document, filters, guide, pages, project, view
 from . import help as help_menu
 from .edit import show_redo, show_undo
 from .find_box import COMMANDS
@@ -22,7 +22,15 @@ from .parts import PartsWindow
 TOOL_BAR = {
     "file": ("file.new", "file.open", "file.save"),
     "steps": ("edit.undo", "edit.redo"),
-    "views": ("view.pictures", "view.motion", "file.compare"),
+    "views": (
+        "view.values",
+        "view.pictures",
+        "view.motion",
+        "view.tuning",
+        "view.check",
+        "view.program",
+        "file.compare",
+    ),
     "control": ("control.page",),
 }
 """What the tool bar has, by its parts."""
@@ -53,7 +61,7 @@ def _file() -> Menu[PartsWindow]:
                 "file.compare",
                 tr("Compare and Merge &With…"),
                 lambda w: w.files.comparing.compare(),
-                "Ctrl+Shift+M",
+                ("Ctrl+Shift+M", "Alt+7"),
                 icon="git-diff",
                 short=tr("Compare"),
             ),
@@ -309,28 +317,64 @@ def _view() -> Menu[PartsWindow]:
             None,
             Action("view.next_file", tr("Ne&xt File"), lambda w: w.tabs.turn(1), "Ctrl+Tab"),
             Action("view.previous_file", tr("Pre&vious File"), lambda w: w.tabs.turn(-1), "Ctrl+Shift+Tab"),
-            Action("view.beside", tr("Show File &Beside"), lambda w: w.tabs.move_across(), "Ctrl+\\"),
+            Action("view.beside", tr("Show File Besi&de"), lambda w: w.tabs.move_across(), "Ctrl+\\"),
             None,
             Action(
-                "view.motion",
-                tr("&Motion"),
-                view.open_motion,
-                "F9",
-                icon="activity",
-                short=tr("Motion"),
-                is_on=lambda w: w.page is not None and w.page.shows_motion and not w.control.is_shown,
-                follows=view.show_motion,
+                "view.values",
+                tr("Va&lues"),
+                pages.show_values,
+                "Alt+1",
+                icon="table",
+                short=tr("Values"),
+                is_on=lambda w: pages.is_shown(w, ""),
             ),
-            Action("view.program", tr("B&locks and Programs…"), view.open_program, "Ctrl+F9", icon="path"),
             Action(
                 "view.pictures",
                 tr("&Pictures"),
                 lambda w: w.pictures.toggle(),
-                "F12",
+                ("F12", "Alt+2"),
                 icon="frame-corners",
                 short=tr("Pictures"),
-                is_on=lambda w: w.page is not None and w.page.shows_pictures,
+                is_on=lambda w: pages.is_shown(w, "") and w.page_in_front.shows_pictures,
             ),
+            Action(
+                "view.motion",
+                tr("&Motion"),
+                pages.open_motion,
+                ("F9", "Alt+3"),
+                icon="activity",
+                short=tr("Motion"),
+                is_on=lambda w: pages.is_shown(w, pages.MOTION),
+                follows=pages.name_motion,
+            ),
+            Action(
+                "view.tuning",
+                tr("Tu&ning"),
+                pages.open_tuning,
+                ("Shift+F9", "Alt+4"),
+                icon="sliders-horizontal",
+                short=tr("Tuning"),
+                is_on=lambda w: pages.is_shown(w, pages.TUNING),
+            ),
+            Action(
+                "view.check",
+                tr("Chec&k in Motion"),
+                pages.open_check,
+                "Alt+5",
+                icon="arrows-left-right",
+                short=tr("Machine"),
+                is_on=lambda w: pages.is_shown(w, pages.CHECK),
+            ),
+            Action(
+                "view.program",
+                tr("&Blocks and Programs"),
+                pages.open_program,
+                ("Ctrl+F9", "Alt+6"),
+                icon="path",
+                short=tr("Program"),
+                is_on=lambda w: pages.is_shown(w, pages.PROGRAM),
+            ),
+            None,
             Action("view.save_picture", tr("Save P&icture As SVG…"), lambda w: w.pictures.save()),
             Action(
                 "view.preview",
@@ -428,13 +472,6 @@ def _control() -> Menu[PartsWindow]:
             Action("control.several", tr("Se&veral Controls…"), lambda w: w.control.several()),
             Action("control.exchanges", tr("E&xchanges of This File…"), lambda w: w.control.recorded()),
             Action("control.live", tr("&Live…"), lambda w: w.control.live(), "Ctrl+L", icon="broadcast"),
-            Action(
-                "control.check",
-                tr("Chec&k in Motion…"),
-                lambda w: w.control.check_in_motion(),
-                icon="arrows-left-right",
-            ),
-            Action("control.tune", tr("&Tuning…"), lambda w: w.control.tune(), "Shift+F9"),
             None,
             Action(
                 "control.start",

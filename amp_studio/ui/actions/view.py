@@ -1,32 +1,17 @@
-"""What the view menu does: units of display and entry, control type, what is shown, settings;
-the motion window.
-"""
+"""What the view menu does: units of display and entry, control type, what is shown, settings."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import partial
-from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QAction
 
-from amp_studio.files import ParameterFile, SavedVersion, saved_versions
-from amp_studio.schema import Address, Value, why_not_simulated
-from amp_studio.ui.base.loading import load
-from amp_studio.ui.base.task import in_background
+from amp_studio.schema import Value
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.page.file_page import FilePage
 from amp_studio.ui.window.studio_window import StudioWindow
 
-if TYPE_CHECKING:
-    from amp_studio.ui.motion.view import MotionView
-
-
 # -- units and control type ------------------------------------------------
-
-
-MOST_VERSIONS = 5
-"""Earlier versions of a file under which a program is run."""
 
 
 def set_units(window: StudioWindow, system: str) -> None:
@@ -121,81 +106,3 @@ def open_settings(window: StudioWindow, page: str = "general") -> None:
 def open_keys(window: StudioWindow) -> None:
     """Open the settings at the list of all keys."""
     open_settings(window, "keys")
-
-
-# -- motion --------------------------------------------------------------------
-
-
-def show_motion(window: StudioWindow, action: QAction) -> None:
-    """Show in the menu whether the family in front can be simulated;
-    the key gives the reason where it cannot.
-    """
-    workspace = window.workspace
-    family = workspace.file.schema.family if workspace else None
-    reason = why_not_simulated(family) if family else ""
-    missing = tr("&Motion (not for {family})") if reason else tr("&Motion")
-    action.setText(missing.format(family=family.short or family.name) if family else missing)
-    action.setIconText(tr("Motion"))
-    action.setToolTip(reason or tr("Motion (F9)"))
-
-
-def open_motion(window: StudioWindow) -> None:
-    """Show the page on which the machine moves, or the values again;
-    where its family cannot be simulated the page has the reason.
-    """
-    page = window.page_in_front
-    if not window.leave_control() and page.shows_motion:
-        page.show_motion(False)
-        return
-    if reason := why_not_simulated(page.workspace.file.schema.family):
-        page.bar.say(reason)
-        return
-    workspace, address = page.workspace, window.selected()
-    kind = in_background(window, tr("Loading the simulator"), partial(_motion_view, workspace.file.copy()))
-    if page.motion is None:
-        made = kind(workspace, address, page.go_to)
-        made.left.connect(lambda: page.show_motion(False))
-        page.take_motion(made)
-    elif isinstance(page.motion, kind) and address is not None:
-        page.motion.show_axis(address[1])
-    page.show_motion(True)
-
-
-def open_program(window: StudioWindow) -> None:
-    """Open the window of blocks and programs of the file in front."""
-    page = window.page_in_front
-    if not page.workspace.file.schema.program.page:
-        page.bar.say(tr("No page here prints how the blocks of this control are read."))
-        return
-    load("amp_studio.sim", "amp_studio.programs", "amp_studio.ui.motion.program_window")
-    from amp_studio.ui.motion.program_window import ProgramWindow
-
-    workspace = page.workspace
-    if (opened := window.beside.again(ProgramWindow, workspace)) is not None:
-        opened.run_again()
-        return
-
-    def read() -> ParameterFile:
-        return workspace.file.copy()
-
-    def apply(values: Mapping[Address, Value]) -> bool:
-        return workspace.edit(tr("Take from the program"), values)
-
-    def earlier() -> list[SavedVersion]:
-        document = workspace.document
-        return list(saved_versions(document.as_saved(), document.history(), MOST_VERSIONS))
-
-    window.beside.show(ProgramWindow(read, apply, window, earlier=earlier), workspace)
-
-
-def _motion_view(file: ParameterFile) -> type[MotionView]:
-    """Load the view with the plots, and the simulator with what it knows of the family of a file.
-    For a thread.
-    """
-    load("amp_studio.sim", "amp_studio.ui.motion.view")
-    from amp_studio.sim import listing
-    from amp_studio.ui.motion.view import MotionView
-
-    listing(file)
-
-    return MotionView

@@ -15,11 +15,17 @@ from .translated import message_in_words, tr
 _NUMBER = re.compile(r"(?<![\w.$@])[-−]?\d+\.\d+(?![\w]|\.\d)")
 """A number in a sentence; no address (``P3N0.5``, ``$22.0``), version or network address."""
 _POINT = re.compile(r"(?<=\d)\.(?=\d)")
+_POWER = re.compile(r"(?<=\d)e([+-]?)0*(\d+)")
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def written(figure: str) -> str:
-    """Return a number that has a decimal point with the decimal sign of the language."""
-    return _POINT.sub(tr(".", "decimal sign"), figure)
+    """Return a number with the decimal sign of the language; ``1e-07`` is 1 × 10⁻⁷."""
+    return _POWER.sub(_power, _POINT.sub(tr(".", "decimal sign"), figure))
+
+
+def _power(found: re.Match[str]) -> str:
+    return "\u202f×\u202f10" + (found[1].strip("+") + found[2]).translate(_RAISED)
 
 
 def sentence(text: str) -> str:

@@ -30,6 +30,7 @@ from PySide6.QtWidgets import QApplication, QStyleFactory
 from .style_sheet import style_sheet
 
 ThemeChoice = Literal["system", "light", "dark"]
+FontRole = Literal["figure", "title", "text", "small", "caption"]
 Token = Literal[
     "window",
     "panel",
@@ -264,9 +265,7 @@ def _apply_colours() -> None:
 # -- type --------------------------------------------------------------------------------------------
 
 
-def font(
-    role: Literal["figure", "title", "text", "small", "caption"] = "text", *, own: bool = False
-) -> QFont:
+def font(role: FontRole = "text", *, own: bool = False) -> QFont:
     """Return a font of the system in the size of a role, with figures of one width;
     ``own`` is the weight of an own value.
     """

@@ -37,6 +37,16 @@ def worded(text: str, family: str = "") -> str:
     return text if _spoken == "en" else _worded(_spoken, text, family)
 
 
+def sentenced(text: str, family: str = "") -> str:
+    """Return as ``worded``, with its numbers and their units as the language writes them too."""
+    return text if _spoken == "en" else _sentenced(_spoken, text, family)
+
+
+@lru_cache(maxsize=4096)
+def _sentenced(code: str, text: str, family: str) -> str:
+    return language_of(code, family).sentence(text)
+
+
 @lru_cache(maxsize=4096)
 def _worded(code: str, text: str, family: str) -> str:
     return language_of(code, family).title(text)

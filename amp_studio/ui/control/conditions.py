@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from amp_studio.files import ParameterFile
 from amp_studio.ui.base.theme import GAP2, GAP3, GAP4, SMALL_ICON, Token, colour, font, icon
-from amp_studio.ui.base.translated import tr
+from amp_studio.ui.base.translated import tr, worded
 
 from .session import ControlSession
 
@@ -42,7 +42,7 @@ def conditions_of(session: ControlSession | None, file: ParameterFile) -> list[C
             ControlCondition(tr("Not connected"), state),
             *(ControlCondition(text, None) for text in waits),
         ]
-    found = [ControlCondition(tr("Connected"), not session.error, seen.control.revision)]
+    found = [ControlCondition(tr("Connected"), not session.error, worded(seen.control.revision))]
     found.append(_same_machine(session, file))
     age = _age(session.asked_at)
     if session.in_estop is None:
@@ -58,7 +58,10 @@ def conditions_of(session: ControlSession | None, file: ParameterFile) -> list[C
     if seen.abilities.lasting_states:
         found.append(
             ControlCondition(
-                tr("A write lasts in {states}").format(states=", ".join(seen.abilities.lasting_states)), True
+                tr("A write lasts in {states}").format(
+                    states=", ".join(map(worded, seen.abilities.lasting_states))
+                ),
+                True,
             )
         )
     return found

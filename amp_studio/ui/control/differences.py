@@ -60,7 +60,7 @@ class DifferenceTable(QTreeWidget):
         self.rows: dict[Address, SideRow] = {}
         self._items: dict[Address, QTreeWidgetItem] = {}
         self._file: ParameterFile | None = None
-        self._secrets = False
+        self._secrets = self._is_narrow = False
         self.itemClicked.connect(self._click)
         self.header().setStretchLastSection(True)
         scheme().changed.connect(self._colour)
@@ -69,6 +69,12 @@ class DifferenceTable(QTreeWidget):
         """Show every row in the colours of the moment."""
         for address in self._items:
             self._show_side(address)
+
+    def show_short_words(self, is_narrow: bool) -> None:
+        """Show in few words what is to be minded about a row, where there is little room."""
+        if is_narrow != self._is_narrow:
+            self._is_narrow = is_narrow
+            self._colour()
 
     def show_sides(self, control: str, file: str) -> None:
         """Name the two sides in the head."""
@@ -183,12 +189,13 @@ class DifferenceTable(QTreeWidget):
             item.setFont(column, font("text", own=is_taken))
             item.setForeground(column, colour("text" if is_taken else "dim"))
         if row.is_fixed:
-            item.setText(MIND, self.tr("stays as it is"))
+            item.setText(MIND, self.tr("stays") if self._is_narrow else self.tr("stays as it is"))
         elif not row.takes_file:
-            item.setText(MIND, self.tr("the control's value stays"))
+            item.setText(MIND, self.tr("kept") if self._is_narrow else self.tr("the control's value stays"))
             item.setIcon(MIND, icon("circle", "panel"))
         elif row.dangers:
-            item.setText(MIND, self.tr("danger, page {page}").format(page=row.dangers[0].page))
+            words = self.tr("danger") if self._is_narrow else self.tr("danger, page {page}")
+            item.setText(MIND, words.format(page=row.dangers[0].page))
             item.setIcon(MIND, severity_icon("error"))
         else:
             item.setText(MIND, "")

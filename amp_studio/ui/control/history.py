@@ -4,9 +4,10 @@ and the backup to go back to.
 
 from __future__ import annotations
 
+from datetime import UTC, datetime
 from pathlib import Path
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QHeaderView,
     QPushButton,
@@ -17,8 +18,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.files import day_and_time, real_path, text_of_name
-from amp_studio.ui.base.translated import counted, worded
+from amp_studio.files import real_path, text_of_name
+from amp_studio.ui.base.theme import ROW
+from amp_studio.ui.base.time_words import in_words
+from amp_studio.ui.base.translated import counted, message_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.elided_label import ElidedLabel
 
@@ -74,17 +77,18 @@ class ExchangeHistory(QWidget):
         for each in reversed(found):
             item = QTreeWidgetItem(
                 [
-                    day_and_time(each.when),
+                    _when(each.when),
                     each.who,
                     worded(each.verb),
                     each.control,
                     each.before[:12],
                     each.after[:12],
-                    worded(each.text),
+                    _ending(each.text),
                 ]
             )
+            item.setSizeHint(0, QSize(0, ROW))
             kept = self.tr("\nKept copy: {kept}").format(kept=each.kept) if each.kept else ""
-            item.setToolTip(6, each.text + kept)
+            item.setToolTip(6, _ending(each.text) + kept)
             item.setData(0, _KEPT, str(path.parent / each.kept) if each.kept else "")
             for param, old, new in each.changes:
                 sides = [old or self.tr("not set"), new or self.tr("not set")]
@@ -113,3 +117,17 @@ class ExchangeHistory(QWidget):
     def _restore(self) -> None:
         if kept := self._backup():
             self.restore_wanted.emit(Path(kept))
+
+
+def _when(stamp: str) -> str:
+    """Return a recorded time in words; what is no time stays as it is."""
+    try:
+        moment = datetime.fromisoformat(stamp).astimezone()
+    except (ValueError, OverflowError, OSError):
+        return stamp
+    return in_words(moment, datetime.now(UTC).astimezone())
+
+
+def _ending(text: str) -> str:
+    """Return how an exchange ended, which a title or a message words."""
+    return worded(message_in_words(text))

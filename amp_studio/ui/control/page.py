@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Literal
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtWidgets import QFileDialog
 
-from amp_studio.files import ParameterFile, describe
+from amp_studio.files import ParameterFile, describe, write_atomic
 from amp_studio.schema import Value
 from amp_studio.ui.base.theme import scheme
 from amp_studio.ui.base.translated import finding_in_words, message_in_words
@@ -92,7 +93,7 @@ class ControlPage(ControlPageParts):
         self.one.clicked.connect(self._write_one)
         self.checked.toggled.connect(self.refresh)
         self.cancel.clicked.connect(self._cancel)
-        self.proof.clicked.connect(lambda: self.show_history(True))
+        self.proof.clicked.connect(self._save_proof)
         self.again.clicked.connect(self.connect_again)
         self.primary.clicked.connect(self._act)
         self.back.clicked.connect(self.left)
@@ -430,7 +431,7 @@ class ControlPage(ControlPageParts):
         self.primary.setText(text)
         self.primary.setEnabled(not why)
         tied = self.tr("Tied to what you see: if the control changes before, nothing is replaced.")
-        self.note.setText(why or (tied if self.direction == "send" and text else ""))
+        self.note.setText(why or (tied if self.direction == "send" and phase == "ready" and text else ""))
 
     # -- the one button ----------------------------------------------------------------
 
@@ -550,6 +551,27 @@ class ControlPage(ControlPageParts):
         }
         workspace.edit(self.tr("Read from {name}").format(name=self.name), values)
         self._fill()
+
+    def _save_proof(self) -> None:
+        """Write what the control contains, by what that is proven, and each value that was sent."""
+        session, workspace = self.session, self.workspace
+        if session is None or session.outcome is None or workspace is None:
+            return
+        path = workspace.path.with_name(f"{workspace.path.stem}-proof.txt")
+        text, _ = QFileDialog.getSaveFileName(self, self.tr("Save Proof"), str(path), "Text (*.txt)")
+        if not text:
+            return
+        lines = [text_of_proof(session, self.name, self._kept_names()), ""]
+        for row in self.table.taken(file=True):
+            address, difference = row.difference.address, row.difference
+            old, new = (self.table.text_of(address, value) for value in (difference.b, difference.a))
+            lines.append(f"{describe(workspace.file, address)}: {old} → {new}")
+        try:
+            write_atomic(Path(text), ("\n".join(lines) + "\n").encode())
+        except OSError as error:
+            self.bar.say(message_in_words(str(error)), "error")
+        else:
+            self.note.setText(self.tr("{name} is saved.").format(name=Path(text).name))
 
     def _keep_current(self) -> None:
         if (row := self.table.current()) is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QHBoxLayout,
@@ -34,6 +35,9 @@ from .known_list import KnownList
 from .rows import FOOT, side_by_side
 from .several import SeveralControls
 from .steps import ExchangeSteps
+
+WIDE = 1200
+"""Width in logical pixels of a window with room for the steps beside the table."""
 
 
 class ControlPageParts(QWidget):
@@ -77,6 +81,12 @@ class ControlPageParts(QWidget):
         self.middle.addWidget(self.table)
         self.middle.addWidget(self.empty)
         self.steps = ExchangeSteps()
+        self.steps_line = ElidedLabel()
+        """The steps above the foot, where there is no room for them beside the table."""
+        self.steps_line.setFont(font("small"))
+        self.steps_line.setContentsMargins(GAP3, 0, GAP3, 0)
+        self.steps_line.hide()
+        self.steps.line_changed.connect(self.steps_line.setText)
         self.detail = QLabel()
         self.detail.setWordWrap(True)
         self.detail.setTextFormat(Qt.TextFormat.RichText)
@@ -115,6 +125,7 @@ class ControlPageParts(QWidget):
             parts,
             self.detail,
             side_by_side(0, self.keep, self.one, None, self.checked),
+            self.steps_line,
             side_by_side(
                 FOOT, self.note, None, self.progress, self.cancel, self.proof, self.again, self.primary
             ),
@@ -132,6 +143,14 @@ class ControlPageParts(QWidget):
         self.setFocusProxy(self.states)
         # Else its width would be taken from the panels beside the table even while it is not in front.
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Leave the table the room of the steps in a small window, where they have one line."""
+        super().resizeEvent(event)
+        is_narrow = self.window().width() < WIDE
+        self.steps.setHidden(is_narrow)
+        self.steps_line.setVisible(is_narrow)
+        self.table.show_short_words(is_narrow)
 
 
 def _tool(icon_name: str, text: str) -> QToolButton:

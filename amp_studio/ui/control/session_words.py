@@ -38,7 +38,7 @@ def text_of_content(session: ControlSession | None, name: str, summary: str) -> 
     if session.seen is None:
         return message_in_words(session.error)
     if session.seen.why_unreadable:
-        return session.seen.why_unreadable
+        return message_in_words(session.seen.why_unreadable)
     if not session.seen.content:
         return tr("The control contains no parameters.")
     now = datetime.now(UTC).astimezone()
@@ -64,7 +64,7 @@ def text_of_proof(session: ControlSession, name: str, kept: Sequence[str]) -> st
 def text_of_failure(session: ControlSession) -> str:
     """Return one of four sentences about what the control contains, and why."""
     if session.outcome is not None:
-        return session.outcome.text
+        return message_in_words(session.outcome.text)
     failure = session.failure
     state = failure.at_control if failure is not None else "old"
     heads = {
@@ -75,7 +75,7 @@ def text_of_failure(session: ControlSession) -> str:
     }
     head = heads.get(state, tr("It is not known what the control contains."))
     danger = "" if state in ("old", "", "new") else tr("Do not move the machine before it was read.")
-    return " ".join(filter(None, (head, danger, session.error)))
+    return " ".join(filter(None, (head, danger, message_in_words(session.error))))
 
 
 def doubts_of(backup: ControlBackup) -> str:

@@ -25,6 +25,8 @@ class ExchangeSteps(QWidget):
     """Five steps and the statements of danger; a click on one selects its row."""
 
     chosen = Signal(object)
+    line_changed = Signal(str)
+    """The steps in one line, for a page that has no room beside its table."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -78,16 +80,24 @@ class ExchangeSteps(QWidget):
                 mark = "✓ " if n < self._at and is_sent else f"{n + 1}  "
                 first.setText(mark + texts[n][0])
                 second.setText(texts[n][1])
-        self._mind.setVisible(bool(dangers))
-        self.list.setVisible(bool(dangers))
+        is_over = phase in ("done", "failed")
+        self._mind.setVisible(bool(dangers) and not is_over)
+        self.list.setVisible(bool(dangers) and not is_over)
         self.list.clear()
+        about: dict[tuple[str, str], list[str]] = {}
         for danger in dangers:
-            for anchor, label in danger.about:
-                item = QListWidgetItem(severity_icon("error"), label)
-                parameter, _, instance = anchor.rpartition("@")
-                item.setData(Qt.ItemDataRole.UserRole, (parameter, instance))
-                item.setToolTip(danger.says)
-                self.list.addItem(item)
+            for place in danger.about:
+                about.setdefault(place, []).append(danger.says)
+        for (anchor, label), statements in about.items():
+            item = QListWidgetItem(severity_icon("error"), label)
+            parameter, _, instance = anchor.rpartition("@")
+            item.setData(Qt.ItemDataRole.UserRole, (parameter, instance))
+            item.setToolTip("\n".join(statements))
+            self.list.addItem(item)
+        self._show_line()
+
+    def _show_line(self) -> None:
+        self.line_changed.emit("   ".join(first.text() for first, _ in self._lines if not first.isHidden()))
 
     def show_stage(self, stage: str, done: int, total: int) -> None:
         """Show how far an exchange is."""
@@ -100,6 +110,7 @@ class ExchangeSteps(QWidget):
             first.setText(("✓ " if n < step else "▸ " if n == step else f"{n + 1}  ") + text)
             if n == step and total > 0:
                 second.setText(tr("{done} of {total}").format(done=done, total=total))
+        self._show_line()
 
 
 def _texts(count: int, whole: bool) -> list[tuple[str, str]]:

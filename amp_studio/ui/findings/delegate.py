@@ -136,7 +136,7 @@ class FindingsDelegate(QStyledItemDelegate):
                 right,
                 self._elided(
                     self._small,
-                    worded(group.cited, family_of_rule(group.findings[0].rule)),
+                    _source(worded(group.cited, family_of_rule(group.findings[0].rule))),
                     place.page.width(),
                 ),
             )
@@ -199,3 +199,8 @@ class FindingsDelegate(QStyledItemDelegate):
                 self._act(part, index)
                 return True
         return False
+
+
+def _source(cited: str) -> str:
+    """Return where a finding is from in a few words: of experience, without what it is."""
+    return cited.split(",", maxsplit=1)[0].split(":", maxsplit=1)[0]

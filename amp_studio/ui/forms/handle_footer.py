@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLineEdit
 
 from amp_studio.drawing import Handle, figure_text
 from amp_studio.schema import Address, Value, convert, dimension, unit_text, write_figure, write_value
-from amp_studio.ui.base.figures import show_value, written
+from amp_studio.ui.base.figures import sentence, show_value, written
 from amp_studio.ui.base.theme import CONTROL, GAP3, font
 from amp_studio.ui.base.workspace import Workspace
 
@@ -65,7 +65,7 @@ class HandleFooter(QFrame):
         step = f"{written(figure_text(drag.step))} {unit_text(drag.unit)}".strip()
         self.keys.setText(self.tr("← → {step}, Shift 10").format(step=step))
         if has_one and not self.field.hasFocus():
-            self.field.setText(self._typed(drag.address))
+            self.field.setText(written(self._typed(drag.address)))
             self.field.setAccessibleName(handle.label)
         self.more.setText(self._default(drag.address) if has_one else handle.value)
 
@@ -114,7 +114,7 @@ class HandleFooter(QFrame):
 
     def refuse(self, reason: str) -> None:
         """Say why a value is not taken; it stays in the field."""
-        self.more.setText(reason)
+        self.more.setText(sentence(reason))
         self.more.setForegroundRole(QPalette.ColorRole.BrightText)
 
     def eventFilter(self, watched: object, event: object) -> bool:

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
     QListWidgetItem,
     QProgressBar,
     QPushButton,
+    QSizePolicy,
     QToolButton,
 )
 
@@ -34,6 +35,8 @@ class ViewBar(QFrame):
     def __init__(self, systems: Sequence[str], units: str | None) -> None:
         super().__init__()
         self.setFixedHeight(TOOLS + 4)
+        # As wide as the window lets it be: what there is no room for leaves, so it never keeps a window wide.
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         row = self._row = QHBoxLayout(self)
         row.setContentsMargins(12, 4, 8, 4)
         row.setSpacing(8)

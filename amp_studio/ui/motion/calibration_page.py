@@ -43,7 +43,7 @@ from amp_studio.calibration import (
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value, read_exact, unit_text
 from amp_studio.ui.base.theme import GAP2, ROW, colour, font, scheme
-from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.translated import sentenced
 from amp_studio.ui.forms.form import Field, FieldForm
 
 from .error_plot import ErrorPlot, ErrorTrace
@@ -229,7 +229,7 @@ class CalibrationPage(QWidget):
         self.fault.setText(fault)
         self.fault.setStyleSheet(f"color: {colour('warn').name()}")
         self.fault.setVisible(bool(fault))
-        self.limits.setText("\n".join(worded(line) for line in lines))
+        self.limits.setText("\n".join(sentenced(line) for line in lines))
         self._fill(table)
         self.plot.show_errors(
             (ErrorTrace(self.tr("error that the table takes away"), table.curve, "now"),), table.unit

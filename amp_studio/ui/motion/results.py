@@ -22,7 +22,7 @@ from amp_studio.schema import Schema, unit_text
 from amp_studio.sim import Recommendation, Trace, value_text
 from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.theme import severity_colour, state_colour
-from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.translated import sentenced, worded
 from amp_studio.ui.forms.pages import LINK
 
 PREDICTED, SWEPT = "predicted_", "swept_"
@@ -51,11 +51,13 @@ class FiguresPage(QTextBrowser):
         shade = severity_colour("error").name()
         alarms = "".join(
             f'<p style="color:{shade}"><b>{html.escape(a.code)}</b> {self._at(a.time_s)}:'
-            f" {html.escape(a.message)}</p>"
+            f" {html.escape(sentenced(a.message))}</p>"
             for a in trace.alarms
         )
         warn = severity_colour("warning").name()
-        doubts = "".join(f'<p style="color:{warn}">{html.escape(text)}</p>' for text in trace.doubts)
+        doubts = "".join(
+            f'<p style="color:{warn}">{html.escape(sentenced(text))}</p>' for text in trace.doubts
+        )
         beside = self.tr("kept") if kind == "kept" else self.tr("saved")
         self.setHtml(
             f"{alarms}{doubts}<table cellspacing=0 cellpadding=2"
@@ -141,7 +143,8 @@ class RecommendationsPage(QScrollArea):
         if usable:
             head.addWidget(self._button(self.tr("Apply"), [each]), alignment=Qt.AlignmentFlag.AlignTop)
         column.addLayout(head)
-        for text in (each.why, self.tr("Price: {price}").format(price=each.price) if each.price else ""):
+        price = self.tr("Price: {price}").format(price=sentenced(each.price)) if each.price else ""
+        for text in (sentenced(each.why), price):
             if text:
                 label = QLabel(html.escape(text))
                 label.setWordWrap(True)
@@ -170,4 +173,4 @@ class AssumptionsPage(QTextBrowser):
     def show_trace(self, trace: Trace) -> None:
         """Show the assumptions of a trace."""
         ordered = sorted(trace.assumptions, key=lambda text: not text.startswith("ASSUMED"))
-        self.setHtml("".join(f"<p>{html.escape(text)}</p>" for text in ordered))
+        self.setHtml("".join(f"<p>{html.escape(sentenced(text))}</p>" for text in ordered))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, QObject, QSize, Qt
 from PySide6.QtWidgets import QLineEdit, QScrollArea, QWidget
 
 from amp_studio.schema import dimension, read_number, unit_named, unit_text
@@ -29,6 +29,8 @@ LENGTHS = (
     "move.switch_length",
     "move.marker",
 )
+_SCROLL = 16
+"""Width in pixels of the bar that scrolls a form."""
 FEEDRATE, SECOND = "move.feedrate", "move.second_axis"
 
 
@@ -105,9 +107,21 @@ def _title(name: str) -> str:
     return worded("Ramp" if name == MODE else words[:1].upper() + words[1:])
 
 
+class _FormArea(QScrollArea):
+    """Scrolls a form up and down; it is as wide as the form needs, whatever is offered in it later."""
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(self.widget().minimumSizeHint().width() + _SCROLL, super().minimumSizeHint().height())
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if event.type() == QEvent.Type.LayoutRequest:
+            self.updateGeometry()
+        return super().eventFilter(watched, event)
+
+
 def scrolled(form: QWidget) -> QScrollArea:
     """Return a form that can be scrolled."""
-    area = QScrollArea()
+    area = _FormArea()
     area.setFrameShape(QScrollArea.Shape.NoFrame)
     area.setWidgetResizable(True)
     area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)

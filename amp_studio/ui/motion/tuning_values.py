@@ -6,7 +6,7 @@ from collections.abc import Callable
 from fractions import Fraction
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
-from PySide6.QtGui import QAction, QKeyEvent, QKeySequence
+from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QComboBox,
@@ -38,6 +38,10 @@ _SIGNS: dict[object, int] = {"+": 1, "-": -1, Qt.Key.Key_Plus: 1, Qt.Key.Key_Min
 _ADDRESS = Qt.ItemDataRole.UserRole
 _PART = 100
 """The step that is offered first is at most this part of the value."""
+
+
+_LEAST_COLUMN = 80
+"""Width in pixels of a column of the table at least."""
 
 
 class ValuesPage(QWidget):
@@ -82,8 +86,9 @@ class ValuesPage(QWidget):
         head = self.table.horizontalHeader()
         head.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         head.setSectionResizeMode(_NAME, QHeaderView.ResizeMode.Stretch)
-        for column, width in ((_INSTANCE, 110), (_VALUE, 120), (_ALLOWED, 210), (_EFFECT, 150)):
-            self.table.setColumnWidth(column, width)
+        for column in (_INSTANCE, _VALUE, _ALLOWED, _EFFECT):
+            head.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
+        head.setMinimumSectionSize(_LEAST_COLUMN)
         self.table.itemChanged.connect(self._typed)
         self.table.currentCellChanged.connect(lambda *_: self._moved())
         self.table.installEventFilter(self)
@@ -307,15 +312,3 @@ def _usual(steps: tuple[Fraction, ...], value: Value | None) -> int:
     if value is None or isinstance(value.value, (str, bool)) or not value.value:
         return min(2, len(steps) - 1)
     return max((n for n, step in enumerate(steps) if step * _PART <= abs(value.value)), default=0)
-
-
-def undo_actions(window: QWidget, undo: Callable[[], object], redo: Callable[[], object]) -> list[QAction]:
-    """Return the actions that take a step back and do it again, with the usual keys, in a window."""
-    actions = []
-    for keys, act in ((QKeySequence.StandardKey.Undo, undo), (QKeySequence.StandardKey.Redo, redo)):
-        action = QAction(window)
-        action.setShortcut(QKeySequence(keys))
-        action.triggered.connect(lambda *_, act=act: act())
-        window.addAction(action)
-        actions.append(action)
-    return actions

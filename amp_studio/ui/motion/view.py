@@ -9,8 +9,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from PySide6.QtCore import Qt, QUrl, Signal
-from PySide6.QtGui import QShortcut, QShowEvent, QStandardItemModel
+from PySide6.QtCore import Qt, QUrl
+from PySide6.QtGui import QShowEvent, QStandardItemModel
 from PySide6.QtWidgets import (
     QComboBox,
     QFileDialog,
@@ -44,17 +44,16 @@ from amp_studio.sim import (
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import GAP2, GAP3, scheme, severity_colour
-from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.translated import sentenced, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.form import Field, FieldForm, fill_choices
 from amp_studio.ui.forms.pages import LINK
+from amp_studio.ui.page.page_of_file import PageOfFile
 
 from .machine_page import MachinePage
 from .results import AssumptionsPage, FiguresPage, RecommendationsPage, name_of
 from .settings import SettingsForm, scrolled
 
-_SCROLL = 16
-"""Width in pixels of the bar that scrolls the form."""
 _LEAST_FIGURES = 280
 """Height in pixels of the figures below the form, which is there whole; a low window scrolls both."""
 _ASSUMED = re.compile(r"ASSUMED: (model\.\w+) = (.+?)\. ")
@@ -85,13 +84,10 @@ def _same_move(
         return None
 
 
-class MotionView(QWidget):
+class MotionView(PageOfFile):
     """Simulates with the present values, and again after every edit that is seen;
     the trace of the saved file, or of what was kept for this scenario, lies under it.
     """
-
-    left = Signal()
-    """The values are wanted again."""
 
     def __init__(
         self,
@@ -102,8 +98,6 @@ class MotionView(QWidget):
     ) -> None:
         super().__init__(parent)
         self.setAccessibleName(self.tr("Motion"))
-        leave = QShortcut(Qt.Key.Key_Escape, self, self.left.emit)
-        leave.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
         self._workspace, self._show_parameter = workspace, show
         self._task: Task | None = None
         self._again = self._is_stale = False
@@ -203,7 +197,7 @@ class MotionView(QWidget):
             self.tabs.addTab(page, title)
         side = QWidget()
         right = QVBoxLayout(side)
-        right.setContentsMargins(0, 0, GAP2, 0)
+        right.setContentsMargins(GAP3, 0, GAP2, 0)
         right.addWidget(form)
         right.addWidget(self.keep, alignment=Qt.AlignmentFlag.AlignRight)
         right.addWidget(self.settings)
@@ -216,9 +210,7 @@ class MotionView(QWidget):
         picture.addWidget(self.plot, 1)
         middle = QSplitter()
         middle.addWidget(left)
-        beside = scrolled(side)
-        beside.setMinimumWidth(side.minimumSizeHint().width() + _SCROLL)
-        middle.addWidget(beside)
+        middle.addWidget(scrolled(side))
         middle.setStretchFactor(0, 1)
         middle.setSizes([790, 430])
         outer = QVBoxLayout(self)
@@ -269,6 +261,12 @@ class MotionView(QWidget):
         """Choose an axis where it can be simulated; another instance than of an axis changes nothing."""
         if (row := self.axis.findData(axis)) >= 0:
             self.axis.setCurrentIndex(row)
+
+    def show_scenario(self, scenario: str, axis: str) -> None:
+        """Choose a scenario of an axis, where they are there."""
+        self.show_axis(axis)
+        if (row := self.scenario.findData(scenario)) >= 0:
+            self.scenario.setCurrentIndex(row)
 
     def _units(self) -> tuple[str, str]:
         """Return the units of distance and feedrate for the chosen axis."""
@@ -384,11 +382,12 @@ class MotionView(QWidget):
 
     def _fail(self, error: Exception) -> None:
         """Show what is true, with a way to the parameter that has to be set."""
-        text = html.escape(str(error))
+        text = html.escape(sentenced(str(error), self._workspace.file.schema.family.family))
         parameter = getattr(error, "parameter", "")
         schema = self._workspace.file.schema
         if parameter in schema.parameters:
-            text += f' <a href="{LINK}{parameter}">Go to {html.escape(name_of(schema, parameter))}</a>'
+            there = self.tr("Go to {name}").format(name=html.escape(name_of(schema, parameter)))
+            text += f' <a href="{LINK}{parameter}">{there}</a>'
         self.summary.setText(f'<span style="color:{severity_colour("error").name()}">{text}</span>')
 
     def _show_result(self, ran: _Ran) -> None:
@@ -404,7 +403,7 @@ class MotionView(QWidget):
         self.settling.setEnabled(settling_span(trace) is not None)
         assumed = sum(text.startswith("ASSUMED") for text in trace.assumptions)
         text = self.tr("<b>%n figures of the machine are assumed</b>, see Assumed.", "", assumed)
-        self.summary.setText(f"{html.escape(trace.model)}. {text if assumed else ''}")
+        self.summary.setText(f"{html.escape(worded(trace.model))}. {text if assumed else ''}")
         self.recommendations.show_all(self._workspace.file.schema, trace.recommendations, self._may_apply)
         count = len(trace.recommendations)
         self.tabs.setTabText(

@@ -9,7 +9,7 @@ from functools import partial
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from amp_studio.files import axis_letter, describe
 from amp_studio.schema import Address, Parameter, unit_text
@@ -19,6 +19,7 @@ from amp_studio.ui.base.places import place_in_words
 from amp_studio.ui.base.translated import counted
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.findings.panel import FindingsPanel
+from amp_studio.ui.forms.front_stack import FrontStack
 from amp_studio.ui.forms.list_title import ListTitle
 from amp_studio.ui.forms.message_bar import MessageBar
 from amp_studio.ui.pictures.split import PictureSplit
@@ -29,6 +30,7 @@ from amp_studio.ui.table.value_table import ValueTable
 from amp_studio.validate import Finding, addresses_not_set
 
 from .left_panel import LeftPanel
+from .page_of_file import PageOfFile
 
 CommitValue = Callable[[Workspace, Address, str], bool]
 """Sets a value of a file from typed text; returns whether it was set."""
@@ -46,7 +48,7 @@ class FilePage(QWidget):
     listed = Signal()
     """The table shows another group, step or search."""
     turned = Signal()
-    """The motion page was shown, or left."""
+    """A page in the place of the values was shown, or left."""
     noted = Signal(str)
     """A short text for the status bar."""
     conflict = Signal()
@@ -78,8 +80,8 @@ class FilePage(QWidget):
         self._title = ""
         self.pictures: QWidget | None = None
         """Beside the table or in its place, once they were asked for."""
-        self.motion: QWidget | None = None
-        """The motion page, once it was asked for."""
+        self.pages: dict[str, PageOfFile] = {}
+        """Name -> page in the place of the values (motion, tuning, check, program), once it was asked for."""
         self.list_title = ListTitle()
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -94,7 +96,7 @@ class FilePage(QWidget):
         self.middle = PictureSplit(sheet)
         self.middle.rearranged.connect(self._note_cover)
         layout.addWidget(self.bar)
-        self._stack = QStackedWidget()
+        self._stack = FrontStack()
         self._stack.addWidget(self.middle)
         layout.addWidget(self._stack, 1)
         self.setFocusProxy(self.table_view)
@@ -229,28 +231,33 @@ class FilePage(QWidget):
             self.middle.show_pictures(wanted)
             self.changed.emit(self)
 
-    # -- the motion page -----------------------------------------------------------
+    # -- pages in the place of the values ------------------------------------------
 
     @property
-    def shows_motion(self) -> bool:
-        """Whether the motion page is in the place of the values."""
-        return self.motion is not None and self._stack.currentWidget() is self.motion
+    def turned_to(self) -> str:
+        """The name of the page in the place of the values; empty for the values."""
+        front = self._stack.currentWidget()
+        return next((name for name, page in self.pages.items() if page is front), "")
 
-    def take_motion(self, motion: QWidget) -> None:
-        """Take the motion page in, hidden."""
-        self.motion = motion
-        self._stack.addWidget(motion)
+    def take_page(self, name: str, page: PageOfFile) -> None:
+        """Take a page in, hidden."""
+        self.pages[name] = page
+        self._stack.addWidget(page)
 
-    def show_motion(self, wanted: bool) -> None:
-        """Show the motion page, or the values again."""
-        if self.motion is not None and wanted != self.shows_motion:
-            self._stack.setCurrentWidget(self.motion if wanted else self.middle)
+    def show_page(self, name: str) -> None:
+        """Show a page that was taken in, or the values again (``""``)."""
+        if name != self.turned_to:
+            self._stack.setCurrentWidget(self.pages[name] if name else self.middle)
             self.turned.emit()
-            (self.motion if wanted else self).setFocus()
+            (self.pages[name] if name else self).setFocus()
+
+    def may_leave(self) -> bool:
+        """Ask the pages that have work which would be lost; returns whether the file may be closed."""
+        return all(page.may_leave() for page in self.pages.values())
 
     def uncover(self) -> None:
-        """Show the table where the pictures or the motion page are in its place."""
-        self.show_motion(False)
+        """Show the table where the pictures or a page are in its place."""
+        self.show_page("")
         if self.middle.covers:
             self.show_pictures(False)
 

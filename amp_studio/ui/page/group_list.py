@@ -82,7 +82,7 @@ class GroupList(QWidget):
         for name, alike in by_name.items():
             item = self._add(head, name, [group.key for group in alike])
             for group in alike if len(alike) > 1 else ():
-                self._add(item, group.section, [group.key])
+                self._add(item, group.section or name, [group.key])
 
     def _hide_empty(self) -> None:
         """Hide the groups of which this machine type, or this control, has no parameter."""

@@ -4,10 +4,10 @@ again.
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import QDialog, QLabel, QUndoView, QVBoxLayout, QWidget
 
-from amp_studio.ui.base.theme import GAP2, GAP3, icon
+from amp_studio.ui.base.theme import GAP, GAP2, GAP3, SMALL_ICON, icon
 from amp_studio.ui.base.workspace import Workspace
 
 
@@ -22,6 +22,9 @@ class StepList(QDialog):
         self.view = QUndoView(workspace.undo_stack)
         self.view.setEmptyLabel(self.tr("As opened"))
         self.view.setCleanIcon(icon("floppy-disk"))
+        self.view.setIconSize(QSize(SMALL_ICON, SMALL_ICON))
+        self.view.setUniformItemSizes(True)
+        self.view.setSpacing(GAP // 2)
         self.view.setAccessibleName(self.tr("Steps"))
         self.view.setEnabled(workspace.may_edit)
         layout = QVBoxLayout(self)

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QComboBox, QFrame, QHBoxLayout, QLabel, QToolButto
 from amp_studio.drawing import Scene, scene_in_words
 from amp_studio.pictures import FilePicture
 from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, colour, font, icon, scheme
-from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.translated import sentenced, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.forms.segment import Segment
@@ -92,7 +92,10 @@ class PictureCard(QFrame):
         self._describe()
 
     def _draw(self, like: Scene | None) -> Scene:
-        return scene_in_words(self.picture.scene(self.part, like), worded)
+        return scene_in_words(self.picture.scene(self.part, like), self._words)
+
+    def _words(self, text: str) -> str:
+        return sentenced(text, self._workspace.file.schema.family.family)
 
     def show_part(self, key: str) -> None:
         """Draw another part."""

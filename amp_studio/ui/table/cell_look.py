@@ -105,7 +105,8 @@ def _without_common_words(short: dict[str, str]) -> dict[str, str]:
         return short
     first = _common(words)
     last = _common([list(reversed(text[first:])) for text in words])
-    return {label: " ".join(text[first : len(text) - last]) for label, text in zip(short, words, strict=True)}
+    rests = (" ".join(text[first : len(text) - last]).strip(" ,;:") for text in words)
+    return dict(zip(short, rests, strict=True))
 
 
 def _without_brackets(short: dict[str, str]) -> dict[str, str]:

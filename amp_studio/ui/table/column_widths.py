@@ -12,7 +12,7 @@ from heapq import nlargest
 
 from PySide6.QtGui import QFontMetrics
 
-from amp_studio.ui.base.theme import GAP3, font
+from amp_studio.ui.base.theme import GAP3, FontRole, font
 
 from .cell_look import CellLook
 from .cell_painter import CellPainter
@@ -66,7 +66,7 @@ def content_widths(table: ParameterTable, painter: CellPainter) -> ContentWidths
     full = [_widest(painter, column, slot) for column, slot in zip(looks, slots, strict=True)]
     short = [_widest(painter, column, slot, is_short=True) for column, slot in zip(looks, slots, strict=True)]
     if table.has_block:
-        full[0] = short[0] = 1  # its cells lie across all columns
+        full[0] = short[0] = _head_of_block(table)  # its cells lie across all columns
     for column in table.fact_columns:
         fact = _widest_text([column.title(), *(table.fact(n, column) for n in every)]) + 2 * GAP3
         full.append(min(fact, _MOST_FACT))
@@ -93,7 +93,7 @@ def grown(
     ]
     block = max(content.block + wider[0], needed[0]) if table.has_block else 0
     if table.has_block:
-        needed[0] = at_least[0] = 1
+        needed[0] = at_least[0] = _head_of_block(table)
     full, short = list(content.full), list(content.short)
     for n in range(len(looks)):
         full[n], short[n] = max(full[n] + wider[n], needed[n]), max(short[n] + wider[n], at_least[n])
@@ -130,6 +130,13 @@ def _looks(table: ParameterTable, rows: Collection[int]) -> list[list[CellLook]]
     ]
 
 
+def _head_of_block(table: ParameterTable) -> int:
+    """Return the width of the head of the control's column: its values lie across all columns, its word
+    does not.
+    """
+    return _widest_text(["".join(table.column_head(0))], "caption") + 2 * GAP3
+
+
 def _widest(painter: CellPainter, looks: list[CellLook], slot: int, *, is_short: bool = False) -> int:
     most = LEAST_COLUMN
     for look in looks:
@@ -140,8 +147,8 @@ def _widest(painter: CellPainter, looks: list[CellLook], slot: int, *, is_short:
     return most
 
 
-def _widest_text(texts: list[str], kind: str = "text") -> int:
-    metrics = QFontMetrics(font("small" if kind == "small" else "text"))
+def _widest_text(texts: list[str], kind: FontRole = "text") -> int:
+    metrics = QFontMetrics(font(kind))
     return max(map(metrics.horizontalAdvance, nlargest(8, set(texts), len)), default=0)
 
 

@@ -16,6 +16,7 @@ from amp_studio.schema import Address, Value, convert, limits
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import GAP2, GAP3, font, scheme
 from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.forms.pages import LINK
 from amp_studio.ui.forms.segment import Segment
 from amp_studio.validate import NOT_SET, SEVERITIES
@@ -101,7 +102,7 @@ class DetailPanel(QWidget):
 
     def _make_head(self) -> QWidget:
         head = QWidget()
-        self.number, self.name = QLabel(), QLabel()
+        self.number, self.name = QLabel(), ElidedLabel()
         self.number.setForegroundRole(self.number.palette().ColorRole.PlaceholderText)
         self.name.setFont(font("text", own=True))
         self.tools = QHBoxLayout()

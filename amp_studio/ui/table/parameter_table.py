@@ -207,9 +207,8 @@ class ParameterTable(QAbstractTableModel):
         if not 0 < len(of_control) < len(rows):
             return rows
         of_axes = [row for row in rows if CONTROL not in row.cells]
-        control = worded(self.workspace.file.schema.family.scopes["global"].label) or self.tr("Control")
         return [
-            TableRow(of_control[0].parameter, {}, "", control),
+            TableRow(of_control[0].parameter, {}, "", self.column_head(0)[1] or self.tr("Control")),
             *of_control,
             TableRow(of_axes[0].parameter, {}, "", self.tr("Axes")),
             *of_axes,

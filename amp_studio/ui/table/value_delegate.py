@@ -162,7 +162,7 @@ class ValueDelegate(QStyledItemDelegate):
             text = show_value(self._workspace.file.schema.parameters[address[0]], fix.value)
             wanted = self.tr("Rules want {value}.").format(value=text)
         can_force = self._workspace.file.schema.parameters[address[0]].access != "read"
-        return Refusal(problem, "", wanted, can_force)
+        return Refusal(sentence(problem), "", wanted, can_force)
 
     def _choose(self) -> None:
         box = self.sender()

@@ -222,6 +222,8 @@ class StudioWindow(QMainWindow):
         page = page or self.page
         if page is None or not page.table_view.finish():
             return page is None
+        if not page.may_leave():
+            return False
         if not page.workspace.is_dirty or not page.workspace.may_edit:
             return True
         self.tabs.bring(page)

@@ -14,6 +14,8 @@ from amp_studio.ui.forms.segment import Segment
 from .docks import WIDE
 from .studio_window import StudioWindow
 
+_FILE_WIDE = 1600
+"""Width in logical pixels from which the buttons of the file have their words too."""
 _FIND_WIDTH, _FIND_LEAST = 440, 160
 """Most that the find box takes, in logical pixels, and what it needs."""
 
@@ -37,9 +39,7 @@ class MainToolBar(QToolBar):
         self.addActions(file)
         self.addSeparator()
         self.addActions(steps)
-        self._bare = [
-            button for action in steps if isinstance(button := self.widgetForAction(action), QToolButton)
-        ]
+        self._of_file, self._bare = self._buttons(file), self._buttons(steps)
         self.addSeparator()
         self.units = Segment(self.tr("Unit system"))
         self.units.setToolTip(self._switch.toolTip())
@@ -61,12 +61,19 @@ class MainToolBar(QToolBar):
         box.setMaximumWidth(_FIND_WIDTH)
         self._slot_row.insertWidget(0, box, 100)
 
+    def _buttons(self, actions: Sequence[QAction]) -> list[QToolButton]:
+        found = (self.widgetForAction(action) for action in actions)
+        return [button for button in found if isinstance(button, QToolButton)]
+
     def fit(self, width: int) -> None:
-        """Show words where the window has room for them."""
-        style = Qt.ToolButtonStyle
-        self._show_words(style.ToolButtonTextBesideIcon if width >= WIDE else style.ToolButtonIconOnly)
-        if width >= WIDE and self._needed() > width:  # the words of a longer language
-            self._show_words(style.ToolButtonIconOnly)
+        """Show words where the window has room for them: first those of the file go, then those of the
+        pages.
+        """
+        for has_words, of_file in ((width >= WIDE, width >= _FILE_WIDE), (width >= WIDE, False)):
+            self._show_words(has_words, of_file)
+            if not has_words or self._needed() <= width:
+                return
+        self._show_words(False, False)  # the words of a longer language
 
     def _needed(self) -> int:
         """Return the width at which everything is seen."""
@@ -76,10 +83,14 @@ class MainToolBar(QToolBar):
             sum(part.sizeHint().width() for part in parts if part is not self._slot) + _FIND_LEAST + spacing
         )
 
-    def _show_words(self, style: Qt.ToolButtonStyle) -> None:
-        self.setToolButtonStyle(style)
+    def _show_words(self, has_words: bool, of_file: bool) -> None:
+        style = Qt.ToolButtonStyle
+        words, bare = style.ToolButtonTextBesideIcon, style.ToolButtonIconOnly
+        self.setToolButtonStyle(words if has_words else bare)
         for button in self._bare:
-            button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
+            button.setToolButtonStyle(bare)
+        for button in self._of_file:
+            button.setToolButtonStyle(words if of_file else bare)
 
     def show_units(self) -> None:
         """Show the unit systems of the file in front, and which one it is shown in;

@@ -1,4 +1,4 @@
-"""Blocks and programs as a window."""
+"""The page of blocks and programs."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from amp_studio.files import SavedVersion, open_file
 from amp_studio.machine import read_assignments
 from amp_studio.schema import Address, Value
 from amp_studio.ui.base.task import Task
+from amp_studio.ui.motion.program_page import ProgramPage
 from amp_studio.ui.motion.program_play import STEPS
-from amp_studio.ui.motion.program_window import ProgramWindow
 
 from .conftest import WAIT_MS
 
@@ -27,7 +27,7 @@ def applied() -> list[dict[Address, Value]]:
 
 
 @pytest.fixture
-def window(qtbot: QtBot, applied: list[dict[Address, Value]]) -> Iterator[ProgramWindow]:
+def window(qtbot: QtBot, applied: list[dict[Address, Value]]) -> Iterator[ProgramPage]:
     file = open_file(ROUTER / "ROUTER.amp").file
 
     def apply(values: Mapping[Address, Value]) -> bool:
@@ -40,18 +40,18 @@ def window(qtbot: QtBot, applied: list[dict[Address, Value]]) -> Iterator[Progra
         slow.set_checked(read_assignments(slow, [("speeds.rapid", "50 in/min")]))
         return [SavedVersion("2026-11-21T10:00:00+00:00", ("speeds.rapid",), slow)]
 
-    made = ProgramWindow(file.copy, apply, earlier=earlier)
+    made = ProgramPage(file.copy, apply, earlier=earlier)
     qtbot.addWidget(made)
     yield made
     Task.end_all()
 
 
-def enter(window: ProgramWindow, key: str, text: str) -> None:
+def enter(window: ProgramPage, key: str, text: str) -> None:
     window.form.set_answer(key, text)
     window.form.entered.emit(key)
 
 
-def test_a_typed_block_is_read_word_by_word(window: ProgramWindow) -> None:
+def test_a_typed_block_is_read_word_by_word(window: ProgramPage) -> None:
     enter(window, "block", "G1 X-10.5 F20")
     texts = [window.words.item(n, 1).text() for n in range(window.words.rowCount())]
     assert texts == ["1", "-10.5 in", "20 in/min"]
@@ -60,7 +60,7 @@ def test_a_typed_block_is_read_word_by_word(window: ProgramWindow) -> None:
 
 
 def test_a_program_shows_its_time_what_limits_it_and_another_value(
-    window: ProgramWindow, qtbot: QtBot, applied: list[dict[Address, Value]]
+    window: ProgramPage, qtbot: QtBot, applied: list[dict[Address, Value]]
 ) -> None:
     enter(window, "change", "speeds.rapid=150")
     assert "Open a part program first" in window.summary.text()
@@ -83,7 +83,7 @@ def test_a_program_shows_its_time_what_limits_it_and_another_value(
     assert window.outcome.plan.time < before.plan.time
 
 
-def test_changes_that_are_ticked_are_computed_together(window: ProgramWindow, qtbot: QtBot) -> None:
+def test_changes_that_are_ticked_are_computed_together(window: ProgramPage, qtbot: QtBot) -> None:
     window.open_program(ROUTER / "plate.nc")
     qtbot.waitUntil(lambda: window.outcome is not None, timeout=10 * WAIT_MS)
     panel = window.tries
@@ -103,7 +103,7 @@ def test_changes_that_are_ticked_are_computed_together(window: ProgramWindow, qt
     assert (panel.table.rowCount(), panel.values()) == (0, {})
 
 
-def test_a_path_is_coloured_by_its_feed_and_by_its_error_too(window: ProgramWindow, qtbot: QtBot) -> None:
+def test_a_path_is_coloured_by_its_feed_and_by_its_error_too(window: ProgramPage, qtbot: QtBot) -> None:
     window.open_program(ROUTER / "plate.nc")
     qtbot.waitUntil(lambda: window.outcome is not None, timeout=10 * WAIT_MS)
     for colours, words in (
@@ -117,7 +117,7 @@ def test_a_path_is_coloured_by_its_feed_and_by_its_error_too(window: ProgramWind
         assert words in window.plot.picture.above.subtitle
 
 
-def test_what_cannot_be_read_is_a_sentence(window: ProgramWindow, tmp_path: Path) -> None:
+def test_what_cannot_be_read_is_a_sentence(window: ProgramPage, tmp_path: Path) -> None:
     (tmp_path / "a.nc").write_bytes(bytes(10))
     window.open_program(tmp_path / "a.nc")
     assert "is no text" in window.summary.text()
@@ -126,13 +126,13 @@ def test_what_cannot_be_read_is_a_sentence(window: ProgramWindow, tmp_path: Path
     assert "places of axes" in window.summary.text()
 
 
-def test_an_empty_block_shows_what_is_active_after_power_up(window: ProgramWindow) -> None:
+def test_an_empty_block_shows_what_is_active_after_power_up(window: ProgramPage) -> None:
     enter(window, "block", "")
     texts = [window.words.item(n, 2).text() for n in range(window.words.rowCount())]
     assert "plane: plane of X and Y" in texts
 
 
-def test_a_moment_of_a_program_is_shown_where_the_axes_are_then(window: ProgramWindow, qtbot: QtBot) -> None:
+def test_a_moment_of_a_program_is_shown_where_the_axes_are_then(window: ProgramPage, qtbot: QtBot) -> None:
     window.open_program(ROUTER / "plate.nc")
     qtbot.waitUntil(lambda: window.outcome is not None, timeout=10 * WAIT_MS)
     assert window.outcome is not None

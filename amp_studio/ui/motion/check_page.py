@@ -1,5 +1,5 @@
-"""The check of a machine in motion as a window: every scenario that the file allows, with verdict,
-figures and parameters to look at.
+"""The page Machine of a file: every scenario that it allows, with verdict, figures and parameters
+to look at.
 """
 
 from __future__ import annotations
@@ -9,9 +9,8 @@ from collections import Counter
 from collections.abc import Callable
 
 from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtGui import QCloseEvent
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
-    QDialog,
     QHBoxLayout,
     QHeaderView,
     QLabel,
@@ -19,15 +18,16 @@ from PySide6.QtWidgets import (
     QTableWidget,
     QTableWidgetItem,
     QVBoxLayout,
-    QWidget,
 )
 
 from amp_studio.files import ParameterFile
 from amp_studio.sim import MotionCheck, SimulationError, check_motion, value_text
 from amp_studio.ui.base.figures import written
-from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import Task, TaskProgress
-from amp_studio.ui.base.theme import GAP2, GAP3, Token, font, icon
+from amp_studio.ui.base.theme import GAP2, GAP3, ROW, Token, font, icon
+from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.page.page_of_file import PageOfFile
 
 MARKS: dict[str, tuple[str, Token]] = {
     "good": ("check-circle-fill", "text"),
@@ -59,21 +59,24 @@ class _Checking(QObject):
         return ""
 
 
-class CheckWindow(QDialog):
-    """Runs every scenario in a thread and shows each check as soon as it is done."""
+class CheckPage(PageOfFile):
+    """Runs every scenario in a thread and shows each check as soon as it is done; again after edits, once the
+    page is seen.
+    """
 
-    def __init__(
-        self, file: ParameterFile, show_parameter: Callable[[str], object], parent: QWidget | None = None
-    ) -> None:
-        """``file`` is a copy that nobody else changes."""
-        super().__init__(parent)
-        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self._checking, self._show_parameter = _Checking(file), show_parameter
+    motion_wanted = Signal(str, str)
+    """The scenario and axis of a check are wanted as a motion."""
+
+    def __init__(self, workspace: Workspace, show_parameter: Callable[[str], object]) -> None:
+        super().__init__()
+        self._workspace, self._show_parameter = workspace, show_parameter
+        self._checking: _Checking | None = None
         self.checks: list[MotionCheck] = []
         self._task: Task | None = None
-        self._checking.checked.connect(self.show_check)
-        self.setWindowTitle(self.tr("Check in Motion"))
-        self.setModal(False)
+        self._is_stale = True
+        workspace.changed.connect(self._after_edit)
+        workspace.closed.connect(self.stop)
+        self.setAccessibleName(self.tr("Check in Motion"))
         self.summary = QLabel()
         self.summary.setFont(font("text", own=True))
         self.table = QTableWidget(0, 5)
@@ -86,6 +89,7 @@ class CheckWindow(QDialog):
                 self.tr("Figures"),
             ]
         )
+        self.table.verticalHeader().setDefaultSectionSize(ROW)
         self.table.setAccessibleName(self.tr("Checks of the machine in motion"))
         self.table.setEditTriggers(QTableWidget.EditTrigger.NoEditTriggers)
         self.table.setSelectionBehavior(QTableWidget.SelectionBehavior.SelectRows)
@@ -101,38 +105,74 @@ class CheckWindow(QDialog):
         self.detail.setTextInteractionFlags(Qt.TextInteractionFlag.TextBrowserInteraction)
         self.detail.setMinimumHeight(48)
         self.detail.linkActivated.connect(self._show_parameter)
-        close = QPushButton(self.tr("&Close"))
-        close.setAutoDefault(False)
-        close.clicked.connect(self.close)
+        self.motion = QPushButton(icon("activity"), self.tr("Show the &Move"))
+        self.motion.setToolTip(self.tr("The scenario of the selected row in Motion (Enter)"))
+        self.again = QPushButton(self.tr("Check Aga&in"))
+        for button, step in ((self.motion, self._show_motion), (self.again, self.start)):
+            button.setAutoDefault(False)
+            button.clicked.connect(step)
+        self.motion.setEnabled(False)
+        self.table.cellActivated.connect(lambda *_: self._show_motion())
         foot = QHBoxLayout()
         foot.addWidget(self.summary, 1)
-        foot.addWidget(close)
+        foot.addWidget(self.again)
+        foot.addWidget(self.motion)
         column = QVBoxLayout(self)
         column.setContentsMargins(GAP3, GAP3, GAP3, GAP3)
         column.setSpacing(GAP2)
         column.addWidget(self.table, 1)
         column.addWidget(self.detail)
         column.addLayout(foot)
-        fit_to_screen(self, 860, 560)
+        self.setFocusProxy(self.table)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        super().showEvent(event)
+        if self._is_stale:
+            self.start()
+
+    def _after_edit(self, *_: object) -> None:
+        self._is_stale = True
+        if self.isVisible():
+            self.start()
 
     def start(self) -> None:
-        """Begin to check."""
-        task = self._task = Task(self._checking.run)
+        """Check the file as it is now, on a copy; a check that is under way is cancelled."""
+        self.stop()
+        self._is_stale = False
+        self.checks.clear()
+        self.table.setRowCount(0)
+        self.detail.clear()
+        self.motion.setEnabled(False)
+        checking = self._checking = _Checking(self._workspace.file.copy())
+        checking.checked.connect(self.show_check)
+        task = self._task = Task(checking.run)
         task.done.connect(self._over)
         task.failed.connect(self._over)
         task.begin()
         self._sum_up()
+
+    def stop(self) -> None:
+        """Cancel the check that is under way."""
+        if self._task is not None and self._checking is not None:
+            self._checking.checked.disconnect(self.show_check)
+            self._task.done.disconnect(self._over)
+            self._task.failed.disconnect(self._over)
+            self._task.cancelled.set()
+            self._task = None
+
+    def _show_motion(self) -> None:
+        if 0 <= (row := self.table.currentRow()) < len(self.checks):
+            self.motion_wanted.emit(self.checks[row].scenario, self.checks[row].axis)
+
+    @property
+    def _family(self) -> str:
+        return self._workspace.file.schema.family.family
 
     def _over(self, why: object) -> None:
         self._task = None
         self._sum_up()
         if why:
             self.summary.setText(str(why))
-
-    def closeEvent(self, event: QCloseEvent) -> None:  # Qt's name
-        if self._task is not None:
-            self._task.cancelled.set()
-        super().closeEvent(event)
 
     def show_check(self, check: MotionCheck) -> None:
         """Add one check at the end."""
@@ -142,7 +182,13 @@ class CheckWindow(QDialog):
         figures = ", ".join(_figure(name, value, unit) for name, (value, unit) in check.figures.items())
         mark, colour_name = MARKS[check.verdict]
         for column, text in enumerate(
-            (self._word(check.verdict), check.scenario, check.letter, check.why, figures)
+            (
+                self._word(check.verdict),
+                worded(check.scenario),
+                check.letter,
+                worded(check.why, self._family),
+                figures,
+            )
         ):
             item = QTableWidgetItem(text)
             item.setToolTip(text)
@@ -172,6 +218,7 @@ class CheckWindow(QDialog):
         if not 0 <= row < len(self.checks):
             return
         check = self.checks[row]
+        self.motion.setEnabled(check.verdict != "not possible")
         parts = [f"<b>{alarm.code}</b> {alarm.message}" for alarm in check.alarms]
         if check.params:
             links = ", ".join(f'<a href="{each}">{each}</a>' for each in check.params)

@@ -1,4 +1,4 @@
-"""Blocks and programs as a window: a block typed, word by word; a program with its path, what limits it,
+"""The page Program of a file: a block typed, word by word; a program with its path, what limits it,
 and the same with another value.
 """
 
@@ -11,17 +11,8 @@ from pathlib import Path
 from typing import cast
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QCloseEvent
-from PySide6.QtWidgets import (
-    QDialog,
-    QFileDialog,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QSplitter,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtGui import QHideEvent
+from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QPushButton, QSplitter, QVBoxLayout, QWidget
 
 from amp_studio.errors import AmpStudioError
 from amp_studio.files import ParameterFile, SavedVersion, day_and_time
@@ -52,12 +43,12 @@ from amp_studio.sim import (
 from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.scene_painter import TOKENS
-from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import GAP2, GAP3, colour, font, scheme
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.forms.form import Field, FieldForm
 from amp_studio.ui.forms.segment import Segment
+from amp_studio.ui.page.page_of_file import PageOfFile
 
 from .program_play import PlayBar, TimeBar, TimePart
 from .program_tables import fill, read_table
@@ -69,10 +60,10 @@ Apply = Callable[[Mapping[Address, Value]], bool]
 
 
 class StoppedError(AmpStudioError):
-    """The window was closed while it computed."""
+    """The page was left while it computed."""
 
 
-class ProgramWindow(QDialog):
+class ProgramPage(PageOfFile):
     """One file; a program is run in a thread, on a copy of the file."""
 
     def __init__(
@@ -87,14 +78,12 @@ class ProgramWindow(QDialog):
         values of a try into the file; ``earlier`` returns the file before its last saves.
         """
         super().__init__(parent)
-        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._read, self._file, self._apply, self._earlier = read, read(), apply, earlier
         self._job: ProgramJob | None = None
         self._name = ""
         self.outcome: ProgramRun | None = None
         self._task: Task | None = None
-        self.setWindowTitle(self.tr("Program"))
-        self.setModal(False)
+        self.setAccessibleName(self.tr("Program"))
         self.words = read_table(
             self.tr("Words of the block"),
             (self.tr("Word"), self.tr("Number"), self.tr("Meaning"), self.tr("Parameters")),
@@ -138,7 +127,6 @@ class ProgramWindow(QDialog):
         self.form = FieldForm(self._fields())
         self.form.entered.connect(self._entered)
         self._lay_out()
-        fit_to_screen(self, 1180, 720)
         self._say(self.tr("Type a block, or open a part program."))
 
     def _fields(self) -> Sequence[Field]:
@@ -167,10 +155,8 @@ class ProgramWindow(QDialog):
 
     def _lay_out(self) -> None:
         self.open_button = QPushButton(self.tr("&Open Program…"))
-        close = QPushButton(self.tr("&Close"))
-        for button, step in ((self.open_button, self.ask), (close, self.close)):
-            button.setAutoDefault(False)
-            button.clicked.connect(step)
+        self.open_button.setAutoDefault(False)
+        self.open_button.clicked.connect(self.ask)
         self.head = QWidget()
         row = QHBoxLayout(self.head)
         row.setContentsMargins(0, 0, 0, 0)
@@ -196,7 +182,6 @@ class ProgramWindow(QDialog):
         foot = QHBoxLayout()
         foot.addWidget(self.summary, 1)
         foot.addWidget(self.missing)
-        foot.addWidget(close)
         column = QVBoxLayout(self)
         column.setContentsMargins(GAP3, GAP3, GAP3, GAP3)
         column.setSpacing(GAP2)
@@ -468,7 +453,7 @@ class ProgramWindow(QDialog):
         if self._apply(self.tries.values()):
             self.run_again()
 
-    # -- the window ----------------------------------------------------------------
+    # -- the page ------------------------------------------------------------------
 
     def _say(self, text: str) -> None:
         self.summary.setText(text)
@@ -479,6 +464,6 @@ class ProgramWindow(QDialog):
             self._task.cancelled.set()
             self._task = None
 
-    def closeEvent(self, event: QCloseEvent) -> None:  # Qt's name
+    def hideEvent(self, event: QHideEvent) -> None:
         self._stop()
-        super().closeEvent(event)
+        super().hideEvent(event)

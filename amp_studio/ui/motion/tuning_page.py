@@ -1,5 +1,5 @@
-"""The Tuning window: what is tuned at the machine as pages,
-on the open file or in the control that is connected.
+"""The page Tuning of a file: what is tuned at the machine, step by step of its manual,
+in the open file or in the control that is connected.
 """
 
 from __future__ import annotations
@@ -9,8 +9,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QCloseEvent, QKeySequence, QShortcut
+from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtWidgets import (
     QFileDialog,
     QHBoxLayout,
@@ -29,16 +29,16 @@ from amp_studio.schema import registration_of
 from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask
-from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import CONTROL, GAP2, icon
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.message_bar import MessageBar
 from amp_studio.ui.forms.segment import Segment
+from amp_studio.ui.page.page_of_file import PageOfFile
 
 from .tuning_target import ControlTarget, ControlWork, FileTarget, TuningTarget
-from .tuning_values import ValuesPage, undo_actions
+from .tuning_values import ValuesPage
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client import LiveTuning
@@ -53,14 +53,12 @@ _LIST_WIDTH = 190
 _FILES = "Measured points (*.csv *.txt *.rtl *.pos *.dat);;All files (*)"
 
 
-class TuningWindow(QWidget):
-    """Pages at the left; above them what is tuned, and what the control contains."""
+class TuningView(PageOfFile):
+    """Steps at the left; above them what is tuned, and what the control contains."""
 
     def __init__(self, workspace: Workspace, connect: Connect, parent: QWidget | None = None) -> None:
-        super().__init__(parent, Qt.WindowType.Window)
-        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.setWindowTitle(self.tr("Tuning — {name}").format(name=workspace.path.name))
-        fit_to_screen(self, 1120, 680)
+        super().__init__(parent)
+        self.setAccessibleName(self.tr("Tuning"))
         self._workspace, self._connect = workspace, connect
         self.file_target = FileTarget(workspace)
         self.control: ControlTarget | None = None
@@ -83,18 +81,14 @@ class TuningWindow(QWidget):
         self.values: list[ValuesPage] = []
         self._later: dict[QWidget, Callable[[], None]] = {}
         self.calibration: CalibrationPage | None = None
+        self._is_asked = False
+        """Whether it was asked what shall be in the control when the file is closed."""
         self._make_pages()
         self._arrange()
         self.pages.currentRowChanged.connect(self._bring)
-        self.undo_action, self.redo_action = undo_actions(
-            self, lambda: self.guarded(self._undo), lambda: self.guarded(self._redo)
-        )
-        QShortcut(Qt.Key.Key_Escape, self, self._escape)
-        for n in range(self.pages.count()):
-            QShortcut(QKeySequence(f"Ctrl+{n + 1}"), self, lambda n=n: self.pages.setCurrentRow(n))
-        self._file_is_closed = False
-        workspace.closed.connect(self._follow_file)
+        workspace.closed.connect(self._end)
         self._show(self.file_target)
+        self.setFocusProxy(self.pages)
         self.pages.setCurrentRow(0)
 
     def _button(self, text: str, act: Callable[[], object], icon_name: str) -> QPushButton:
@@ -131,7 +125,7 @@ class TuningWindow(QWidget):
         for n, (title, widget) in enumerate(titles):
             self.pages.addItem(title)
             item = self.pages.item(n)
-            item.setToolTip(f"{title} (Ctrl+{n + 1})")
+            item.setToolTip(title)
             item.setSizeHint(QSize(0, CONTROL + 4))
             self.stack.addWidget(widget)
         Task(lambda *_: _load_plots()).begin()
@@ -294,11 +288,19 @@ class TuningWindow(QWidget):
         if run_dialog(dialog) and dialog.proposal is not None:
             self.target.set(self.tr("Calibrate axis {axis}").format(axis=axis), dialog.proposal.settings)
 
-    def _undo(self) -> None:
-        self.target.undo()
+    def event(self, event: QEvent) -> bool:
+        """Take the keys of undo and redo before the window does: a step may have gone into the control."""
+        if event.type() == QEvent.Type.ShortcutOverride and _step_of(event) is not None:
+            event.accept()
+            return True
+        return super().event(event)
 
-    def _redo(self) -> None:
-        self.target.redo()
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        step = _step_of(event)
+        if step is None:
+            super().keyPressEvent(event)
+        else:
+            self.guarded(self.target.undo if step == "undo" else self.target.redo)
 
     def _send(self) -> None:
         assert self.control is not None
@@ -321,28 +323,27 @@ class TuningWindow(QWidget):
         self._workspace.edit(self.tr("Take from control"), values)
         self.message.say(self.tr("%n values taken into the file, which is not saved yet.", "", len(values)))
 
-    def _escape(self) -> None:
+    def escape(self) -> None:
+        """Take the message away; without one go back to the values. A control stays connected."""
         if self.message.isVisible():
             self.message.hide()
         else:
-            self.close()
-
-    def _follow_file(self) -> None:
-        """Close with the file: nobody can stay on it."""
-        self._file_is_closed = True
-        self.close()
+            super().escape()
 
     # -- the end -------------------------------------------------------------------
 
-    def closeEvent(self, event: QCloseEvent) -> None:
-        """Offer the old values back before the control is left with others."""
-        if self.control is not None and not self._may_leave(self.control) and not self._file_is_closed:
-            event.ignore()
-            return
+    def may_leave(self) -> bool:
+        """Offer the old values back before the file, and with it the control, is left with others."""
+        self._is_asked = self.control is None or self._may_leave(self.control)
+        return self._is_asked
+
+    def _end(self) -> None:
+        """Leave the control with the file; one that was not asked about yet is asked about now."""
         if self.control is not None:
+            if not self._is_asked:
+                self._may_leave(self.control)
             self.control.live.close()
             self.control = None
-        event.accept()
 
     def _may_leave(self, control: ControlTarget) -> bool:
         if not control.may_edit:
@@ -370,6 +371,15 @@ class TuningWindow(QWidget):
             self.guarded(control.put_back)
             return control.may_edit and not control.differences()
         return answer == keep
+
+
+def _step_of(event: QEvent) -> str | None:
+    """Return what a key means: a step back, or again; None for any other."""
+    if isinstance(event, QKeyEvent) and event.matches(QKeySequence.StandardKey.Undo):
+        return "undo"
+    if isinstance(event, QKeyEvent) and event.matches(QKeySequence.StandardKey.Redo):
+        return "redo"
+    return None
 
 
 def _load_plots() -> None:

@@ -1,0 +1,73 @@
+"""The page of the check in motion: each check as it is done, its parameters as links."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from amp_studio.files import Document, ParameterFile
+from amp_studio.schema import Value
+from amp_studio.sim import MotionCheck
+from amp_studio.ui.base.task import Task
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.motion.check_page import CheckPage
+
+from .conftest import WAIT_MS
+
+ROUTER = Path(__file__).parents[2] / "examples" / "grblhal-router" / "GRBL_ROUTER.amp"
+
+
+@pytest.fixture
+def router(qapp: object) -> Iterator[Workspace]:
+    workspace = Workspace(Document.view(ROUTER))
+    yield workspace
+    workspace.close()
+
+
+def test_every_scenario_of_the_file_is_a_row_with_its_verdict(router: Workspace, qtbot: QtBot) -> None:
+    window = CheckPage(router, print)
+    qtbot.addWidget(window)
+    window.start()
+    qtbot.waitUntil(lambda: not Task.running and len(window.checks) >= 13, timeout=10 * WAIT_MS)
+    assert window.table.rowCount() == len(window.checks)
+    assert window.summary.text() == "13 good"
+    assert {check.scenario for check in window.checks} == {"step", "home", "jog", "travel", "spindle"}
+
+
+def test_a_parameter_of_what_is_not_good_can_be_followed(router: Workspace, qtbot: QtBot) -> None:
+    followed: list[str] = []
+    window = CheckPage(router, followed.append)
+    qtbot.addWidget(window)
+    window.show_check(MotionCheck("jog", "X", "X", "bad", why="too fast", params=("axis.max_rate",)))
+    window.table.setCurrentCell(0, 0)
+    assert "axis.max_rate" in window.detail.text()
+    window.detail.linkActivated.emit("axis.max_rate")
+    assert followed == ["axis.max_rate"]
+    assert window.summary.text() == "1 bad"
+
+
+def test_an_edit_checks_again_once_the_page_is_seen_and_a_row_is_wanted_as_a_motion(
+    router: Workspace, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    runs: list[str] = []
+
+    def checks(file: ParameterFile) -> Iterator[MotionCheck]:
+        runs.append(str(file.get(("axis.max_rate", "X")).value))
+        yield MotionCheck("jog", "X", "X", "good")
+
+    monkeypatch.setattr("amp_studio.ui.motion.check_page.check_motion", checks)
+    page = CheckPage(router, print)
+    qtbot.addWidget(page)
+    router.file.set(("axis.max_rate", "X"), Value(999.0, "mm/min"))
+    router.changed.emit([])
+    assert runs == [], "nobody looks at it"
+    page.show()
+    qtbot.waitUntil(lambda: len(page.checks) == 1, timeout=WAIT_MS)
+    assert runs == ["999.0"]
+    page.table.setCurrentCell(0, 0)
+    with qtbot.waitSignal(page.motion_wanted) as wanted:
+        page.motion.click()
+    assert wanted.args == ["jog", "X"]
