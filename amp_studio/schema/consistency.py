@@ -84,17 +84,17 @@ def _matches_any(pattern: str, names: Iterable[str]) -> bool:
 
 
 def faults_of_experience(plausible: Plausible, groups: tuple[Group, ...]) -> Iterator[tuple[KeyPath, str]]:
-    """Yield each parameter that the facts of experience name and that does not exist,
+    """Yield each parameter and choice that the facts of experience name and that does not exist,
     and each pattern without any.
     """
-    known = {p.id for group in groups for p in group.parameters}
+    known = {p.id: {choice.key for choice in p.choices or ()} for group in groups for p in group.parameters}
     for key, patterns in (("unlike", plausible.unlike), ("may_differ", plausible.may_differ)):
         for n, pattern in enumerate(patterns):
             if not _matches_any(pattern, known):
                 yield (key, n), f"there is no parameter {quoted(pattern)}"
     printed = {p.id for group in groups for p in group.parameters if p.default is not None}
     for n, name in enumerate(plausible.seldom):
-        if name in known - printed:
+        if name in known.keys() - printed:
             yield ("seldom", n), f"{quoted(name)} has no printed default"
     named: list[tuple[KeyPath, str]] = [
         ((key, n), name)
@@ -107,6 +107,10 @@ def faults_of_experience(plausible: Plausible, groups: tuple[Group, ...]) -> Ite
     for place, name in named:
         if name not in known:
             yield place, f"there is no parameter {quoted(name)}"
+    for name, usual in plausible.usual.items():
+        for n, choice in enumerate(usual.choices):
+            if name in known and choice not in known[name]:
+                yield ("usual", name, "choices", n), f"{quoted(name)} has no choice {quoted(choice)}"
 
 
 def _named_by_experience(plausible: Plausible) -> dict[str, tuple[tuple[str, ...], ...]]:

@@ -5,8 +5,8 @@ from typing import Any
 import pytest
 
 from amp_studio.schema import load_schema
-from amp_studio.schema.consistency import faults_of_areas, faults_of_order
-from amp_studio.schema.model import Area, Commissioning
+from amp_studio.schema.consistency import faults_of_areas, faults_of_experience, faults_of_order
+from amp_studio.schema.model import Area, Commissioning, Plausible
 
 STEP: dict[str, Any] = {"id": "one", "title": "One", "page": "1", "groups": ["home"]}
 
@@ -45,6 +45,13 @@ def test_a_step_that_cannot_be_is_reported_at_its_place(
 def test_a_value_of_one_machine_must_exist() -> None:
     found = list(faults_of_order(order(STEP, own=("home.offset",)), load_schema("9pc").groups))
     assert found == [(("of_one_machine", 0), "there is no parameter 'home.offset'")]
+
+
+def test_an_unusual_choice_must_exist() -> None:
+    facts = Plausible.model_validate({"usual": {"general.mode": {"choices": ["normal", "laser"]}}})
+    assert list(faults_of_experience(facts, load_schema("grblhal").groups)) == [
+        (("usual", "general.mode", "choices", 1), "'general.mode' has no choice 'laser'")
+    ]
 
 
 def test_the_areas_have_every_group_once_and_in_order() -> None:

@@ -40,8 +40,8 @@ class Recipe:
     together: dict[str, tuple[str, ...]] = field(default_factory=dict)
     """What changes in proportion when one of ``free`` is chosen."""
     table: tuple[str, str, str] | None = None
-    """Length, screw and speed of X and Y: no table is five times as long as it is wide (of 43 published machines
-    the longest is 2.7 times), and equal motors with other screws have other speeds."""
+    """Length, screw and speed of X and Y: no table is more than ten times as long as it is wide (one for
+    profiles is), and equal motors with other screws have other speeds."""
     free: tuple[tuple[str, tuple[float | str | bool, ...]], ...] = ()
     """What everybody chooses as he likes, each axis by itself."""
 
@@ -172,7 +172,7 @@ def is_table(file: ParameterFile, length: str, screw: str, speed: str) -> bool:
         [v for _, v in sorted((a[1], v.value) for a, v in file.values.items() if a[0] == name)][:2]
         for name in (length, screw, speed)
     )
-    is_one = max(a, b) <= 5 * min(a, b)
+    is_one = max(a, b) <= 10 * min(a, b)
     return is_one and (speeds[0] != speeds[1] or screws[0] == screws[1])
 
 

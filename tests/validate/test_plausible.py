@@ -287,12 +287,12 @@ def test_a_time_cam_that_turns_back_in_a_single_step_is_asked_about() -> None:
         ("linuxcnc-mill", ("joint.min_limit", "0"), Value(-600.0, "mm"), "plausible.unequal"),
         ("grblhal-router", ("axis.acceleration", "Z"), Value(20000.0, "mm/s2"), "plausible.quotient"),
         ("grblhal-router", ("axis.steps", "Y"), Value(320.0, "steps/mm"), "plausible.table"),
-        ("grblhal-router", ("axis.max_travel", "Y"), Value(78.0, "mm"), "plausible.travel"),
+        ("grblhal-router", ("axis.max_travel", "Y"), Value(40.0, "mm"), "plausible.travel"),
         ("grblhal-router", ("spindle.min_speed", ""), Value(600.0, "rpm"), "plausible.proportion"),
         ("grblhal-router", ("general.arc_tolerance", ""), Value(0.02, "mm"), "plausible.seldom"),
         ("num-1060-mill", ("travel.limit_min", "0"), Value(-25400, "iu"), "plausible.travel"),
         ("num-1060-mill", ("travel.limit_min", "0"), Value(1000, "iu"), "plausible.travel"),
-        ("num-1060-mill", ("travel.limit_max", "1"), Value(40000, "iu"), "plausible.travel"),
+        ("num-1060-mill", ("travel.limit_max", "1"), Value(12000, "iu"), "plausible.travel"),
         ("num-1060-mill", ("travel.limit_min", "0"), Value(0, "iu"), "plausible.travel"),
         ("num-1060-mill", ("measure.divi", "0"), Value(51), "plausible.among-axes"),
         ("num-1060-mill", ("spindle.range_min", "1.42"), Value(0, "rpm"), "plausible.gear"),
@@ -324,6 +324,25 @@ def test_what_belongs_together_and_does_not_fit_is_asked_about(
 def test_homing_and_jogging_above_rapid_are_asked_about(name: str, address: Address, value: Value) -> None:
     file = example(name)
     assert "plausible.above-rapid" in rules(file, (address, value))
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {("axis.max_travel", "X"): Value(6000.0, "mm"), ("axis.max_travel", "Y"): Value(400.0, "mm")},
+        {("axis.acceleration", "Y"): Value(250.0, "mm/s2")},
+        {("axis.max_rate", "X"): Value(12000.0, "mm/min")},
+        {("general.mode", ""): Value("laser_mode")},
+        {
+            ("homing.locate_rate", ""): Value(25.0, "mm/min"),
+            ("homing.seek_rate", ""): Value(5000.0, "mm/min"),
+        },
+    ],
+)
+def test_what_published_machines_have_is_not_asked_about(settings: dict[Address, Value]) -> None:
+    file = example("grblhal-router")
+    file.set_checked(settings, force="as published")
+    assert [f.message for f in Validator(file).run() if f.rule.startswith("plausible.")] == []
 
 
 def test_a_ladder_that_ends_at_the_greatest_speed_is_one() -> None:

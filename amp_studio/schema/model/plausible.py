@@ -123,8 +123,9 @@ class Plausible(Model):
     """Values against each other: speeds, the ramps to them, bands within bands."""
     among_axes: tuple[AmongAxes, ...] = ()
     """What like axes have in one order of magnitude."""
-    table: tuple[ParameterId, ...] = ()
-    """What X and Y of a table have alike: asked about where they differ in one of these."""
+    table: dict[ParameterId, float] = {}
+    """What X and Y of a table have alike: asked about where they differ in one of these, by so many times or
+    by a slip's factor."""
     travels: tuple[TravelEnds, ...] = ()
     """Travels, compared among the axes."""
     gears: tuple[Gears, ...] = ()

@@ -6,7 +6,7 @@ machine have in proportion.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 
 from amp_studio.files import ParameterFile, are_alike, axis_letter
@@ -14,6 +14,7 @@ from amp_studio.schema import AmongAxes, Gears, Proportion, TravelEnds
 from amp_studio.validate.finding import Finding
 
 from .active_value import ActiveValue, ActiveValues, sentence
+from .slip import slip_between
 
 AMONG, TABLE, TRAVEL, GEAR, PROPORTION = (
     "plausible.among-axes",
@@ -32,8 +33,8 @@ _NEAR, _SHARE = 8.0, 5.0
 in proportion to its travel, from which it is asked about."""
 _SPREAD = 4.0
 """Times that the speeds of one gear are spread wider than those of every other one."""
-_TABLE = 6.0
-"""Times that one side of a table is longer than the other."""
+_TABLE = 16.0
+"""Times that one side of a table is longer than the other: one for profiles and tubes has 6 m by 0.4 m."""
 
 Ends = tuple[ActiveValue, ActiveValue]
 """The end of a travel at the reference point, and the other one."""
@@ -53,8 +54,8 @@ class AxisRelations:
             yield (one.of, *((one.over,) if one.over else ())), partial(self._among, one)
         for travel in facts.travels:
             yield tuple(filter(None, (travel.low, travel.high))), partial(self._travels, travel)
-        for pair_of in [facts.table] if facts.table else []:
-            yield pair_of, partial(self._same_on_table, pair_of)
+        if facts.table:
+            yield tuple(facts.table), partial(self._same_on_table, facts.table)
         for gears in facts.gears:
             yield (gears.low, gears.high), partial(self._gears, gears)
         for pair in facts.proportions:
@@ -139,7 +140,7 @@ class AxisRelations:
             return [self._finding(TRAVEL, TRAVEL_REASON, longer[1], shorter[1])]
         return []
 
-    def _same_on_table(self, names: Sequence[str]) -> list[Finding]:
+    def _same_on_table(self, names: Mapping[str, float]) -> list[Finding]:
         """Compare X and Y of a table: the motors, screws and ramps of both are of one kind."""
         differing, compared = [], 0
         for name in names:
@@ -151,13 +152,12 @@ class AxisRelations:
             compared += 1
             if x.number != y.number:
                 differing.append((x, y))
-        if (
-            compared < 3
-            or len(differing) != 1
-            or _apart(_size(differing[0][0]), _size(differing[0][1])) < 1.5
-        ):
+        if compared < 3 or len(differing) != 1:
             return []
-        return [self._finding(TABLE, TABLE_REASON, *differing[0])]
+        x, y = differing[0]
+        is_slip = slip_between(x.number, y.number) or slip_between(y.number, x.number)
+        is_odd = is_slip or _apart(_size(x), _size(y)) >= names[x.address[0]]
+        return [self._finding(TABLE, TABLE_REASON, x, y)] if is_odd else []
 
     def _gears(self, fact: Gears) -> list[Finding]:
         lows, highs = self._values[fact.low], self._values[fact.high]
