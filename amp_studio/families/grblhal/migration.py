@@ -34,6 +34,7 @@ class _Settings:
         self.machine, self.answers, self.out = machine, answers, WrittenMachine()
         self.values: dict[int, str] = {}
         self.startup = "G21 G90 G94"
+        self._play_back: bool | None = None
 
     def written(self) -> WrittenMachine:
         """Return all of it."""
@@ -138,21 +139,48 @@ class _Settings:
                 )
         self._travel(axis, n)
         self._home(axis, n)
-        if (play := axis.number("backlash")) is not None:
-            self.out.grade(
-                axis,
-                "backlash",
-                "approximate",
-                f"${160 + n}",
-                _thousandth(play),
-                "added at each reversal",
-                "the same, in a build that has it; left out here",
-                "neither",
-            )
+        self._backlash(axis, n)
         self._lost(axis)
         self.out.measure.append(
             f"{axis.letter}: direction, steps against a gauge, the way it needs to stop at each end"
         )
+
+    def _backlash(self, axis: AxisMeaning, n: int) -> None:
+        """Write and grade what one axis loses at a reversal, which only some builds take back."""
+        if (play := axis.number("backlash")) is None:
+            return
+        if play > 0.0 and not self._takes_play_back():
+            self.out.grade(
+                axis,
+                "backlash",
+                "not_possible",
+                loses=f"{play:g} at each reversal, which the old control took back",
+                do="a build with backlash compensation, or a mechanism without play",
+            )
+            return
+        value = _thousandth(play)
+        if play > 0.0:
+            self.values[160 + n] = value
+        self.out.grade(
+            axis,
+            "backlash",
+            "approximate",
+            f"${160 + n}",
+            value,
+            "added at each reversal",
+            "the same, in a build that has it" if play > 0.0 else "left out: there is none",
+            "neither",
+        )
+
+    def _takes_play_back(self) -> bool:
+        """Return whether the firmware is built with backlash compensation; asked once."""
+        if self._play_back is None:
+            question = MigrationQuestion(
+                "build.backlash",
+                "Is the firmware built with backlash compensation, which brings $160 and on (yes or no)?",
+            )
+            self._play_back = self.out.answer(question, self.answers, "yes|no").lower() == "yes"
+        return self._play_back
 
     def _travel(self, axis: AxisMeaning, n: int) -> None:
         """Write and grade the travel of one axis, which the firmware counts from home."""
@@ -282,7 +310,14 @@ class _Settings:
                     )
                 )
         if figure := self.machine.figures.get("startup"):
-            self.startup = str(figure.value)
+            # Without an encoder at the spindle the firmware refuses G95 (error:20), and with it the whole
+            # line: the modes beside it would be lost without a word.
+            per_turn = "G95" in str(figure.value)
+            self.startup = str(figure.value).replace("G95", "G94")
+            same = "the same modes, run after a reset"
+            if per_turn:
+                same += ", but for G95, which needs an encoder at the spindle: programs have to name it"
+                self.out.less_safe.append("after power-up a feed is for a minute, no longer for a turn (G95)")
             self.out.graded.append(
                 Graded(
                     "",
@@ -291,7 +326,7 @@ class _Settings:
                     "$N0",
                     self.startup,
                     "the modes after power-up",
-                    "the same modes, run after a reset",
+                    same,
                     "neither",
                 )
             )
