@@ -141,10 +141,16 @@ def with_leader(
 
 
 def prepared(
-    axis: AxisLaw, profile: list[float], until: Until, stride: int, refine: int = 1, coast: float = 0.0
+    axis: AxisLaw,
+    profile: list[float],
+    until: Until,
+    stride: int,
+    refine: int = 1,
+    coast: float = 0.0,
+    room: npt.NDArray[np.float64] | None = None,
 ) -> tuple[list[list[float]], npt.NDArray[np.float64]]:
     """Return the vectors of `kernel.run` for an axis at rest, and room for its rows,
-    one in ``stride`` physics steps.
+    one in ``stride`` physics steps: a part of ``room`` where that is enough.
 
     Raises SimulationError where the run would take too long.
     """
@@ -177,7 +183,9 @@ def prepared(
     )
     line = [0.0] * (int(machine[DELAY_STEPS]) + 2)
     parameters, state = [float(each) for each in axis.parameters], [0.0] * axis.state_size
-    rows = np.empty((driven + math.ceil(coast / step / stride), len(kernel.COLUMNS) + len(axis.monitors)))
+    shape = driven + math.ceil(coast / step / stride), len(kernel.COLUMNS) + len(axis.monitors)
+    size = shape[0] * shape[1]
+    rows = np.empty(shape) if room is None or room.size < size else room[:size].reshape(shape)
     push = [float(each) for each in axis.push]
     return [parameters, state, io, machine, before, after, x, line, timing, profile, push], rows
 

@@ -115,8 +115,11 @@ def run_batch(
     is_fast = (pays(*law, expected) if machine_code is None else machine_code) and can_compile()
     figures = compiled_figures(measure) if is_fast else measure
     out = np.full((len(runs), len(FIGURES)), np.nan)
+    # One room for the rows of all: large arrays that come and go are a page fault for every 4 kB of each run,
+    # above all in the worker of a cluster, which gives memory back at once.
+    room = np.empty(0)
     for each, row in zip(runs, out, strict=True):
-        _run(*each, "compiled" if is_fast else "plain", figures, row)
+        room = _run(*each, "compiled" if is_fast else "plain", figures, row, room)
     out[~np.isfinite(out[:, 1])] = np.nan
     return out
 
@@ -130,18 +133,21 @@ def _run(
     engine: Engine,
     figures: FiguresOfRows,
     out: npt.NDArray[np.float64],
-) -> None:
-    """Write the figures of one run to ``out``."""
-    vectors, rows = prepared(axis, profile, until, stride=1)
+    room: npt.NDArray[np.float64],
+) -> npt.NDArray[np.float64]:
+    """Write the figures of one run to ``out``; return the room of its rows for the next one."""
+    vectors, rows = prepared(axis, profile, until, stride=1, room=room)
+    room = room if rows.size <= room.size else rows.reshape(-1)
     timing = vectors[TIMING]
     timing[SHARE_RATE] = share_rate
     try:
         filled, io, x = run_prepared(axis, vectors, rows, engine, 0.0)
     except SimulationError:  # it runs away
-        return
+        return room
     band = max(axis.inposition_band, axis.machine.position_count, 1e-9 * abs(target))
     wanted = np.array([target, band, axis.machine.position_count])
     driven = filled if x[ALARM_ROW] < 0.0 else int(x[ALARM_ROW]) + 1
     end = x[ENDED] * timing[SERVO_PERIOD] if x[ENDED] >= 0.0 else -1.0
     every = int(timing[VELOCITY_SAMPLES] * timing[SUBSTEPS])
     figures(rows, max(driven, 1), every, wanted, io[STOP], end, out)
+    return room

@@ -102,7 +102,7 @@ class ComposedAxes:
             return self._bind(point)
 
     def _changed(self, index: int, number: float) -> _Parts | None:
-        """Return which figures one varied figure changes; None where that is no axis, or one of another
+        """Return which figures one varied figure changes; None for no axis, or one of another
         shape.
         """
         key = index, number
