@@ -376,7 +376,7 @@ def shell(command: list[str], folder: Path) -> str:
     """Run a shell that finds the program by its name."""
     program = folder / "bin" / "amp-studio"
     program.parent.mkdir(exist_ok=True)
-    program.write_text(f'#!/bin/sh\nexec {sys.executable} -m amp_studio.cli "$@"\n')
+    program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m amp_studio.cli "$@"\n')
     program.chmod(0o755)
     checkout = str(Path(__file__).parents[2])
     env = {
