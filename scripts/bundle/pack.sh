@@ -11,6 +11,30 @@ name=amp-studio-$version-linux-$machine
 
 # What is left when names for debuggers go; the libraries of numpy do not load afterwards.
 find "$folder/_internal" -name '*.so*' -type f -not -path '*/numpy.libs/*' -exec strip --strip-unneeded {} + 2>/dev/null || true
+# Qt has its own data of languages and asks ICU for nothing that this program does (no collation, no codecs), but
+# its core is linked against ICU's 31 MB of data: ICU's own empty table (stubdata) is put in their place.
+icu=$(find "$folder/_internal" -name 'libicudata.so.*' -type f)
+if [ -n "$icu" ]; then
+    number=${icu##*.}
+    work=$(mktemp -d)
+    cat >"$work/stub.s" <<END
+    .section .rodata
+    .globl icudt${number}_dat
+    .balign 16
+icudt${number}_dat:
+    .short 32
+    .byte 0xda, 0x27
+    .short 20, 0
+    .byte 0, 0, 2, 0
+    .ascii "ToCP"
+    .byte 1, 0, 0, 0, 0, 0, 0, 0
+    .zero 16
+    .section .note.GNU-stack, "", %progbits
+END
+    as -o "$work/stub.o" "$work/stub.s"
+    ld -shared -soname "libicudata.so.$number" -o "$icu" "$work/stub.o"
+    rm -r "$work"
+fi
 printf '%s: %s MB\n' "$folder" "$(du -sm "$folder" | cut -f1)"
 tar -C "$(dirname "$folder")" -cJf "$dist/$name.tar.xz" "$(basename "$folder")"
 printf '%s: %s MB\n' "$dist/$name.tar.xz" "$(du -m "$dist/$name.tar.xz" | cut -f1)"
