@@ -63,6 +63,8 @@ def _message(schema: Schema, message: ControlMessage) -> Iterator[str]:
     facts = [("Reaction", escape(message.reaction))]
     if message.also:
         facts.append(("Also printed as", escape("; ".join(message.also))))
+    if message.called:
+        facts.append(("Also called", escape(", ".join(message.called))))
     if message.means:
         facts.append(("Meaning", escape(message.means)))
     if message.note:
@@ -79,6 +81,20 @@ def _message(schema: Schema, message: ControlMessage) -> Iterator[str]:
         yield f"<p>{ONLY_PRINTED}</p>"
     if message.cures:
         yield f"<p><strong>What helps</strong></p>\n{listed(map(escape, message.cures), 'ol')}"
+    if message.scenarios:
+        tried = ", ".join(
+            f"<code>amp-studio simulate FILE.amp {name} --axis X</code>" for name in message.scenarios
+        )
+        yield f"<p><strong>Try it without the machine:</strong> {tried}</p>"
+    if message.reaction == "symptom" and (shown := list(_messages_about(schema, message))):
+        yield f"<p><strong>What the control may show</strong></p>\n{listed(shown)}"
+
+
+def _messages_about(schema: Schema, symptom: ControlMessage) -> Iterator[str]:
+    """Yield the messages of the control about the parameters of a symptom."""
+    for message in schema.messages.values():
+        if message.reaction != "symptom" and set(message.params) & set(symptom.params):
+            yield message_link(schema, message)
 
 
 def cause_steps(schema: Schema, message: ControlMessage) -> Iterator[str]:

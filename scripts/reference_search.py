@@ -166,7 +166,7 @@ def _message(message: ControlMessage, every: Messages) -> Entry:
         message.name,
         _at(messages_page(every), message.id),
         [c for c in codes if c],
-        " ".join(message.also),
+        " ".join((*message.also, *message.called)),
         _words(text),
     ]
 

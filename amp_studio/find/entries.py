@@ -112,6 +112,14 @@ def _choices(parameter: Parameter) -> Iterator[Entry]:
 
 
 def _message(message: ControlMessage, listed: str) -> Entry:
+    if message.reaction == "symptom":  # its causes have the words of many parameters
+        return Entry(
+            "message",
+            message.name,
+            message.id,
+            (("text", f"{message.name} {' '.join(message.called)}"),),
+            f"page {message.page}",
+        )
     codes = [message.code, *(other for other in message.also if any(c.isdigit() for c in other))]
     if message.span is not None:
         codes += [str(n) for n in range(message.span[0], message.span[1] + 1)]

@@ -14,6 +14,8 @@ from .model import PrintedFigure
 
 WIDTH, HEIGHT = 620.0, 316.0
 """Size of a drawing in points of its letters: in the width of a page they are 8.5 points or more."""
+_ROW = 33.0
+"""Height of a row of a diagram, whose axes are not written: its texts keep their rows."""
 _MOST_PARTS = 8
 """Most parts of a picture that are all printed; of more (pairs of axes), each axis once."""
 
@@ -25,12 +27,13 @@ def drawings(file: ParameterFile, language: Language = ENGLISH) -> tuple[Printed
 
 def _drawn(picture: FilePicture, language: Language) -> Iterator[PrintedFigure]:
     for part in _parts(picture):
-        scene = scene_in_words(picture.scene(part), language.title)
+        found = picture.scene(part)
+        scene = scene_in_words(found, language.title)
         if _shows(scene):
             title = f"{scene.title} {_name(picture, part, scene)}" if part else scene.title
-            yield PrintedFigure(
-                title, scene_svg(scene, WIDTH, HEIGHT, notes=False), tuple(n.text for n in scene.notes)
-            )
+            height = HEIGHT if scene.y.is_written else max(HEIGHT, _ROW * (scene.y.high - scene.y.low))
+            drawn = scene_svg(scene, WIDTH, height, notes=False)
+            yield PrintedFigure(title, drawn, tuple(language.sentence(note.text) for note in found.notes))
 
 
 def _name(picture: FilePicture, part: str, scene: Scene) -> str:

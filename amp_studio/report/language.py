@@ -25,6 +25,11 @@ _WORDS = re.compile(r"(>\s*)([^<>]*?[^<>\s])(\s*<)")
 _NUMBER = re.compile(r"(?<![\w.$@])[-−]?\d+\.\d+(?![\w]|\.\d)")
 """A number in a sentence; no address (``P3N0.5``, ``$22.0``), version or network address."""
 
+_SIGN = re.compile(r"(?<![\w.$@)\]-])-(?=\d)")
+"""The hyphen that is the sign of a number; none of a page (``7-20``), an address or a word."""
+_REMARK = re.compile(r"\((inferred|figure lost|codes lost)\)")
+"""What the facts remark on a label that a manual does not print, or whose figure is lost."""
+
 
 @dataclass(frozen=True)
 class Language:
@@ -114,9 +119,13 @@ class Language:
         """Return what a rule puts into its message: a phrase of its facts, or a value with its unit."""
         return self.facts.sentences.get(text) or self.quantity(text)
 
+    def label(self, label: str) -> str:
+        """Return a label of the control, with what the facts remark on it in this language."""
+        return _REMARK.sub(lambda found: f"({self.text(found[1])})", label)
+
     def number(self, figure: str) -> str:
-        """Return a number with the decimal sign of this language."""
-        return figure.replace(".", self.point)
+        """Return a number with its sign, and the decimal sign of this language."""
+        return _SIGN.sub("−", figure).replace(".", self.point)
 
     def unit(self, printed: str) -> str:
         """Return a printed unit as this language spells it."""
@@ -124,6 +133,7 @@ class Language:
 
     def quantity(self, text: str) -> str:
         """Return a text with its numbers, and the units behind them, as this language writes them."""
+        text = _SIGN.sub("−", text)
         if self.point != ".":
             text = _NUMBER.sub(lambda found: self.number(found[0]), text)
         return _behind_a_number().sub(lambda found: self.unit(found[0]), text) if self.units else text

@@ -5,9 +5,11 @@ Texts are not escaped; each format escapes them itself.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
+from itertools import groupby
 
 from amp_studio.schema import MASKED, ParameterState
 
@@ -39,6 +41,7 @@ _OWN_FACTS = frozenset(
 )
 """Facts in words of the report."""
 _MANY_AXES = 4
+_WHOLE = re.compile(r"(≈ )?−?\d+")
 _LONGEST_NOTE = 160
 """Characters of a note that are printed beside its value;
 all notes are printed whole in a chapter of their own."""
@@ -131,7 +134,7 @@ class ReportRow:
 
     @property
     def small_print(self) -> str:
-        """The text below the value: the other unit system, the unit of entry, the bits of a word."""
+        """The text below the value: the other unit system, the unit of entry, a note."""
         return self.small_print_in(str)
 
     def small_print_in(self, text: Callable[[str], str]) -> str:
@@ -141,7 +144,15 @@ class ReportRow:
         if len(short) > _LONGEST_NOTE:
             short = f"{short[:_LONGEST_NOTE]}… ({text('all of it under Notes')})"
         note = f"{text('Note:')} {short}" if short else ""
-        return "; ".join(part for part in (self.also, entered, self.detail, note) if part)
+        return "; ".join(part for part in (self.also, entered, note) if part)
+
+    @property
+    def whole(self) -> str:
+        """What is before the decimal sign of its figure, for a column aligned there; empty for what is no
+        number.
+        """
+        found = _WHOLE.match(self.figure) if self.is_number else None
+        return found[0] if found else ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,6 +181,16 @@ class GridLine:
 
 
 @dataclass(frozen=True, slots=True)
+class DecodedWord:
+    """What the bits of one parameter mean, for the text below its table."""
+
+    number: str
+    name: str
+    values: tuple[tuple[str, str, str], ...]
+    """(places, value, meaning), places with the same value together."""
+
+
+@dataclass(frozen=True, slots=True)
 class Listing:
     """A table with one line for each value."""
 
@@ -182,6 +203,16 @@ class Listing:
     def reasons(self) -> tuple[tuple[str, str], ...]:
         """The marks of inactive values with their reasons."""
         return _reasons(self.rows)
+
+    @property
+    def words(self) -> tuple[DecodedWord, ...]:
+        """Its words of bits with their meaning."""
+        return tuple(_decoded(self.rows))
+
+    @property
+    def widest(self) -> int:
+        """Most characters before the decimal sign of a figure."""
+        return max((len(row.whole) for row in self.rows), default=0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -214,6 +245,28 @@ class Grid:
     def reasons(self) -> tuple[tuple[str, str], ...]:
         """The marks of inactive values with their reasons."""
         return _reasons(self.rows)
+
+    @property
+    def words(self) -> tuple[DecodedWord, ...]:
+        """Its words of bits with their meaning."""
+        return tuple(_decoded(self.rows))
+
+    @property
+    def widest(self) -> int:
+        """Most characters before the decimal sign of a figure."""
+        return max((len(row.whole) for row in self.rows), default=0)
+
+
+def _decoded(rows: Sequence[ReportRow]) -> Iterator[DecodedWord]:
+    """Yield the words of bits of a table, each value once."""
+    for _, members in groupby((row for row in rows if row.detail), key=lambda row: row.id):
+        own = list(members)
+        places: dict[tuple[str, str], list[str]] = {}
+        for row in own:
+            places.setdefault((row.figure, row.detail), []).append(row.place)
+        numbers = dict.fromkeys(filter(None, (row.number for row in own)))
+        values = tuple((", ".join(filter(None, at)), *known) for known, at in places.items())
+        yield DecodedWord(", ".join(numbers), own[0].name, values)
 
 
 def _reasons(rows: Iterable[ReportRow]) -> tuple[tuple[str, str], ...]:

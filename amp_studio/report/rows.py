@@ -124,7 +124,7 @@ def row_of(
         shown_unit=language.unit(unit_text(printed_unit)),
         also=language.quantity(also),
         entered=language.quantity(_with_unit(_bare(parameter, value), unit)) if is_rounded else "",
-        detail=_bits(parameter, value),
+        detail=_bits(parameter, value, language),
         default=_printed_default(parameter, default, printed_unit, language),
         plain_default=_bare(parameter, _converted(default, unit)),
         is_changed=is_changed and has_default,
@@ -190,7 +190,7 @@ def _converted(value: Value | None, unit: str) -> Value | None:
         return None
 
 
-def _bits(parameter: Parameter, value: Value | None) -> str:
+def _bits(parameter: Parameter, value: Value | None, language: Language) -> str:
     """Return the meaning of the set bits and the fields of a packed word;
     bits of one lost figure have it once.
     """
@@ -204,15 +204,15 @@ def _bits(parameter: Parameter, value: Value | None) -> str:
         if is_field or field_value(bit, word):
             together = bit.unknown and not is_field
             by_label.setdefault((bit.label, None if together else bit.bit), []).append(bit)
-    return "; ".join(_bits_text(bits, word) for bits in by_label.values())
+    return "; ".join(_bits_text(bits, word, language) for bits in by_label.values())
 
 
-def _bits_text(bits: Sequence[Bit], word: int) -> str:
+def _bits_text(bits: Sequence[Bit], word: int, language: Language) -> str:
     """Return ``bits 3, 4: label`` of bits that are set, ``label: value`` of one field."""
     first = bits[0]
     if first.choices or first.width > 1:
         field = field_value(first, word)
         label = next((c.label for c in first.choices or () if c.raw == field), str(field))
-        return f"{first.label}: {label}"
-    many = "s" if len(bits) > 1 else ""
-    return f"bit{many} {', '.join(str(bit.bit) for bit in bits)}: {first.label}"
+        return f"{language.label(first.label)}: {language.label(label)}"
+    noun = language.text("bits" if len(bits) > 1 else "bit")
+    return f"{noun} {', '.join(str(bit.bit) for bit in bits)}: {language.label(first.label)}"

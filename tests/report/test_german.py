@@ -129,3 +129,10 @@ def test_a_rule_has_german_words_with_the_values_in_it() -> None:
     file.set(("servo.excess_error", "1"), Value(0.5, "mm"))
     messages = [note.message for note in build_report(file, Contents(language="de")).notes]
     assert any("mehr als Excess Error 0,5 mm zulässt" in message for message in messages)
+
+
+def test_sections_and_figures_of_a_manual_keep_their_point() -> None:
+    page = render_html(german("57c422b-label-press")).decode("utf-8")
+    assert "dem Text von Abschnitt 4.5." in page
+    loops = next(f for f in german("mill-1394").pictures if "Regelkreise S" in f.title)
+    assert ", Seite 7-10<" in loops.svg

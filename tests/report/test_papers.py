@@ -177,14 +177,15 @@ def test_a_table_too_wide_for_paper_is_refused_there_alone(tmp_path: Path) -> No
 def test_a_form_has_a_blank_for_each_number(family: str) -> None:
     file = new_file(family)
     paper = form_paper(file, everything=True, date=DATE)
-    numbers = [row[0] for table in paper.tables for row in table.rows if row[0]]
+    cells = [cell for table in paper.tables for row in table.rows for cell in (row[0], *row[2:])]
+    numbers = {cell.partition(" ____")[0] for cell in cells}
     undisputed = {
         n
         for a in file.addresses()
         if not file.machine_schema.is_disputed(a[0]) and (n := file.machine_schema.number(a))
     }
-    assert set(numbers) == undisputed
-    assert all("____" in row[4] for table in paper.tables for row in table.rows)
+    assert undisputed <= numbers
+    assert sum("____" in cell for cell in cells) >= len(file.addresses())
 
 
 @pytest.mark.skipif(SOFFICE is None, reason="needs LibreOffice")

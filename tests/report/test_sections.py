@@ -8,7 +8,16 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import ParameterFile, ProjectInfo, content_of, digest_of, fitted_axes, new_file
+from amp_studio.files import (
+    ParameterFile,
+    ProjectInfo,
+    content_of,
+    digest_of,
+    fitted_axes,
+    new_file,
+    open_file,
+)
+from amp_studio.files.example_files import examples_folder
 from amp_studio.files.notes import set_group_note, set_machine_note, set_value_note
 from amp_studio.files.storage import save_file
 from amp_studio.report import SORTS, Contents
@@ -16,6 +25,7 @@ from amp_studio.report.build import build_report
 from amp_studio.report.contents import Sort
 from amp_studio.report.model import Grid, Listing, ReportRow
 from amp_studio.report.output.page import render_html
+from amp_studio.report.output.pdf import typst_source
 from amp_studio.report.output.text import render_text
 from amp_studio.report.sections import number_key
 from amp_studio.schema import Value
@@ -101,7 +111,7 @@ def test_the_order_by_group_is_the_manuals_with_an_axis_a_column(mill: Parameter
     ]
     line = next(n for n in home.lines if n.name == "Home Calibration")
     assert (line.number, line.shown_unit) == ("1300, 2300 … 4300", "mm")
-    assert [line.cell_text(r) if r else None for r in line.cells][:4] == ["12.5", "-2.54", "0", "0°"]
+    assert [line.cell_text(r) if r else None for r in line.cells][:4] == ["12.5", "−2.54", "0", "0°"]
 
 
 def test_the_parts_of_a_long_group_stay_together(mill: ParameterFile) -> None:
@@ -326,3 +336,29 @@ def test_the_cover_has_the_project_beside_a_machine_of_another_name(mill: Parame
     machine = ("Machine", "Mill 7")
     assert names("Mill 7", "Hall 2") == [machine, ("Project", "Hall 2"), ("Builder", "Works")]
     assert names("Mill 7", "Mill 7")[:2] == names("", "Mill 7")[:2] == [machine, ("Builder", "Works")]
+
+
+def test_figures_of_a_table_have_their_decimal_signs_below_each_other(mill: ParameterFile) -> None:
+    grid = next(s for s in build_report(mill).sections if s.title == "Home Parameters").parts[0]
+    assert isinstance(grid, Grid)
+    line = next(n for n in grid.lines if n.name == "Home Calibration")
+    assert [r.whole for r in line.cells if r][:3] == ["12", "−2", "0"]
+    assert grid.widest == max(len(r.whole) for r in grid.rows)
+    feed = next(n for n in grid.lines if n.name == "Dir to Move Off Limit Switch")
+    assert {r.whole for r in feed.cells if r} == {""}, "a choice is no figure"
+    source = typst_source(build_report(mill))
+    assert '"−2.54", "−2", ' in source
+
+
+def test_a_word_of_bits_is_decoded_once_below_its_table() -> None:
+    file = open_file(examples_folder() / "57c422b-label-press/LABEL_PRESS.amp").file
+    report = build_report(file, Contents(language="de"))
+    axis = report.sections[0].parts[0]
+    word = next(w for w in axis.words if w.name == "Switch Setup")
+    assert word.number == "R2, R2050"
+    assert [(place, value) for place, value, _ in word.values] == [("X", "0x011C"), ("Y", "0x001D")]
+    assert "Bit 8: Use Drive Fault Input (gefolgert)" in word.values[0][2]
+    again = next(w for s in report.sections for p in s.parts for w in p.words if w.name == "Mode")
+    assert [place for place, _, _ in again.values] == ["X, Y"], "one value has its meaning once"
+    for made in (render_text(report).decode(), render_html(report).decode(), typst_source(report)):
+        assert " ".join(made.split()).count("Direction: positive") == 1

@@ -36,6 +36,10 @@ def _lines(report: Report, words: Language) -> Iterator[str]:
                 yield from _wrapped(part.title, "")
                 yield "-" * min(len(part.title), WIDTH)
             yield from _table(part.rows, not isinstance(part, Listing) or part.by_place, words)
+            for word in part.words:
+                for place, value, meaning in word.values:
+                    head = " ".join(filter(None, (word.number, word.name, words.text(place), value)))
+                    yield from _wrapped(f"{head}: {meaning}", "  ")
             for mark, why in part.reasons:
                 yield from _wrapped(why, f"  {mark} ")
             yield ""

@@ -7,6 +7,7 @@ from __future__ import annotations
 import io
 import math
 import re
+import textwrap
 import zipfile
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -18,7 +19,14 @@ WorkbookCell = str | float | int | None
 
 _FORBIDDEN = re.compile(r"[\[\]:*?/\\]")
 _MOST_NAME = 31
-_WIDEST = 60
+_WIDEST = 30
+"""Characters of a column; longer texts have several lines: a page is as wide as all columns."""
+_ROOM = 2
+"""Characters of a column that stay blank."""
+_LINE, _MOST_LINES = 13.0, 30
+"""Height of a line in points; no row is higher than a page."""
+_MOST_DECIMALS = 6
+"""Digits behind the decimal sign up to which a column is aligned at it."""
 _TIME = re.compile(rb"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ")
 _MOST_TEXT = 32_767
 _MOST_FOOT = 100
@@ -56,6 +64,7 @@ def workbook(
     for sheet in sheets:
         page = book.create_sheet(_name(sheet.title, names))
         has_heads = any(sheet.heads)
+        decimals = [max(map(_decimals, column), default=0) for column in zip(*sheet.rows, strict=True)]
         for at, row in enumerate((sheet.heads, *sheet.rows) if has_heads else sheet.rows, 1):
             for column, content in enumerate(row, 1):
                 if content is None or content == "":
@@ -66,10 +75,15 @@ def workbook(
                     cell.data_type = "s"  # also of a text that begins with "=": it is no formula
                 else:
                     cell.value = content
+                    if (places := decimals[column - 1]) > 0 and (own := _decimals(content)) >= 0:
+                        cell.number_format = _aligned(own, places)
                 if has_heads and at == 1:
                     cell.font = Font(bold=True)
-                elif isinstance(content, str) and len(content) > _WIDEST:
-                    cell.alignment = Alignment(wrap_text=True, vertical="top")
+                else:
+                    is_long = isinstance(content, str) and len(content) > _WIDEST - _ROOM
+                    cell.alignment = Alignment(wrap_text=is_long, vertical="top")
+            if (lines := max(map(_lines, row), default=1)) > 1:
+                page.row_dimensions[at].height = _LINE * lines
         for column, width in _widths(sheet).items():
             page.column_dimensions[page.cell(1, column).column_letter].width = width
         if has_heads:
@@ -79,6 +93,27 @@ def workbook(
     stream = io.BytesIO()
     book.save(stream)
     return _without_times(stream)
+
+
+def _lines(content: WorkbookCell) -> int:
+    """Return the lines of a cell: a spreadsheet keeps the height that a row is given."""
+    if not isinstance(content, str) or len(content) <= _WIDEST - _ROOM:
+        return 1
+    return min(len(textwrap.wrap(content, _WIDEST - _ROOM)), _MOST_LINES)
+
+
+def _decimals(content: WorkbookCell) -> int:
+    """Return the digits behind the decimal sign of a number; -1 of what is no number, or has too many."""
+    if content is None or isinstance(content, str) or not math.isfinite(content):
+        return -1
+    fraction = repr(float(content)).partition(".")[2]
+    digits = 0 if fraction == "0" else len(fraction)
+    return digits if fraction.isdigit() and digits <= _MOST_DECIMALS else -1
+
+
+def _aligned(own: int, most: int) -> str:
+    """Return the format of a number with all its digits, and as much room behind as the longest needs."""
+    return f"0.{'0' * own}{'_0' * (most - own)}" if own else f"0_.{'_0' * most}"
 
 
 def _set_up_print(page: Any, title: str, paper: PaperSize, *, has_heads: bool) -> None:
@@ -130,5 +165,5 @@ def _widths(sheet: WorkbookSheet) -> dict[int, float]:
     for row in (sheet.heads, *sheet.rows):
         for column, content in enumerate(row, 1):
             length = len(str(content)) if content is not None else 0
-            widths[column] = min(max(widths.get(column, 6.0), length + 2.0), _WIDEST)
+            widths[column] = min(max(widths.get(column, 6.0), length + float(_ROOM)), _WIDEST)
     return widths

@@ -13,8 +13,12 @@ from amp_studio.schema import Address, Bit, Parameter, unit_text
 
 from .paper import Paper, PaperTable
 
-_SHARES = (1.6, 4.0, 1.6, 6.0, 3.0)
-_HEADS = ("Number", "Parameter", "Belongs to", "Allowed", "Value")
+_SHARES = (1.6, 4.0, 6.0, 3.0)
+_HEADS = ("Number", "Parameter", "Allowed", "Value")
+_ACROSS = 8
+"""Most places beside each other."""
+_MOST_PLACES = 32
+"""Of more places each has its number or name at its blank, and none has a head."""
 _MOST_CHOICES = 6
 _SHORT = 24
 
@@ -54,27 +58,79 @@ def _is_there(file: ParameterFile, address: Address, axes: Collection[str]) -> b
     return file.evaluation.state(address).state != "hidden"
 
 
-def _row(file: ParameterFile, address: Address, language: Language) -> tuple[str, ...]:
-    """Return number, name, place, what is allowed, and a line to write on."""
-    parameter, here = file.schema.parameters[address[0]], file.machine_schema
-    number = "" if here.is_disputed(parameter.id) else here.number(address) or ""
-    blank = f"____________ {unit_text(file.evaluation.unit(address, file.header.units))}".rstrip()
-    place = language.text(place_of(file, address))
-    return number, parameter.name, place, _allowed(file, parameter, language), blank
-
-
 def _tables(file: ParameterFile, everything: bool, language: Language) -> Iterator[PaperTable]:
+    """Yield for each group a table of what there is once, and one for each row of places (axes, spindles)."""
     axes = printed_axes(file)
     for group in file.schema.groups:
-        rows = []
+        single: list[tuple[str, ...]] = []
+        several: dict[tuple[str, ...], list[Parameter]] = {}
         for parameter in group.parameters:
-            for instance in file.machine_schema.instances(parameter):
-                address = (parameter.id, instance)
-                if everything or _is_there(file, address, axes):
-                    rows.append(_row(file, address, language))
-        if rows:
-            title = group.whole_name
-            yield PaperTable(title, _HEADS, tuple(rows), _SHARES, values_from=3)
+            places = tuple(
+                instance
+                for instance in file.machine_schema.instances(parameter)
+                if everything or _is_there(file, (parameter.id, instance), axes)
+            )
+            if len(places) == 1:
+                address = (parameter.id, places[0])
+                allowed = _allowed(file, parameter, language)
+                single.append((_number(file, address), parameter.name, allowed, _blank(file, address)))
+            elif places:
+                several.setdefault(places, []).append(parameter)
+        if single:
+            yield PaperTable(group.whole_name, _HEADS, tuple(single), _SHARES, values_from=2)
+        for places, parameters in several.items():
+            yield _matrix(file, group.whole_name, places, parameters, language)
+
+
+def _matrix(
+    file: ParameterFile, title: str, places: tuple[str, ...], parameters: list[Parameter], language: Language
+) -> PaperTable:
+    """Return parameters that have the same places: a line each and a column a place, further places below."""
+    rows: list[tuple[str, ...]] = []
+    strong: set[tuple[int, int]] = set()
+    parts = [places[at : at + _ACROSS] for at in range(0, len(places), _ACROSS)]
+    is_ladder = len(places) > _MOST_PLACES
+    width = len(parts[0])
+    heads = [_labels(file, parameters[0], part, language) for part in parts]
+    for n, part in enumerate(parts):
+        if n and not is_ladder:
+            strong |= {(len(rows), column) for column in range(2, width + 2)}
+            rows.append(("", "", *_filled(heads[n], width)))
+        for parameter in parameters:
+            about = (
+                ("", "") if n and is_ladder else (parameter.name, _allowed(file, parameter, language, not n))
+            )
+            cells = [_cell(file, (parameter.id, place), language if is_ladder else None) for place in part]
+            rows.append((*about, *_filled(cells, width)))
+    columns = [""] * width if is_ladder else _filled(heads[0], width)
+    shares = (3.4, 4.2, *[2.1] * width)
+    return PaperTable(title, (*_HEADS[1:3], *columns), tuple(rows), shares, frozenset(strong), values_from=1)
+
+
+def _filled(cells: list[str], width: int) -> list[str]:
+    return [*cells, *[""] * (width - len(cells))]
+
+
+def _labels(
+    file: ParameterFile, parameter: Parameter, places: tuple[str, ...], language: Language
+) -> list[str]:
+    return [language.text(place_of(file, (parameter.id, place))) for place in places]
+
+
+def _number(file: ParameterFile, address: Address) -> str:
+    here = file.machine_schema
+    return "" if here.is_disputed(address[0]) else here.number(address) or ""
+
+
+def _cell(file: ParameterFile, address: Address, language: Language | None) -> str:
+    """Return number and blank; where it has no number and there is a language, its place and blank."""
+    place = language.text(place_of(file, address)) if language else ""
+    return f"{_number(file, address) or place} {_blank(file, address)}".strip()
+
+
+def _blank(file: ParameterFile, address: Address) -> str:
+    """Return a line to write on, with the unit."""
+    return f"______ {unit_text(file.evaluation.unit(address, file.header.units))}".rstrip()
 
 
 def _bit(bit: Bit, language: Language) -> str:
@@ -86,7 +142,10 @@ def _bit(bit: Bit, language: Language) -> str:
     return text.replace(" ", "\u00a0", -1 if len(text) < _SHORT else 3)
 
 
-def _allowed(file: ParameterFile, parameter: Parameter, language: Language) -> str:
+def _allowed(file: ParameterFile, parameter: Parameter, language: Language, in_full: bool = True) -> str:
+    """Return what a value may be; nothing where it has been given above."""
+    if not in_full:
+        return ""
     if parameter.choices:
         labels = [choice.label for choice in parameter.choices]
         more = f" … ({len(labels)})" if len(labels) > _MOST_CHOICES else ""

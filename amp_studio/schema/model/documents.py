@@ -41,8 +41,10 @@ class Tables(Model):
     tables: tuple[Table, ...]
 
 
-Reaction = Literal["e-stop", "stop", "alarm", "error", "refused", "warning", "notice"]
-"""What a control does beside showing a message; ``alarm`` and ``error`` where no more is printed."""
+Reaction = Literal["e-stop", "stop", "alarm", "error", "refused", "warning", "notice", "symptom"]
+"""What a control does beside showing a message; ``alarm`` and ``error`` where no more is printed. A symptom
+is what a person sees or hears at the machine, where the control shows nothing yet.
+"""
 
 
 class ControlMessage(Model):
@@ -60,6 +62,8 @@ class ControlMessage(Model):
     the number is the first plus the address of the axis."""
     also: tuple[str, ...] = ()
     """Other spellings that are printed."""
+    called: tuple[str, ...] = ()
+    """What people call it, in any language: it is found by these words too."""
     text: str = ""
     title: str = ""
     reaction: Reaction
@@ -72,6 +76,8 @@ class ControlMessage(Model):
     """Parameters to look at, the nearest first."""
     rules: tuple[str, ...] = ()
     """Ids of the rules that find in a file what brings it about."""
+    scenarios: tuple[str, ...] = ()
+    """Scenarios of ``simulate`` that show it."""
     page: Page
     pages: tuple[Page, ...] = ()
     """Where else the manual prints it."""

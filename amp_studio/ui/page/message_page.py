@@ -65,12 +65,13 @@ class MessageWindow(QDialog):
         parts = [f"<p style='font-size:large; font-weight:600'>{name}</p>"]
         if self._page is None:
             parts.append(f"<p>{escape(self._schema.family.name)}</p>")
-        if message.title:
+        if message.title and message.reaction != "symptom":
             parts.append(f"<p>{escape(self.tr('The manual does not print the text of this message.'))}</p>")
         parts.append(f"<p>{own(message.means)}</p>")
         parts += self._broken(page.broken)
         parts += self._listed(self.tr("How to find the cause"), [own(text) for text in message.causes])
         parts += self._listed(self.tr("What helps"), [own(text) for text in message.cures])
+        parts += self._listed(self.tr("Scenarios that show it"), list(message.scenarios))
         parts += self._listed(
             self.tr("Parameters to look at"), [self._parameter(each) for each in page.parameters]
         )

@@ -184,6 +184,8 @@ def _message_json(page: MessagePage) -> dict[str, Any]:
         "means": message.means,
         "causes": message.causes,
         "cures": message.cures,
+        "called": message.called,
+        "scenarios": message.scenarios,
         "note": message.note,
         "params": [
             {
@@ -236,6 +238,7 @@ def _page_lines(page: MessagePage, hit: Hit) -> Iterator[str]:
         yield f"  Here: {hit.detail.partition(',')[0]}"
     yield from _listed("Causes", message.causes)
     yield from _listed("What helps", message.cures)
+    yield from _listed("Try it", (f"amp-studio simulate FILE {name}" for name in message.scenarios))
     yield from _listed("Parameters", (_parameter_line(page, n) for n in range(len(page.parameters))))
     for linked in page.rules:
         for finding in linked.findings:
