@@ -432,7 +432,8 @@ def edit_machine(path: str | Path, *, only_view: bool = False) -> MachineParamet
     if path.suffix.casefold() != ENDING and _is_text_of_control(path):
         if only_view:
             return open_machine(path)
-        raise ParameterFileError(path, None, "is a control's own text, which is not changed: import it first")
+        what = "a report" if path.suffix.lower() == ".pdf" else "a control's own text"
+        raise ParameterFileError(path, None, f"is {what}, which is not changed: import it first")
     document = Document.view(path) if only_view else Document.open(path)
     found = MachineParameters(document.file, document.path, document.digest)
     found.document = document

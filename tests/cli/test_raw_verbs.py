@@ -147,3 +147,12 @@ def test_a_verb_that_writes_needs_a_parameter_file(
         assert cli.run([verb, *WRITES[verb].replace("RAW", str(path)).split()]) == 2
         error = capsys.readouterr().err
         assert "is a control's own text, which is not changed: import it first" in error
+
+
+def test_a_report_is_not_called_a_text_of_a_control(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    report = tmp_path / "r.pdf"
+    report.write_bytes(b"%PDF-1.7\n")
+    assert cli.run(["set", str(report), "1300@X=1"]) == 2
+    assert "is a report, which is not changed" in capsys.readouterr().err

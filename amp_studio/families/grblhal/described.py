@@ -131,6 +131,9 @@ class _Maker:
             "errors": ("error", "error", "EE", self.described.errors),
         }
         for known in self.known.message_lists:
+            if known.id not in described:  # symptoms: a control does not know of them
+                yield known
+                continue
             word, reaction, page, texts = described[known.id]
             by_code = {message.code: message for message in known.messages}
             own = []
