@@ -149,7 +149,7 @@ def _nothing_waits_for_long() -> Iterator[None]:
         for name in ("RECOGNISED", "RECOGNISED_SERIAL"):
             patch.setattr(f"amp_studio.transfer.client.drivers.{name}", 0.1)
         # In a fresh checkout machine code takes 5 s a law to be made, as long as so many steps in Python.
-        patch.setattr("amp_studio.sim.engine.compiled.PLAIN_STEPS", 600_000)
+        patch.setattr("amp_studio.sim.engine.compiled.PLAIN_STEPS", 1_000_000)
         yield
 
 

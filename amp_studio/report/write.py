@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
@@ -61,9 +62,11 @@ def print_report(
     those of ``build_report``. Raises ValueError for an unknown file extension, ParameterFileError for a
     project that cannot be read, SaveError when it cannot be written.
     """
-    path, source = Path(path), Path(source) if source else None
+    path, source, contents = Path(path), Path(source) if source else None, contents or Contents()
     if path.suffix.lower() not in FORMATS:
         raise ValueError(f"{path.name}: unknown report format. Use the file extension {', '.join(FORMATS)}")
+    if path.suffix.lower() not in _WITH_TEMPLATES:  # tables and texts have no place for a drawing
+        contents = replace(contents, without=contents.without | {"pictures"})
     folder = real_path(source).parent if source else None
     project = project_beside(source)
     report = build_report(

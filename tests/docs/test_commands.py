@@ -333,6 +333,7 @@ def test_the_page_of_commands_has_the_keys_of_every_json_document(
 ) -> None:
     for name, source in {**PROGRAM, **PRESS, "mill.amp": MILL, "second.amp": MILL}.items():
         shutil.copy(source, name)
+    Path("plate.nc").write_text("G20 G90 G61\nG1 X-0.2 F100\nM2\n", encoding="utf-8")
     cli.run(["set", "second.amp", "1750=4"])
     cli.run(["note", "second.amp", "1750", "lower"])
     rows = re.findall(

@@ -16,10 +16,12 @@ from amp_studio.report import Contents, print_report
 from amp_studio.schema import Address, read_address
 from amp_studio.sim import simulate, simulated_axes
 from amp_studio.sim.law import simulated_families
+from tests.campaigns import CAMPAIGN
 
 SOURCE = re.compile(
     r"\b(?:page (?:(?:\d{1,2}|[AB])(?:-\d{1,2}|(?:\.\d{1,2})+)|\d{1,3})|ours)\b|^printed default\b"
 )
+
 """A page of the manual, or the example's own choice."""
 
 
@@ -163,8 +165,12 @@ def test_a_value_put_back_leaves_the_file_as_it_was(example: Path) -> None:
     assert before == example.read_bytes()
 
 
-def test_what_is_changed_in_it_can_be_printed(example: Path, tmp_path: Path) -> None:
+def test_what_is_changed_in_it_can_be_printed(
+    example: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     path = tmp_path / "example.pdf"
+    if not CAMPAIGN and example.parent.name not in ("grblhal-router", "num-1060-mill"):
+        monkeypatch.setattr("amp_studio.report.output.pdf.set_pdf", lambda source, options: (b"%PDF-", ""))
     print_report(open_file(example).file, path, Contents(changed_only=True), source=example)
     assert path.read_bytes().startswith(b"%PDF-")
 

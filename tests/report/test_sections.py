@@ -30,6 +30,8 @@ from amp_studio.report.output.text import render_text
 from amp_studio.report.sections import number_key
 from amp_studio.schema import Value
 
+pytestmark = pytest.mark.usefixtures("without_pictures")
+
 
 def row_with(number: str) -> ReportRow:
     return ReportRow(

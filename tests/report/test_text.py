@@ -19,6 +19,8 @@ from amp_studio.report.model import Listing, Report, ReportRow, Section
 from amp_studio.report.output.pdf import typst_literal, typst_source
 from amp_studio.report.output.text import render_text
 
+pytestmark = pytest.mark.usefixtures("without_pictures")
+
 
 def row(number: str, name: str, value: str, **more: object) -> ReportRow:
     known: dict[str, object] = {

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import sys
 from types import ModuleType
 from typing import Any
+from unittest.mock import MagicMock
 
 import numpy as np
 import pytest
@@ -54,10 +56,23 @@ def pid(kp: float, ki: float, kd: float):
 
 @pytest.fixture(scope="module")
 def control() -> ModuleType:
-    """python-control, imported here alone: it brings matplotlib,
-    and every worker reads every module of tests.
+    """python-control, imported here alone, as every worker reads every module of tests, and without
+    matplotlib, of which it asks for nothing that is computed here and which takes four seconds.
     """
-    import control
+    drawing = (
+        "matplotlib",
+        "matplotlib.projections",
+        "matplotlib.pyplot",
+        "matplotlib.transforms",
+        "mpl_toolkits",
+        "mpl_toolkits.axisartist",
+        "mpl_toolkits.axisartist.angle_helper",
+        "mpl_toolkits.axisartist.grid_helper_curvelinear",
+    )
+    with pytest.MonkeyPatch.context() as patch:
+        for name in drawing:
+            patch.setitem(sys.modules, name, MagicMock())
+        import control
 
     return control
 

@@ -74,7 +74,7 @@ def test_parameters_are_varied_as_the_control_can_have_them() -> None:
 def test_the_map_without_a_word_shows_two_gains_their_safe_region_and_the_present_point(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("amp_studio.sim.variations.scenario.SIDE", 7)
+    monkeypatch.setattr("amp_studio.sim.variations.scenario.SIDE", 5)
     trace = sweep(file_of(MILL), "1", {}, way=ALONE)
     assert trace.over == ("servo.initial_gain", "servo.velocity_proportional_gain")
     safe = trace.columns["safe"] == 1.0

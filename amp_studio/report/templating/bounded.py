@@ -8,9 +8,12 @@ from __future__ import annotations
 import re
 import time
 from collections.abc import Mapping
-from typing import Any
+from pathlib import Path
+from types import CodeType
+from typing import Any, ClassVar
 
-from jinja2 import StrictUndefined, nodes
+from jinja2 import BytecodeCache, StrictUndefined, nodes
+from jinja2.bccache import Bucket
 from jinja2.exceptions import SecurityError
 from jinja2.runtime import Context
 from jinja2.sandbox import ImmutableSandboxedEnvironment
@@ -40,6 +43,32 @@ class UnknownName(StrictUndefined):
             return f"there is no '{name}'{did_you_mean(name, _GIVEN)}"
         known = owner if isinstance(owner, Mapping) else (n for n in dir(owner) if not n.startswith("_"))
         return f"there is no '{name}' in a {type(owner).__name__}{did_you_mean(name, map(str, known))}"
+
+
+class StandardTemplates(BytecodeCache):
+    """The program's own templates as this sandbox compiles them, once a process: a preview fills them at
+    every edit. A project's template is compiled each time.
+    """
+
+    _made: ClassVar[dict[tuple[str, str], CodeType]] = {}
+    """Key and checksum of a source -> its code."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+
+    def get_cache_key(self, name: str, filename: str | None = None) -> str:
+        """Return "" for a template that is not the program's."""
+        is_own = filename is not None and Path(filename).parent == self._folder
+        return super().get_cache_key(name, filename) if is_own else ""
+
+    def load_bytecode(self, bucket: Bucket) -> None:
+        """Give a bucket the code that is known."""
+        bucket.code = self._made.get((bucket.key, bucket.checksum))
+
+    def dump_bytecode(self, bucket: Bucket) -> None:
+        """Keep the code of a bucket."""
+        if bucket.key and bucket.code is not None:
+            self._made[bucket.key, bucket.checksum] = bucket.code
 
 
 class BoundedEnvironment(ImmutableSandboxedEnvironment):

@@ -91,9 +91,15 @@ def filled(
             undefined=StrictUndefined, bytecode_cache=_compiled_templates(), **whole, **settings
         )
     else:
-        from .bounded import BoundedEnvironment, UnknownName
+        from .bounded import BoundedEnvironment, StandardTemplates, UnknownName
 
-        environment = BoundedEnvironment(_PATIENCE_S, undefined=UnknownName, **whole, **settings)
+        environment = BoundedEnvironment(
+            _PATIENCE_S,
+            undefined=UnknownName,
+            bytecode_cache=StandardTemplates(TEMPLATES),
+            **whole,
+            **settings,
+        )
     environment.globals.update(_=language.text, counted=language.counted, language=language.code)
     environment.filters.update(
         filters, worded=language.drawing, titled=language.title, stated=language.sentence
