@@ -15,7 +15,7 @@ import sys
 import textwrap
 import tomllib
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib.metadata import packages_distributions
 from pathlib import Path
@@ -180,9 +180,15 @@ def declared_libraries(pyproject: str) -> set[str]:
     return {plain(re.split(r"[^\w.-]", line)[0]) for line in lines}
 
 
+@cache
+def installed_packages() -> Mapping[str, list[str]]:
+    """Return module -> the packages that bring it, which takes a second to look up."""
+    return packages_distributions()
+
+
 def test_every_imported_library_is_declared(checkout: Path) -> None:
     declared = declared_libraries((checkout / "pyproject.toml").read_text("utf-8"))
-    distributions = packages_distributions()
+    distributions = installed_packages()
     undeclared = {
         f"{path.relative_to(checkout).as_posix()}: {name}"
         for name, path in imported_libraries(checkout / "amp_studio")
@@ -195,7 +201,7 @@ def test_every_imported_library_is_declared(checkout: Path) -> None:
 
 def test_every_declared_library_is_imported(checkout: Path) -> None:
     declared = declared_libraries((checkout / "pyproject.toml").read_text("utf-8"))
-    distributions = packages_distributions()
+    distributions = installed_packages()
     imported = {name for name, _ in imported_libraries(checkout / "amp_studio")}
     used = {plain(owner) for name in imported for owner in distributions.get(name, [name])}
     assert declared - used == set()

@@ -23,9 +23,11 @@ def mill(tmp_path: Path) -> Path:
     return Path(shutil.copy(MILL, tmp_path / "mill.amp"))
 
 
-def test_each_axis_has_its_responses_and_what_they_assume_is_shown_once() -> None:
+def test_each_axis_has_its_responses_and_what_they_assume_is_shown_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("amp_studio.sim.scenarios.frequency.POINTS", 2)
     figures = tuple(motion_figures(open_file(MILL).file))
-    assert motion_apart(open_file(MILL).file) == figures
     assert [f.title for f in figures[:2]] == ["Step, axis 1 (X)", "Frequency, axis 1 (X)"]
     assert figures[-1].title == "What was assumed"
     assert len(set(figures[-1].notes)) == len(figures[-1].notes) > 0
@@ -33,7 +35,9 @@ def test_each_axis_has_its_responses_and_what_they_assume_is_shown_once() -> Non
 
 
 def test_an_axis_without_a_servo_loop_shows_its_steps_and_no_frequency_response() -> None:
-    figures = motion_figures(open_file(EXAMPLES / "grblhal-router" / "GRBL_ROUTER.amp").file)
+    file = open_file(EXAMPLES / "grblhal-router" / "GRBL_ROUTER.amp").file
+    figures = tuple(motion_figures(file))
+    assert motion_apart(file) == figures
     assert [f.title for f in figures] == [*(f"Step, axis {axis}" for axis in "XYZ"), "What was assumed"]
 
 
@@ -57,7 +61,11 @@ def test_exchanges_are_in_every_kind_of_document(mill: Path, tmp_path: Path) -> 
 
 
 @pytest.mark.skipif(shutil.which("pdftotext") is None, reason="needs poppler's tools")
-def test_the_contents_have_the_page_of_each_chapter(mill: Path, tmp_path: Path) -> None:
+def test_the_contents_have_the_page_of_each_chapter(
+    mill: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("amp_studio.dossier.motion_apart", lambda file: tuple(motion_figures(file)))
+    monkeypatch.setattr("amp_studio.dossier._SCENARIOS", ("step",))
     out = tmp_path / "r.pdf"
     write_report(open_file(mill).file, out, source=mill, date=datetime(2026, 7, 1, tzinfo=UTC))
     done = subprocess.run(["pdftotext", "-layout", out, "-"], capture_output=True, text=True, check=True)

@@ -15,6 +15,7 @@ import pytest
 
 from amp_studio import cli
 from amp_studio.cli import stopping
+from tests.campaigns import CAMPAIGN
 from tests.cli.stopped import set_while_stopped
 
 PROGRAM = [sys.executable, "-m", "amp_studio.cli"]
@@ -112,7 +113,7 @@ def test_streams_that_the_shell_has_closed_stop_nothing_and_spoil_no_file(
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a signal cannot be sent to a process there")
 def test_it_can_be_stopped_at_any_moment_and_shows_the_state(mill: Path) -> None:
-    assert set_while_stopped(mill, seed=1, rounds=12) == []
+    assert set_while_stopped(mill, seed=1, rounds=12 if CAMPAIGN else 2) == []
 
 
 @pytest.mark.parametrize("first", [1, 2])

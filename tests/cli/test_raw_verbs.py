@@ -13,6 +13,7 @@ from amp_studio.files import open_file
 from amp_studio.files.example_files import examples_folder
 from amp_studio.formats import export_file
 from amp_studio.formats.import_export import all_formats, formats_of
+from tests.campaigns import CAMPAIGN
 
 NOWHERE = "tcp://127.0.0.1:1"
 READS = {
@@ -131,7 +132,9 @@ def test_every_verb_reads_a_text(
     monkeypatch.chdir(tmp_path)
     Path("end.nc").write_text("M30\n", "utf-8")
     family = texts[key].name.partition(".")[0]
-    for verb, words in READS.items():
+    # Each verb reads a third of the formats, and each format is read by a third of the verbs.
+    turn = 0 if CAMPAIGN else 1 + [each.key for each in all_formats()].index(key) % 3
+    for verb, words in (item for n, item in enumerate(READS.items()) if not turn or n % 3 == turn - 1):
         named = words.replace("RAW", str(texts[key])).replace("FAMILY", family)
         code = cli.run([verb, *named.split()])
         error = capsys.readouterr().err

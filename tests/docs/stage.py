@@ -24,7 +24,7 @@ from .pages import PROGRAMS, ROOT
 
 
 def leave_out_what_takes_long(patch: pytest.MonkeyPatch) -> None:
-    """Outside of a campaign set no PDF, draw no frequency response in a report, let a scenario recommend
+    """Outside of a campaign set no PDF, draw no picture and no frequency response in a report, let a scenario recommend
     no other gains, check one move alone, sweep few frequencies and few gains, and compute no contour error:
     tests/report, tests/test_dossier.py, tests/cli/test_check.py, tests/cli/test_program_verb.py and
     tests/sim do so.
@@ -35,6 +35,7 @@ def leave_out_what_takes_long(patch: pytest.MonkeyPatch) -> None:
         patch.setattr("amp_studio.sim.variations.scenario.SIDE", 3)
         patch.setattr("amp_studio.sim.path.program._contour", lambda plan, axes: (None, "not computed here"))
         patch.setattr("amp_studio.report.output.pdf.set_pdf", lambda source, options: (b"%PDF-1.7", ""))
+        patch.setattr("amp_studio.report.build.drawings", lambda file, language: ())
         patch.setattr("amp_studio.dossier._SCENARIOS", ("step",))
         patch.setattr("amp_studio.sim.run.recommendations", lambda trial, scenario, own: (tuple(own), ()))
 

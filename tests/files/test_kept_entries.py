@@ -6,12 +6,13 @@ import re
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from amp_studio.files import ParameterFile, ParameterFileError, content_of, open_file, read_content
 from amp_studio.files.storage import save_file
 from amp_studio.schema import Value, load_schema
+from tests.campaigns import examples
 from tests.files.commented import COMMENTED
 
 HERE = Path("small.amp")
@@ -181,6 +182,7 @@ def test_marks_of_force_are_kept_through_a_save(small: Path) -> None:
 texts = st.text(st.characters(exclude_categories=["Cs"]), max_size=40)
 
 
+@settings(max_examples=examples(40))
 @given(name=texts, notes=texts, key=st.from_regex(r"[a-z]{3,8}_[0-9]", fullmatch=True), extra=texts)
 def test_any_text_of_the_header_is_kept(name: str, notes: str, key: str, extra: str) -> None:
     file = ParameterFile(load_schema("9pc"))

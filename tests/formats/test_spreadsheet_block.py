@@ -18,6 +18,7 @@ from amp_studio.formats.spreadsheet_block import (
     read_block,
     two_ways,
 )
+from tests.campaigns import CAMPAIGN
 
 ROWS = [
     [BlockCell("11 mm", 11.0, "mm"), BlockCell("0.433 in", 0.433, "in"), BlockCell("2097152", 2097152)],
@@ -104,7 +105,7 @@ def test_damaged_html_is_read_as_far_as_it_goes() -> None:
     assert read_block("", "<table><tr><td colspan='99999999999'>a</td></tr></table>") == [["a"]]
 
 
-@pytest.mark.skipif(shutil.which("soffice") is None, reason="LibreOffice is not installed")
+@pytest.mark.skipif(not (CAMPAIGN and shutil.which("soffice")), reason="make campaign, with LibreOffice")
 def test_libreoffice_takes_a_block_and_gives_it_back(tmp_path: Path) -> None:
     """Into a sheet as HTML, and out of it as what its clipboard has."""
     page = tmp_path / "block.html"

@@ -76,9 +76,10 @@ def test_a_new_file_is_printed_in_every_format_and_order(
 EVERY_FAMILY = [
     (family, ending, tuple(SORTS)[n % len(SORTS)])
     for n, family in enumerate(family_ids())
-    for ending in FORMATS
+    for at, ending in enumerate(FORMATS)
+    if CAMPAIGN or (n + at) % 2 == 0
 ]
-"""Each family in each format; the orders in turn, as every format prints the same rows. Of the PDF `make
+"""Each family in half of the formats, in a campaign in each; the orders in turn, as every format prints the same rows. Of the PDF `make
 campaign` sets all values: those of the examples are set by their pages (tests/docs/test_commands.py).
 """
 
@@ -124,8 +125,9 @@ def test_no_text_of_a_file_is_taken_for_an_order(
 def test_the_same_file_on_the_same_date_gives_the_same_report(
     tmp_path: Path, mill: ParameterFile, date: datetime, ending: str
 ) -> None:
+    contents = Contents(changed_only=True, without=frozenset() if CAMPAIGN else frozenset({"pictures"}))
     for name in ("one", "two"):
-        print_report(mill.copy(), tmp_path / f"{name}{ending}", Contents(changed_only=True), date=date)
+        print_report(mill.copy(), tmp_path / f"{name}{ending}", contents, date=date)
     assert (tmp_path / f"one{ending}").read_bytes() == (tmp_path / f"two{ending}").read_bytes()
 
 

@@ -21,6 +21,7 @@ from amp_studio.schema import database_folder
 from amp_studio.schema.registration import register, unregister
 from amp_studio.schema.units import UNITS_FILE
 from amp_studio.schema.yaml_reader import read_yaml, spelled_scalar
+from tests.campaigns import CAMPAIGN
 from tests.families.steps.stepper import FAMILY, REGISTRATION
 from tests.schema.test_whole_family import kind_of
 
@@ -85,7 +86,7 @@ def test_an_editor_offers_the_units_that_a_family_has_alone() -> None:
 
 @pytest.mark.parametrize("kind", sorted({kind_of(path) for path in FACTS}))
 def test_every_fact_file_is_valid_by_its_schema(kind: str) -> None:
-    files = [path for path in FACTS if kind_of(path) == kind]
+    files = [path for path in FACTS if kind_of(path) == kind][:: 1 if CAMPAIGN else 3]
     wrong = {
         path.name: faults(kind, read_yaml(path.read_text("utf-8"), references=True).data) for path in files
     }

@@ -53,6 +53,7 @@ def changed_at(control: RealControl, path: Path) -> None:
     assert run(["download", str(path), "--to", control.address]) == 0
 
 
+@pytest.mark.skipif(not CAMPAIGN, reason="make faults; the download to five axes is tried each time")
 def test_upload_set_download_and_verify_over_the_command_line(control: RealControl, tmp_path: Path) -> None:
     changed_at(control, tmp_path / "router.amp")
     assert run(["verify", str(tmp_path / "router.amp"), "--with", control.address]) == 0
