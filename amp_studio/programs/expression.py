@@ -8,10 +8,8 @@ from collections.abc import Callable, Mapping
 
 from amp_studio.schema import quoted
 
-from .words import ProgramBlockError
+from .words import DEEPEST, ProgramBlockError
 
-DEEPEST = 20
-"""Parentheses and functions inside one another."""
 _TOKEN = re.compile(r"\s*([0-9]+\.?[0-9]*|\.[0-9]+|[P#]\s*[0-9]+|[A-Z]+|<=|>=|[-+*/()<>=])")
 _FUNCTIONS: Mapping[str, Callable[[float], float]] = {
     "SIN": lambda x: math.sin(math.radians(x)),

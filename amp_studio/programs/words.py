@@ -9,9 +9,13 @@ from dataclasses import dataclass
 from amp_studio.errors import AmpStudioError
 from amp_studio.schema import quoted
 
+DEEPEST = 20
+"""Parentheses and functions inside one another."""
 LONGEST = 1000
 """Characters of a block that are read; a longer one is refused."""
-_EXPRESSION = r"\((?:[^()]|\([^()]*\))*\)"
+_EXPRESSION = r"\([^()]*\)"
+for _ in range(DEEPEST - 1):  # parentheses inside one another; a character fits one branch alone: no search
+    _EXPRESSION = rf"\((?:[^()]|{_EXPRESSION})*\)"
 _PART = re.compile(
     r"\s+|(?P<skip>/[1-9]?)|(?P<remark>;.*|\([^)]*\))|%"
     r"|(?P<letter>,[A-Z]|\$?[A-Z])[ \t]*(?P<number>[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))?"

@@ -237,7 +237,7 @@ def test_a_program_without_an_end_is_bounded(router: ParameterFile, monkeypatch:
 
 def test_expressions_are_calculated_as_printed(router: ParameterFile) -> None:
     """Page 46: parameters in words, functions in degrees."""
-    found = path(router, "F10|P40=1.5*Sin(30)+6/3|X(0-P40) Y(#40-3)")
+    found = path(router, "F10|P40=1.5*Sin(30)+6/3|X(0-P40) Y((#40)-(1+(1+(1))))")
     assert np.round(found.ends[0] / 25.4, 6).tolist() == [-2.75, -0.25, 0]
 
 

@@ -65,7 +65,21 @@ def _of_9pc() -> Iterator[Mutation]:
     yield Mutation(mill, "reversal error", {"1340": "0.01 mm"}, {"ini.0.backlash": 0.01})
     yield Mutation(mill, "calibration", {"1300": "1.5 mm"}, {"ini.0.home": 6.0, "ini.0.home_offset": 4.5})
     yield Mutation(mill, "crossed limits", {"1320": "-500 mm", "1330": "8 mm"}, refused=True)
+    yield Mutation(mill, "limits of Y", {"2320": "50 mm", "2330": "-60 mm"}, {"ini.1.min_limit": -60.0})
+    yield Mutation(mill, "one side of zero", {"1330": "1 mm"}, _limits(1.0, 8.0))
+    yield Mutation(
+        mill, "following error", {"1750": "2.5 mm"}, {"ini.0.ferror": 2.5, "ini.0.min_ferror": 2.5}
+    )
+    yield Mutation(mill, "negative backlash", {"1340": "-0.02 mm"}, {"ini.0.backlash": 0.02})
+    yield Mutation(mill, "very slow", {"1203": "60 mm/min"}, {"ini.0.max_velocity": 1.0})
+    yield Mutation(mill, "no overtravel of Z", {"3020": "no"}, {"ini.2.max_limit": NO_LIMIT})
+    inch = {"1330": "-20 in", "1203": "100 ipm", "1310": "0.1 in", "1750": "0.1 in"}
+    yield Mutation(
+        mill, "all in inch", inch, {"ini.0.min_limit": -508.0, "ini.0.home": 2.54, "ini.0.ferror": 2.54}
+    )
     lathe = "lathe-ls176"
+    minus_limits = {"1330": "-20 mm", "1320": "-1 mm"}
+    yield Mutation(lathe, "minus limits", minus_limits, _limits(-20.0, -1.0), homes=False)
     yield Mutation(lathe, "as it is", {}, _limits(-8.0, 155.0), homes=False)
     yield Mutation(lathe, "limits", {"1320": "152 mm"}, _limits(-8.0, 152.0), homes=False)
 
@@ -78,7 +92,13 @@ def _of_others() -> Iterator[Mutation]:
     yield Mutation(num, "zero elsewhere", {"P16N0": "5000"}, {"ini.0.home": 5.0})
     yield Mutation(num, "no room", {"P17N0": "0", "P17N1": "0"}, _limits(0.0, 0.0), homes=False)
     yield Mutation(num, "error", {"P23N0": "3000"}, {"ini.0.ferror": 3.0})
+    yield Mutation(num, "negative backlash", {"P18N0": "-7"}, {"ini.0.backlash": 0.007})
+    yield Mutation(num, "rapid", {"P30N0": "6000"}, {"ini.0.max_velocity": 100.0})
+    minus = {"P17N0": "-600000", "P17N1": "-1000", "P16N0": "-2000", "P15N0": "2"}
+    yield Mutation(num, "minus side", minus, _limits(-600.0, -1.0))
+    yield Mutation(num, "no switch", {"P15N1": "1"})
     syntec = "syntec-mill"
+    yield Mutation(syntec, "crossed limits", {"Pr2401": "-300000", "Pr2402": "1000"}, refused=True)
     yield Mutation(syntec, "as it is", {}, _limits(-2.0, 400.0))
     yield Mutation(syntec, "plus homing", {"Pr861": "positive"})
     yield Mutation(syntec, "limits", {"Pr2401": "300000", "Pr2402": "-1000"}, _limits(-1.0, 300.0))
@@ -94,7 +114,12 @@ def _of_others() -> Iterator[Mutation]:
     )
     yield Mutation(router, "no limits", {"axes.disable_limit@X": "true"}, _limits(-NO_LIMIT, NO_LIMIT))
     yield Mutation(router, "metric limits", {"axes.soft_limit_minus@X": "-500 mm"}, _limits(-500.0, 2.54))
+    yield Mutation(router, "home elsewhere", {"home.preset@X": "-1 in"}, {"ini.0.home": -25.4})
+    crossed = {"axes.soft_limit_minus@X": "1 in", "axes.soft_limit_plus@X": "-1 in"}
+    yield Mutation(router, "crossed limits", crossed, refused=True)
     grbl = "grblhal-router"
+    yield Mutation(grbl, "slow", {"$110": "60", "$120": "10"}, {"ini.0.max_velocity": 1.0})
+    yield Mutation(grbl, "far off the switch", {"$27": "20"})
     yield Mutation(grbl, "as it is", {}, {"ini.0.max_velocity": 133.333333})
     yield Mutation(grbl, "plus homing", {"$23": "0"})
     yield Mutation(grbl, "no soft limits", {"$20": "no"}, _limits(-NO_LIMIT, NO_LIMIT))
