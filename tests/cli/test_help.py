@@ -397,6 +397,16 @@ def test_bash_completes(line: str, expected: list[str], here: Path) -> None:
 
 
 @pytest.mark.skipif(shutil.which("bash") is None, reason="there is no bash")
+def test_bash_completes_a_program_that_is_named_by_its_place_at_home(here: Path) -> None:
+    script = (
+        'source <("$PROGRAM" completion bash); HOME=$PWD; COMP_LINE="~/bin/amp-studio vali";'
+        ' COMP_POINT=${#COMP_LINE}; COMP_WORDS=("~/bin/amp-studio" vali); COMP_CWORD=1;'
+        " compopt() { :; }; _amp_studio; printf '%s\\n' \"${COMPREPLY[@]}\""
+    )
+    assert shell(["bash", "--norc", "-c", script], here).split() == ["validate"]
+
+
+@pytest.mark.skipif(shutil.which("bash") is None, reason="there is no bash")
 def test_bash_is_left_to_complete_the_name_of_a_file(here: Path) -> None:
     assert asked_of_bash("amp-studio validate MI", here) == []
 

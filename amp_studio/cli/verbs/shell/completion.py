@@ -9,7 +9,7 @@ _BASH = r"""# amp-studio completion for bash:
 _amp_studio() {
     local line=${COMP_LINE:0:COMP_POINT} found
     mapfile -t COMPREPLY < <(
-        AMP_STUDIO_BREAKS=$COMP_WORDBREAKS "${COMP_WORDS[0]}" __complete --line "$line" 2>/dev/null
+        AMP_STUDIO_BREAKS=$COMP_WORDBREAKS "${COMP_WORDS[0]/#\~\//$HOME/}" __complete --line "$line" 2>/dev/null
     )
     [[ ${#COMPREPLY[@]} == 1 && ${COMPREPLY[0]} == *= ]] && compopt -o nospace
 }
