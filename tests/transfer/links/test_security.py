@@ -10,6 +10,7 @@ import threading
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from urllib.parse import quote
 
 import pytest
 
@@ -23,7 +24,7 @@ from .secured import CONTROL, HERE, PASSWORD, echo
 # -- TLS
 
 
-@pytest.mark.parametrize("options", [f"ca={HERE / 'authority.pem'}", "fingerprint"])
+@pytest.mark.parametrize("options", [f"ca={quote(str(HERE / 'authority.pem'))}", "fingerprint"])
 def test_a_control_is_trusted_by_its_authority_or_its_fingerprint(
     echoing: Callable[[str, Security], Endpoint], options: str
 ) -> None:
@@ -38,15 +39,23 @@ def test_a_control_is_trusted_by_its_authority_or_its_fingerprint(
     ("options", "security", "message"),
     [
         ("", CONTROL, "its certificate is not trusted"),
-        (f"?ca={HERE / 'authority.pem'}", Security("", HERE / "other.pem"), "its certificate is not trusted"),
-        (f"?ca={HERE / 'other.pem'}", Security("", HERE / "other.pem"), r"not trusted \(IP address mismatch"),
+        (
+            f"?ca={quote(str(HERE / 'authority.pem'))}",
+            Security("", HERE / "other.pem"),
+            "its certificate is not trusted",
+        ),
+        (
+            f"?ca={quote(str(HERE / 'other.pem'))}",
+            Security("", HERE / "other.pem"),
+            r"not trusted \(IP address mismatch",
+        ),
         (
             f"?fingerprint=sha256:{'0' * 64}",
             CONTROL,
             "another certificate than the one with this fingerprint",
         ),
         ("?ca=/no/such/file", CONTROL, "No such file"),
-        (f"?ca={HERE / 'control.key'}", CONTROL, "no certificate in it"),
+        (f"?ca={quote(str(HERE / 'control.key'))}", CONTROL, "no certificate in it"),
     ],
 )
 def test_another_certificate_is_refused_before_anything_is_sent(

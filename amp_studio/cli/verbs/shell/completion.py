@@ -7,9 +7,9 @@ from amp_studio.cli.verb import Options, Verb, VerbArgument
 _BASH = r"""# amp-studio completion for bash:
 # amp-studio completion bash > ~/.local/share/bash-completion/completions/amp-studio
 _amp_studio() {
-    local line=${COMP_LINE:0:COMP_POINT} found
+    local line=${COMP_LINE:0:COMP_POINT} program=${COMP_WORDS[0]/#\~\//$HOME/}
     mapfile -t COMPREPLY < <(
-        AMP_STUDIO_BREAKS=$COMP_WORDBREAKS "${COMP_WORDS[0]/#\~\//$HOME/}" __complete --line "$line" 2>/dev/null
+        AMP_STUDIO_BREAKS=$COMP_WORDBREAKS "$program" __complete --line "$line" 2>/dev/null
     )
     [[ ${#COMPREPLY[@]} == 1 && ${COMPREPLY[0]} == *= ]] && compopt -o nospace
 }
