@@ -146,6 +146,7 @@ def test_what_drifted_in_the_file_and_what_is_not_reached_is_one_page(
     page = tmp_path / "page.html"
     folder_with(project(hall / "b", DEAD), files=("b.amp",))
     shutil.copy(hall / "mill.amp", hall / "b" / "b.amp")
+    page.write_text("the page of the day before", "utf-8")
     capsys.readouterr()
     assert cli.run(["verify", "--all", str(hall), "--report", str(page), "--json"]) == 2
     found = json.loads(capsys.readouterr().out)

@@ -13,7 +13,7 @@ from amp_studio.cli.checks.comparing import difference_json
 from amp_studio.cli.console import note, print_json, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.exit_codes import FAULT
-from amp_studio.cli.output import check_new
+from amp_studio.cli.output import check_replaced
 from amp_studio.cli.stopping import asked_politely
 from amp_studio.cli.verb import Options
 from amp_studio.files import Difference, ParameterFile
@@ -59,7 +59,7 @@ def _folder_of_controls(options: Options) -> Path:
         raise UsageError(f"{folder} is no folder: --all compares the known controls of one")
     if options.report is not None:
         check_paper_ending(options.report)
-        check_new(options.report, "a table of results")
+        check_replaced(options.report)  # a job writes the same page each time
     return folder
 
 

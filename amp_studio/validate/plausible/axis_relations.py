@@ -115,8 +115,11 @@ class AxisRelations:
         if not is_inside and all(_side(a) * _side(b) < 0 for a, b in like):
             return [self._finding(TRAVEL, TRAVEL_REASON, near, like[0][0])]
         sizes = [(_size(a), _size(a) / _size(b)) for a, b in like if _size(b)]
-        least, most = min(size for size, _ in sizes), max(size for size, _ in sizes)
-        if not least or most > 3 * least:
+        least, most = (
+            min((size for size, _ in sizes), default=0.0),
+            max((size for size, _ in sizes), default=0.0),
+        )
+        if not least or most > 3 * least:  # or the other axes have no travel: limits that nobody has set
             return []
         size, share = _size(near), _size(near) / _size(far) if _size(far) else 0.0
         if size == 0 and least == most:
