@@ -12,7 +12,7 @@ import os
 import shutil
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
@@ -93,8 +93,8 @@ def picture(widget: QWidget, scale: int = 1) -> QPixmap:
 class Photographer:
     """Keeps each page in both colours."""
 
-    def __init__(self, language: str, only: str) -> None:
-        self.language, self.only, self.count = language, only, 0
+    def __init__(self, language: str, only: str, sizes: Sequence[tuple[int, int]] = SIZES) -> None:
+        self.language, self.only, self.sizes, self.count = language, only, sizes, 0
 
     def wants(self, name: str) -> bool:
         """Return whether a page was asked for."""
@@ -104,7 +104,7 @@ class Photographer:
         """Write a page in light and in dark, in each size of the window or in its own."""
         if not self.wants(name):
             return
-        for size in sizes or (None,):
+        for size in [size for size in sizes if size in self.sizes] or (None,):
             if size:
                 widget.resize(*size)
                 settle()
@@ -367,7 +367,7 @@ class Stage:
         settle(lambda: page.outcome is not None and not Task.running)
         page.form.set_answer("change", "speeds.rapid=150")
         page.form.entered.emit("change")
-        settle(lambda: page.tries.rowCount() == 1)
+        settle(lambda: page.tries.table.rowCount() == 1)
         page.play.slider.setValue(500)
         self.take("17-program", window, SIZES)
         window.page.show_page("")
@@ -511,10 +511,10 @@ PAGES: tuple[Callable[[Stage], None], ...] = (
 )
 
 
-def draw(language: str, only: str) -> int:
+def draw(language: str, only: str, sizes: Sequence[tuple[int, int]]) -> int:
     """Draw all pages in a language; returns how many pictures were written."""
     speak(language)
-    stage = Stage(Photographer(language, only))
+    stage = Stage(Photographer(language, only, sizes))
     for page in PAGES:
         page(stage)
     stage.close()
@@ -526,6 +526,9 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--language", choices=("en", "de"), action="append", help="default: both")
     parser.add_argument("--only", default="", help="pages whose name contains this")
+    parser.add_argument(
+        "--size", choices=[f"{w}x{h}" for w, h in SIZES], action="append", help="default: all"
+    )
     parser.add_argument("--documents", action="store_true", help="only the pictures of README and the pages")
     chosen = parser.parse_args()
     OUT.mkdir(parents=True, exist_ok=True)
@@ -533,8 +536,9 @@ def main() -> int:
     application.setCursorFlashTime(0)  # a cursor that blinks makes two pictures of one
     start = time.monotonic()
     count = 0
+    sizes = [size for size in SIZES if not chosen.size or f"{size[0]}x{size[1]}" in chosen.size]
     if not chosen.documents:
-        count += sum(map(partial(draw, only=chosen.only), chosen.language or ("en", "de")))
+        count += sum(map(partial(draw, only=chosen.only, sizes=sizes), chosen.language or ("en", "de")))
     if chosen.documents or not (chosen.only or chosen.language):
         speak("en")
         count += draw_documents(lambda: Stage(Photographer("en", "")))

@@ -125,8 +125,9 @@ class DifferenceTable(QTreeWidget):
             )
         room = self.viewport().width() - self.columnWidth(NUMBER) - self.columnWidth(AXIS)
         side = min(_SIDE, max(_LEAST_SIDE, room // 4))
+        mind = max(_LEAST_SIDE, self.header().sectionSizeHint(MIND))
         for column, width in (
-            (NAME, max(_LEAST_NAME, min(_NAME, room - 2 * side - _LEAST_SIDE))),
+            (NAME, max(_LEAST_NAME, min(_NAME, room - 2 * side - mind))),
             (CONTROL, side),
             (FILE, side),
         ):

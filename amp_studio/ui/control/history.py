@@ -86,7 +86,7 @@ class ExchangeHistory(QWidget):
                     _ending(each.text),
                 ]
             )
-            item.setSizeHint(0, QSize(0, ROW))
+            item.setSizeHint(6, QSize(0, ROW))
             kept = self.tr("\nKept copy: {kept}").format(kept=each.kept) if each.kept else ""
             item.setToolTip(6, _ending(each.text) + kept)
             item.setData(0, _KEPT, str(path.parent / each.kept) if each.kept else "")

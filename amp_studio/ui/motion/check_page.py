@@ -22,10 +22,9 @@ from PySide6.QtWidgets import (
 
 from amp_studio.files import ParameterFile
 from amp_studio.sim import MotionCheck, SimulationError, check_motion, value_text
-from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import GAP2, GAP3, ROW, Token, font, icon
-from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.translated import sentenced, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.page.page_of_file import PageOfFile
 
@@ -184,9 +183,9 @@ class CheckPage(PageOfFile):
         for column, text in enumerate(
             (
                 self._word(check.verdict),
-                worded(check.scenario),
+                worded(check.scenario.capitalize()),
                 check.letter,
-                worded(check.why, self._family),
+                sentenced(check.why, self._family),
                 figures,
             )
         ):
@@ -227,5 +226,5 @@ class CheckPage(PageOfFile):
 
 
 def _figure(name: str, value: float | None, unit: str) -> str:
-    words = name.replace("_", " ")
-    return f"{words} –" if value is None else f"{words} {written(value_text(float(value), unit))}"
+    words = worded(name.replace("_", " "))
+    return f"{words} –" if value is None else f"{words} {sentenced(value_text(float(value), unit))}"

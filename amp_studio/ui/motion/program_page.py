@@ -54,6 +54,8 @@ from .program_play import PlayBar, TimeBar, TimePart
 from .program_tables import fill, read_table
 from .what_if_panel import WhatIfPanel
 
+_LEFT = 210
+"""Width in pixels of the program at least."""
 MOST_LINES = 5000
 """Lines of a program that are listed; the rest is computed too."""
 Apply = Callable[[Mapping[Address, Value]], bool]
@@ -162,11 +164,11 @@ class ProgramPage(PageOfFile):
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(GAP2)
         row.addWidget(self.title, 1)
-        for control in (self.view, self.colours, self.open_button):
+        for control in (self.view, self.colours):
             row.addWidget(control)
         left, middle, right = QWidget(), QWidget(), QWidget()
         for side, parts in (
-            (left, (self.form, self.words, self.lines, self.play)),
+            (left, (self.open_button, self.form, self.words, self.lines, self.play)),
             (middle, (self.head, self.plot, self.bar)),
             (right, (self.limits, self.tries)),
         ):
@@ -175,6 +177,7 @@ class ProgramPage(PageOfFile):
             column.setSpacing(GAP2)
             for part in parts:
                 column.addWidget(part)
+        left.setMinimumWidth(_LEFT)
         splitter = QSplitter(Qt.Orientation.Horizontal)
         for n, side in enumerate((left, middle, right)):
             splitter.addWidget(side)

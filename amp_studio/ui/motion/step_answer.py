@@ -14,6 +14,7 @@ from amp_studio.sim import SimulationError, Trace, picture_of, simulate, simulat
 from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task
+from amp_studio.ui.base.theme import GAP
 
 from .tuning_target import TuningTarget
 
@@ -38,6 +39,7 @@ class StepAnswer(QWidget):
         self.axis.setAccessibleName(self.tr("Simulated axis"))
         self.plot.setAccessibleName(self.tr("Simulated answer to a step"))
         self.text.setWordWrap(True)
+        self.text.setContentsMargins(0, GAP, 0, GAP)  # else the plot lies over the dots of an Ü
         self.text.setTextFormat(Qt.TextFormat.PlainText)
         self.keep = QPushButton(self.tr("&Keep as Before"))
         self.keep.setAutoDefault(False)

@@ -85,8 +85,8 @@ class ValuesPage(QWidget):
         self.table.setStyleSheet("QTableWidget::item { padding: 0 6px; }")
         head = self.table.horizontalHeader()
         head.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
-        head.setSectionResizeMode(_NAME, QHeaderView.ResizeMode.Stretch)
-        for column in (_INSTANCE, _VALUE, _ALLOWED, _EFFECT):
+        head.setSectionResizeMode(_EFFECT, QHeaderView.ResizeMode.Stretch)
+        for column in (_INSTANCE, _NAME, _VALUE, _ALLOWED):
             head.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
         head.setMinimumSectionSize(_LEAST_COLUMN)
         self.table.itemChanged.connect(self._typed)

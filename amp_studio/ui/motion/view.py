@@ -180,8 +180,10 @@ class MotionView(PageOfFile):
         for widget in (self.chart, self.settling, self.all_of_it, self.over):
             tools.addWidget(widget)
         tools.addStretch()
-        tools.addWidget(self.run_button)
-        tools.addWidget(self.save_button)
+        below = QHBoxLayout()
+        below.addStretch()
+        for widget in (self.keep, self.run_button, self.save_button):
+            below.addWidget(widget)
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
         pages = (
@@ -199,7 +201,7 @@ class MotionView(PageOfFile):
         right = QVBoxLayout(side)
         right.setContentsMargins(GAP3, 0, GAP2, 0)
         right.addWidget(form)
-        right.addWidget(self.keep, alignment=Qt.AlignmentFlag.AlignRight)
+        right.addLayout(below)
         right.addWidget(self.settings)
         self.tabs.setMinimumHeight(_LEAST_FIGURES)
         right.addWidget(self.tabs, 1)
