@@ -280,7 +280,7 @@ class ControlPage(ControlPageParts):
             self.conditions.show_conditions(conditions_of(session, own))
         is_listed = found is not None and session is not None and session.phase != "done"
         self._show_counts(found.values.same if found else 0, is_listed)
-        self._show_middle(found.summary() if found else "")
+        self._show_middle(message_in_words(found.summary()) if found else "")
         self._show_bar()
         self._show_detail()
         self._show_foot()

@@ -4,6 +4,7 @@ to look at.
 
 from __future__ import annotations
 
+import html
 import threading
 from collections import Counter
 from collections.abc import Callable
@@ -21,12 +22,15 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.files import ParameterFile
+from amp_studio.schema import unit_text
 from amp_studio.sim import MotionCheck, SimulationError, check_motion, value_text
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import GAP2, GAP3, ROW, Token, font, icon
 from amp_studio.ui.base.translated import sentenced, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.page.page_of_file import PageOfFile
+
+from .results import name_of
 
 MARKS: dict[str, tuple[str, Token]] = {
     "good": ("check-circle-fill", "text"),
@@ -220,11 +224,14 @@ class CheckPage(PageOfFile):
         self.motion.setEnabled(check.verdict != "not possible")
         parts = [f"<b>{alarm.code}</b> {alarm.message}" for alarm in check.alarms]
         if check.params:
-            links = ", ".join(f'<a href="{each}">{each}</a>' for each in check.params)
+            names = {each: name_of(self._workspace.file.schema, each) for each in check.params}
+            links = ", ".join(f'<a href="{each}">{html.escape(name)}</a>' for each, name in names.items())
             parts.append(f"{self.tr('Parameters:')} {links}")
         self.detail.setText("<br>".join(parts))
 
 
 def _figure(name: str, value: float | None, unit: str) -> str:
     words = worded(name.replace("_", " "))
-    return f"{words} –" if value is None else f"{words} {sentenced(value_text(float(value), unit))}"
+    return (
+        f"{words} –" if value is None else f"{words} {sentenced(value_text(float(value), unit_text(unit)))}"
+    )

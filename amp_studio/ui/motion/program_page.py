@@ -163,13 +163,13 @@ class ProgramPage(PageOfFile):
         row = QHBoxLayout(self.head)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(GAP2)
-        row.addWidget(self.title, 1)
-        for control in (self.view, self.colours):
-            row.addWidget(control)
+        row.addWidget(self.view)
+        row.addWidget(self.colours)
+        row.addStretch()
         left, middle, right = QWidget(), QWidget(), QWidget()
         for side, parts in (
             (left, (self.open_button, self.form, self.words, self.lines, self.play)),
-            (middle, (self.head, self.plot, self.bar)),
+            (middle, (self.title, self.head, self.plot, self.bar)),
             (right, (self.limits, self.tries)),
         ):
             column = QVBoxLayout(side)
