@@ -13,7 +13,7 @@ LOCK := build/lock/bin/uv pip compile pyproject.toml --quiet --universal --pytho
 	$(if $(UPGRADE),--upgrade)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test durations mutants campaign tunings slips faults monkey peers peer-grblhal peer-linuxcnc check format schema docs lock bench screenshots man translations wheel bundle clean setup setup-run
+.PHONY: help run test durations mutants campaign tunings slips faults monkey peers peer-grblhal peer-linuxcnc check format schema docs lock bench screenshots man translations wheel bundle windows clean setup setup-run
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-11s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -110,6 +110,9 @@ bundle: wheel $(BUNDLE)/ready ## one folder that needs no Python, and a package 
 	@$(BUNDLE)/bin/pyinstaller --noconfirm --log-level WARN --workpath build/bundle/work --distpath build/bundle scripts/bundle/amp-studio.spec
 	@sh scripts/bundle/pack.sh build/bundle/amp-studio dist
 	@$(BUNDLE)/bin/python scripts/bundle/prove.py build/bundle/amp-studio
+
+windows: wheel ## a zip for Windows without a network: wheels and install.cmd, in dist; not tried on Windows
+	@sh scripts/bundle/windows.sh dist $(abspath $(BIN)/python)
 
 $(BUNDLE)/ready: requirements/bundle.lock requirements/run.lock
 	@rm -rf $(BUNDLE) && $(or $(PYTHON),python3) -m venv $(BUNDLE)

@@ -14,7 +14,7 @@ from .model import PrintedFigure
 
 WIDTH, HEIGHT = 620.0, 316.0
 """Size of a drawing in points of its letters: in the width of a page they are 8.5 points or more."""
-_ROW = 33.0
+_ROW = 31.5
 """Height of a row of a diagram, whose axes are not written: its texts keep their rows."""
 _MOST_PARTS = 8
 """Most parts of a picture that are all printed; of more (pairs of axes), each axis once."""
