@@ -95,6 +95,8 @@ def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: H
         if not axis.is_over and abs(axis.position - axis.measured) > homing.rest_window:
             yield from _failed(homing, "moving", ramp, found, "The axis does not come to rest on the switch")
             return edge
+    if homing.pause:
+        yield PauseOrder(homing.pause)
     if axis.is_over:
         return edge
     found.overrun = axis.passed(edge, sign)

@@ -101,6 +101,8 @@ class Homing:
     left), marker (none came), scatter (another turn than the first time)."""
     rest_window: float = math.inf
     """Following error that counts as at rest ``REST_AFTER`` s after the stop on the switch."""
+    pause: float = 0.0
+    """s at rest on the switch before the axis goes on."""
     ramp: Ramp | None = None
     """None for the axis' ramp of manual moves."""
     page: str = ""

@@ -10,8 +10,11 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 
@@ -96,6 +99,9 @@ MEASURED: dict[str, tuple[float, float]] = {
 """s from the first cycle that moves to the last one, and how far its positions were at most from the path
 that is planned here, in mm: on 28 November 2026, 2.9.0~pre1 of Debian 12."""
 
+UNMOVED = "HOME = 0|HOME_OFFSET = 0|HOME_SEARCH_VEL = 0|HOME_LATCH_VEL = 0"
+"""An axis that is called 0 where it is."""
+
 HAL = """
 loadrt trivkins coordinates=XYZ
 loadrt motmod servo_period_nsec=1000000 num_joints=3
@@ -148,37 +154,21 @@ for program in sorted(here.glob("*.ngc")):
 '''
 
 
-def ini(limits: dict[str, tuple[float, float]]) -> str:
-    """Return the configuration of a machine without motors."""
+def ini(limits: dict[str, tuple[float, float]], homes: Mapping[str, str] = MappingProxyType({})) -> str:
+    """Return the configuration of a machine without motors; ``homes`` has the keys of how an axis is homed,
+    by axis.
+    """
     lines = ["[EMC]", "VERSION = 1.1", "[DISPLAY]", "DISPLAY = ./screen.py", "MAX_FEED_OVERRIDE = 1.2"]
     lines += ["[RS274NGC]", "PARAMETER_FILE = a.var", "[EMCMOT]", "EMCMOT = motmod", "SERVO_PERIOD = 1000000"]
-    lines += [
-        "COMM_TIMEOUT = 4",
-        "[TASK]",
-        "TASK = milltask",
-        "CYCLE_TIME = 0.001",
-        "[HAL]",
-        "HALFILE = a.hal",
-    ]
+    lines += ["COMM_TIMEOUT = 4", "[TASK]", "TASK = milltask", "CYCLE_TIME = 0.001", "[HAL]", "HALFILE = a.hal"]
     lines += ["[TRAJ]", "COORDINATES = X Y Z", "LINEAR_UNITS = mm", "ANGULAR_UNITS = degree"]
     lines += ["DEFAULT_LINEAR_VELOCITY = 20", "MAX_LINEAR_VELOCITY = 300", "[EMCIO]", "EMCIO = io"]
-    lines += [
-        "CYCLE_TIME = 0.1",
-        "TOOL_TABLE = a.tbl",
-        "[KINS]",
-        "KINEMATICS = trivkins coordinates=XYZ",
-        "JOINTS = 3",
-    ]
+    lines += ["CYCLE_TIME = 0.1", "TOOL_TABLE = a.tbl"]
+    lines += ["[KINS]", "KINEMATICS = trivkins coordinates=XYZ", "JOINTS = 3"]
     for n, (axis, (speed, ramp)) in enumerate(limits.items()):
         own = [f"MAX_VELOCITY = {speed}", f"MAX_ACCELERATION = {ramp}", "MIN_LIMIT = -500", "MAX_LIMIT = 500"]
-        lines += [f"[AXIS_{axis}]", *own, f"[JOINT_{n}]", "TYPE = LINEAR", *own]
-        lines += [
-            "HOME = 0",
-            "HOME_OFFSET = 0",
-            "HOME_SEARCH_VEL = 0",
-            "HOME_LATCH_VEL = 0",
-            "HOME_SEQUENCE = 0",
-        ]
+        lines += [f"[AXIS_{axis}]", *own, f"[JOINT_{n}]", "TYPE = LINEAR", *own, "HOME_SEQUENCE = 0"]
+        lines += homes.get(axis, UNMOVED).split("|")
         lines += ["FERROR = 50", "MIN_FERROR = 10"]
     return "\n".join(lines) + "\n"
 
@@ -197,11 +187,18 @@ def positions(programs: list[RealPath]) -> dict[str, Positions]:
 
 
 def _run(programs: list[RealPath], limits: dict[str, tuple[float, float]]) -> dict[str, Positions]:
+    texts = {"a.ini": ini(limits), "a.hal": HAL, "screen.py": SCREEN}
+    texts |= {f"{program.name}.ngc": "\n".join(program.lines) + "\n" for program in programs}
+    with real_run(texts) as folder:
+        return {program.name: moving_rows(folder / f"{program.name}.txt") for program in programs}
+
+
+@contextmanager
+def real_run(texts: Mapping[str, str]) -> Iterator[Path]:
+    """Run the real program in a folder with some files until its screen ends; the folder has what it wrote."""
     folder = Path(tempfile.mkdtemp(prefix="amp-studio-paths-"))
     try:
-        texts = {"a.ini": ini(limits), "a.hal": HAL, "screen.py": SCREEN, "a.tbl": "", "a.var": ""}
-        texts |= {f"{program.name}.ngc": "\n".join(program.lines) + "\n" for program in programs}
-        for name, text in texts.items():
+        for name, text in {"a.tbl": "", "a.var": "", **texts}.items():
             (folder / name).write_text(text)
         (folder / "screen.py").chmod(0o755)
         for place in (*folder.iterdir(), folder):
@@ -209,12 +206,12 @@ def _run(programs: list[RealPath], limits: dict[str, tuple[float, float]]) -> di
         command = f"cd '{folder}' && exec env -u DISPLAY linuxcnc a.ini"
         with (folder / "log").open("w") as log:
             subprocess.run(["su", USER, "-c", command], stdout=log, stderr=log, timeout=600, check=False)
-        return {program.name: _moving(folder / f"{program.name}.txt") for program in programs}
+        yield folder
     finally:
         shutil.rmtree(folder)
 
 
-def _moving(path: Path) -> Positions:
+def moving_rows(path: Path) -> Positions:
     """Return the positions from the last one at rest on to the first one at the end."""
     rows: Positions = []
     for line in path.read_text().splitlines():
