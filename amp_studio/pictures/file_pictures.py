@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 
 from amp_studio.drawing import PictureNote, Scene
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, LoopRoles, ParameterId, RampRoles, axis_name
+from amp_studio.schema import Address, CamRoles, LoopRoles, ParameterId, RampRoles, axis_name
 
 from .gain import draw_gain
 from .gears import draw_gears, spindles
@@ -16,6 +17,9 @@ from .jog import draw_jog
 from .parts import axes_with, every_axis, pairs
 from .table import draw_table
 from .travel import draw_travel
+
+FASTEST = 100.0
+"""%: the rapid feedrate."""
 
 PartNames = tuple[tuple[str, str], ...]
 """Key of a part (axes, a spindle) -> what a person calls it; "" where there is only one."""
@@ -32,6 +36,8 @@ class FilePicture:
     drawn: Callable[[str, Scene | None], Scene]
     axes: int = 0
     """How many axes make a part."""
+    has_speed: bool = False
+    """Whether a part may have a speed: ``X@25`` at 25 % of the rapid feedrate."""
 
     def scene(self, part: str = "", like: Scene | None = None) -> Scene:
         """Draw a part, the first one by default; raises KeyError for one that there is not.
@@ -39,7 +45,7 @@ class FilePicture:
         ``like`` is what was drawn before a drag began: its scales stay.
         """
         scene = self.drawn(self.key(part), like)
-        if scene.handles or scene.notes:
+        if scene.handles or scene.notes or scene.curves:
             return scene
         return replace(scene, notes=(PictureNote("No parameter of this picture is active on this machine"),))
 
@@ -48,6 +54,9 @@ class FilePicture:
 
         Axes on which nothing is set are drawn when they are asked for.
         """
+        part, _, share = part.partition("@") if self.has_speed else (part, "", "")
+        if share:
+            return f"{self.key(part)}@{_percent(share):g}"
         wanted = part.replace("+", " ").replace(",", " ").upper().split()
         if not wanted:
             return self.parts[0][0]
@@ -99,8 +108,14 @@ def _pictures(file: ParameterFile) -> Iterator[FilePicture]:
         yield FilePicture(file, "error", "Error limits", own, partial(draw_gain, file, error), 1)
     if loop := roles.loop:
         axes = _own(file, [param for block in loop.blocks for param in block.params])
-        parts = (*axes, *((f"{axis}@10", f"{name} at 10 %") for axis, name in axes))
-        yield FilePicture(file, "loop", "Loops", parts, partial(_loop, file, loop))
+        yield FilePicture(file, "loop", "Loops", axes, partial(_loop, file, loop), has_speed=True)
+    if cam := roles.cam:
+        own = tuple(
+            name for name in _own(file, (cam.points,)) if file.evaluation.canonical((cam.points, name[0]))
+        )
+        views = {"": "", "@speed": " speed", "@acceleration": " acceleration"}
+        parts = tuple((f"{axis}{key}", f"{name}{view}") for axis, name in own for key, view in views.items())
+        yield FilePicture(file, "cam", "Cam", parts, partial(_cam, file, cam))
     for table in roles.tables:
         own = _own(file, (table.param,))
         yield FilePicture(file, "calibration", "Calibration", own, partial(draw_table, file, table), 1)
@@ -121,6 +136,23 @@ def _loop(file: ParameterFile, roles: LoopRoles, part: str, like: Scene | None) 
     from .loop import draw_loop  # so is the simulator
 
     return draw_loop(file, roles, part, like)
+
+
+def _cam(file: ParameterFile, roles: CamRoles, part: str, _like: Scene | None) -> Scene:
+    from .cam import draw_cam  # so is the simulator
+
+    return draw_cam(file, roles, part)
+
+
+def _percent(text: str) -> float:
+    """Return a share of the rapid feedrate in %; raises KeyError for what is none."""
+    try:
+        share = float(text.strip().removesuffix("%").replace(",", "."))
+    except ValueError:
+        share = math.nan
+    if not 0.0 < share <= FASTEST:
+        raise KeyError(f"'{text}' is no share of the rapid feedrate: give more than 0 and at most 100 %")
+    return share
 
 
 def _of_ramps(roles: RampRoles) -> list[ParameterId]:

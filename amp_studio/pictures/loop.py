@@ -27,9 +27,6 @@ ROOM = 0.35
 """Between two rows, of the height of a line of text."""
 HEAD = 0.1
 """Half an arrowhead."""
-SHARES = (1.0, 0.1)
-"""Speeds of the signals, as shares of the rapid feedrate: the second one is near that of cutting."""
-
 NUMBERED, NAMED = 4, 3
 """Values beside each other, by their numbers and by their names; a block of more has several lines."""
 

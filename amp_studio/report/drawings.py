@@ -16,6 +16,8 @@ WIDTH, HEIGHT = 620.0, 316.0
 """Size of a drawing in points of its letters: in the width of a page they are 8.5 points or more."""
 _ROW = 31.5
 """Height of a row of a diagram, whose axes are not written: its texts keep their rows."""
+CUTTING = 10
+"""%: share of the rapid feedrate near that of cutting, at which signals are printed too."""
 _MOST_PARTS = 8
 """Most parts of a picture that are all printed; of more (pairs of axes), each axis once."""
 
@@ -42,7 +44,7 @@ def _name(picture: FilePicture, part: str, scene: Scene) -> str:
 
 
 def _shows(scene: Scene) -> bool:
-    return bool(scene.handles or scene.areas)
+    return bool(scene.handles or scene.areas or scene.curves)
 
 
 def _parts(picture: FilePicture) -> Iterator[str]:
@@ -52,3 +54,5 @@ def _parts(picture: FilePicture) -> Iterator[str]:
         if len(picture.parts) <= _MOST_PARTS or not axes & drawn:
             drawn |= axes
             yield part
+            if picture.has_speed:
+                yield f"{part}@{CUTTING}"

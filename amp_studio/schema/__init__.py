@@ -62,6 +62,7 @@ if TYPE_CHECKING:
         Bit,
         BoundRef,
         BuilderRule,
+        CamRoles,
         Choice,
         CodeGroup,
         Commissioning,

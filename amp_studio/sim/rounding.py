@@ -37,3 +37,8 @@ def value_text(value: float, unit: str = "", digits: int = 4) -> str:
     if "." in text:
         text = text.rstrip("0").rstrip(".")
     return f"{text} {unit}".rstrip()
+
+
+def page_text(page: str) -> str:
+    """Return ``page 6-10``; a file of a firmware and a line by its letter are named as they are."""
+    return f"page {page}" if page[:1].isdigit() else page

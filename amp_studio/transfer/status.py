@@ -23,6 +23,8 @@ class AxisStatus:
     """Of position and following error; the velocity is in that a second."""
     states: tuple[str, ...] = ()
     """What it is doing, in the words of the manual."""
+    known_states: tuple[str, ...] = ()
+    """Every state that the control shows of an axis, on or off; those that are off are shown too."""
 
 
 @dataclass(frozen=True)

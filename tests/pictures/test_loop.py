@@ -23,7 +23,16 @@ def test_a_9pc_has_10_mm_behind_at_10_m_a_minute_and_gain_1(example):
     found = texts(draw(example("9pc"), "loop", "X"))
     assert found["following error"] == "10 mm"
     assert found["command velocity"] == "10000 mm/min"
-    assert texts(draw(example("9pc"), "loop", "X at 10 %"))["following error"] == "1 mm"
+    assert texts(draw(example("9pc"), "loop", "X@10"))["following error"] == "1 mm"
+
+
+def test_the_signals_are_those_of_the_speed_that_is_chosen(example):
+    """A quarter of the rapid feedrate is a quarter of its error; more than rapid is no speed."""
+    assert texts(draw(example("9pc"), "loop", "X@25 %"))["command velocity"] == "2500 mm/min"
+    assert texts(draw(example("9pc"), "loop", "@25"))["following error"] == "2.5 mm"
+    for share in ("0", "101", "fast"):
+        with pytest.raises(KeyError, match="share of the rapid feedrate"):
+            draw(example("9pc"), "loop", f"X@{share}")
 
 
 def test_the_signals_are_those_of_a_move(checkout):

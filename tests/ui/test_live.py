@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from dataclasses import replace
 
 import pytest
 from PySide6.QtCore import QObject, Signal
 from pytestqt.qtbot import QtBot
 
+from amp_studio.pictures import AxisLimits
 from amp_studio.transfer import AxisStatus, ControlStatus, known_fault
 from amp_studio.ui.control import readings as live
 from amp_studio.ui.control.live import LivePage
@@ -76,6 +78,32 @@ def test_a_reading_shows_position_error_speed_and_the_words_of_the_control(page:
     assert page.figures.text() == "1000 counts"
     assert "feed 20" in page.values.text()
     assert page.toggle.text() == "&Stop"
+
+
+def test_states_are_lamps_and_the_axis_is_a_mark_between_its_limits(qtbot: QtBot) -> None:
+    """What the control knows and is not so has an empty lamp; without limits in the file there is no bar."""
+    asked: list[tuple[str, str]] = []
+
+    def limits(axis: str, unit: str) -> AxisLimits:
+        asked.append((axis, unit))
+        return AxisLimits(0.0, 4000.0, 2000.0) if axis == "X" else AxisLimits()
+
+    page = LivePage("tcp://bench:1", "57c422b", print, readings=StoppedReadings(), limits=limits)  # type: ignore[arg-type]  # the parts that it uses
+    qtbot.addWidget(page)
+    known = ("axis busy", "control loop enabled", "home sequence complete")
+    axis = replace(status().axes[0], known_states=known)
+    page.show_status(replace(status(), axes=(axis, status().axes[1])))
+    assert page.lamps.text().split("   ") == [
+        "●\u00a0axis busy",
+        "●\u00a0control loop enabled",
+        "○\u00a0home sequence complete",
+    ]
+    assert (page.bars["position"].share, page.bars["error"].share) == (0.25, 0.5005)
+    assert page.bar_words["error"].text() == "Following error -2000 … 2000 counts"
+    assert not page.bars["position"].isHidden()
+    page.chosen.setCurrentIndex(1)
+    assert page.bars["position"].isHidden()
+    assert asked[0] == ("X", "counts")
 
 
 def test_a_fault_comes_with_cause_cure_parameters_and_page_and_stops_the_readings(

@@ -309,7 +309,8 @@ def test_every_family_has_a_page_of_pictures(
         page.show_picture(name)
         card = page.chosen_card
         assert (card.picture.name, card.grab().isNull()) == (name, False)
-        assert card.canvas._names or card.canvas.scene.notes
+        scene = card.canvas.scene
+        assert card.canvas._names or scene.notes or scene.curves
 
 
 def test_pictures_open_at_the_handle_of_the_selected_value_and_the_parameter_panel_follows(window, qtbot):
@@ -342,3 +343,16 @@ def test_a_value_without_a_handle_opens_all_pictures(window):
     window.go_to(("control.type", ""))
     action(window, "Pictures").trigger()
     assert window.page.pictures.filter_name == "all"
+
+
+def test_the_loops_are_drawn_at_the_speed_that_is_chosen(pictures):
+    """Page 7-25: 10 mm of following error at rapid and gain 1, a quarter of it at 25 %."""
+    pictures.show_picture("loop")
+    card = pictures.chosen_card
+    assert not card.speed.isHidden()
+    card.speed.setValue(25.0)
+    assert card.part == "1@25"
+    texts = {text.text: text.value for text in card.canvas.scene.texts}
+    assert texts["following error"] == "2.5 mm"
+    card.speed.setValue(100.0)
+    assert card.part == "1"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from amp_studio.transfer import AxisStatus, ControlIdentity, ControlStatus, ProtocolMismatchError, known_fault
 
 LETTERS = "XYZABCUV"
+SWITCH = ("limit switch",)
 PINS = {
     "P": "probe",
     "R": "reset",
@@ -33,7 +34,7 @@ def status_of(identity: ControlIdentity, report: str, alarm: str = "") -> Contro
     pins = fields.get("Pn", "")
     names = identity.axes or tuple(LETTERS[: len(places)])
     axes = tuple(
-        AxisStatus(name, place, unit="mm", states=("limit switch",) if name in pins else ())
+        AxisStatus(name, place, unit="mm", states=SWITCH if name in pins else (), known_states=SWITCH)
         for name, place in zip(names, places, strict=False)
     )
     values: dict[str, float | str] = {"feed": feed, "spindle speed": speed}

@@ -60,6 +60,7 @@ from .parameter import (
     ValueType,
 )
 from .pictures import (
+    CamRoles,
     Direction,
     ErrorRoles,
     GearRoles,
@@ -104,6 +105,7 @@ __all__ = [
     "Bound",
     "BoundRef",
     "BuilderRule",
+    "CamRoles",
     "Choice",
     "CodeGroup",
     "Commissioning",

@@ -236,6 +236,14 @@ class LoopRoles(Model):
                 raise ValueError(f"'{block.name}' goes into '{block.into}', which is not in the chain")
 
 
+class CamRoles(Model):
+    """The cam of an axis: drawn where it has points."""
+
+    page: Page
+    points: ParameterId
+    """How many points it has."""
+
+
 class PictureRoles(Model):
     """A file ``pictures.yaml``: what each picture of the family is drawn from."""
 
@@ -246,6 +254,7 @@ class PictureRoles(Model):
     error: ErrorRoles | None = None
     tables: tuple[TableRoles, ...] = ()
     loop: LoopRoles | None = None
+    cam: CamRoles | None = None
 
     @property
     def params(self) -> tuple[ParameterId, ...]:

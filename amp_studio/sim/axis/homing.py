@@ -9,7 +9,7 @@ from collections.abc import Generator
 from dataclasses import dataclass
 
 from amp_studio.sim.command.events import Around, CodedScale, Failure, Homing, Ramp
-from amp_studio.sim.rounding import value_text
+from amp_studio.sim.rounding import page_text, value_text
 
 from .moving_axis import GoOrder, MoveOrder, MovingAxis, Order, Orders, PauseOrder, Seen, StopOrder, Watch
 
@@ -111,7 +111,7 @@ def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: H
         text = (
             f"The axis passed the whole switch of {value_text(around.length, axis.axis.unit)} before "
             "it stopped:"
-            f" it is too fast for it (page {homing.page})"
+            f" it is too fast for it ({page_text(homing.page)})"
         )
         yield from _failed(homing, "fast", ramp, found, text)
     return end
@@ -142,6 +142,9 @@ def _off(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Ho
     start = found.left.measured if found.left else axis.measured
     if homing.marker == "nearest":
         yield StopOrder(ramp)
+        if not around.has_markers:
+            yield from _failed(homing, "marker", ramp, found, "No marker is near the end of the switch")
+            return
         found.marker = around.marker + homing.turn * round((start - around.marker) / homing.turn)
     elif homing.marker == "next":
         yield from _next_marker(axis, homing, ramp, around, found, start)

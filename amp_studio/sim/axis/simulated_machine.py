@@ -14,7 +14,7 @@ from dataclasses import replace
 from amp_studio.sim.command.events import Around, Homing, Ramp, Travel
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AlarmText, AxisLaw
-from amp_studio.sim.rounding import rounded_up
+from amp_studio.sim.rounding import page_text, rounded_up
 
 from .homing import Homed, home_axis
 from .moves import time_to_speed
@@ -184,7 +184,7 @@ class SimulatedAxis:
             forward = self._moving.velocity
             if (self.position > high and forward > 0.0) or (self.position < low and forward < 0.0):
                 code = travel.alarm_negative or travel.alarm if forward < 0.0 else travel.alarm
-                self.alarm = AlarmText(code, f"The axis has passed {name} (page {travel.page})")
+                self.alarm = AlarmText(code, f"The axis has passed {name} ({page_text(travel.page)})")
                 self.switch_off() if travel.coasts else self.stop(travel.stop or Ramp())
 
     def _settle(self) -> None:

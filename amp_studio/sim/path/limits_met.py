@@ -13,6 +13,7 @@ from amp_studio.programs import ToolPath
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, BoundMachine
 from amp_studio.sim.path_rules import PathRows
+from amp_studio.sim.rounding import page_text
 from amp_studio.sim.zones import EPSILON, Zone
 
 from .geometry import places_of
@@ -62,7 +63,7 @@ def limits_met(plan: ProgramPlan, axes: Sequence[AxisLaw]) -> Iterator[PathAlarm
                 float(plan.start[row]),
                 code,
                 f"{path.axes[n]} would go to {place:.6g} {axis.unit}, beyond {title} at {edge:.6g}"
-                f" {axis.unit}: {begun} (page {travel.page})",
+                f" {axis.unit}: {begun} ({page_text(travel.page)})",
             )
 
 
@@ -143,7 +144,7 @@ def zones_met(plan: ProgramPlan, machine: BoundMachine) -> Iterator[PathAlarm]:
                 int(path.line[plan.geometry.row[row]]),
                 float(plan.start[row]),
                 zone.reads_ahead or zone.code,
-                f"{zone.name} is met at {where}: {effect} (page {zone.page})",
+                f"{zone.name} is met at {where}: {effect} ({page_text(zone.page)})",
             )
 
 

@@ -12,6 +12,8 @@ from amp_studio.sim.tuning.linear import Margins, axis_model
 
 STEADY_SPEED = 1e-3
 """Largest relative difference from the feedrate of a constant command speed."""
+RESIDUE = 1e-9
+"""Share of the error that the loop alone would have: what is less is left over by the arithmetic."""
 NOISE_COUNTS = 3.0
 """Counts between which a measured figure may go to and fro and is still steady."""
 RIPPLE, DRIFT = 0.01, 0.005
@@ -66,7 +68,8 @@ def steady_at_feedrate(axis: AxisLaw, motion: Motion, feedrate: float, column: s
     noise = max(NOISE_COUNTS * axis.machine.position_count, 1e-9 * feedrate)
     if steady(np.abs(series[start:end]), noise) is None:
         return None
-    return abs(float(series[end - (end - start) // 10 : end].mean()))
+    mean = abs(float(series[end - (end - start) // 10 : end].mean()))
+    return mean if mean > RESIDUE * feedrate / axis.position_rate else 0.0
 
 
 def settled(axis: AxisLaw, motion: Motion, target: float) -> tuple[float | None, float | None]:

@@ -18,7 +18,7 @@ from amp_studio.sim.command.events import Around, Homing
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.rounding import value_text
+from amp_studio.sim.rounding import page_text, value_text
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
@@ -221,8 +221,8 @@ def _doubts(axis: AxisLaw, homing: Homing, around: Around, found: Homed) -> list
         if away > DOUBTFUL:
             notes.append(
                 f"The marker is {value_text(away, digits=2)} turns from where the switch goes off: "
-                "half a turn"
-                f" away it may be another one each time (page {homing.page}). Move the switch or the encoder."
+                f"half a turn away it may be another one each time ({page_text(homing.page)}). "
+                "Move the switch or the encoder."
             )
     if found.overrun is not None and found.overrun > around.length and not found.alarm:
         notes.append(

@@ -14,7 +14,7 @@ from amp_studio.sim.command.events import Ramp
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, BoundMachine
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.rounding import value_text
+from amp_studio.sim.rounding import page_text, value_text
 from amp_studio.sim.scenario import Settings, above_zero, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Alarm, Figure, PlaneArea, Trace
@@ -242,12 +242,12 @@ def _alarms(
         zone, moment = hit
         # A hair beyond its edge, the zone itself knows in which direction it was broken.
         code = zone.broken(line.point(min(share + 1e-6, 1.0))) or zone.code
-        return (Alarm(code, moment, f"The axes have reached {zone.name} (page {zone.page})"),)
+        return (Alarm(code, moment, f"The axes have reached {zone.name} ({page_text(zone.page)})"),)
     assert first is not None
     zone = first[1]
     text = (
         f"The way would break {zone.name} after {value_text(share * line.length, unit)}: the block is"
-        f" not begun (page {zone.page})"
+        f" not begun ({page_text(zone.page)})"
     )
     return (Alarm(zone.reads_ahead or zone.code, 0.0, text),)
 

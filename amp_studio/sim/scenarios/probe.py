@@ -15,7 +15,7 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, BoundMachine
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.probing import Probing
-from amp_studio.sim.rounding import value_text
+from amp_studio.sim.rounding import page_text, value_text
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
@@ -149,7 +149,7 @@ def _outside(axis: AxisLaw, meeting: _Meeting, outcome: _Outcome) -> tuple[Alarm
     if captured is not None:
         what = f"The signal comes {value_text(off, axis.unit)} from where it is expected"
     band = value_text(probing.band, axis.unit)
-    text = f"{what}; the band is {band} on both sides (page {probing.page})"
+    text = f"{what}; the band is {band} on both sides ({page_text(probing.page)})"
     seen = outcome.seen
     moment = float(outcome.motion.columns["time_s"][-1]) if seen is None else seen.time
     return (Alarm(probing.outside, moment, text),)

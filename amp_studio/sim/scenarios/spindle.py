@@ -11,7 +11,7 @@ import numpy as np
 
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import BoundMachine
-from amp_studio.sim.rounding import value_text
+from amp_studio.sim.rounding import page_text, value_text
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.spindle import Gear, Orient, SpeedWatch, Spindle
@@ -69,7 +69,7 @@ def run_spindle(machine: BoundMachine, settings: Settings) -> Trace:
     command = ramp(before, commanded, gear, spindle.iteration)(time) if gear else np.full_like(time, before)
     if estop is not None:
         command = np.where(time >= estop, 0.0, command)
-        notes.append(f"Emergency stop: the output is 0 at once, without a ramp (page {spindle.page}).")
+        notes.append(f"Emergency stop: the output is 0 at once, without a ramp ({page_text(spindle.page)}).")
     aim = command if reached is None or speed == 0.0 else command * (reached / speed)
     actual = lagged(time, aim, before, lag)
     output = np.array([gear.output_at(float(each)) if gear else 0.0 for each in command])
@@ -141,7 +141,7 @@ def _geared(spindle: Spindle, settings: Settings, speed: float) -> tuple[Gear | 
         if not gear.low <= abs(speed) <= gear.high and speed != 0.0:
             notes.append(
                 f"{value_text(abs(speed), 'rpm')} is outside of {value_text(gear.low, 'rpm')} to"
-                f" {value_text(gear.high, 'rpm')}: the nearest end is used (page {spindle.page})."
+                f" {value_text(gear.high, 'rpm')}: the nearest end is used ({page_text(spindle.page)})."
             )
         return gear, notes, []
     found: Gear | None
@@ -156,7 +156,7 @@ def _geared(spindle: Spindle, settings: Settings, speed: float) -> tuple[Gear | 
     if found is None:
         ranges = ", ".join(f"{gear.name}: {gear.low:g} to {gear.high:g}" for gear in spindle.gears)
         where = f"Range {present} does not have" if present else "No gear has"
-        text = f"{where} {value_text(abs(speed), 'rpm')} ({ranges} rpm; page {spindle.page})"
+        text = f"{where} {value_text(abs(speed), 'rpm', 6)} ({ranges} rpm; {page_text(spindle.page)})"
         return None, notes, [Alarm(spindle.no_gear, 0.0, text)]
     return found, notes, []
 
@@ -252,7 +252,7 @@ def _oriented(spindle: Spindle, settings: Settings) -> Trace:
     end = at + way
     notes.append(
         "Before the marker is known the direction is that of the file, then the marker and its calibration"
-        f" are passed (page {orient.page})."
+        f" are passed ({page_text(orient.page)})."
         if unknown == "unknown"
         else (
             "A spindle that turns goes on in its direction, one at rest the shortest way (page"

@@ -16,7 +16,7 @@ from amp_studio.sim.engine.profiles import WIDTH
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, BoundMachine
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.rounding import value_text
+from amp_studio.sim.rounding import page_text, value_text
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.spindle import Gear, Spindle, Tapping
@@ -67,11 +67,11 @@ def run_tap(machine: BoundMachine, settings: Settings) -> Trace:
     given = settings.get("move.gear")
     present = None if given is None else f"{given:g}" if isinstance(given, float) else str(given)
     if spindle.refusal:
-        raise SimulationError(f"{spindle.refusal} (page {spindle.page})", "move.gear")
+        raise SimulationError(f"{spindle.refusal} ({page_text(spindle.page)})", "move.gear")
     gear, note = spindle.gear_for(speed, present)
     if gear is None:
         raise SimulationError(
-            f"No gear of spindle {spindle.name} has {value_text(speed, 'rpm')} (page {spindle.page})",
+            f"No gear of spindle {spindle.name} has {value_text(speed, 'rpm')} ({page_text(spindle.page)})",
             "move.speed",
         )
     name = machine.one_chosen("tap") or _tapping_axis(machine)
@@ -129,7 +129,7 @@ def _tapped(
     if asked > tapping.speed:
         text = (
             f"{value_text(asked, 'rpm')} is above the highest tapping speed of gear {gear.name},"
-            f" {value_text(tapping.speed, 'rpm')} (page {tapping.page})"
+            f" {value_text(tapping.speed, 'rpm')} ({page_text(tapping.page)})"
         )
         alarms = (Alarm("TAPPING SPEED", 0.0, text), *alarms)
     result: dict[str, Figure] = {

@@ -15,7 +15,7 @@ from amp_studio.sim.engine.kernel import STANDSTILL
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.rounding import value_text
+from amp_studio.sim.rounding import page_text, value_text
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Alarm, Figure, Trace
@@ -110,7 +110,7 @@ def _approach(axis: AxisLaw, settings: Settings) -> _Approach:
     found = travel.nearest(-sign * math.inf if given is None else given, sign)
     if found is None:
         raise SimulationError(
-            f"No limit of the travel is active in the way of axis {axis.axis} (page {travel.page})"
+            f"No limit of the travel is active in the way of axis {axis.axis} ({page_text(travel.page)})"
         )
     if given is None:
         found = _met_from_far(travel, sign, is_zone=zone is not None) or found
@@ -151,7 +151,7 @@ def _refused(axis: AxisLaw, approach: _Approach) -> tuple[Alarm, ...]:
     if not travel.refuses:
         return ()
     end = value_text(approach.edge, axis.unit)
-    text = f"A move beyond {approach.name}, {end}, is not begun (page {travel.page})"
+    text = f"A move beyond {approach.name}, {end}, is not begun ({page_text(travel.page)})"
     return (Alarm(_code(approach), 0.0, text),)
 
 
@@ -164,7 +164,7 @@ def _passed(axis: AxisLaw, approach: _Approach, seen: Seen | None) -> tuple[Alar
     if travel.coasts:
         how = "the loop is switched off"
     end = value_text(approach.edge, axis.unit)
-    text = f"The axis has passed {approach.name}, {end} (page {travel.page}): {how}"
+    text = f"The axis has passed {approach.name}, {end} ({page_text(travel.page)}): {how}"
     return (Alarm(_code(approach), seen.time, text),)
 
 

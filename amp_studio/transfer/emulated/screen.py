@@ -17,6 +17,7 @@ from amp_studio.transfer.links import Endpoint, Link, LinkError, Listener, liste
 from amp_studio.transfer.status import ActiveFault, AxisStatus, ControlStatus, known_fault
 from amp_studio.transfer.ways import SCREEN
 
+KNOWN_STATES = ("homed", "moving")
 LONGEST_QUESTION = 64  # bytes without an end of line after which a client is cut off
 
 
@@ -109,7 +110,8 @@ def screen_status(family: str, name: str, state: str, axes: Iterable[ScreenAxis]
 
 def _axis(axis: ScreenAxis) -> AxisStatus:
     states = ("homed" if axis.is_homed else "not homed", *(("moving",) if axis.is_busy else ()))
-    return AxisStatus(axis.letter, axis.position, axis.following_error, axis.velocity, axis.unit, states)
+    figures = axis.position, axis.following_error, axis.velocity
+    return AxisStatus(axis.letter, *figures, axis.unit, states, KNOWN_STATES)
 
 
 def _fault(family: str) -> Callable[[ScreenAxis], ActiveFault | None]:

@@ -67,6 +67,7 @@ class ControlDesk(Translated):
         """Show what the control of the file in front states of itself now;
         raises ValueError while something is sent.
         """
+        from amp_studio.pictures import axis_limits
         from amp_studio.ui.control.live import LivePage
 
         if self.is_sending:
@@ -78,7 +79,14 @@ class ControlDesk(Translated):
         family = workspace.file.schema.family.family
         own = self.emulated if address == self.emulated.address else None
         seen = own.screen or address if own else address
-        page = self._live = LivePage(seen, family, self.window.follow, self.window, emulated=own)
+        page = self._live = LivePage(
+            seen,
+            family,
+            self.window.follow,
+            self.window,
+            emulated=own,
+            limits=partial(axis_limits, workspace.file),
+        )
         self.window.beside.show(page)
         page.start()
 

@@ -15,6 +15,7 @@ from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
+    QGridLayout,
     QHBoxLayout,
     QHeaderView,
     QLabel,
@@ -25,13 +26,15 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from amp_studio.pictures import AxisLimits
 from amp_studio.ui.base.emulated_control import EmulatedControl
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.theme import GAP2, GAP3, font
 from amp_studio.ui.forms.table_items import item_at
 
-from .readings import AxisReadings, Happened, StatusReadings, titled, without_error
+from .limit_bar import LimitBar
+from .readings import AxisReadings, Happened, StatusReadings, lamps_of, titled, without_error
 
 if TYPE_CHECKING:
     from amp_studio.transfer import ActiveFault, AxisStatus, ControlStatus
@@ -45,7 +48,8 @@ PLACES = 4
 
 class LivePage(QDialog):
     """Position, following error, states and faults of a control. Reads only; a fault stops it,
-    an exchange ends it. ``emulated`` is the emulated control whose keys can be pressed here.
+    an exchange ends it. ``emulated`` is the emulated control whose keys can be pressed here,
+    ``limits`` returns those of an axis in a unit, as the file in front has them.
     """
 
     def __init__(
@@ -56,6 +60,7 @@ class LivePage(QDialog):
         parent: QWidget | None = None,
         readings: StatusReadings | None = None,
         emulated: EmulatedControl | None = None,
+        limits: Callable[[str, str], AxisLimits] = lambda _axis, _unit: AxisLimits(),
     ) -> None:
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
@@ -64,7 +69,7 @@ class LivePage(QDialog):
         self.readings = readings or StatusReadings(address, family)
         self.readings.read.connect(self.show_status)
         self.readings.failed.connect(self._over)
-        self._emulated = emulated
+        self._emulated, self._limits = emulated, limits
         self._axes: dict[str, AxisReadings] = {}
         self._status: ControlStatus | None = None
         self._begun = time.monotonic()
@@ -117,6 +122,14 @@ class LivePage(QDialog):
         self.chosen = QComboBox()
         self.chosen.setAccessibleName(self.tr("Axis that is shown large, and whose readings are drawn"))
         self.chosen.currentIndexChanged.connect(lambda _: self._draw())
+        self.bars = {
+            "position": LimitBar(self.tr("Position between the ends of the travel")),
+            "error": LimitBar(self.tr("Following error between its limits")),
+        }
+        self.bar_words = {name: QLabel() for name in self.bars}
+        self.lamps = QLabel()
+        self.lamps.setWordWrap(True)
+        self.lamps.setAccessibleName(self.tr("States of the chosen axis"))
         self.plot = Plot(has_cursors=False)
         self.plot.setAccessibleName(self.tr("Readings over time, a dot for each"))
         self.plot.setMinimumHeight(140)
@@ -138,12 +151,25 @@ class LivePage(QDialog):
         column.setContentsMargins(GAP3, GAP3, GAP3, GAP3)
         column.setSpacing(GAP2)
         column.addLayout(head)
-        for part in (self.axes, self.values, self.faults, self.plot, self.events, self.notes):
+        column.addLayout(self._bars())
+        for part in (self.lamps, self.axes, self.values, self.faults, self.plot, self.events, self.notes):
             column.addWidget(part, {self.axes: 1, self.plot: 2}.get(part, 0))
         if self._emulated is not None:
             column.addLayout(self._keys(self._emulated))
         column.addLayout(foot)
         fit_to_screen(self, 760, 680)
+
+    def _bars(self) -> QGridLayout:
+        """Return the limit bars of the chosen axis, each with its limits in words."""
+        rows = QGridLayout()
+        rows.setSpacing(GAP2)
+        for row, (name, bar) in enumerate(self.bars.items()):
+            self.bar_words[name].setFont(font("small"))
+            rows.addWidget(bar, row, 0)
+            rows.addWidget(self.bar_words[name], row, 1)
+            self._show_bar(name, None, None, None, "")
+        rows.setColumnStretch(0, 1)
+        return rows
 
     def _keys(self, emulated: EmulatedControl) -> QHBoxLayout:
         """Return what presses the keys of an emulated control; no other control is operated from here."""
@@ -275,6 +301,7 @@ class LivePage(QDialog):
         axis = next((each for each in status.axes if each.axis == name), None) if status else None
         place = axis.position if axis else None
         self.figures.setText("" if axis is None or place is None else f"{_value_text(place)} {axis.unit}")
+        self._show_axis(axis)
         readings = self._axes.get(name)
         picture = readings.picture() if readings else None
         self.plot.setVisible(picture is not None)
@@ -283,6 +310,29 @@ class LivePage(QDialog):
             self.plot.draw(picture)
             notes = notes if "following error" in readings.signals else (*notes, without_error())
         self.notes.setText("\n".join(notes))
+
+    def _show_axis(self, axis: AxisStatus | None) -> None:
+        """Show the lamps of an axis, and where it is between its limits."""
+        lamps = {} if axis is None else lamps_of(axis)
+        self.lamps.setText("   ".join(f"{'●' if on else '○'}\u00a0{name}" for name, on in lamps.items()))
+        self.lamps.setVisible(bool(lamps))
+        if axis is not None:
+            own = self._limits(axis.axis, axis.unit)
+            most = own.error
+            self._show_bar("position", axis.position, own.low, own.high, axis.unit)
+            self._show_bar("error", axis.following_error, None if most is None else -most, most, axis.unit)
+
+    def _show_bar(
+        self, name: str, value: float | None, low: float | None, high: float | None, unit: str
+    ) -> None:
+        is_known = value is not None and low is not None and high is not None and low < high
+        if is_known and value is not None and low is not None and high is not None:
+            self.bars[name].show_value(value, low, high)
+            limits = f"{_value_text(low)} … {_value_text(high)} {unit}"
+            title = {"position": self.tr("Travel"), "error": self.tr("Following error")}[name]
+            self.bar_words[name].setText(f"{title} {limits}")
+        self.bars[name].setVisible(is_known)
+        self.bar_words[name].setVisible(is_known)
 
 
 def _value_text(value: float | str) -> str:

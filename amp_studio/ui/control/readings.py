@@ -144,6 +144,15 @@ class Happened:
         del self.events[HISTORY:]
 
 
+def lamps_of(axis: AxisStatus) -> dict[str, bool]:
+    """Return every state of an axis that its control shows, and whether it is on; ``not homed`` is no lamp
+    beside ``homed``.
+    """
+    on = set(axis.states)
+    known = dict.fromkeys((*axis.known_states, *axis.states))
+    return {name: name in on for name in known if name.removeprefix("not ") == name or name[4:] not in known}
+
+
 def titled(fault: ActiveFault) -> str:
     """Return a fault in one line, with its axis."""
     return f"{fault.axis + ': ' if fault.axis else ''}{fault.code} {fault.text}".strip()

@@ -6,10 +6,19 @@ from html import escape
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QPalette, QResizeEvent
-from PySide6.QtWidgets import QComboBox, QFrame, QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QComboBox,
+    QDoubleSpinBox,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
 
 from amp_studio.drawing import Scene, scene_in_words
-from amp_studio.pictures import FilePicture
+from amp_studio.pictures import FASTEST, FilePicture
 from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, colour, font, icon, scheme
 from amp_studio.ui.base.translated import sentenced, worded
 from amp_studio.ui.base.workspace import Workspace
@@ -54,6 +63,14 @@ class PictureCard(QFrame):
         self.more_parts = QComboBox()
         self.more_parts.setAccessibleName(self.parts.accessibleName())
         self.more_parts.activated.connect(lambda n: self.show_part(self.more_parts.itemData(n)))
+        self.speed = QDoubleSpinBox()
+        self.speed.setDecimals(1)
+        self.speed.setRange(0.1, FASTEST)
+        self.speed.setValue(FASTEST)
+        self.speed.setSuffix(" %")
+        self.speed.setToolTip(self.tr("Speed of the signals, in % of the rapid feedrate"))
+        self.speed.setAccessibleName(self.speed.toolTip())
+        self.speed.valueChanged.connect(lambda _: self.show_part(self._axis))
         self.notes = QLabel()
         self.notes.setFont(font("small"))
         self.notes.setMinimumWidth(1)
@@ -73,6 +90,7 @@ class PictureCard(QFrame):
             (self.subtitle, 1),
             (self.parts, 0),
             (self.more_parts, 0),
+            (self.speed, 0),
             (self.enlarge, 0),
         ):
             head.addWidget(widget, stretch)
@@ -98,8 +116,9 @@ class PictureCard(QFrame):
         return sentenced(text, self._workspace.file.schema.family.family)
 
     def show_part(self, key: str) -> None:
-        """Draw another part."""
-        self.part = key
+        """Draw another part, at the chosen speed where there is one."""
+        at = self.speed.value()
+        self.part = f"{key}@{at:g}" if self.picture.has_speed and at < FASTEST else key
         self.canvas.show_drawn(self._draw)
         self._describe()
 
@@ -129,6 +148,11 @@ class PictureCard(QFrame):
             for key, name, _ in options:
                 self.more_parts.addItem(name, key)
 
+    @property
+    def _axis(self) -> str:
+        """The part without the speed at which it is drawn."""
+        return self.part.partition("@")[0] if self.picture.has_speed else self.part
+
     def _is_crowded(self, count: int) -> bool:
         """Return whether so many buttons would leave the title no room."""
         return self.isVisible() and self.width() < _TITLE_ROOM + _PART * count
@@ -137,13 +161,14 @@ class PictureCard(QFrame):
         scene = self.canvas.scene
         self.title.setText(scene.title)
         self.subtitle.setText(scene.subtitle)
-        self.parts.show_choice(self.part)
-        self.more_parts.setCurrentIndex(self.more_parts.findData(self.part))
+        self.parts.show_choice(self._axis)
+        self.more_parts.setCurrentIndex(self.more_parts.findData(self._axis))
         self.show_notes()
 
     def show_notes(self) -> None:
         """Show what is not drawn and why, what is wrong first; each leads to its parameter."""
         self.enlarge.setVisible(self.small)
+        self.speed.setVisible(self.picture.has_speed and not self.small)
         is_brief = self._is_brief
         self.notes.setWordWrap(not is_brief)
         notes = sorted(self.canvas.scene.notes, key=lambda note: note.order)
@@ -177,8 +202,8 @@ class PictureCard(QFrame):
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
         self._offer_parts()
-        self.parts.show_choice(self.part)
-        self.more_parts.setCurrentIndex(self.more_parts.findData(self.part))
+        self.parts.show_choice(self._axis)
+        self.more_parts.setCurrentIndex(self.more_parts.findData(self._axis))
         self.show_notes()
 
     def _follow(self, link: str) -> None:

@@ -153,7 +153,8 @@ def _course(time: np.ndarray, place: np.ndarray) -> Course:
     turns = [float(place[moving[n] + 1] - place[0]) for n in np.flatnonzero(np.diff(signs))]
     end = float(place[moving[-1] + 1] - place[0])
     return Course(
-        tuple(round(each, 4) for each in (*turns, end)), round(float(time[moving[-1] + 1] - time[moving[0]]), 3)
+        tuple(round(each, 4) for each in (*turns, end)),
+        round(float(time[moving[-1] + 1] - time[moving[0]]), 3),
     )
 
 

@@ -160,7 +160,14 @@ def ini(limits: dict[str, tuple[float, float]], homes: Mapping[str, str] = Mappi
     """
     lines = ["[EMC]", "VERSION = 1.1", "[DISPLAY]", "DISPLAY = ./screen.py", "MAX_FEED_OVERRIDE = 1.2"]
     lines += ["[RS274NGC]", "PARAMETER_FILE = a.var", "[EMCMOT]", "EMCMOT = motmod", "SERVO_PERIOD = 1000000"]
-    lines += ["COMM_TIMEOUT = 4", "[TASK]", "TASK = milltask", "CYCLE_TIME = 0.001", "[HAL]", "HALFILE = a.hal"]
+    lines += [
+        "COMM_TIMEOUT = 4",
+        "[TASK]",
+        "TASK = milltask",
+        "CYCLE_TIME = 0.001",
+        "[HAL]",
+        "HALFILE = a.hal",
+    ]
     lines += ["[TRAJ]", "COORDINATES = X Y Z", "LINEAR_UNITS = mm", "ANGULAR_UNITS = degree"]
     lines += ["DEFAULT_LINEAR_VELOCITY = 20", "MAX_LINEAR_VELOCITY = 300", "[EMCIO]", "EMCIO = io"]
     lines += ["CYCLE_TIME = 0.1", "TOOL_TABLE = a.tbl"]

@@ -20,6 +20,11 @@ VERB = Verb(
     PATH,
     VerbArgument("name", nargs="?", help="the picture; without one the pictures of the file are listed"),
     VerbArgument("--part", help="the axes (X,Y), the axis or the spindle; default: the first one"),
+    VerbArgument(
+        "--speed",
+        metavar="PERCENT",
+        help="of the signals of the loops, in %% of the rapid feedrate; default: 100",
+    ),
     OUTPUT.but(required=False, help="file to write (.svg)"),
     JSON,
     *TEXT,
@@ -27,6 +32,7 @@ VERB = Verb(
     examples=(
         "amp-studio picture MILL_1394.amp",
         "amp-studio picture MILL_1394.amp travel --part X,Y -o travel.svg",
+        "amp-studio picture MILL_1394.amp loop --part X --speed 25",
     ),
 )
 
@@ -47,7 +53,8 @@ def run(options: Options) -> int:
             raise UsageError("Name a picture; amp-studio picture PATH lists them")
         return _list(file, as_json=options.json)
     try:
-        scene = draw(file, options.name, options.part or "")
+        part = options.part or ""
+        scene = draw(file, options.name, f"{part}@{options.speed}" if options.speed else part)
     except KeyError as error:
         raise UsageError(str(error.args[0])) from None
     if options.output:

@@ -129,7 +129,9 @@ def _joint(n: int, name: str, listed: dict[str, str], file: ParameterFile) -> Ax
 
     states = tuple(text for pin, text in _STATES.items() if listed.get(f"joint.{n}.{pin}") == "TRUE")
     unit = unit_in(file, ("joint.home", str(n)))
-    return AxisStatus(name, figure("pos-fb"), figure("f-error"), figure("vel-cmd"), unit, states)
+    return AxisStatus(
+        name, figure("pos-fb"), figure("f-error"), figure("vel-cmd"), unit, states, tuple(_STATES.values())
+    )
 
 
 def _number(text: str) -> float:

@@ -94,6 +94,7 @@ def _axis(registers: AxisRegisters) -> AxisStatus:
         registers.signed(VELOCITY, 2) / scans / SCAN,
         "counts",
         tuple(name for bit, name in STATES.items() if status >> bit & 1),
+        tuple(STATES.values()),
     )
 
 
