@@ -12,7 +12,7 @@ from amp_studio.sim.tuning.linear import Margins, axis_model
 
 STEADY_SPEED = 1e-3
 """Largest relative difference from the feedrate of a constant command speed."""
-RESIDUE = 1e-9
+RESIDUE = 1e-6
 """Share of the error that the loop alone would have: what is less is left over by the arithmetic."""
 NOISE_COUNTS = 3.0
 """Counts between which a measured figure may go to and fro and is still steady."""

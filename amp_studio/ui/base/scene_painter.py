@@ -61,6 +61,11 @@ TEXT_TOKENS: dict[ShapeSort, Token] = {
     "outside": "rec",
 }
 
+RING, RING_LINE, SMALL = 6.6, 1.4, 3.2
+"""px: how wide a single value is, its line, and how wide one of many is."""
+MOST_RINGS = 60
+"""Values of a curve that are rings; more of them would lie on each other."""
+
 
 class ScenePainter:
     """Paints one scene in one place, and remembers where the names of parameters are."""
@@ -144,8 +149,7 @@ class ScenePainter:
         painter.save()
         painter.setClipRect(self._inner().adjusted(-1, -1, 1, 1))
         if curve.dots:
-            for x, y in line.tolist():
-                paint_ring(painter, QPointF(x, y), shade)
+            paint_values(painter, _polygon(line), shade)
         else:
             if band is not None:
                 light = QColor(shade)
@@ -276,11 +280,16 @@ def curve_pen(curve: Curve) -> QPen:
     return pen
 
 
-def paint_ring(painter: QPainter, at: QPointF, shade: QColor) -> None:
-    """Paint a single measured value."""
-    painter.setPen(QPen(shade, 1.4))
-    painter.setBrush(colour("base"))
-    painter.drawEllipse(at, 2.6, 2.6)
+def paint_values(painter: QPainter, at: QPolygonF, shade: QColor) -> None:
+    """Paint single measured values: rings, or small points where many are beside each other; in few strokes,
+    for a page that follows a control is painted five times a second.
+    """
+    strokes = ((RING, shade), (RING - 2.0 * RING_LINE, colour("base")))
+    for size, ink in strokes if at.size() <= MOST_RINGS else ((SMALL, shade),):
+        pen = QPen(ink, size)
+        pen.setCapStyle(Qt.PenCapStyle.RoundCap)
+        painter.setPen(pen)
+        painter.drawPoints(at)
 
 
 def _polygon(points: Series) -> QPolygonF:
@@ -305,7 +314,8 @@ def paint_heading(painter: QPainter, pieces: Sequence[Heading], top: float) -> N
         x, base = piece.x, top - 5.0 - height * (last - piece.line)
         if piece.curve is not None:
             if piece.curve.dots:
-                paint_ring(painter, QPointF(x + 0.5 * SAMPLE, base - 4.0), colour(TOKENS[piece.curve.sort]))
+                sample = QPolygonF([QPointF(x + 0.5 * SAMPLE, base - 4.0)])
+                paint_values(painter, sample, colour(TOKENS[piece.curve.sort]))
             else:
                 painter.setPen(curve_pen(piece.curve))
                 painter.drawLine(QPointF(x, base - 4.0), QPointF(x + SAMPLE, base - 4.0))

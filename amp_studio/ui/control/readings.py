@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 PERIOD = 0.2
 """s from one question to the next, at least."""
-KEPT = 300
-"""Readings of an axis that stay in the picture."""
+KEPT = 150
+"""Readings of an axis that stay in the picture: half a minute."""
 HISTORY = 50
 """Events that are remembered."""
 
