@@ -12,7 +12,7 @@ from amp_studio.front_pages import front_page
 if TYPE_CHECKING:
     from .editing import dragged, stepped
     from .file_pictures import FASTEST, FilePicture, draw, drawn_in, pictures_of
-    from .limits import AxisLimits, axis_limits
+    from .limits import LiveLimits, axis_limits
     from .table import CurveText
 else:
     __getattr__ = front_page(__name__)

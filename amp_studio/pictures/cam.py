@@ -25,18 +25,20 @@ def draw_cam(file: ParameterFile, roles: CamRoles, part: str) -> Scene:
     figures = ValueReader(file)
     figures.figure(roles.points, axis)
     shapes, panel = SceneShapes(figures), None
+    points = 0
     form = law_of(file.schema.family.family).cam
     try:
         if form is None:
             raise SimulationError("This family has no cams that are printed")
-        profile = cam_picture(form.present(file, axis))
+        cam = form.present(file, axis)
+        points, profile = len(cam.x), cam_picture(cam)
         panel = next(iter(profile.panels[VIEWS[view] :]), None)
         for doubt in profile.facts:
             figures.add_note(doubt)
     except SimulationError as error:
         figures.add_note(str(error))
     empty = Scale("", "", 0.0, 1.0, is_written=False)
-    subtitle = f"{figures.axis(axis)}, page {roles.page}"
+    subtitle = f"{figures.axis(axis)}, {points} points, page {roles.page}"
     scene = shapes.scene("cam", part, "Cam", subtitle, *((panel.x, panel.y) if panel else (empty, empty)))
     if panel is None:
         return scene

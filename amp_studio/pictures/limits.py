@@ -12,7 +12,7 @@ from .parts import every_axis
 
 
 @dataclass(frozen=True)
-class AxisLimits:
+class LiveLimits:
     """Ends of the travel and the largest following error of an axis, None for what is not set."""
 
     low: float | None = None
@@ -20,12 +20,12 @@ class AxisLimits:
     error: float | None = None
 
 
-def axis_limits(file: ParameterFile, letter: str, unit: str) -> AxisLimits:
+def axis_limits(file: ParameterFile, letter: str, unit: str) -> LiveLimits:
     """Return the limits of the axis that a person calls so, in a unit; what has another dimension is None."""
     figures, roles = ValueReader(file), file.schema.pictures
     instance = next((each for each in every_axis(file) if letter in (each, figures.axis(each))), None)
     if instance is None:
-        return AxisLimits()
+        return LiveLimits()
 
     def number(parameter: ParameterId) -> float | None:
         return _in_unit(figures.figure(parameter, instance, quiet=True), unit)
@@ -33,7 +33,7 @@ def axis_limits(file: ParameterFile, letter: str, unit: str) -> AxisLimits:
     span = roles.travel.spans[0] if roles.travel and roles.travel.spans else None
     errors = [found for each in (roles.error.limits if roles.error else ()) if (found := number(each))]
     low, high = (number(span.low), number(span.high)) if span else (None, None)
-    return AxisLimits(low, high, max(errors, default=None))
+    return LiveLimits(low, high, max(errors, default=None))
 
 
 def _in_unit(figure: DrawnValue | None, unit: str) -> float | None:

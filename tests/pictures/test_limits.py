@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.pictures import AxisLimits, axis_limits
+from amp_studio.pictures import LiveLimits, axis_limits
 
 
 def test_ends_of_the_travel_and_largest_error_of_the_file(example):
@@ -14,5 +14,5 @@ def test_ends_of_the_travel_and_largest_error_of_the_file(example):
 
 
 def test_an_unknown_axis_and_another_dimension_have_none(example):
-    assert axis_limits(example("9pc"), "Q", "mm") == AxisLimits()
+    assert axis_limits(example("9pc"), "Q", "mm") == LiveLimits()
     assert axis_limits(example("9pc"), "X", "counts").low is None

@@ -10,7 +10,7 @@ import pytest
 from PySide6.QtCore import QObject, Signal
 from pytestqt.qtbot import QtBot
 
-from amp_studio.pictures import AxisLimits
+from amp_studio.pictures import LiveLimits
 from amp_studio.transfer import AxisStatus, ControlStatus, known_fault
 from amp_studio.ui.control import readings as live
 from amp_studio.ui.control.live import LivePage
@@ -84,9 +84,9 @@ def test_states_are_lamps_and_the_axis_is_a_mark_between_its_limits(qtbot: QtBot
     """What the control knows and is not so has an empty lamp; without limits in the file there is no bar."""
     asked: list[tuple[str, str]] = []
 
-    def limits(axis: str, unit: str) -> AxisLimits:
+    def limits(axis: str, unit: str) -> LiveLimits:
         asked.append((axis, unit))
-        return AxisLimits(0.0, 4000.0, 2000.0) if axis == "X" else AxisLimits()
+        return LiveLimits(0.0, 4000.0, 2000.0) if axis == "X" else LiveLimits()
 
     page = LivePage("tcp://bench:1", "57c422b", print, readings=StoppedReadings(), limits=limits)  # type: ignore[arg-type]  # the parts that it uses
     qtbot.addWidget(page)

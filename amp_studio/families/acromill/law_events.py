@@ -30,6 +30,11 @@ def _above_zero(read: AxisParameters, name: str) -> float:
 def homing(read: AxisParameters, pulses: float) -> Homing:
     """Return the sequence; ``pulses`` for 1 u."""
     sign = -1.0 if read.choice(ids.home_direction) == "neg" else 1.0
+    priority = int(read.optional(ids.home_priority) or 0.0)
+    if priority == 0:
+        raise SimulationError(
+            f"Axis {read.axis} is not homed: its Home Priority is 0 (page 65)", ids.home_priority
+        )
     return Homing(
         approach=sign * _above_zero(read, ids.fast_speed) / 60.0,
         leave=-sign * _above_zero(read, ids.slow_speed) / 60.0,
@@ -38,6 +43,7 @@ def homing(read: AxisParameters, pulses: float) -> Homing:
         coordinate=read.optional(ids.home_preset) or 0.0,
         search=_above_zero(read, ids.marker_speed) / 60.0,
         ramp=Ramp("linear", _above_zero(read, ids.home_acceleration), _above_zero(read, ids.home_stop)),
+        order=priority,
         page="65",
         notes=NOTES,
     )

@@ -32,6 +32,8 @@ from .law_spindle import probing, spindle
 COMMON = (ids.seek_rate, ids.locate_rate)
 OWN = (ids.homing_seek_rate, ids.homing_locate_rate)
 ENABLED, ORIGIN, PER_AXIS = 1 << 0, 1 << 3, 1 << 9
+PHASES = 6
+"""Of a homing of all axes: $44 to $49."""
 SEARCH, LOCATE = 1.5, 5.0
 """Times the travel, and times the pull-off, in which a switch is searched (config.h,
 HOMING_AXIS_SEARCH_SCALAR, _LOCATE_SCALAR)."""
@@ -162,9 +164,16 @@ def homing(read: AxisParameters) -> Homing:
                 "ALARM:8", f"Homing fail: the switch is still on after the pull-off ({SOURCE}, homing_cycle)"
             ),
         },
+        order=_phase(read),
         page=SOURCE,
         notes=HOMED,
     )
+
+
+def _phase(read: AxisParameters) -> int | None:
+    """Return the phase of $H in which an axis is homed, from 1; None for a control whose file has none."""
+    place = MOTION.axes.index(read.axis)
+    return next((n for n in range(1, PHASES + 1) if _bit(read, ids[f"homing_phase_{n}"], place)), None)
 
 
 def travel(read: AxisParameters) -> Travel:

@@ -178,6 +178,7 @@ def homing(joint: _Joint) -> Homing:
             "Search and latch of one sign, with a second approach, are not simulated",
             ids.joint_home_latch_velocity,
         )
+    sequence = joint.optional("home_sequence")
     home, offset = joint.number("home", 0.0), joint.number("home_offset", 0.0)
     final = joint.number("home_final_velocity", -60.0) / 60.0
     fastest = joint.number("max_velocity", 60.0) / 60.0
@@ -189,6 +190,7 @@ def homing(joint: _Joint) -> Homing:
         coordinate=home,
         final=final if final > 0.0 else fastest,
         offset=home - offset,
+        order=None if sequence is None else abs(int(sequence)),
         pause=MOTION.value("home_pause"),
         page="H796",
         notes=HOMED,

@@ -101,6 +101,8 @@ class Homing:
     left), marker (none came), scatter (another turn than the first time)."""
     rest_window: float = math.inf
     """Following error that counts as at rest ``REST_AFTER`` s after the stop on the switch."""
+    order: int | None = None
+    """The step in which it is homed when all axes are, from 0 or 1; None where the control has no order."""
     pause: float = 0.0
     """s at rest on the switch before the axis goes on."""
     ramp: Ramp | None = None

@@ -266,6 +266,8 @@ def _figures(
         "time": (motion.command_end if reached else None, "s"),
         "peak_following_error": (float(np.abs(columns["following_error"][motion.driven]).max()), u),
     }
+    if homing.order is not None:
+        figures["home_order"] = (float(homing.order), "")
     if others:
         places = [each.home for each in (found, *others) if each.home is not None]
         whole = reached and len(places) == len(others) + 1

@@ -285,8 +285,8 @@ def paint_values(painter: QPainter, at: QPolygonF, shade: QColor) -> None:
     for a page that follows a control is painted five times a second.
     """
     strokes = ((RING, shade), (RING - 2.0 * RING_LINE, colour("base")))
-    for size, ink in strokes if at.size() <= MOST_RINGS else ((SMALL, shade),):
-        pen = QPen(ink, size)
+    for size, fill in strokes if at.size() <= MOST_RINGS else ((SMALL, shade),):
+        pen = QPen(fill, size)
         pen.setCapStyle(Qt.PenCapStyle.RoundCap)
         painter.setPen(pen)
         painter.drawPoints(at)

@@ -26,7 +26,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.pictures import AxisLimits
+from amp_studio.pictures import LiveLimits
 from amp_studio.ui.base.emulated_control import EmulatedControl
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.screen_room import fit_to_screen
@@ -60,7 +60,7 @@ class LivePage(QDialog):
         parent: QWidget | None = None,
         readings: StatusReadings | None = None,
         emulated: EmulatedControl | None = None,
-        limits: Callable[[str, str], AxisLimits] = lambda _axis, _unit: AxisLimits(),
+        limits: Callable[[str, str], LiveLimits] = lambda _axis, _unit: LiveLimits(),
     ) -> None:
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
