@@ -41,3 +41,18 @@ def test_conditions_leave_their_details_out_before_a_word_is_cut(qtbot: QtBot) -
     line.show()
     assert "ce5702f60" not in line._made[0][1].text()
     assert line._made[0][1].toolTip() == "The same machine ce5702f60"
+
+
+def test_a_look_at_reading_takes_nothing_from_what_is_sent(qtbot: QtBot) -> None:
+    """What the control does not contain stays while it is read, and is sent all the same afterwards."""
+    file, empty = new_file("9pc", "mill", ["X"]), new_file("9pc", "mill", ["X"])
+    pitch = ("servo.lead_screw_pitch", "1")
+    file.set(pitch, Value(5.0, "mm"))
+    empty.set(pitch, None)
+    found = compare(file.schema, file.values, empty.values).differences
+    table = DifferenceTable()
+    qtbot.addWidget(table)
+    for to_control, sent in ((True, True), (False, False), (True, True)):
+        table.show_differences(file, found, to_control=to_control, secrets=False)
+        assert table.rows[pitch].takes_file is sent
+        assert table.rows[pitch].is_fixed is not sent

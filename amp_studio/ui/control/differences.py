@@ -87,7 +87,7 @@ class DifferenceTable(QTreeWidget):
         """List what differs; the file's side is taken, unless it does not set the value,
         and a choice made before stays.
         """
-        before = {address: row.takes_file for address, row in self.rows.items()}
+        before = {address: row.takes_file for address, row in self.rows.items() if not row.is_fixed}
         self._file, self._secrets = file, secrets
         found = list(differences)
         self.clear()

@@ -466,6 +466,11 @@ class ControlPage(ControlPageParts):
         found = session.comparison(file) if session is not None and file is not None else None
         return found is not None and not found.is_same and not self.table.rows
 
+    @property
+    def _to_take(self) -> list[SideRow]:
+        """The rows whose value the file takes from the control; what that does not contain stays."""
+        return [row for row in self.table.taken(file=False) if not row.is_fixed]
+
     def _reading_primary(self) -> tuple[str, str]:
         assert self.session is not None
         seen = self.session.seen
@@ -473,7 +478,7 @@ class ControlPage(ControlPageParts):
             return self.tr("Save as a New File…"), self.tr("Nothing that can be read is in the control.")
         if self.workspace is None or self.session.present(self.workspace.file) is None:
             return self.tr("Save as a New File…"), ""
-        count = len(self.table.taken(file=False))
+        count = len(self._to_take)
         if not count:
             return self.tr("Save as a New File…"), ""
         why = "" if self.workspace.may_edit else self.tr("The file is read-only.")
@@ -542,7 +547,7 @@ class ControlPage(ControlPageParts):
     def _accept_values(self) -> None:
         workspace, session = self.workspace, self.session
         assert session is not None
-        rows = self.table.taken(file=False) if workspace is not None else []
+        rows = self._to_take if workspace is not None else []
         if workspace is None or session.present(workspace.file) is None or not rows:
             self.read_wanted.emit(session.seen.file.copy() if session.seen and session.seen.file else None)
             return
