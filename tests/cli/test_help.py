@@ -209,7 +209,9 @@ def examples_alone() -> list[str]:
     return [
         line
         for line in offline()
-        if " demo " not in line and as_there.sub(lambda found: files[found[0]], line) not in on_the_page
+        if " demo " not in line
+        and (CAMPAIGN or " tune " not in line)  # seconds: docs/howto/tune-an-axis.md does it
+        and as_there.sub(lambda found: files[found[0]], line) not in on_the_page
     ]
 
 
