@@ -116,3 +116,12 @@ def test_the_inertia_that_an_axis_bears_is_the_margin_of_its_velocity_loop() -> 
 
 def test_the_inertia_is_none_of_the_matter_of_a_drive_with_a_velocity_loop() -> None:
     assert stable_inertias(tiny(velocity_per_output=10.0, velocity_bandwidth=50.0)) is None
+
+
+def test_frequency_and_tune_both_recommend_nothing_where_a_gain_has_the_wrong_sign() -> None:
+    file = open_file(EXAMPLES / "57c422b-label-press/LABEL_PRESS.amp").file
+    gain = file.get(("gain.velocity", "X"))
+    assert gain is not None
+    file.set(("gain.velocity", "X"), Value(-gain.value, gain.unit))
+    for scenario in ("frequency", "tune"):
+        assert simulate(file, scenario, "X", {}, "metric").recommendations == (), scenario

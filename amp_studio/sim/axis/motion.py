@@ -150,7 +150,7 @@ def prepared(
     room: npt.NDArray[np.float64] | None = None,
 ) -> tuple[list[list[float]], npt.NDArray[np.float64]]:
     """Return the vectors of `kernel.run` for an axis at rest, and room for its rows,
-    one in ``stride`` physics steps: a part of ``room`` where that is enough.
+    one in ``stride`` physics steps: a part of ``room`` if that is enough.
 
     Raises SimulationError where the run would take too long.
     """

@@ -81,8 +81,12 @@ def _fastest(trial: Trial, aim: Aim) -> float:
 
 
 def _following(trial: Trial, solved: Solved) -> list[Recommendation]:
-    """Return what has to follow the gains: feed-forward and limits of the following error."""
-    found = []
+    """Return what has to follow the gains: feed-forward and limits of the following error;
+    nothing for an axis that runs away.
+    """
+    found: list[Recommendation] = []
+    if not (solved.after.loops.stable and solved.after.loops.inner_stable):
+        return found
     for each in solved.after.axis.follow(solved.after.axis):
         now = trial.value(each.parameter)
         if (
