@@ -101,3 +101,18 @@ def test_a_family_without_printed_paths_and_a_file_that_is_none_end_with_2(
     binary.write_bytes(bytes(1000))
     message = amp("program", binary, "--machine", ROUTER)
     assert (message.code, "is no text" in message.err) == (2, True)
+
+
+def test_a_program_runs_under_the_file_as_it_was_before_its_saves(
+    amp: Callable[..., Outcome], plate: Path, tmp_path: Path
+) -> None:
+    machine = tmp_path / "ROUTER.amp"
+    machine.write_bytes(ROUTER.read_bytes())
+    assert amp("set", machine, "speeds.rapid=200").code == 0
+    found = json.loads(
+        amp("program", plate, "--machine", machine, "--history", "3", "--no-contour", "--json").out
+    )
+    (version,) = found["versions"]
+    assert version["file"].startswith("before 2")
+    assert version["file"].endswith("(speeds.rapid)")
+    assert version["time_change"] > 0.0
