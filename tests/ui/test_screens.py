@@ -49,6 +49,8 @@ PAGES: dict[str, Callable[[MainWindow], object]] = {
     "several controls": lambda window: window.control.several(),
     "by hand": lambda window: window.control.show("hand"),
     "exchanges": lambda window: window.control.recorded(),
+    "tuning": lambda window: window.menus["view.tuning"].trigger(),
+    "program": lambda window: window.menus["view.program"].trigger(),
 }
 
 
@@ -125,6 +127,8 @@ def test_no_text_of_a_page_is_cut_and_nothing_overlaps_on_any_screen(window: Mai
         for screen in SCREENS if CAMPAIGN else (min(SCREENS), max(SCREENS)):
             window.resize(*screen)
             settled()
+            if (window.width(), window.height()) != screen:
+                found.append((name, screen, f"needs {window.width()} x {window.height()}"))
             cut = [(type(w).__name__, text) for w, text in texts(window) if is_cut(w)]
             found += [(name, screen, each) for each in (*cut, *overlaps(window))]
     assert found == [], "\n".join(map(str, found))
