@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from amp_studio.schema import Value
 from amp_studio.sim import simulate
 from amp_studio.validate import calculate
 from tests.programs.test_block import example
@@ -28,3 +29,10 @@ def test_a_homing_counts_its_grid_beyond_a_turn() -> None:
     """Syntec 2.2: with home grid on an index at 35 % is passed, and the next one is at 135 %."""
     assert calculate("syntec", "is_index_ignored", {"grid": "35", "enabled": "yes"}) is True
     assert calculate("syntec", "home_grid", {"turns": "1.35"}) == pytest.approx(135.0)
+
+
+def test_a_limit_at_zero_has_no_sign() -> None:
+    """grblHAL: without a pull-off the soft limit is at the switch, at 0."""
+    file = example("grblhal-router")
+    file.set(("homing.pull_off", ""), Value(0.0, "mm"))
+    assert "soft limit, 0 mm" in simulate(file, "travel", "X", {}).alarms[0].message
