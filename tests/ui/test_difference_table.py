@@ -44,7 +44,7 @@ def test_conditions_leave_their_details_out_before_a_word_is_cut(qtbot: QtBot) -
 
 
 def test_a_look_at_reading_takes_nothing_from_what_is_sent(qtbot: QtBot) -> None:
-    """What the control does not contain stays while it is read, and is sent all the same afterwards."""
+    """What the control does not contain stays while it is read, and is sent afterwards anyway."""
     file, empty = new_file("9pc", "mill", ["X"]), new_file("9pc", "mill", ["X"])
     pitch = ("servo.lead_screw_pitch", "1")
     file.set(pitch, Value(5.0, "mm"))

@@ -345,10 +345,10 @@ def test_what_published_machines_have_is_not_asked_about(settings: dict[Address,
     assert [f.message for f in Validator(file).run() if f.rule.startswith("plausible.")] == []
 
 
-def test_limits_that_nobody_has_set_are_no_travels() -> None:
+def test_limits_that_are_not_set_are_no_travels() -> None:
     file = example("syntec-mill")
-    unset = {a: Value(0, v.unit) for a, v in file.values.items() if a[0].startswith("limit.third_")}
-    file.set_checked({a: v for a, v in unset.items() if a[0].endswith("tive")}, force="not used")
+    zeros = {a: Value(0, v.unit) for a, v in file.values.items() if a[0].startswith("limit.third_")}
+    file.set_checked({a: v for a, v in zeros.items() if a[0].endswith("tive")}, force="not used")
     assert [f.message for f in Validator(file).run() if f.rule == "plausible.travel"] == []
 
 
