@@ -60,9 +60,8 @@ def opened_beside(window: MainWindow) -> list[QWidget]:
     ]
 
 
-@pytest.mark.parametrize("name", SIDE_WINDOWS)
 def test_escape_closes_every_side_window(
-    window: MainWindow, path: Path, name: str, user: User, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+    window: MainWindow, path: Path, user: User, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:
     Project.create(path.parent, ProjectInfo("Workshop", "9pc"))
     project.notice(window, path.parent)
@@ -73,16 +72,17 @@ def test_escape_closes_every_side_window(
         lambda dialog: run(dialog) if isinstance(dialog, ProgressDialog) else dialog.show() or 0,
     )
     window.go_to(("servo.excess_error", "1"))
-    action(window, name).trigger()
-    qtbot.waitUntil(lambda: bool(opened_beside(window)), timeout=WAIT_MS)
-    (beside,) = opened_beside(window)
-    with qtbot.waitActive(beside, timeout=WAIT_MS):
-        beside.activateWindow()
-    with qtbot.waitExposed(beside, timeout=WAIT_MS):
-        beside.raise_()
-    QTest.keyClick(QApplication.focusWidget() or beside, Qt.Key.Key_Escape)
-    qtbot.waitUntil(lambda: opened_beside(window) == [], timeout=WAIT_MS)
-    assert window.isVisible()
+    for name in SIDE_WINDOWS:
+        action(window, name).trigger()
+        qtbot.waitUntil(lambda: bool(opened_beside(window)), timeout=WAIT_MS)
+        (beside,) = opened_beside(window)
+        with qtbot.waitActive(beside, timeout=WAIT_MS):
+            beside.activateWindow()
+        with qtbot.waitExposed(beside, timeout=WAIT_MS):
+            beside.raise_()
+        QTest.keyClick(QApplication.focusWidget() or beside, Qt.Key.Key_Escape)
+        qtbot.waitUntil(lambda: opened_beside(window) == [], timeout=WAIT_MS)
+        assert window.isVisible(), name
 
 
 def test_letters_typed_on_a_choice_are_those_of_its_label(window: MainWindow) -> None:
