@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pytestqt.qtbot import QtBot
 
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Value
 from amp_studio.ui.control.page import ControlPage, ExchangeDirection
 from amp_studio.ui.main_window import MainWindow
 
@@ -31,3 +33,12 @@ def sent(window: MainWindow, address: str, qtbot: QtBot) -> ControlPage:
     assert page.primary.isEnabled(), page.note.text()
     page.press()
     return settled(window, qtbot)
+
+
+def nearly(window: MainWindow) -> ParameterFile:
+    """Return the file in front with one value of each linear axis another one, for a control to contain."""
+    assert window.workspace is not None
+    file = window.workspace.file.copy()
+    for axis in "123":
+        file.set(("servo.excess_error", axis), Value(10.0, "mm"))
+    return file

@@ -41,6 +41,7 @@ from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
 
 from .alt_letters import doubled, texts_of
+from .shared import First, first_of, put_back
 
 garbage.REST_MS = 3_600_000  # no test but that of the collection goes through the objects of all tests
 WAIT_MS = 20_000
@@ -239,10 +240,35 @@ def window_to_read(
     close_windows([window])
 
 
+@pytest.fixture(scope="module")
+def _first(window_to_read: MainWindow) -> First:
+    """Return what the window of a module was when it was new."""
+    return first_of(window_to_read)
+
+
 @pytest.fixture
-def window(open_window: Callable[..., MainWindow], path: Path) -> MainWindow:
-    """Return a window with the example mill open."""
-    return open_window(path)
+def shared_window(window_to_read: MainWindow, _first: First, user: User) -> Iterator[MainWindow]:
+    """Return the window of the module with the example mill. What a test does to the file is taken back after
+    it, and the list and the panels of a new window are shown again; one that saves, closes or
+    rearranges has a separate one.
+    """
+    window_to_read.activateWindow()
+    assert QTest.qWaitForWindowActive(window_to_read, WAIT_MS)
+    yield window_to_read
+    put_back(window_to_read, _first)
+
+
+@pytest.fixture
+def window(request: pytest.FixtureRequest) -> MainWindow:
+    """Return a window with the example mill open: a new one, or that of the module where its tests are marked
+    with ``shared_window`` and this one is not marked with ``own_window``.
+    """
+    is_own = any(request.node.iter_markers("own_window"))
+    if any(request.node.iter_markers("shared_window")) and not is_own:
+        shared: MainWindow = request.getfixturevalue("shared_window")
+        return shared
+    made: MainWindow = request.getfixturevalue("open_window")(request.getfixturevalue("path"))
+    return made
 
 
 @pytest.fixture
@@ -312,8 +338,9 @@ def editor(window: MainWindow) -> QWidget:
 class Control:
     """An emulated 9/PC with its operator, in a thread: a process would load the program for each."""
 
-    def __init__(self, state: Path, *, estop: bool = True) -> None:
-        file = new_file("9pc", "mill")
+    def __init__(self, state: Path, *, estop: bool = True, file: ParameterFile | None = None) -> None:
+        """Start one that contains a file, or a new one: a mill differs from that in 460 values."""
+        file = file or new_file("9pc", "mill")
         identity = Identity("9pc", file.schema.signature, "CNC_1", "emulated")
         state.mkdir(exist_ok=True)
         memory = EmulatedMemory(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from PySide6.QtWidgets import QComboBox
 
 from amp_studio.schema import Value
@@ -9,6 +10,8 @@ from amp_studio.ui.dialogs.calculator_dialog import CalculatorDialog
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import User, action
+
+pytestmark = pytest.mark.shared_window
 
 GAIN_BREAK = ("servo.gain_break_point", "1")
 

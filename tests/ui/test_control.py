@@ -25,7 +25,7 @@ from amp_studio.ui.base.theme import colour, scheme
 from amp_studio.ui.control.differences import CONTROL
 from amp_studio.ui.main_window import MainWindow
 
-from .at_control import at_control, sent, settled
+from .at_control import at_control, nearly, sent, settled
 from .conftest import WAIT_MS, Control, User, action, on_disk
 
 EXCESS = ("servo.excess_error", "1")
@@ -66,8 +66,8 @@ def test_a_file_is_sent_read_back_and_read_again(
 def test_one_changed_value_takes_two_keys_and_its_row_shows_what_it_was(
     window: MainWindow, start_control: Start, qtbot: QtBot
 ) -> None:
-    control = start_control()
-    sent(window, control.address, qtbot)
+    control = start_control(file=window.workspace.file)
+    at_control(window, control.address, "compare", qtbot)
     window.control.leave()
     address = EXCESS
     window.edits.commit(address, "11.5 mm")
@@ -88,8 +88,8 @@ def test_one_changed_value_takes_two_keys_and_its_row_shows_what_it_was(
 def test_a_value_of_the_control_is_kept_and_goes_back_unchanged(
     window: MainWindow, start_control: Start, qtbot: QtBot
 ) -> None:
-    control = start_control()
-    sent(window, control.address, qtbot)
+    control = start_control(file=window.workspace.file)
+    at_control(window, control.address, "compare", qtbot)
     window.workspace.edit("two", {EXCESS: Value(12.0, "mm"), (EXCESS[0], "2"): Value(12.5, "mm")})
     assert window.save()
     window.control.page.session.read()
@@ -111,7 +111,7 @@ def test_a_value_of_the_control_is_kept_and_goes_back_unchanged(
 def test_space_changes_the_side_of_a_row_with_ctrl_of_its_group_and_all_follow_the_theme(
     window: MainWindow, start_control: Start, qtbot: QtBot
 ) -> None:
-    page = at_control(window, start_control().address, "send", qtbot)
+    page = at_control(window, start_control(file=nearly(window)).address, "send", qtbot)
     first = page.table.topLevelItem(0).child(0)
     page.table.setCurrentItem(first)
     before = len(page.table.taken(file=True))
@@ -133,7 +133,7 @@ def test_a_change_at_the_control_after_it_was_read_is_not_overwritten(
     window: MainWindow, start_control: Start, qtbot: QtBot
 ) -> None:
     """Only what was shown is replaced; what came in between stays."""
-    control = start_control()
+    control = start_control(file=nearly(window))
     at_control(window, control.address, "send", qtbot)
     other = new_file("9pc", "mill", ["X"])
     parameters.download_file(other, control.address, Exchange(keep=window.workspace.path.parent / "other"))
@@ -169,8 +169,8 @@ def test_garbage_in_the_control_is_shown_kept_and_replaced(
 def test_a_header_that_differs_is_shown_by_a_comparison(
     window: MainWindow, start_control: Start, qtbot: QtBot
 ) -> None:
-    control = start_control()
-    sent(window, control.address, qtbot)
+    control = start_control(file=window.workspace.file)
+    at_control(window, control.address, "compare", qtbot)
     window.workspace.file.header.revision = "9.99"
     page = window.control.page
     page.connect_again()
@@ -182,7 +182,7 @@ def test_a_header_that_differs_is_shown_by_a_comparison(
 def test_e_stop_is_asked_before_anything_is_sent_and_again_until_it_is_pressed(
     window: MainWindow, start_control: Start, qtbot: QtBot
 ) -> None:
-    control = start_control(estop=False)
+    control = start_control(estop=False, file=nearly(window))
     content = parameters.fetch_file(control.address).values
     page = at_control(window, control.address, "send", qtbot)
     page.checked.setChecked(True)
@@ -222,7 +222,7 @@ def slowed(monkeypatch: pytest.MonkeyPatch, act: Callable[[Exchange], object]) -
 def test_cancel_shows_what_it_leaves_and_leaves_the_control_as_it_was(
     window: MainWindow, start_control: Start, monkeypatch, qtbot: QtBot
 ) -> None:
-    control = start_control()
+    control = start_control(file=nearly(window))
     content = parameters.fetch_file(control.address).values
     page = at_control(window, control.address, "send", qtbot)
     page.checked.setChecked(True)
@@ -240,7 +240,7 @@ def test_cancel_shows_what_it_leaves_and_leaves_the_control_as_it_was(
 def test_a_line_that_is_pulled_while_sending_ends_with_the_truth_and_one_next_step(
     window: MainWindow, start_control: Start, monkeypatch, qtbot: QtBot
 ) -> None:
-    control = start_control()
+    control = start_control(file=nearly(window))
     page = at_control(window, control.address, "send", qtbot)
     page.checked.setChecked(True)
     sending = slowed(monkeypatch, lambda _: control.stop())
@@ -262,7 +262,7 @@ def test_a_line_that_is_pulled_while_sending_ends_with_the_truth_and_one_next_st
 def test_errors_and_unsaved_changes_are_shown_in_the_page_before_anything_is_sent(
     window: MainWindow, start_control: Start, qtbot: QtBot, path: Path
 ) -> None:
-    control = start_control()
+    control = start_control(file=nearly(window))
     window.edits.commit(EXCESS, "0.001 mm")
     page = at_control(window, control.address, "send", qtbot)
     page.checked.setChecked(True)
@@ -288,8 +288,8 @@ def test_a_control_that_is_not_there_and_an_address_that_is_none(
 def test_values_of_the_control_are_taken_into_the_file_in_one_step(
     window: MainWindow, start_control: Start, qtbot: QtBot
 ) -> None:
-    control = start_control()
-    sent(window, control.address, qtbot)
+    control = start_control(file=window.workspace.file)
+    at_control(window, control.address, "compare", qtbot)
     window.workspace.edit("two", {EXCESS: Value(12.0, "mm"), (EXCESS[0], "2"): Value(12.5, "mm")})
     page = window.control.page
     page.connect_again()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from PySide6.QtCore import QUrl
 
 from amp_studio.schema import Value
@@ -11,6 +12,8 @@ from amp_studio.ui.base.theme import colour
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import WAIT_MS
+
+pytestmark = pytest.mark.shared_window
 
 EXCESS = ("servo.excess_error", "1")
 
@@ -49,6 +52,7 @@ def test_facts_are_folded_until_they_are_wanted(window_to_read: MainWindow) -> N
     assert "servo.excess_error" not in page(window_to_read)
 
 
+@pytest.mark.own_window
 def test_history_has_what_was_saved(window: MainWindow) -> None:
     window.go_to(EXCESS)
     assert "No saved changes of 1750 Excess Error yet" in page(window)
@@ -107,6 +111,7 @@ def test_the_axes_of_the_panel_choose_the_cell(window_to_read: MainWindow) -> No
     assert window_to_read.selected() == ("servo.excess_error", "3")
 
 
+@pytest.mark.own_window
 def test_the_other_open_files_have_their_values_beside(window: MainWindow, path: Path) -> None:
     other = path.with_name("router.amp")
     other.write_bytes(path.read_bytes())
@@ -127,6 +132,7 @@ def test_the_printed_table_of_a_value_is_below_its_help(window_to_read: MainWind
     assert "26214" in text
 
 
+@pytest.mark.own_window
 def test_three_values_where_they_differ(window: MainWindow) -> None:
     """What is edited is not what is on disk, and not what the control contains."""
     window.go_to(EXCESS)

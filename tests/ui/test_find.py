@@ -15,6 +15,8 @@ from amp_studio.ui.page.message_page import MessageWindow
 
 from .conftest import WAIT_MS, User, action
 
+pytestmark = pytest.mark.shared_window
+
 
 @pytest.fixture
 def box(window: MainWindow, qtbot) -> FindBox:
@@ -235,6 +237,7 @@ def test_without_a_file_the_messages_of_every_family_are_found_and_shown(open_wi
     assert "Rules that find it" in page.text.toPlainText()
 
 
+@pytest.mark.own_window
 def test_a_closed_file_is_forgotten(window: MainWindow, box: FindBox, qtbot) -> None:
     window.close_page(window.page)
     qtbot.waitUntil(lambda: not window.finder._finders, timeout=WAIT_MS)

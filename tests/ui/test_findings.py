@@ -19,6 +19,8 @@ from amp_studio.ui.main_window import MainWindow
 
 from .conftest import action
 
+pytestmark = pytest.mark.shared_window
+
 EXCESS = ("servo.excess_error", "1")
 
 
@@ -266,6 +268,7 @@ def test_why_shows_the_rule_and_leads_to_its_parameters(wrong: MainWindow) -> No
     dialog.close()
 
 
+@pytest.mark.own_window
 def test_a_finding_is_left_as_it_is_with_a_reason_and_a_name(wrong: MainWindow, path, monkeypatch) -> None:
     finding = next(f for f in wrong.workspace.findings if f.addresses[0] == EXCESS)
     wrong.findings.select(finding)
@@ -347,6 +350,7 @@ def test_the_outline_of_a_finding_ends_with_it(window: MainWindow) -> None:
     assert page.table.outlined == frozenset()
 
 
+@pytest.mark.own_window
 def test_a_typed_slip_is_asked_about_until_it_is_saved_and_saved_again(window: MainWindow) -> None:
     workspace, address = window.workspace, ("cycle.peck_retract", "")
     was = workspace.file.get(address)

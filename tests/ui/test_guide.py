@@ -23,6 +23,8 @@ from amp_studio.ui.page.steps_panel import StepsPanel
 
 from .conftest import WAIT_MS, action
 
+pytestmark = pytest.mark.shared_window
+
 
 @pytest.fixture
 def fresh(open_window: Callable[..., MainWindow], tmp_path: Path) -> MainWindow:

@@ -1,5 +1,5 @@
-"""What the window takes with files, the preview of the report and edits: one file and two edits, and a file
-of every family and a hundred edits in ``make campaign``.
+"""What the window takes with files, the preview of the report and edits: one file and an edit, and a file
+of every family, motion and a hundred edits in ``make campaign``.
 """
 
 from __future__ import annotations
@@ -15,11 +15,13 @@ MOST_MB = 450 if CAMPAIGN else 250
 FAMILIES = () if CAMPAIGN else ("grblhal",)
 """Whose files are opened; all where none is named."""
 EDITED = ("servo.loop_gain", "1") if CAMPAIGN else ("axis.max_rate", "X")
-EDITS, EDITS_A_REPORT = (100, 50) if CAMPAIGN else (2, 1)
+EDITS, EDITS_A_REPORT = (100, 50) if CAMPAIGN else (1, 1)
+DRAWS_MOTION = CAMPAIGN
+"""A separate process simulates, which takes seconds and nothing of the window's memory."""
 PROGRAM = f"""
 import os, shutil, sys, tempfile
 from pathlib import Path
-import amp_studio.ui
+import amp_studio.dossier, amp_studio.ui
 from PySide6.QtCore import QElapsedTimer, QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication
 from amp_studio.files.example_files import examples
@@ -36,6 +38,8 @@ def wait(until):
         assert timer.elapsed() < 120_000
         application.processEvents(QEventLoop.ProcessEventsFlag.WaitForMoreEvents)
 
+if not {DRAWS_MOTION}:
+    amp_studio.dossier.motion_apart = lambda file: ()
 application = QApplication([])
 beat = QTimer()  # so that a wait looks again, without a turn of the processor in between
 beat.start(20)

@@ -16,6 +16,8 @@ from amp_studio.ui.pictures.page import PicturesPage
 
 from .conftest import WAIT_MS, action
 
+pytestmark = pytest.mark.shared_window
+
 RIGHT = ("zone.limit3_max", "1")
 LOW = ("zone.limit3_min", "2")
 
@@ -247,6 +249,7 @@ def test_a_picture_that_was_hidden_follows_when_it_is_seen_again(window, picture
     assert canvas.scene.handles[place(canvas, RIGHT)[1]].at[0] == -200.0
 
 
+@pytest.mark.own_window
 def test_a_name_leads_to_its_parameter_in_the_table(window, pictures):
     canvas = pictures.chosen_card.canvas
     canvas.grab()
@@ -313,6 +316,7 @@ def test_every_family_has_a_page_of_pictures(
         assert card.canvas._names or scene.notes or scene.curves
 
 
+@pytest.mark.own_window
 def test_pictures_open_at_the_handle_of_the_selected_value_and_the_parameter_panel_follows(window, qtbot):
     window.resize(1200, 540)  # no room beside the table or below it
     window.go_to(("servo.gain_break_point", "3"))
@@ -339,6 +343,7 @@ def test_a_family_without_pictures_shows_it(qtbot, workspace, monkeypatch):
     assert "This family has no pictures." in {label.text() for label in page.findChildren(QLabel)}
 
 
+@pytest.mark.own_window
 def test_a_value_without_a_handle_opens_all_pictures(window):
     window.go_to(("control.type", ""))
     action(window, "Pictures").trigger()

@@ -18,6 +18,8 @@ from amp_studio.ui.table.block_preview import BlockPreview
 
 from .conftest import action, editor
 
+pytestmark = pytest.mark.shared_window
+
 EXCESS, SUPPRESSION, BREAK = ("servo.excess_error", "servo.feedrate_suppression", "servo.gain_break_point")
 KEY, SHIFT = Qt.Key, Qt.KeyboardModifier.ShiftModifier
 
@@ -65,6 +67,7 @@ def test_the_sum_in_the_status_bar_follows_an_undo(window: MainWindow) -> None:
     assert window.status.value.text() == before
 
 
+@pytest.mark.own_window
 def test_keys_pass_over_what_does_not_exist(window_to_read: MainWindow) -> None:
     """The feedback ports of the first axes have no analog voltage, which only the spindle has."""
     window_to_read.go_to((EXCESS, "1"))
@@ -278,6 +281,7 @@ def test_the_fill_handle_is_dragged(window: MainWindow, file: ParameterFile) -> 
 # -- default and not set -------------------------------------------------------------
 
 
+@pytest.mark.own_window
 def test_a_changed_value_names_the_saved_one_under_the_pointer_and_goes_back_to_it(
     window: MainWindow,
 ) -> None:
@@ -302,6 +306,7 @@ def test_several_values_go_to_default_and_to_not_set_in_one_step(
     assert window.workspace.undo_stack.count() == 2
 
 
+@pytest.mark.own_window
 def test_the_list_of_steps_is_in_words_and_leads_back(window: MainWindow, file: ParameterFile) -> None:
     window.edits.commit((EXCESS, "1"), "9 mm")
     window.edits.commit((EXCESS, "1"), "=Y*2")

@@ -9,10 +9,13 @@ import pytest
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtPrintSupport import QPrinter, QPrintPreviewDialog
 
+from amp_studio.report import PrintedFigure
 from amp_studio.ui.dialogs.file_dialogs import ReportDialog
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import User, action
+
+pytestmark = pytest.mark.shared_window
 
 
 @pytest.mark.parametrize(
@@ -24,9 +27,9 @@ def test_a_report_in_each_format(
     # neither the simulator nor Typst is loaded into the window: together they keep 250 MB
     monkeypatch.setattr("amp_studio.dossier.motion_figures", None)
     monkeypatch.setitem(sys.modules, "typst", None)
+    drawn = PrintedFigure("Step, axis 1", "", ("Not simulated: no machine",))  # tests/test_dossier.py has it
+    monkeypatch.setattr("amp_studio.dossier.motion_apart", lambda file: (drawn,))
     path = tmp_path / f"report.{ending}"
-    if ending == "html":  # the PDF has the motion
-        monkeypatch.setattr("amp_studio.dossier.motion_apart", lambda file: ())
     accept(
         ReportDialog,
         lambda d: (d.form.set_answer("path", str(path)), d.form.set_answer("changed", ending == "pdf")),
@@ -36,6 +39,7 @@ def test_a_report_in_each_format(
 
     assert path.read_bytes().startswith(begins)
     assert path.stat().st_size > 1000
+    assert ending != "html" or "Not simulated: no machine" in path.read_text("utf-8")
     assert str(path) in window.statusBar().currentMessage()
 
 

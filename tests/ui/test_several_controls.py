@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 from amp_studio.ui.control.several import SeveralControls
 from amp_studio.ui.main_window import MainWindow
 
-from .at_control import at_control, sent, settled
+from .at_control import at_control, nearly, sent, settled
 from .conftest import WAIT_MS, User, action
 
 DEAD = "tcp://127.0.0.1:1"
@@ -72,7 +72,7 @@ def test_a_file_goes_to_several_controls_and_each_exchange_is_recorded(
 def test_a_backup_is_put_back_from_the_exchange_that_made_it(
     window: MainWindow, start_control, qtbot: QtBot
 ) -> None:
-    control = start_control()
+    control = start_control(file=nearly(window))
     sent(window, control.address, qtbot)
     window.edits.commit(("servo.excess_error", "1"), "12 mm")
     assert window.save()

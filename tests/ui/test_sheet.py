@@ -15,7 +15,7 @@ from amp_studio.files import content_of, open_file
 from amp_studio.ui.control.hand_sheet import HandSheet
 from amp_studio.ui.main_window import MainWindow
 
-from .at_control import sent, settled
+from .at_control import nearly, sent, settled
 from .conftest import User, action
 
 
@@ -130,7 +130,7 @@ def test_it_goes_with_its_file(sheet: HandSheet, window: MainWindow) -> None:
 def test_it_is_made_against_the_control_that_is_chosen_and_read_for_it(
     window: MainWindow, start_control, qtbot: QtBot
 ) -> None:
-    page = sent(window, start_control().address, qtbot)
+    page = sent(window, start_control(file=nearly(window)).address, qtbot)
     window.edits.commit(("servo.excess_error", "1"), "8 mm")
     page.directions.buttons["hand"].click()
     assert page.hand.sheet is None, "what the control contains is not read since it was sent to"

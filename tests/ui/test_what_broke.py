@@ -31,6 +31,8 @@ from amp_studio.ui.project.files import to_trash
 
 from .conftest import WAIT_MS, User, action, editor
 
+pytestmark = pytest.mark.shared_window
+
 SIDE_WINDOWS = (
     "Compare and Merge With",
     "Calculator",
@@ -60,6 +62,7 @@ def opened_beside(window: MainWindow) -> list[QWidget]:
     ]
 
 
+@pytest.mark.own_window
 def test_escape_closes_every_side_window(
     window: MainWindow, path: Path, user: User, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:
@@ -94,6 +97,7 @@ def test_letters_typed_on_a_choice_are_those_of_its_label(window: MainWindow) ->
     box.deleteLater()
 
 
+@pytest.mark.own_window
 def test_tab_down_tab_down_chooses_both_types_of_a_servo(window: MainWindow) -> None:
     file = window.workspace.file
     for parameter in ("servo.hardware_type", "servo.loop_type"):
@@ -120,6 +124,7 @@ def test_only_the_cell_that_caused_a_finding_is_tinted(window: MainWindow) -> No
     assert tinted == causes
 
 
+@pytest.mark.own_window
 def test_an_answer_of_the_find_box_moves_the_left_panel_too(window: MainWindow, qtbot: QtBot) -> None:
     window.page.left.show_side("groups")
     box = window.finder.box
@@ -132,6 +137,7 @@ def test_an_answer_of_the_find_box_moves_the_left_panel_too(window: MainWindow, 
     assert "home" in item.text(0).casefold()
 
 
+@pytest.mark.own_window
 @pytest.mark.parametrize(
     "keys", [[Qt.Key.Key_Return], [Qt.Key.Key_Escape], [Qt.Key.Key_Tab]], ids=["enter", "escape", "tab"]
 )
@@ -148,6 +154,7 @@ def test_an_editor_closes_without_a_word_on_the_terminal(
     assert [text for text in message if "ditor" in text or "QAbstractItemView" in text] == []
 
 
+@pytest.mark.own_window
 def test_an_edit_in_progress_survives_a_change_of_the_group(window: MainWindow, qtlog) -> None:
     window.go_to(("servo.excess_error", "1"))
     window.table_view.edit(window.table_view.currentIndex())
@@ -161,6 +168,7 @@ def test_an_edit_in_progress_survives_a_change_of_the_group(window: MainWindow, 
 # -- what a monkey found
 
 
+@pytest.mark.own_window
 def test_units_and_control_types_are_not_offered_without_a_file(window: MainWindow) -> None:
     offered = [a for key in ("view.units", "view.machine") for a in window.menus.menu(key).actions()]
     assert all(each.isEnabled() for each in offered)
@@ -182,6 +190,7 @@ def test_a_clipboard_that_never_had_a_content_is_refused_in_words(
     assert user.reads() == "There is no text to paste."
 
 
+@pytest.mark.own_window
 def test_the_preview_outlives_the_page_that_it_shows(window: MainWindow, path: Path, qtbot: QtBot) -> None:
     other = path.with_name("other.amp")
     other.write_bytes(path.read_bytes())
@@ -197,6 +206,7 @@ def test_the_preview_outlives_the_page_that_it_shows(window: MainWindow, path: P
     assert panel._page is window.page
 
 
+@pytest.mark.own_window
 def test_the_find_box_forgets_commands_of_a_menu_that_was_made_again(
     window: MainWindow, tmp_path: Path
 ) -> None:
