@@ -31,8 +31,6 @@ from amp_studio.ui.project.files import to_trash
 
 from .conftest import WAIT_MS, User, action, editor
 
-pytestmark = pytest.mark.shared_window
-
 SIDE_WINDOWS = (
     "Compare and Merge With",
     "Calculator",
@@ -62,9 +60,9 @@ def opened_beside(window: MainWindow) -> list[QWidget]:
     ]
 
 
-@pytest.mark.own_window
+@pytest.mark.parametrize("name", SIDE_WINDOWS)
 def test_escape_closes_every_side_window(
-    window: MainWindow, path: Path, user: User, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+    window: MainWindow, path: Path, name: str, user: User, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:
     Project.create(path.parent, ProjectInfo("Workshop", "9pc"))
     project.notice(window, path.parent)
@@ -75,17 +73,16 @@ def test_escape_closes_every_side_window(
         lambda dialog: run(dialog) if isinstance(dialog, ProgressDialog) else dialog.show() or 0,
     )
     window.go_to(("servo.excess_error", "1"))
-    for name in SIDE_WINDOWS:
-        action(window, name).trigger()
-        qtbot.waitUntil(lambda: bool(opened_beside(window)), timeout=WAIT_MS)
-        (beside,) = opened_beside(window)
-        with qtbot.waitActive(beside, timeout=WAIT_MS):
-            beside.activateWindow()
-        with qtbot.waitExposed(beside, timeout=WAIT_MS):
-            beside.raise_()
-        QTest.keyClick(QApplication.focusWidget() or beside, Qt.Key.Key_Escape)
-        qtbot.waitUntil(lambda: opened_beside(window) == [], timeout=WAIT_MS)
-        assert window.isVisible(), name
+    action(window, name).trigger()
+    qtbot.waitUntil(lambda: bool(opened_beside(window)), timeout=WAIT_MS)
+    (beside,) = opened_beside(window)
+    with qtbot.waitActive(beside, timeout=WAIT_MS):
+        beside.activateWindow()
+    with qtbot.waitExposed(beside, timeout=WAIT_MS):
+        beside.raise_()
+    QTest.keyClick(QApplication.focusWidget() or beside, Qt.Key.Key_Escape)
+    qtbot.waitUntil(lambda: opened_beside(window) == [], timeout=WAIT_MS)
+    assert window.isVisible()
 
 
 def test_letters_typed_on_a_choice_are_those_of_its_label(window: MainWindow) -> None:
@@ -97,7 +94,6 @@ def test_letters_typed_on_a_choice_are_those_of_its_label(window: MainWindow) ->
     box.deleteLater()
 
 
-@pytest.mark.own_window
 def test_tab_down_tab_down_chooses_both_types_of_a_servo(window: MainWindow) -> None:
     file = window.workspace.file
     for parameter in ("servo.hardware_type", "servo.loop_type"):
@@ -124,7 +120,6 @@ def test_only_the_cell_that_caused_a_finding_is_tinted(window: MainWindow) -> No
     assert tinted == causes
 
 
-@pytest.mark.own_window
 def test_an_answer_of_the_find_box_moves_the_left_panel_too(window: MainWindow, qtbot: QtBot) -> None:
     window.page.left.show_side("groups")
     box = window.finder.box
@@ -137,7 +132,6 @@ def test_an_answer_of_the_find_box_moves_the_left_panel_too(window: MainWindow, 
     assert "home" in item.text(0).casefold()
 
 
-@pytest.mark.own_window
 @pytest.mark.parametrize(
     "keys", [[Qt.Key.Key_Return], [Qt.Key.Key_Escape], [Qt.Key.Key_Tab]], ids=["enter", "escape", "tab"]
 )
@@ -154,7 +148,6 @@ def test_an_editor_closes_without_a_word_on_the_terminal(
     assert [text for text in message if "ditor" in text or "QAbstractItemView" in text] == []
 
 
-@pytest.mark.own_window
 def test_an_edit_in_progress_survives_a_change_of_the_group(window: MainWindow, qtlog) -> None:
     window.go_to(("servo.excess_error", "1"))
     window.table_view.edit(window.table_view.currentIndex())
@@ -168,7 +161,6 @@ def test_an_edit_in_progress_survives_a_change_of_the_group(window: MainWindow, 
 # -- what a monkey found
 
 
-@pytest.mark.own_window
 def test_units_and_control_types_are_not_offered_without_a_file(window: MainWindow) -> None:
     offered = [a for key in ("view.units", "view.machine") for a in window.menus.menu(key).actions()]
     assert all(each.isEnabled() for each in offered)
@@ -190,7 +182,6 @@ def test_a_clipboard_that_never_had_a_content_is_refused_in_words(
     assert user.reads() == "There is no text to paste."
 
 
-@pytest.mark.own_window
 def test_the_preview_outlives_the_page_that_it_shows(window: MainWindow, path: Path, qtbot: QtBot) -> None:
     other = path.with_name("other.amp")
     other.write_bytes(path.read_bytes())
@@ -206,7 +197,6 @@ def test_the_preview_outlives_the_page_that_it_shows(window: MainWindow, path: P
     assert panel._page is window.page
 
 
-@pytest.mark.own_window
 def test_the_find_box_forgets_commands_of_a_menu_that_was_made_again(
     window: MainWindow, tmp_path: Path
 ) -> None:
