@@ -19,8 +19,6 @@ from amp_studio.ui.table.quick_edit import QuickEdit
 
 from .conftest import User, action
 
-pytestmark = pytest.mark.shared_window
-
 PASSWORD = ("password.character", "1")
 SECRET = "7654321"
 
@@ -76,7 +74,6 @@ def test_table_panel_findings_and_undo_mask_a_secret(window: MainWindow) -> None
     assert MASKED in reported[1]
 
 
-@pytest.mark.own_window
 def test_a_secret_is_shown_while_that_is_wanted_and_masked_in_the_next_file(
     window: MainWindow, bare: bytes, tmp_path: Path
 ) -> None:
@@ -94,7 +91,6 @@ def test_a_secret_is_shown_while_that_is_wanted_and_masked_in_the_next_file(
     assert window.table.shown_value(PASSWORD) == MASKED
 
 
-@pytest.mark.own_window
 def test_a_file_without_secrets_offers_nothing_to_show(window: MainWindow, tmp_path: Path) -> None:
     from amp_studio.files import content_of, new_file
 
@@ -140,7 +136,6 @@ def test_quick_edit_does_not_show_a_secret(window: MainWindow) -> None:
     assert window.workspace.file.get(PASSWORD) == Value(int(SECRET))
 
 
-@pytest.mark.own_window
 def test_a_comparison_shows_that_secrets_differ_and_not_how(window: MainWindow) -> None:
     other = window.workspace.file.copy()
     other.set(PASSWORD, Value(int(SECRET) + 1))
@@ -156,7 +151,6 @@ def test_a_comparison_shows_that_secrets_differ_and_not_how(window: MainWindow) 
     displayed.close()
 
 
-@pytest.mark.own_window
 def test_history_keeps_no_secret_and_unsaved_work_keeps_its_own(window: MainWindow) -> None:
     document = window.workspace.document
     document.keep_unsaved()

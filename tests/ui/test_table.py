@@ -12,8 +12,6 @@ from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.table.cell_look import CellLook
 from amp_studio.ui.table.parameter_table import AddressRole, ParameterTable
 
-pytestmark = pytest.mark.shared_window
-
 EXCESS = ("servo.excess_error", "1")
 
 
