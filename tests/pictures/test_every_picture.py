@@ -152,7 +152,7 @@ def test_no_value_however_odd_keeps_a_picture_from_being_drawn(checkout, data):
         scene = picture.scene()
         assert "nan" not in scene_svg(scene)
         assert json.dumps(scene_json(scene), allow_nan=False)
-        assert scene.handles or scene.notes
+        assert scene.handles or scene.notes or scene.curves
 
 
 @cache

@@ -36,7 +36,6 @@ SIDE_WINDOWS = (
     "Calculator",
     "Tables of the Manual",
     "Compare Axes",
-    "Tuning",
     "Quick Edit by Number",
     "Machine Facts",
     "Name Axis",

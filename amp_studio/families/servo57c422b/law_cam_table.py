@@ -37,6 +37,12 @@ def present(file: ParameterFile, axis: str) -> CamProfile:
     count, mode = _number(file, ids.cam_points, axis), _mode(file, axis)
     if not count:
         raise SimulationError(f"Axis {axis} has no cam: its number of points is 0", ids.cam_points)
+    room = POSITIONS if mode >> POSITION_BIT & 1 else WORDS if mode >> WORDS_BIT & 1 else BYTES
+    if not 0 < count <= room:
+        raise SimulationError(
+            f"Axis {axis} has {count:.0f} points of a cam: its table has room for 1 to {room} (page 4-57)",
+            ids.cam_points,
+        )
     if mode >> POSITION_BIT & 1:
         table = [_number(file, ids.position_points, f"{axis}.{k}") for k in range(int(count))]
         increment = _number(file, ids.position_increment, axis)
