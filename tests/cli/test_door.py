@@ -88,6 +88,7 @@ AS_THE_DOOR_DOES = {
     "verbs/controls/restore.py": "open_copy",  # it is shown before it goes back
     "verbs/controls/upload.py": "decode_content",  # of bytes that are kept also where they cannot be read
     "verbs/documents/sheet.py": "open_copy",  # compares a sheet with a copy
+    "verbs/motion/program.py": "Document",  # earlier versions of a file that stays as it is
 }
 """Module -> what it takes from a room although the door calls it too, and why."""
 

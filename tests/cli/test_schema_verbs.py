@@ -154,7 +154,7 @@ def test_the_steps_of_the_guides_stand_on_the_page_of_what_they_set(amp) -> None
         "\n  Integration, procedures with the machine, step 10 of 12: 11.2.1 Time constant (page 11-6)\n"
         in message
     )
-    assert "\nGuides\n" not in amp("show", "9pc", "1801").out
+    assert "\nGuides\n" not in amp("show", "9pc", "350").out
 
 
 def test_the_step_of_commissioning_is_on_the_page_and_the_one_that_looks_again(amp) -> None:

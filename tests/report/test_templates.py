@@ -238,7 +238,7 @@ def test_a_template_that_works_without_end_and_writes_nothing_is_ended(
 
 def test_every_block_of_the_documentation_is_one_of_a_standard_template() -> None:
     table = (Path(__file__).parents[2] / "docs" / "reports.md").read_text("utf-8").split("| block |")[1]
-    reported = set(re.findall(r"`([a-z]+)`", "\n".join(re.findall(r"^\|(.*?)\|", table, re.MULTILINE))))
+    reported = set(re.findall(r"`([a-z_]+)`", "\n".join(re.findall(r"^\|(.*?)\|", table, re.MULTILINE))))
     has = {
         ending: set(re.findall(r"{% block (\w+) %}", (TEMPLATES / f"report.{ending}.j2").read_text("utf-8")))
         for ending in ("typ", "html")

@@ -75,6 +75,7 @@ def test_a_panel_that_was_closed_by_hand_stays_closed_when_the_window_grows(wind
 
 def test_tools_have_words_only_where_there_is_room(window: MainWindow) -> None:
     styles = Qt.ToolButtonStyle
+    displayed(window, 1600, 900)
     assert window.tools.toolButtonStyle() == styles.ToolButtonTextBesideIcon
     displayed(window, 1024, 700)
     assert window.tools.toolButtonStyle() == styles.ToolButtonIconOnly
