@@ -94,8 +94,10 @@ def test_a_program_shows_its_time_what_limits_it_and_another_value(
     assert window.outcome.plan.time < before.plan.time
 
 
-def test_changes_that_are_ticked_are_computed_together(window: ProgramPage, qtbot: QtBot) -> None:
-    window.open_program(ROUTER / "plate.nc")
+def test_changes_that_are_ticked_are_computed_together(
+    window: ProgramPage, plate: Path, qtbot: QtBot
+) -> None:
+    window.open_program(plate)
     qtbot.waitUntil(lambda: window.outcome is not None, timeout=10 * WAIT_MS)
     panel = window.tries
     window.tries.limits_button.click()
