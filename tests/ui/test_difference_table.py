@@ -56,3 +56,16 @@ def test_a_look_at_reading_takes_nothing_from_what_is_sent(qtbot: QtBot) -> None
         table.show_differences(file, found, to_control=to_control, secrets=False)
         assert table.rows[pitch].takes_file is sent
         assert table.rows[pitch].is_fixed is not sent
+
+
+def test_a_table_that_forgot_its_file_takes_another_width(qtbot: QtBot) -> None:
+    """Its rows were gone and their items were still asked for."""
+    file, other = new_file("9pc", "mill", ["X"]), new_file("9pc", "mill", ["X"])
+    file.set(("servo.lead_screw_pitch", "1"), Value(5.0, "mm"))
+    table = DifferenceTable()
+    qtbot.addWidget(table)
+    found = compare(file.schema, file.values, other.values).differences
+    table.show_differences(file, found, to_control=True, secrets=False)
+    table.show_nothing()
+    table.show_short_words(True)
+    assert (table.topLevelItemCount(), table.rows) == (0, {})

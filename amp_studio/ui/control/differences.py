@@ -81,6 +81,11 @@ class DifferenceTable(QTreeWidget):
         self.headerItem().setText(CONTROL, f"A  {control}")
         self.headerItem().setText(FILE, f"B  {file}")
 
+    def show_nothing(self) -> None:
+        """Forget what differed, and the choices."""
+        self.clear()
+        self.rows, self._items = {}, {}
+
     def show_differences(
         self, file: ParameterFile, differences: Iterable[Difference], *, to_control: bool, secrets: bool
     ) -> None:
@@ -90,8 +95,7 @@ class DifferenceTable(QTreeWidget):
         before = {address: row.takes_file for address, row in self.rows.items() if not row.is_fixed}
         self._file, self._secrets = file, secrets
         found = list(differences)
-        self.clear()
-        self.rows, self._items = {}, {}
+        self.show_nothing()
         schema = file.schema
         for difference in found:
             only = difference.a is None if to_control else difference.b is None

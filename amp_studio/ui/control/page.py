@@ -117,8 +117,7 @@ class ControlPage(ControlPageParts):
         if workspace is not self.workspace:
             self.workspace, self.backup = workspace, None
             self._accepted_errors = False
-            self.table.clear()
-            self.table.rows.clear()
+            self.table.show_nothing()
         self.turn(direction)
 
     def turn(self, direction: str) -> None:
