@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
 from itertools import groupby
+from typing import Protocol
 
 from amp_studio.schema import MASKED, ParameterState
 
@@ -190,29 +191,40 @@ class DecodedWord:
     """(places, value, meaning), places with the same value together."""
 
 
+class _HasRows(Protocol):
+    @property
+    def rows(self) -> tuple[ReportRow, ...]: ...
+
+
+class _TableOfRows:
+    """What is printed below a table of values, or sets the width of its figures."""
+
+    __slots__ = ()
+
+    @property
+    def reasons(self: _HasRows) -> tuple[tuple[str, str], ...]:
+        """The marks of inactive values with their reasons."""
+        return _reasons(self.rows)
+
+    @property
+    def words(self: _HasRows) -> tuple[DecodedWord, ...]:
+        """Its words of bits with their meaning."""
+        return tuple(_decoded(self.rows))
+
+    @property
+    def widest(self: _HasRows) -> int:
+        """Most characters before the decimal sign of a figure."""
+        return max((len(row.whole) for row in self.rows), default=0)
+
+
 @dataclass(frozen=True, slots=True)
-class Listing:
+class Listing(_TableOfRows):
     """A table with one line for each value."""
 
     title: str
     rows: tuple[ReportRow, ...]
     by_place: bool
     """Whether a column with the axis or instance is needed."""
-
-    @property
-    def reasons(self) -> tuple[tuple[str, str], ...]:
-        """The marks of inactive values with their reasons."""
-        return _reasons(self.rows)
-
-    @property
-    def words(self) -> tuple[DecodedWord, ...]:
-        """Its words of bits with their meaning."""
-        return tuple(_decoded(self.rows))
-
-    @property
-    def widest(self) -> int:
-        """Most characters before the decimal sign of a figure."""
-        return max((len(row.whole) for row in self.rows), default=0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -229,7 +241,7 @@ class Column:
 
 
 @dataclass(frozen=True, slots=True)
-class Grid:
+class Grid(_TableOfRows):
     """A table with one line for each parameter and one column for each axis, as in the editor."""
 
     title: str
@@ -240,21 +252,6 @@ class Grid:
     def rows(self) -> tuple[ReportRow, ...]:
         """Every value, line by line."""
         return tuple(row for line in self.lines for row in line.cells if row is not None)
-
-    @property
-    def reasons(self) -> tuple[tuple[str, str], ...]:
-        """The marks of inactive values with their reasons."""
-        return _reasons(self.rows)
-
-    @property
-    def words(self) -> tuple[DecodedWord, ...]:
-        """Its words of bits with their meaning."""
-        return tuple(_decoded(self.rows))
-
-    @property
-    def widest(self) -> int:
-        """Most characters before the decimal sign of a figure."""
-        return max((len(row.whole) for row in self.rows), default=0)
 
 
 def _decoded(rows: Sequence[ReportRow]) -> Iterator[DecodedWord]:
