@@ -276,5 +276,5 @@ def test_tables_to_fill_in_by_hand_are_written(window: MainWindow, tmp_path: Pat
     action(window, "Form to Fill In").trigger()
     page = (tmp_path / "form.html").read_text("utf-8")
     assert "Maximum travel" in page
-    assert "______" in page
+    assert "______ mm" in page
     assert str(tmp_path / "form.html") in window.statusBar().currentMessage()

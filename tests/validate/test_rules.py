@@ -70,8 +70,11 @@ def checks_of(case: Case) -> Iterator[Check]:
 
 
 def is_tried(case: Case) -> bool:
-    """Return whether ``make test`` makes the fixes of a case: of the first one that breaks its rule."""
-    return case is next(each for each in CASES[case.rule] if each.breaks is not None)
+    """Return whether ``make test`` makes the fixes of a case: of the first one that breaks its rule,
+    and of every fourth.
+    """
+    broken = [each for each in CASES[case.rule] if each.breaks is not None]
+    return broken.index(case) % 4 == 0
 
 
 def test_no_check_of_a_case_is_lost() -> None:
@@ -81,7 +84,7 @@ def test_no_check_of_a_case_is_lost() -> None:
     assert tried[a_broken_rule_is_found] >= 2418
     assert sum(case.passes is not None for case in every) >= 2518
     assert tried[its_fixes_are_those_of_the_table] >= 706
-    assert tried[its_fixes_end_the_finding_and_cause_no_error] >= (706 if CAMPAIGN else 200)
+    assert tried[its_fixes_end_the_finding_and_cause_no_error] >= (706 if CAMPAIGN else 250)
     assert tried[the_effective_value_is_in_the_finding] >= 191
     assert tried[a_comparison_turns_exactly_at_its_bound] >= 217
 
