@@ -6,7 +6,8 @@ from pytestqt.qtbot import QtBot
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value
-from amp_studio.ui.control.page import ControlPage, ExchangeDirection
+from amp_studio.ui.control.next_step import ExchangeDirection
+from amp_studio.ui.control.page import ControlPage
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import WAIT_MS

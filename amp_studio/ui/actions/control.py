@@ -31,7 +31,8 @@ if TYPE_CHECKING:
     from amp_studio.transfer.client import Copy
     from amp_studio.ui.control.known_list import ListedControl
     from amp_studio.ui.control.live import LivePage
-    from amp_studio.ui.control.page import ControlPage, ExchangeDirection
+    from amp_studio.ui.control.next_step import ExchangeDirection
+    from amp_studio.ui.control.page import ControlPage
     from amp_studio.ui.control.session import ControlSession
 
 COPIES = "Backups of a control (*.img *.before-*.amp);;All files (*)"

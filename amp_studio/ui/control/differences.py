@@ -11,7 +11,7 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QFontMetrics, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QTreeWidget, QTreeWidgetItem
 
-from amp_studio.files import Difference, ParameterFile, shown_axes
+from amp_studio.files import Difference, ParameterFile, describe, shown_axes
 from amp_studio.report import Danger, dangers_of_change
 from amp_studio.schema import Address
 from amp_studio.ui.base.figures import show_value
@@ -251,6 +251,16 @@ class DifferenceTable(QTreeWidget):
             self.setCurrentItem(item)
             self.scrollToItem(item)
 
+    def select_danger(self, by: int) -> None:
+        """Select the next row (``by`` 1) or the one before (-1) that would be sent and can be dangerous."""
+        marked = [address for address, row in self.rows.items() if row.dangers and row.takes_file]
+        row = self.current()
+        before_first = -1 if by > 0 else 0
+        is_marked = row is not None and row.difference.address in marked
+        here = marked.index(row.difference.address) if row is not None and is_marked else before_first
+        if marked:
+            self.select(marked[(here + by) % len(marked)])
+
     def show_only(self, words: str) -> None:
         """Leave out the rows whose number, name or values have none of the words."""
         wanted = words.casefold().strip()
@@ -269,6 +279,23 @@ class DifferenceTable(QTreeWidget):
     def taken(self, *, file: bool) -> list[SideRow]:
         """Return the rows that take the file's side, or those that take the control's."""
         return [row for row in self.rows.values() if row.takes_file is file]
+
+    def changes_in_words(self) -> list[str]:
+        """Return a line for each value that the control gets: what it was there, what it is then."""
+        lines: list[str] = []
+        if self._file is None:
+            return lines
+        for row in self.taken(file=True):
+            address, difference = row.difference.address, row.difference
+            old, new = (self.text_of(address, value) for value in (difference.b, difference.a))
+            lines.append(f"{describe(self._file, address)}: {old} → {new}")
+        return lines
+
+    def kept(self) -> list[SideRow]:
+        """Return the rows whose value of the control stays, or goes into the file when it is read;
+        without those that the control does not contain, which stay as they are in the file.
+        """
+        return [row for row in self.taken(file=False) if not row.is_fixed]
 
     def dangers(self) -> tuple[Danger, ...]:
         """Return what the manual calls dangerous about the values that change, each statement once."""

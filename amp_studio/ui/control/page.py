@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QKeySequence, QShortcut
@@ -15,34 +15,22 @@ from PySide6.QtWidgets import QFileDialog
 from amp_studio.files import ParameterFile, describe, write_atomic
 from amp_studio.schema import Value
 from amp_studio.ui.base.theme import scheme
-from amp_studio.ui.base.translated import finding_in_words, message_in_words
+from amp_studio.ui.base.translated import message_in_words
 from amp_studio.ui.base.workspace import Workspace
-from amp_studio.ui.forms.message_bar import MessageKind
 
 from .conditions import conditions_of
 from .differences import SideRow
+from .next_step import BarAnswer, ExchangeDirection, PageState, bar_message, primary_button
 from .page_parts import ControlPageParts
 from .session import ControlSession
-from .session_words import (
-    ControlBackup,
-    doubts_of,
-    text_of_cancel,
-    text_of_content,
-    text_of_failure,
-    text_of_proof,
-)
+from .session_words import ControlBackup, text_of_cancel, text_of_content, text_of_proof
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client import ImageComparison
 
 
-ExchangeDirection = Literal["compare", "send", "read", "hand"]
-"""What is done with the control; "hand" is the sheet of values that a person keys in at it."""
 DIRECTIONS: dict[str, ExchangeDirection] = {"send": "send", "read": "read", "hand": "hand"}
 """What the directions are called at the switch; any other name is comparing."""
-BarAnswer = tuple[str, Callable[[], object]]
-BarMessage = tuple[str, MessageKind, tuple[BarAnswer, ...]]
-"""What is missing or how it ended, how severe it is, and what can be done about it."""
 ASK_MS = 2000
 """Milliseconds after which a control that must be in E-stop is asked again."""
 
@@ -101,8 +89,8 @@ class ControlPage(ControlPageParts):
         scheme().changed.connect(self.refresh)
         for keys, act in (
             ("Esc", self._escape),
-            ("Alt+Down", lambda: self._step_dangers(1)),
-            ("Alt+Up", lambda: self._step_dangers(-1)),
+            ("Alt+Down", lambda: self.table.select_danger(1)),
+            ("Alt+Up", lambda: self.table.select_danger(-1)),
         ):
             shortcut = QShortcut(QKeySequence(keys), self)
             shortcut.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
@@ -203,6 +191,22 @@ class ControlPage(ControlPageParts):
             return self.backup.copy.file
         return self.workspace.file if self.workspace is not None else None
 
+    def _state(self) -> PageState:
+        """Return what is chosen now, and how far the exchange is."""
+        return PageState(
+            self.direction,
+            self.workspace,
+            self.backup,
+            self.session,
+            self.file,
+            to_send=len(self.table.taken(file=True)),
+            kept=len(self.table.kept()),
+            has_rows=bool(self.table.rows),
+            has_dangers=self.direction == "send" and bool(self.table.dangers()),
+            is_checked=self.checked.isChecked(),
+            accepted_errors=self._accepted_errors,
+        )
+
     @property
     def title(self) -> str:
         """The name of that side."""
@@ -280,11 +284,12 @@ class ControlPage(ControlPageParts):
         is_listed = found is not None and session is not None and session.phase != "done"
         self._show_counts(found.values.same if found else 0, is_listed)
         self._show_middle(message_in_words(found.summary()) if found else "")
-        self._show_bar()
+        state = self._state()
+        self._show_bar(state)
         self._show_detail()
-        self._show_foot()
+        self._show_foot(state)
         dangers = self.table.dangers() if self.direction == "send" else ()
-        self.steps.show_plan(self.direction, session, len(self.table.taken(file=True)), dangers)
+        self.steps.show_plan(self.direction, session, state.to_send, dangers)
 
     def _enable_choices(self) -> None:
         """Enable what needs a file, and what several controls can do."""
@@ -296,7 +301,7 @@ class ControlPage(ControlPageParts):
 
     def _show_counts(self, same: int, is_read: bool) -> None:
         differ = len(self.table.rows)
-        kept = sum(not row.takes_file and not row.is_fixed for row in self.table.rows.values())
+        kept = len(self.table.kept())
         parts = [self.tr("{differ} differ, {same} are the same").format(differ=differ, same=same)]
         if kept and self.direction == "send":
             parts.append(self.tr("{kept} kept").format(kept=kept))
@@ -324,11 +329,9 @@ class ControlPage(ControlPageParts):
         workspace = self.workspace
         if workspace is None:
             return []
-        rows = self.table.rows.values()
-        kept = [row.difference.address for row in rows if not row.takes_file and not row.is_fixed]
-        return [describe(workspace.file, address) for address in kept]
+        return [describe(workspace.file, row.difference.address) for row in self.table.kept()]
 
-    def _show_bar(self) -> None:
+    def _show_bar(self, state: PageState) -> None:
         session = self.session
         is_needed = (
             session is not None and session.needs_password and session.seen is None and not session.is_busy
@@ -336,51 +339,18 @@ class ControlPage(ControlPageParts):
         self.password.setVisible(is_needed)
         if is_needed:
             self.password.setFocus()
-        message = self._message()
+        message = bar_message(state)
         if message is None:
             self.bar.hide()
-            return
-        text, kind, answers = message
-        if self.bar.isHidden() or self.bar.text.text() != text:
-            self.bar.say(text, kind, *answers)
-
-    def _message(self) -> BarMessage | None:
-        """Return what is missing or how it ended, and what to do about it."""
-        session, workspace = self.session, self.workspace
-        if session is None or session.is_busy:
-            return None
-        if session.phase == "away" and session.error:
-            return message_in_words(session.error), "warning", ((self.tr("Try Again"), session.read),)
-        if session.phase == "failed":
-            return text_of_failure(session), "error", ()
-        if session.phase == "done":
-            return (" ".join(session.notes), "advice", ()) if session.notes else None
-        if self.direction != "send" or session.seen is None:
-            return None
-        if session.in_estop is False:
-            text = self.tr(
-                "Press E-stop at the machine. While an axis can move, the control takes no parameters."
-            )
-            return text, "warning", ((self.tr("Ask Now"), session.ask),)
-        if self.backup is not None:
-            doubts = doubts_of(self.backup)
-            return (doubts, "warning", ()) if doubts else None
-        return self._message_of_file(workspace) if workspace is not None else None
-
-    def _message_of_file(self, workspace: Workspace) -> BarMessage | None:
-        """Return what keeps a file from being sent, and what to do about it."""
-        if workspace.is_dirty and workspace.may_edit:
-            text = self.tr("{name} has unsaved changes. A download sends the saved file.").format(
-                name=workspace.path.name
-            )
-            return text, "warning", ((self.tr("Save"), self._save_file),)
-        errors = [f for f in workspace.findings if f.severity == "error"]
-        if errors and not self._accepted_errors:
-            text = self.tr("The file has {count}, the first: {message}").format(
-                count=self.tr("%n errors", "", len(errors)), message=finding_in_words(errors[0])
-            )
-            return text, "error", ((self.tr("Send It With Its Errors"), self._accept_errors),)
-        return None
+        elif self.bar.isHidden() or self.bar.text.text() != message.text:
+            acts: dict[BarAnswer, Callable[[], object]] = {
+                "read": self.connect_again,
+                "ask": self._ask_again,
+                "save": self._save_file,
+                "accept errors": self._accept_errors,
+            }
+            answers = ((text, acts[answer]) for text, answer in message.answers)
+            self.bar.say(message.text, message.kind, *answers)
 
     def _save_file(self) -> None:
         self._save()
@@ -415,7 +385,7 @@ class ControlPage(ControlPageParts):
         seen = session.seen if session is not None else None
         self.one.setVisible(would_send and self.backup is None and seen is not None and seen.takes_one)
 
-    def _show_foot(self) -> None:
+    def _show_foot(self, state: PageState) -> None:
         session = self.session
         phase = session.phase if session is not None else ""
         is_busy = session is not None and session.is_busy
@@ -425,80 +395,15 @@ class ControlPage(ControlPageParts):
         self.cancel.setText(text_of_cancel(session))
         self.proof.setVisible(phase == "done")
         self.again.setVisible(not is_busy and phase in ("ready", "done"))
-        text, why = self._primary()
-        self.primary.setVisible(bool(text))
-        self.primary.setText(text)
-        self.primary.setEnabled(not why)
+        button = primary_button(state)
+        self.primary.setVisible(bool(button.text))
+        self.primary.setText(button.text)
+        self.primary.setEnabled(not button.why_off)
         tied = self.tr("Tied to what you see: if the control changes before, nothing is replaced.")
-        self.note.setText(why or (tied if self.direction == "send" and phase == "ready" and text else ""))
+        is_tied = self.direction == "send" and phase == "ready" and bool(button.text)
+        self.note.setText(button.why_off or (tied if is_tied else ""))
 
     # -- the one button ----------------------------------------------------------------
-
-    @property
-    def to_send(self) -> int:
-        """How many values the control gets that it does not contain."""
-        return len(self.table.taken(file=True))
-
-    def _primary(self) -> tuple[str, str]:
-        """Return the text of the primary button and why it is off; no text where there is nothing to do."""
-        session = self.session
-        if session is None or session.is_busy:
-            return "", ""
-        if session.phase in ("away", "failed"):
-            return self.tr("Connect and Read"), ""
-        if session.phase == "done":
-            return self.tr("Back to the Values"), ""
-        if self.direction == "read":
-            return self._reading_primary()
-        if self.direction == "compare":
-            return self.tr("Send %n Values to the Control…", "", self.to_send) if self.to_send else "", ""
-        if self.backup is not None:
-            text = self.tr("Restore {name}").format(name=self.backup.path.name)
-            return text, self._why_not()
-        text = self.tr("Send %n Values to the Control", "", self.to_send)
-        if not self.to_send and not self._differs_elsewhere():
-            return text, self.tr("No difference: there is nothing to send.")
-        return text, self._why_not()
-
-    def _differs_elsewhere(self) -> bool:
-        session, file = self.session, self.file
-        found = session.comparison(file) if session is not None and file is not None else None
-        return found is not None and not found.is_same and not self.table.rows
-
-    @property
-    def _to_take(self) -> list[SideRow]:
-        """The rows whose value the file takes from the control; what that does not contain stays."""
-        return [row for row in self.table.taken(file=False) if not row.is_fixed]
-
-    def _reading_primary(self) -> tuple[str, str]:
-        assert self.session is not None
-        seen = self.session.seen
-        if seen is None or seen.file is None:
-            return self.tr("Save as a New File…"), self.tr("Nothing that can be read is in the control.")
-        if self.workspace is None or self.session.present(self.workspace.file) is None:
-            return self.tr("Save as a New File…"), ""
-        count = len(self._to_take)
-        if not count:
-            return self.tr("Save as a New File…"), ""
-        why = "" if self.workspace.may_edit else self.tr("The file is read-only.")
-        return self.tr("Take %n Values into {name}", "", count).format(name=self.workspace.path.stem), why
-
-    def _why_not(self) -> str:
-        """Return what is missing before something is sent, in the order of the conditions."""
-        session, workspace = self.session, self.workspace
-        assert session is not None
-        if self.file is not None:
-            missing = next((c for c in conditions_of(session, self.file) if c.met is False), None)
-            if missing is not None:
-                return self.tr("Waiting: {what}").format(what=missing.text)
-        if self.backup is None and workspace is not None:
-            if workspace.is_dirty and workspace.may_edit:
-                return self.tr("Waiting: the file is not saved")
-            if not self._accepted_errors and workspace.count("error"):
-                return self.tr("Waiting: the file has errors")
-        if self.table.dangers() and not self.checked.isChecked():
-            return self.tr("Waiting: what can be dangerous is not checked")
-        return ""
 
     def _act(self) -> None:
         session = self.session
@@ -529,11 +434,7 @@ class ControlPage(ControlPageParts):
             return
         assert workspace is not None
         file = workspace.file.copy()
-        kept = {
-            row.difference.address: row.difference.b
-            for row in self.table.taken(file=False)
-            if not row.is_fixed
-        }
+        kept = {row.difference.address: row.difference.b for row in self.table.kept()}
         if kept:
             file.set_checked(kept, force=self.tr("kept at the control"))
         session.send(file, workspace.path)
@@ -546,7 +447,7 @@ class ControlPage(ControlPageParts):
     def _accept_values(self) -> None:
         workspace, session = self.workspace, self.session
         assert session is not None
-        rows = self._to_take if workspace is not None else []
+        rows = self.table.kept() if workspace is not None else []
         if workspace is None or session.present(workspace.file) is None or not rows:
             self.read_wanted.emit(session.seen.file.copy() if session.seen and session.seen.file else None)
             return
@@ -565,11 +466,7 @@ class ControlPage(ControlPageParts):
         text, _ = QFileDialog.getSaveFileName(self, self.tr("Save Proof"), str(path), "Text (*.txt)")
         if not text:
             return
-        lines = [text_of_proof(session, self.name, self._kept_names()), ""]
-        for row in self.table.taken(file=True):
-            address, difference = row.difference.address, row.difference
-            old, new = (self.table.text_of(address, value) for value in (difference.b, difference.a))
-            lines.append(f"{describe(workspace.file, address)}: {old} → {new}")
+        lines = [text_of_proof(session, self.name, self._kept_names()), "", *self.table.changes_in_words()]
         try:
             write_atomic(Path(text), ("\n".join(lines) + "\n").encode())
         except OSError as error:
@@ -580,17 +477,6 @@ class ControlPage(ControlPageParts):
     def _keep_current(self) -> None:
         if (row := self.table.current()) is not None:
             self.table.take([row.difference.address], file=False)
-
-    def _step_dangers(self, by: int) -> None:
-        marked = [a for a, row in self.table.rows.items() if row.dangers and row.takes_file]
-        row = self.table.current()
-        here = (
-            marked.index(row.difference.address)
-            if row is not None and row.difference.address in marked
-            else -1
-        )
-        if marked:
-            self.table.select(marked[(here + by) % len(marked)])
 
     def _cancel(self) -> None:
         if self.session is not None:
