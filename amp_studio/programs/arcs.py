@@ -43,16 +43,7 @@ def arc_by_center(
     if radius < CLOSED:
         raise ProgramBlockError("An arc around the point where it begins has no radius", "arc-radius")
     off = abs(radius - other)
-    if tolerance is None:
-        if off > OFF_CIRCLE:
-            raise ProgramBlockError(
-                f"The end of the arc is {off:.4g} mm off its circle; how they are joined is not printed",
-                "arc-radius",
-            )
-    elif off > tolerance.most or (off > tolerance.free and off > tolerance.share * radius):
-        raise ProgramBlockError(
-            f"The end of the arc is {off:.4g} mm off its circle (page {tolerance.page})", "arc-radius"
-        )
+    _refuse_off_circle(off, radius, tolerance)
     chord = math.hypot(x1 - x0, y1 - y0)
     if off > 0.0 and chord > CLOSED:
         # The nearest center with the same distance to both ends: the arc then ends where it shall.
@@ -64,6 +55,19 @@ def arc_by_center(
         return Arc(first, second, radius, -2.0 * math.pi if clockwise else 2.0 * math.pi)
     sweep = math.atan2(y1 - second, x1 - first) - math.atan2(y0 - second, x0 - first)
     return Arc(first, second, radius, _turned(sweep, clockwise=clockwise))
+
+
+def _refuse_off_circle(off: float, radius: float, tolerance: ArcTolerance | None) -> None:
+    if tolerance is None:
+        if off > OFF_CIRCLE:
+            raise ProgramBlockError(
+                f"The end of the arc is {off:.4g} mm off its circle; how they are joined is not printed",
+                "arc-radius",
+            )
+    elif off > tolerance.most or (off > tolerance.free and off > tolerance.share * radius):
+        raise ProgramBlockError(
+            f"The end of the arc is {off:.4g} mm off its circle (page {tolerance.page})", "arc-radius"
+        )
 
 
 def arc_by_radius(x0: float, y0: float, x1: float, y1: float, radius: float, *, clockwise: bool) -> Arc:

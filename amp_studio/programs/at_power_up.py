@@ -47,16 +47,16 @@ def _active_codes(codes: ControlCodes) -> Iterator[PowerUpLine]:
     """Yield the code of each group that is active after power-up."""
     file = codes.file
     for group in codes.groups:
-        named = (group.power_up,) if group.power_up else ()
-        address = codes.whole((*named, *group.params))
+        address = codes.whole((*filter(None, [group.power_up]), *group.params))
         if group.power_up and not file.evaluation.state(address[0]).is_active:
             continue
         key = code_at_power_up(codes, group.key)
         known = codes.known[key] if key else None
         is_set = not group.power_up or file.get(address[0]) is not None
-        if known or group.power_up:
-            meaning = known.facts.meaning if known else "none" if is_set else "not set"
-            yield PowerUpLine(group.name, known.code if known else "", meaning, address, group.page)
+        if known:
+            yield PowerUpLine(group.name, known.code, known.facts.meaning, address, group.page)
+        elif group.power_up:
+            yield PowerUpLine(group.name, "", "none" if is_set else "not set", address, group.page)
 
 
 def _active_values(codes: ControlCodes) -> Iterator[PowerUpLine]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeGuard
 
@@ -71,42 +71,35 @@ class BlockReader:
         """Return the words of a block in their order.
         Raises ProgramBlockError for a block that cannot be read at all.
         """
-        for statement in self.codes.facts.statements:
-            if re.match(statement.pattern, block.strip().upper()):
-                line = block.strip()
-                params = self.codes.whole(statement.params)
-                return ReadBlock(
-                    line,
-                    (
-                        BlockWord(
-                            line,
-                            "",
-                            None,
-                            "",
-                            statement.meaning,
-                            params,
-                            statement.page,
-                            assumed=statement.assumed,
-                        ),
-                    ),
-                )
+        line = block.strip()
+        if (statement := self._statement(line)) is not None:
+            return ReadBlock(line, (statement,))
         words = tuple(words_of(block, self.codes.facts.expressions))
         if (call := self._macro_call(words)) is not None:
-            return ReadBlock(block.strip(), call)
+            return ReadBlock(line, call)
         here = {word.code for word in words if word.letter in "GM"}
         for code in sorted(here):
             known = self.codes.known.get(code)
             if known and known.group and code not in self.codes.calls and not known.facts.only_amp:
                 self.active[known.group.key] = code
+        return ReadBlock(line, tuple(self._read_words(words, here)))
+
+    def _statement(self, line: str) -> BlockWord | None:
+        """Return a whole line as one word where it is a statement of the control."""
+        for each in self.codes.facts.statements:
+            if re.match(each.pattern, line.upper()):
+                params = self.codes.whole(each.params)
+                return BlockWord(line, "", None, "", each.meaning, params, each.page, assumed=each.assumed)
+        return None
+
+    def _read_words(self, words: Sequence[TypedWord], here: set[str]) -> Iterator[BlockWord]:
         seen: set[str] = set()
-        found = []
         for word in words:
             read = self._word(word, here)
             if word.letter in seen and word.letter not in "GM" and not read.fault:
                 read = replace(read, assumed=f"which {word.letter}-word counts where a block has two")
             seen.add(word.letter)
-            found.append(read)
-        return ReadBlock(block.strip(), tuple(found))
+            yield read
 
     def _macro_call(self, words: tuple[TypedWord, ...]) -> tuple[BlockWord, ...] | None:
         """Return a call whose other words are values of variables; None for another block."""
@@ -193,20 +186,22 @@ class BlockReader:
 
     def use(self, letter: str, here: set[str]) -> WordUse | None:
         """Return how a letter is read now: the first of its uses whose conditions are true."""
-        now = {*here, *self.active.values()}
-        modes = {self.codes.known[code].facts.mode for code in now if code in self.codes.known}
-        for listed in self.codes.facts.letters:
-            if listed.letter != letter:
-                continue
-            for use in listed.uses:
-                codes = {TypedWord(code[0], code[1:], code).code for code in use.codes}
-                if (
-                    (not use.codes or codes & (here if use.in_block else now))
-                    and (not use.mode or use.mode in modes)
-                    and (not use.systems or self.codes.system in use.systems)
-                ):
-                    return use
-        return None
+        now, modes = {*here, *self.active.values()}, self._modes(here)
+        uses = (use for listed in self.codes.facts.letters if listed.letter == letter for use in listed.uses)
+        return next((use for use in uses if self._is_now(use, here if use.in_block else now, modes)), None)
+
+    def _is_now(self, use: WordUse, codes: set[str], modes: set[str]) -> bool:
+        """Return whether a letter has this use with these codes, in these modes."""
+        return (
+            (not use.codes or any(TypedWord(code[0], code[1:], code).code in codes for code in use.codes))
+            and (not use.mode or use.mode in modes)
+            and (not use.systems or self.codes.system in use.systems)
+        )
+
+    def _modes(self, here: set[str]) -> set[str]:
+        """Return the modes of the codes of a block and of those that are active."""
+        known = self.codes.known
+        return {known[code].facts.mode for code in (*here, *self.active.values()) if code in known}
 
     def is_inch(self) -> bool:
         """Return whether lengths are in inch now."""
@@ -259,24 +254,29 @@ class BlockReader:
         """Yield axis, meaning and parameters of a letter that names an axis, its distance or its arc
         center.
         """
-        axes, evaluation = self.codes.facts.axes, self.file.evaluation
+        axes = self.codes.facts.axes
         if axes is None:
             return
         form = (axes.format,) if axes.format else ()
-        declared = self.file.schema.family.axes
-        named = (declared.name,) if declared and declared.name else ()
-        modes = {self.codes.known[c].facts.mode for c in self.active.values() if c in self.codes.known}
         for axis in fitted_axes(self.file):
-            name = axis_name(evaluation, axis) or axis
+            name = axis_name(self.file.evaluation, axis) or axis
             if name.upper() == letter:
-                way = "distance of a move along" if "incremental" in modes else "position on"
-                yield axis, f"{way} {name}", (*form, *named)
+                yield axis, f"{self._way()} {name}", (*form, *self._name_parameter())
             if self.codes.system in axes.incremental_systems and self._names(axes.incremental, axis, letter):
                 yield axis, f"distance of a move along {name}", (*form, axes.incremental)
             if self._names(axes.integrand, axis, letter):
                 yield axis, f"center of an arc along {name}", (*form, axes.integrand)
             if axes.integrands.get(letter) == name:
                 yield axis, f"center of an arc along {name}", axes.integrand_params
+
+    def _way(self) -> str:
+        """Return what a number of an axis is in the active mode."""
+        return "distance of a move along" if "incremental" in self._modes(set()) else "position on"
+
+    def _name_parameter(self) -> tuple[str, ...]:
+        """Return the parameter that names the axes, where there is one."""
+        declared = self.file.schema.family.axes
+        return (declared.name,) if declared and declared.name else ()
 
     def _names(self, parameter: str | None, axis: str, letter: str) -> TypeGuard[str]:
         """Return whether a choice of an axis is a letter."""

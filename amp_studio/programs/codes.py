@@ -99,26 +99,29 @@ class ControlCodes:
         return {call.code: call for facts in self.facts.calls for call in self._calls(facts)}
 
     def _calls(self, facts: MacroCall) -> Iterator[Call]:
-        evaluation = self.file.evaluation
-        for instance in self.file.machine_schema.instances(self.file.schema.parameters[facts.code]):
-            address = (facts.code, instance)
-            number = evaluation.canonical(address)
-            if (
-                not isinstance(number, float | int)
-                or number == facts.none
-                or evaluation.state(address) is not ACTIVE
-            ):
-                continue
-            kind = evaluation.canonical((facts.call, instance)) if facts.call else None
+        for instance, number in self._numbers_of_codes(facts.code, facts.none):
+            kind = self._value(facts.call, instance)
             if facts.call and kind in (None, facts.not_used):
                 continue
-            params = [address, *((named, instance) for named in (facts.call, facts.program) if named)]
-            program = evaluation.canonical((facts.program, instance)) if facts.program else instance
+            named = filter(None, (facts.code, facts.call, facts.program))
+            program = self._value(facts.program, instance) if facts.program else instance
             program_text = f"{program:g}" if isinstance(program, float | int) else str(program or "?")
+            is_modal = kind == "modal" if facts.call else None
             code = TypedWord(facts.letter, f"{number:g}", "").code
-            yield Call(
-                code, program_text, None if facts.call is None else kind == "modal", tuple(params), facts
-            )
+            yield Call(code, program_text, is_modal, tuple((param, instance) for param in named), facts)
+
+    def _numbers_of_codes(self, parameter: str, none: float | None) -> Iterator[tuple[str, float]]:
+        """Yield instance and number of each active parameter that makes a code call a program."""
+        evaluation = self.file.evaluation
+        for instance in self.file.machine_schema.instances(self.file.schema.parameters[parameter]):
+            number = evaluation.canonical((parameter, instance))
+            if not isinstance(number, float | int) or number == none:
+                continue
+            if evaluation.state((parameter, instance)) is ACTIVE:
+                yield instance, number
+
+    def _value(self, parameter: str | None, instance: str) -> object:
+        return self.file.evaluation.canonical((parameter, instance)) if parameter else None
 
     def whole(self, parameters: tuple[str, ...], axis: str = "") -> tuple[Address, ...]:
         """Return addresses of parameters: the one of an axis where they have axes, else the first."""

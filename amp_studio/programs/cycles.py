@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import ProgramPath
@@ -41,73 +42,79 @@ class CycleMove:
     seconds: float | None = None
 
 
-def cycle_moves(
-    steps: Sequence[str],
-    initial: float,
-    level: float,
-    depth: float,
-    words: CycleWords,
-    clearance: float | str,
-    retract: float | str,
-    *,
-    to_initial: bool,
-) -> Iterator[CycleMove]:
-    """Yield what a cycle does at its hole; ``clearance``, ``retract`` are lengths, or why there is none.
-    Raises ProgramBlockError for a word or a length that is missing.
-    """
-    back = initial if to_initial else level
-    for n, step in enumerate(steps):
-        if step == "rapid to R" and n < 2:
-            yield CycleMove(level, is_rapid=True)
-        elif step == "feed to the depth":
-            yield CycleMove(depth)
-        elif step == "feed by Q":
-            yield from _pecks(steps[n + 1 :], level, depth, words, clearance, retract)
-        elif step == "feed to R":
-            yield CycleMove(level)
-        elif step == "rapid back":
-            yield CycleMove(back, is_rapid=True)
-        elif step == "to the first level in rapid with G98" and to_initial:
-            yield CycleMove(initial, is_rapid=True)
-        elif step == "dwell P":
-            if words.dwell is None:
-                raise ProgramBlockError("The cycle needs P, the seconds of its dwell", "no-number")
-            yield CycleMove(seconds=words.dwell)
-        elif step == "shift by Q in X":
-            if words.peck is None:
-                raise ProgramBlockError("The cycle needs Q, its shift", "no-number")
-            yield CycleMove(shift=words.peck, is_rapid=True)
+@dataclass(frozen=True)
+class CycleHole:
+    """One hole of a cycle; positions along the axis of the tool, in mm."""
 
+    initial: float
+    level: float
+    depth: float
+    words: CycleWords
+    clearance: float | str
+    """D of the cycle, or why there is none."""
+    retract: float | str
+    """Of a chip-breaking cycle, or why there is none."""
+    to_initial: bool
+    """Whether the cycle returns to its first level."""
 
-def _pecks(
-    steps: Sequence[str],
-    level: float,
-    depth: float,
-    words: CycleWords,
-    clearance: float | str,
-    retract: float | str,
-) -> Iterator[CycleMove]:
-    """Yield feeds by Q with what is between them, until the depth is reached."""
-    peck = words.peck
-    if peck is None or peck <= 0.0:
-        raise ProgramBlockError("The cycle needs Q, the depth of a peck, above 0", "no-number")
-    if (level - depth) / peck > MOST_PECKS:
-        raise ProgramBlockError(f"The cycle needs more than {MOST_PECKS} pecks")
-    at = level
-    while True:
-        at = max(at - peck, depth)
-        yield CycleMove(at)
-        if at <= depth:
-            return
+    def moves(self, steps: Sequence[str]) -> Iterator[CycleMove]:
+        """Yield what a cycle does at its hole.
+        Raises ProgramBlockError for a word or a length that is missing.
+        """
+        for n, step in enumerate(steps):
+            if step == "feed by Q":
+                yield from self._pecks(steps[n + 1 :])
+            elif step != "rapid to R" or n < 2:
+                yield from self._moves_of(step)
+
+    def _moves_of(self, step: str) -> Iterator[CycleMove]:
+        """Yield the move of a step, if it is one."""
+        match step:
+            case "rapid to R":
+                yield CycleMove(self.level, is_rapid=True)
+            case "feed to the depth":
+                yield CycleMove(self.depth)
+            case "feed to R":
+                yield CycleMove(self.level)
+            case "rapid back":
+                yield CycleMove(self.initial if self.to_initial else self.level, is_rapid=True)
+            case "to the first level in rapid with G98" if self.to_initial:
+                yield CycleMove(self.initial, is_rapid=True)
+            case "dwell P":
+                yield CycleMove(seconds=_needed(self.words.dwell, "P, the seconds of its dwell"))
+            case "shift by Q in X":
+                yield CycleMove(shift=_needed(self.words.peck, "Q, its shift"), is_rapid=True)
+
+    def _pecks(self, steps: Sequence[str]) -> Iterator[CycleMove]:
+        """Yield feeds by Q with what is between them, until the depth is reached."""
+        peck = self.words.peck
+        if peck is None or peck <= 0.0:
+            raise ProgramBlockError("The cycle needs Q, the depth of a peck, above 0", "no-number")
+        if (self.level - self.depth) / peck > MOST_PECKS:
+            raise ProgramBlockError(f"The cycle needs more than {MOST_PECKS} pecks")
+        between = [*takewhile(lambda step: step != "again to the depth", steps)]
+        at = self.level
+        while True:
+            at = max(at - peck, self.depth)
+            yield CycleMove(at)
+            if at <= self.depth:
+                return
+            yield from self._between_pecks(between, at)
+
+    def _between_pecks(self, steps: Sequence[str], at: float) -> Iterator[CycleMove]:
         for step in steps:
-            if step == "again to the depth":
-                break
             if step == "rapid to R":
-                yield CycleMove(level, is_rapid=True)
+                yield CycleMove(self.level, is_rapid=True)
             elif step == "rapid back by the retract distance":
-                yield CycleMove(min(at + _length(retract), level), is_rapid=True)
+                yield CycleMove(min(at + _length(self.retract), self.level), is_rapid=True)
             elif step == "rapid to D before the depth reached":
-                yield CycleMove(min(at + _length(clearance), level), is_rapid=True)
+                yield CycleMove(min(at + _length(self.clearance), self.level), is_rapid=True)
+
+
+def _needed(number: float | None, what: str) -> float:
+    if number is None:
+        raise ProgramBlockError(f"The cycle needs {what}", "no-number")
+    return number
 
 
 def _length(found: float | str) -> float:
@@ -136,42 +143,12 @@ class CycleRuns:
     def run(self, words: BlockNumbers, modal: ModalState, *, begins: bool) -> None:
         """Run it; the block that ``begins`` the cycle has the first level, where the tool is before it."""
         known = self._codes.known[TypedWord(modal.cycle[0], modal.cycle[1:], "").code]
-        plane = tuple(self._moves.at.axis("XYZ"[n]) for n in PLANES[modal.plane])
-        third = plane[2]
+        *_, third = (self._moves.at.axis("XYZ"[n]) for n in PLANES[modal.plane])
         repeats = int(words.roles.get("repeats", 1.0))
         if not 1 <= repeats <= MOST_REPEATS:
             raise ProgramBlockError(f"L{repeats}: a cycle is repeated 1 to {MOST_REPEATS} times")
-        stored = self._words
-        if third in words.axes:
-            stored.depth = words.axes[third]
-        for role in ("level", "peck", "dwell"):
-            if role in words.roles:
-                setattr(stored, role, words.roles[role])
-        if stored.depth is None or stored.level is None:
-            raise ProgramBlockError(
-                f"{modal.cycle} needs the depth and R, in its block or before it", "no-depth"
-            )
-        if begins:
-            self._initial = self._moves.at.programmed[third]
-        self.has_run, initial = True, self._initial
-        if "shift by Q in X" in known.facts.steps and third == self._moves.at.axis("X"):
-            raise ProgramBlockError(f"{modal.cycle} shifts in X, along which it bores in this plane")
-        level = stored.level if modal.is_absolute else initial + stored.level
-        depth = stored.depth if modal.is_absolute else level + stored.depth
-        if not depth < level:
-            raise ProgramBlockError(f"{modal.cycle}: the depth {depth:g} is not below R, {level:g}")
-        moves = tuple(
-            cycle_moves(
-                known.facts.steps,
-                initial,
-                level,
-                depth,
-                stored,
-                self._length_of(self._path.peck_clearance, None, "D of the cycle"),
-                self._length_of(self._path.retract, self._retract, "retract distance of the cycle"),
-                to_initial=modal.to_initial,
-            )
-        )
+        hole = self._hole(words, modal, known.facts.steps, third, begins=begins)
+        moves = tuple(hole.moves(known.facts.steps))
         for _ in range(repeats):
             target = list(self._moves.at.programmed)
             for place, value in words.axes.items():
@@ -179,17 +156,45 @@ class CycleRuns:
                     target[place] = value if modal.is_absolute else target[place] + value
             self._moves.go(target, RAPID, modal.corner, modal)
             for move in moves:
-                if move.seconds is not None:
-                    self._moves.dwell(move.seconds)
-                    continue
-                target = list(self._moves.at.programmed)
-                if move.shift is not None:
-                    target[self._moves.at.axis("X")] += move.shift
-                if move.to is not None:
-                    target[third] = move.to
-                self._moves.go(target, RAPID if move.is_rapid else LINE, modal.corner, modal)
+                self._do(move, third, modal)
             if len(self._moves.rows.kind) > MOST_ROWS:
                 raise ProgramBlockError(f"The program has more than {MOST_ROWS} moves")
+
+    def _hole(
+        self, words: BlockNumbers, modal: ModalState, steps: Sequence[str], third: int, *, begins: bool
+    ) -> CycleHole:
+        """Return the hole of a block, whose words are kept for the next one."""
+        stored = self._words
+        stored.depth = words.axes.get(third, stored.depth)
+        for role in words.roles.keys() & {"level", "peck", "dwell"}:
+            setattr(stored, role, words.roles[role])
+        if stored.depth is None or stored.level is None:
+            raise ProgramBlockError(
+                f"{modal.cycle} needs the depth and R, in its block or before it", "no-depth"
+            )
+        if begins:
+            self._initial = self._moves.at.programmed[third]
+        self.has_run, initial = True, self._initial
+        if "shift by Q in X" in steps and third == self._moves.at.axis("X"):
+            raise ProgramBlockError(f"{modal.cycle} shifts in X, along which it bores in this plane")
+        level = stored.level if modal.is_absolute else initial + stored.level
+        depth = stored.depth if modal.is_absolute else level + stored.depth
+        if not depth < level:
+            raise ProgramBlockError(f"{modal.cycle}: the depth {depth:g} is not below R, {level:g}")
+        clearance = self._length_of(self._path.peck_clearance, None, "D of the cycle")
+        retract = self._length_of(self._path.retract, self._retract, "retract distance of the cycle")
+        return CycleHole(initial, level, depth, stored, clearance, retract, modal.to_initial)
+
+    def _do(self, move: CycleMove, third: int, modal: ModalState) -> None:
+        if move.seconds is not None:
+            self._moves.dwell(move.seconds)
+            return
+        target = list(self._moves.at.programmed)
+        if move.shift is not None:
+            target[self._moves.at.axis("X")] += move.shift
+        if move.to is not None:
+            target[third] = move.to
+        self._moves.go(target, RAPID if move.is_rapid else LINE, modal.corner, modal)
 
     def _length_of(self, parameter: str | None, given: float | None, what: str) -> float | str:
         """Return a length of a cycle, or why there is none."""

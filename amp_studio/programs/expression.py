@@ -11,6 +11,7 @@ from amp_studio.schema import quoted
 from .words import DEEPEST, ProgramBlockError
 
 _TOKEN = re.compile(r"\s*([0-9]+\.?[0-9]*|\.[0-9]+|[P#]\s*[0-9]+|[A-Z]+|<=|>=|[-+*/()<>=])")
+_SIGNS = {"+": 1.0, "-": -1.0}
 _FUNCTIONS: Mapping[str, Callable[[float], float]] = {
     "SIN": lambda x: math.sin(math.radians(x)),
     "COS": lambda x: math.cos(math.radians(x)),
@@ -89,9 +90,8 @@ class _Reading:
         if depth > DEEPEST:
             raise ProgramBlockError(f"{quoted(self._text)} is deeper than {DEEPEST} parentheses")
         sign = self._next()
-        if sign in ("-", "+"):
-            value = self._single(depth + 1)
-            return -value if sign == "-" else value
+        if sign in _SIGNS:
+            return _SIGNS[sign] * self._single(depth + 1)
         if sign == "(":
             value = self.level(0, depth)
             if self._next() != ")":
@@ -100,10 +100,12 @@ class _Reading:
         if sign in _FUNCTIONS:
             return _FUNCTIONS[sign](self._single(depth + 1))
         if sign[0] in "P#" and sign[1:].strip().isdigit():
-            number = int(sign[1:])
-            if number not in self._parameters:
-                raise ProgramBlockError(f"P{number} has no value here")
-            return self._parameters[number]
-        if sign[0].isdigit() or sign[0] == ".":
+            return self._value_of_parameter(int(sign[1:]))
+        if sign[0].isdigit() or sign.startswith("."):
             return float(sign)
         raise ProgramBlockError(f"{quoted(self._text)} is no expression")
+
+    def _value_of_parameter(self, number: int) -> float:
+        if number not in self._parameters:
+            raise ProgramBlockError(f"P{number} has no value here")
+        return self._parameters[number]

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from .codes import ControlCodes
 from .expression import worth
 from .words import ProgramBlockError as BlockError
-from .words import sentence, words_of
+from .words import TypedWord, sentence, words_of
 
 MOST_CALLS = 10_000
 """Repeats of one call."""
@@ -81,28 +81,30 @@ class ProgramFlow:
         """Do a branch, an assignment or a call; return whether the line is one. ``at`` is behind it."""
         if not self._facts.statements:
             return False
-        if "=" in line or "GO" in line or "RET" in line or "$" in line:
-            if _RETURN.fullmatch(line):
-                self._return()
-                return True
-            if (found := _BRANCH.fullmatch(line)) is not None:
-                self._notes += [
-                    sentence(each.assumed)
-                    for each in self._facts.statements
-                    if each.assumed and re.match(each.pattern, line)
-                ]
-                if found[1] is None or worth(found[1], self._parameters) != 0.0:
-                    self._branch(found[2], int(found[3]))
-                return True
-            if (found := _SETS.fullmatch(line)) is not None:
-                self._set(int(found[1]), worth(found[2], self._parameters))
-                return True
-            if TAKES_IN.fullmatch(line):
-                return True
+        if ("=" in line or "GO" in line or "RET" in line or "$" in line) and self._take_statement(line):
+            return True
         if self._macros and self._macro.match(line):
             self._call_macro(line)
             return True
         return False
+
+    def _take_statement(self, line: str) -> bool:
+        """Do a branch or an assignment; return whether the line is one."""
+        if _RETURN.fullmatch(line):
+            self._return()
+        elif (found := _BRANCH.fullmatch(line)) is not None:
+            self._notes += [
+                sentence(each.assumed)
+                for each in self._facts.statements
+                if each.assumed and re.match(each.pattern, line)
+            ]
+            if found[1] is None or worth(found[1], self._parameters) != 0.0:
+                self._branch(found[2], int(found[3]))
+        elif (found := _SETS.fullmatch(line)) is not None:
+            self._set(int(found[1]), worth(found[2], self._parameters))
+        else:
+            return TAKES_IN.fullmatch(line) is not None
+        return True
 
     def call_after_move(self) -> None:
         """Call the subroutine that is called after each move."""
@@ -162,6 +164,15 @@ class ProgramFlow:
             return
         if assumed := self._codes.known[head.code].facts.assumed:
             self._notes.append(sentence(assumed))
+        call = self._call_of(head.text, words)
+        self._place(call.label)
+        if does == "modal-subroutine":
+            self._modal = call
+        else:
+            self._enter(_Level(self.at, call, call.repeats))
+
+    def _call_of(self, head: str, words: Sequence[TypedWord]) -> SubroutineCall:
+        """Return what the words of a block call; raises ProgramBlockError."""
         numbers: dict[str, float] = {}
         for word in words:
             if word.letter in numbers:
@@ -171,18 +182,13 @@ class ProgramFlow:
             numbers[word.letter] = worth(word.number, self._parameters)
         label, repeats = numbers.pop("P", None), numbers.pop("L", 1.0)
         if label is None or label != int(label):
-            raise BlockError(f"{head.text} needs P, the number of the subroutine", "no-number")
+            raise BlockError(f"{head} needs P, the number of the subroutine", "no-number")
         if repeats != int(repeats) or not 1 <= repeats <= MOST_CALLS:
             raise BlockError(f"L{repeats:g}: a subroutine is called 1 to {MOST_CALLS} times")
         if other := sorted(set(numbers) - set(self._facts.variables)):
             raise BlockError(f"{other[0]} is no variable of a subroutine", "unknown-word")
         values = {self._facts.variables[letter]: number for letter, number in numbers.items()}
-        call = SubroutineCall(int(label), int(repeats), values)
-        self._place(call.label)
-        if does == "modal-subroutine":
-            self._modal = call
-        else:
-            self._enter(_Level(self.at, call, call.repeats))
+        return SubroutineCall(int(label), int(repeats), values)
 
     def _enter(self, level: _Level) -> None:
         assert level.call is not None

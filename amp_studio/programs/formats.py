@@ -34,21 +34,17 @@ def digits_of(choice: str, inch: bool) -> tuple[int, int]:
 
 def number_of(typed: str, digits: tuple[int, int] | None, justified: Justified) -> WordNumber:
     """Return the number of a word; ``digits`` are those of its format, None where it is not known."""
-    sign = -1.0 if typed.startswith("-") else 1.0
+    sign = "-" * typed.startswith("-")
     figures = typed.lstrip("+-")
     whole, point, decimals = figures.partition(".")
     if digits is None:
         return WordNumber(float(typed))
     before, behind = digits
+    too_many = WordNumber(None, f"{quoted(figures)} has more digits than the format {before}.{behind} allows")
     if point:
         if len(whole.lstrip("0")) > before or len(decimals.rstrip("0")) > behind:
-            return WordNumber(
-                None, f"{quoted(figures)} has more digits than the format {before}.{behind} allows"
-            )
-        assumed = ""
-        if len(whole) > max(before, 1) or len(decimals) > behind:
-            assumed = f"that the control takes zeros beyond the format {before}.{behind}"
-        return WordNumber(float(typed), assumed=assumed)
+            return too_many
+        return WordNumber(float(typed), assumed=_zeros_assumed(whole, decimals, digits))
     if justified == "both":
         return WordNumber(None, "both zero suppression modes are on: a number without a point has no place")
     if len(figures) > before + behind:
@@ -56,11 +52,18 @@ def number_of(typed: str, digits: tuple[int, int] | None, justified: Justified) 
             None,
             f"{quoted(figures)} has more than the {before + behind} digits of the format {before}.{behind}",
         )
-    if justified == "right":
-        return WordNumber(sign * float(f"{figures}e-{behind}"))
-    if justified == "left":
-        return WordNumber(sign * float(f"{figures.ljust(before + behind, '0')}e-{behind}"))
+    placed = {"right": figures, "left": figures.ljust(before + behind, "0")}
+    if justified in placed:
+        return WordNumber(float(f"{sign}{placed[justified]}e-{behind}"))
     if len(figures.lstrip("0")) > before:
-        return WordNumber(None, f"{quoted(figures)} has more digits than the format {before}.{behind} allows")
+        return too_many
     whole_units = "that a number without a point counts whole units while no zeros are left out"
     return WordNumber(float(typed), assumed=whole_units if behind else "")
+
+
+def _zeros_assumed(whole: str, decimals: str, digits: tuple[int, int]) -> str:
+    """Return what is assumed of zeros that the format has no place for; "" without such zeros."""
+    before, behind = digits
+    if len(whole) > max(before, 1) or len(decimals) > behind:
+        return f"that the control takes zeros beyond the format {before}.{behind}"
+    return ""

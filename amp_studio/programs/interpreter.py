@@ -99,6 +99,7 @@ class Interpreter:
         try:
             self._start_up()
             self._run(lines, progress)
+            self._note_cycles_taken_in(lines)
         except BlockError as error:
             block = lines[self.line - 1] if 0 < self.line <= len(lines) else ""
             code = self._path.faults.get(error.key, "")
@@ -123,7 +124,7 @@ class Interpreter:
             self.blocks += 1
             if self.blocks % EVERY == 0 and progress is not None:
                 progress(self.blocks)
-            if self.blocks > len(lines) + MOST_REPEATED or len(rows.kind) > MOST_ROWS:
+            if max(self.blocks - len(lines) - MOST_REPEATED, len(rows.kind) - MOST_ROWS) > 0:
                 raise BlockError(f"The program has no end within {self.blocks - 1} blocks")
             if flow.take(line):
                 continue
@@ -131,6 +132,8 @@ class Interpreter:
             self._block(line)
             if flow.calls_after_moves and len(rows.kind) > before and rows.kind[-1] != DWELL:
                 flow.call_after_move()
+
+    def _note_cycles_taken_in(self, lines: Sequence[str]) -> None:
         missing = self._path.cycles_taken_in
         if self._cycles.has_run and missing and not any(TAKES_IN.match(line) for line in lines):
             self.notes.append(missing)
@@ -138,23 +141,14 @@ class Interpreter:
     # -- one block -----------------------------------------------------------------
 
     def _block(self, line: str) -> None:
-        if _PLAIN.fullmatch(line):
-            pairs = _PAIRS.findall(line)
-        else:
-            expressions = self.reader.codes.facts.expressions
-            pairs = [(word.letter, word.number) for word in words_of(line, expressions)]
+        pairs = self._letters_and_numbers(line)
         if not pairs:
             return
         codes = self._modal.take(tuple([letter + number for letter, number in pairs if letter in "GM"]))
         for code in codes.selects:
             self._at.select(str(code.facts.does), code)
         words = self._numbers.read(pairs, codes)
-        if words.roles:
-            self._moves.keep(words.roles)
-            if "length-offset" in words.roles and codes.once != "set-data":
-                self._at.choose_length(int(words.roles["length-offset"]))
-        if codes.sets_rounding:
-            self._moves.round_corners(words.roles)
+        self._keep_roles(words.roles, codes)
         if codes.zones is not None:
             self._switch_zones(codes.zones, words)
         if codes.once:
@@ -162,6 +156,20 @@ class Interpreter:
         elif words.axes or words.distances or words.centers:
             self._move(words, codes)
         self._over = codes.is_end
+
+    def _letters_and_numbers(self, line: str) -> Sequence[tuple[str, str]]:
+        if _PLAIN.fullmatch(line):
+            return _PAIRS.findall(line)
+        expressions = self.reader.codes.facts.expressions
+        return [(word.letter, word.number) for word in words_of(line, expressions)]
+
+    def _keep_roles(self, roles: dict[str, float], codes: BlockCodes) -> None:
+        if roles:
+            self._moves.keep(roles)
+        if "length-offset" in roles and codes.once != "set-data":
+            self._at.choose_length(int(roles["length-offset"]))
+        if codes.sets_rounding:
+            self._moves.round_corners(roles)
 
     def _switch_zones(self, code: KnownCode, words: BlockNumbers) -> None:
         if words.axes or words.distances or words.centers:
@@ -177,22 +185,28 @@ class Interpreter:
             return
         if motion == "":
             raise BlockError("No code of motion is active (G0, G1, G2 or G3)", "no-motion")
-        target = (
-            self._at.in_machine(words)
-            if codes.in_machine
-            else self._at.target(words, is_absolute=modal.is_absolute)
-        )
-        if codes.in_machine and motion not in ("rapid", "line"):
-            raise BlockError("A move in the coordinates of the machine is straight", "machine-arc")
-        if motion in ("arc-cw", "arc-ccw"):
+        is_arc = motion in ("arc-cw", "arc-ccw")
+        target = self._target(words, codes, is_arc=is_arc)
+        if is_arc:
             self._moves.arc(words, target, exact, modal, clockwise=motion == "arc-cw")
         elif words.centers:
             raise BlockError("The center of an arc in a block that is no arc", "unused-words")
-        elif motion == "rapid":
-            self._moves.go(target, RAPID, exact, modal)
         else:
-            self._moves.go(target, LINE, exact, modal)
-        if codes.probes and self._path.probed:
+            self._moves.go(target, RAPID if motion == "rapid" else LINE, exact, modal)
+        if codes.probes:
+            self._forget_probed()
+
+    def _target(self, words: BlockNumbers, codes: BlockCodes, *, is_arc: bool) -> list[float]:
+        if not codes.in_machine:
+            return self._at.target(words, is_absolute=codes.modal.is_absolute)
+        target = self._at.in_machine(words)
+        if is_arc:
+            raise BlockError("A move in the coordinates of the machine is straight", "machine-arc")
+        return target
+
+    def _forget_probed(self) -> None:
+        """Take the values of the parameters that the probe sets: where it meets the part is not known."""
+        if self._path.probed:
             first, last = self._path.probed
             for number in range(first, last + 1):
                 self.parameters.pop(number, None)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any, TypeVar
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, ProgramPath
@@ -14,6 +15,7 @@ from .toolpath import CUTTING, EXACT, KEPT, ROUNDED, SLOW
 from .words import ProgramBlockError as BlockError
 from .words import TypedWord, sentence
 
+_T = TypeVar("_T")
 MOST_SHAPES = 1000
 """Combinations of codes and states whose meaning is kept."""
 MOTIONS = ("rapid", "line", "arc-cw", "arc-ccw")
@@ -21,6 +23,17 @@ OFF = {"no-scale": "scale", "no-turn": "turn", "no-length": "length"}
 SELECTS = {"work-system", "machine-system", "length-plus", "length-minus", *OFF}
 _CORNERS = {"cutting": CUTTING, "slow-corners": SLOW, "exact": EXACT, "exact-path": KEPT, "blend": ROUNDED}
 _PLANE_OF = {"plane-xy": 0, "plane-zx": 1, "plane-yz": 2}
+_EFFECTS: Mapping[str, Mapping[str, Any]] = {
+    "exact-once": {"is_exact": True},
+    "cycle": {"begins_cycle": True},
+    "blend": {"sets_rounding": True},
+    "end": {"is_end": True},
+    "machine-once": {"in_machine": True},
+    "probe": {"motion": "line", "probes": True},
+}
+"""What a code does -> what the block then is."""
+_OF_NO_AXIS = {"nothing", "zones", *SELECTS, *_EFFECTS}
+"""Codes without a group that leave the words of the axes to the others."""
 
 
 @dataclass(frozen=True)
@@ -106,73 +119,59 @@ class ModalCodes:
         """Return what the codes of a block do in the present state, which becomes that of the block."""
         codes = self._kept.get((written, self.now.key))
         if codes is None:
+            if len(self._kept) > MOST_SHAPES:
+                self._kept.clear()
             codes = self._kept[written, self.now.key] = self._codes_of(written)
         self.now = codes.modal
         return codes
 
     def _codes_of(self, written: tuple[str, ...]) -> BlockCodes:
         """Return what the codes of a block do in the present modal state."""
-        if len(self._kept) > MOST_SHAPES:
-            self._kept.clear()
         found: list[KnownCode] = []
-        known, calls = self._reader.codes.known, self._reader.codes.calls
         active = dict(self.now.active)
         groups: set[str] = set()
         for each in written:
             code = TypedWord(each[0], each[1:], each).code
-            if code in calls:
-                raise BlockError(f"{each} calls the program {calls[code].program}, which is not here")
-            if code not in known and self._path.unknown_m and code[0] == "M":
-                self._notes.append(f"{each}, which no page here names, moves no axis.")
+            known = self._simulated(code, each)
+            if known is None:
                 continue
-            if code not in known:
-                raise BlockError(f"{each} is a code that no page here names", "unknown-code")
-            facts, group = known[code].facts, known[code].group
-            if facts.refused or facts.only_amp:
-                raise BlockError(f"{each}: the control does not do it, {facts.meaning}")
-            if facts.does is None:
-                raise BlockError(f"{each} is not simulated: {facts.meaning}")
-            if facts.assumed:
-                self._notes.append(sentence(facts.assumed))
-            if group is not None:
-                if group.key in groups:
-                    raise BlockError(f"{each} and another code of the group {group.name}", "two-codes")
-                groups.add(group.key)
-                active[group.key] = code
-            found.append(known[code])
+            if known.group is not None:
+                if known.group.key in groups:
+                    raise BlockError(f"{each} and another code of the group {known.group.name}", "two-codes")
+                groups.add(known.group.key)
+                active[known.group.key] = code
+            found.append(known)
         modal = self._state_of(active)
-        feed_in_inch = self.now.is_inch if self._path.feed_first else modal.is_inch
-        codes_here = BlockCodes(tuple(found), modal, feed_in_inch)
-        if codes_here.modal.cycle and codes_here.modal.cycle == self.now.cycle:
-            for code_ in found:
-                if code_.facts.does in MOTIONS:
-                    raise BlockError(
-                        f"{code_.code} comes while {self.now.cycle} is active; which one counts is not"
-                        " printed. End the cycle first"
-                    )
-        for code_ in found:
-            does = str(code_.facts.does)
-            if does in SELECTS:
-                codes_here.selects += (code_,)
-            elif does == "exact-once":
-                codes_here.is_exact = True
-            elif does == "cycle":
-                codes_here.begins_cycle = True
-            elif does == "blend":
-                codes_here.sets_rounding = True
-            elif does == "zones":
-                codes_here.zones = code_
-            elif does == "end":
-                codes_here.is_end = True
-            elif does == "machine-once":
-                codes_here.in_machine = True
-            elif does == "probe":
-                codes_here.motion, codes_here.probes = "line", True
-            elif does in ("scale", "turn") or (code_.group is None and does != "nothing"):
-                if codes_here.once:
-                    raise BlockError(f"{code_.code} and another code that takes the words of the axes")
-                codes_here.once = does
-        return codes_here
+        self._refuse_motion_in_cycle(found, modal)
+        is_inch = self.now.is_inch if self._path.feed_first else modal.is_inch
+        return BlockCodes(tuple(found), modal, is_inch, _once(found), **_effects(found))
+
+    def _simulated(self, code: str, written: str) -> KnownCode | None:
+        """Return what a code is; None where it moves nothing, and a BlockError where it is not simulated."""
+        known, calls = self._reader.codes.known, self._reader.codes.calls
+        if code in calls:
+            raise BlockError(f"{written} calls the program {calls[code].program}, which is not here")
+        if code not in known and self._path.unknown_m and code[0] == "M":
+            self._notes.append(f"{written}, which no page here names, moves no axis.")
+            return None
+        if code not in known:
+            raise BlockError(f"{written} is a code that no page here names", "unknown-code")
+        facts = known[code].facts
+        if facts.refused or facts.only_amp:
+            raise BlockError(f"{written}: the control does not do it, {facts.meaning}")
+        if facts.does is None:
+            raise BlockError(f"{written} is not simulated: {facts.meaning}")
+        if facts.assumed:
+            self._notes.append(sentence(facts.assumed))
+        return known[code]
+
+    def _refuse_motion_in_cycle(self, codes: Sequence[KnownCode], modal: ModalState) -> None:
+        motion = next((code for code in codes if code.facts.does in MOTIONS), None)
+        if motion and modal.cycle and modal.cycle == self.now.cycle:
+            raise BlockError(
+                f"{motion.code} comes while {self.now.cycle} is active; which one counts is not"
+                " printed. End the cycle first"
+            )
 
     def _state_of(self, active: Mapping[str, str]) -> ModalState:
         key = tuple(active.values())
@@ -182,18 +181,14 @@ class ModalCodes:
         self._reader.active = dict(active)
         facts = [known[code].facts for code in active.values() if code in known]
         modes, does = {each.mode for each in facts}, {str(each.does): each for each in facts}
-        corner = next((n for name, n in _CORNERS.items() if name in does), CUTTING)
-        slow = self._path.always_slow
-        if slow and corner == CUTTING and self._file.evaluation.canonical((slow, "")) is True:
-            corner = SLOW
         cycle = does["cycle"].code if "cycle" in does else ""
         self._states[key] = ModalState(
             key,
             dict(active),
-            next((name for name in MOTIONS if name in does), ""),
+            _first_of(dict(zip(MOTIONS, MOTIONS, strict=True)), does, ""),
             cycle if isinstance(cycle, str) else "",
-            next((n for name, n in _PLANE_OF.items() if name in does), 0),
-            corner,
+            _first_of(_PLANE_OF, does, 0),
+            self._corner(does),
             int("no-override" in does),
             "incremental" not in modes,
             self._reader.is_inch(),
@@ -202,3 +197,37 @@ class ModalCodes:
             "level-r" not in does,
         )
         return self._states[key]
+
+    def _corner(self, does: Container[str]) -> int:
+        """Return how a corner is passed; some controls have a parameter that slows down in all of them."""
+        corner, slow = _first_of(_CORNERS, does, CUTTING), self._path.always_slow
+        if slow and corner == CUTTING and self._file.evaluation.canonical((slow, "")) is True:
+            return SLOW
+        return corner
+
+
+def _first_of(values: Mapping[str, _T], names: Container[str], otherwise: _T) -> _T:
+    """Return the value of the first name that is among ``names``."""
+    return next((value for name, value in values.items() if name in names), otherwise)
+
+
+def _effects(codes: Sequence[KnownCode]) -> dict[str, Any]:
+    """Return the fields of `BlockCodes` that codes set."""
+    does = {str(code.facts.does): code for code in codes}
+    selects = tuple(code for code in codes if code.facts.does in SELECTS)
+    effects: dict[str, Any] = {"zones": does.get("zones"), "selects": selects}
+    for each in does:
+        effects |= _EFFECTS.get(each, {})
+    return effects
+
+
+def _once(codes: Sequence[KnownCode]) -> str:
+    """Return what the one code does that takes the words of the axes for itself; "" without one."""
+    taking = [
+        code
+        for code in codes
+        if code.facts.does in ("scale", "turn") or (code.group is None and code.facts.does not in _OF_NO_AXIS)
+    ]
+    if len(taking) > 1:
+        raise BlockError(f"{taking[1].code} and another code that takes the words of the axes")
+    return str(taking[0].facts.does) if taking else ""

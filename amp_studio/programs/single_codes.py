@@ -28,33 +28,36 @@ class SingleCodes:
 
     def do(self, codes: BlockCodes, words: BlockNumbers) -> None:
         """Do the one of a block."""
-        does, modal = codes.once, codes.modal
-        if does == "dwell":
-            if "dwell" not in words.roles:
-                raise BlockError("A dwell without its time", "no-number")
-            self._moves.dwell(words.roles["dwell"])
-        elif does in ("reference", "reference-check", "reference-other", "reference-return"):
-            self._reference(does, words, modal)
-        elif does == "set-position":
-            self._at.set_here(words.axes)
-        elif does == "local-shift":
-            self._at.set_local(words.axes)
-        elif does == "set-data":
-            self._set_data(words)
-        elif does in MACROS:
-            macro = next(code.code for code in codes.codes if code.facts.does == does)
-            raise BlockError(f"{macro} comes first in its block, whose other words are its variables")
-        elif does == "centers":
-            number = int(words.roles.get("centers", -1.0))
-            if not 0 <= number < len(_CENTERS):
-                raise BlockError("G200 takes F0, F1 or F2")
-            self._moves.read_centers(_CENTERS[number])
-        elif does == "scale":
-            self._scale(words, modal)
-        elif does == "turn":
-            self._turn(words, modal)
-        else:
-            raise BlockError(f"{codes.codes[0].code} is not simulated: {codes.codes[0].facts.meaning}")
+        match codes.once:
+            case "dwell":
+                self._dwell(words)
+            case "reference" | "reference-check" | "reference-other" | "reference-return":
+                self._reference(codes.once, words, codes.modal)
+            case "set-position":
+                self._at.set_here(words.axes)
+            case "local-shift":
+                self._at.set_local(words.axes)
+            case "set-data":
+                self._set_data(words)
+            case "centers":
+                self._read_centers(words)
+            case "scale":
+                self._scale(words, codes.modal)
+            case "turn":
+                self._turn(words, codes.modal)
+            case _:
+                raise _not_done(codes)
+
+    def _dwell(self, words: BlockNumbers) -> None:
+        if "dwell" not in words.roles:
+            raise BlockError("A dwell without its time", "no-number")
+        self._moves.dwell(words.roles["dwell"])
+
+    def _read_centers(self, words: BlockNumbers) -> None:
+        number = int(words.roles.get("centers", -1.0))
+        if not 0 <= number < len(_CENTERS):
+            raise BlockError("G200 takes F0, F1 or F2")
+        self._moves.read_centers(_CENTERS[number])
 
     def _turn(self, words: BlockNumbers, modal: ModalState) -> None:
         if modal.plane != 0:
@@ -86,27 +89,37 @@ class SingleCodes:
         if not 1 <= number <= len(self._path.references):
             raise BlockError(f"P{number}: there are reference points 2 to {len(self._path.references)}")
         point = self._at.positions([self._path.references[number - 1]], f"reference point {number}")
-        if does in ("reference", "reference-check", "reference-other") and self._at.has_length:
+        if does != "reference-return" and self._at.has_length:
             raise BlockError("The reference point is not reached with an offset: cancel it first")
         target = self._at.target(words, is_absolute=modal.is_absolute)
         if does == "reference-check":
-            self._moves.go(self._at.to_program(point), RAPID, EXACT, modal)
-            self._moves.go(target, RAPID, EXACT, modal)
-            return
-        if does == "reference-return":
-            middle = [
-                here if found is None else found
-                for found, here in zip(self._middle, self._at.position, strict=True)
-            ]
-            self._moves.go(self._at.to_program(middle), RAPID, EXACT, modal)
-            self._moves.go(target, RAPID, EXACT, modal)
-            return
-        through = self._at.to_machine(target)
+            stops = [self._at.to_program(point), target]
+        elif does == "reference-return":
+            stops = [self._at.to_program(self._remembered_middle()), target]
+        else:
+            middle = self._middle_of(words, self._at.to_machine(target))
+            stops = [self._at.to_program(middle), self._at.to_program(point)]
+        for stop in stops:
+            self._moves.go(stop, RAPID, EXACT, modal)
+
+    def _remembered_middle(self) -> list[float]:
+        """Return the point on the way to the reference point; where there is none, where the axis is."""
+        pairs = zip(self._middle, self._at.position, strict=True)
+        return [here if found is None else found for found, here in pairs]
+
+    def _middle_of(self, words: BlockNumbers, through: list[float]) -> list[float]:
+        """Return the point on the way, which is remembered for axes that a later block does not name."""
         for place in range(len(through)):
             remembered = self._middle[place]
             if place in words.axes or place in words.distances or remembered is None:
                 self._middle[place] = through[place]
             else:
                 through[place] = remembered
-        self._moves.go(self._at.to_program(through), RAPID, EXACT, modal)
-        self._moves.go(self._at.to_program(point), RAPID, EXACT, modal)
+        return through
+
+
+def _not_done(codes: BlockCodes) -> BlockError:
+    if codes.once in MACROS:
+        macro = next(code.code for code in codes.codes if code.facts.does == codes.once)
+        return BlockError(f"{macro} comes first in its block, whose other words are its variables")
+    return BlockError(f"{codes.codes[0].code} is not simulated: {codes.codes[0].facts.meaning}")

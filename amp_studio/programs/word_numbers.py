@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
+
+from amp_studio.schema import WordUse
 
 from .block import BlockReader
 from .expression import worth
@@ -25,6 +28,20 @@ class BlockNumbers:
     centers: dict[int, float] = field(default_factory=dict)
     roles: dict[str, float] = field(default_factory=dict)
 
+    def put(self, letter: str, value: float, reading: WordReading) -> None:
+        """Put a number where its kind is; that of a word that moves no axis and has no role is nowhere."""
+        into: dict[Any, float]
+        key: Any
+        if reading.place < 0:
+            into, key = self.roles, reading.role
+        else:
+            into = self.centers if reading.is_center else self.distances if reading.is_distance else self.axes
+            key = reading.place
+        if key in into:
+            raise BlockError(f"{letter} is given twice in a block", "repeated")
+        if key != "":
+            into[key] = value
+
 
 class WordNumbers:
     """Reads them by the file's formats."""
@@ -44,36 +61,23 @@ class WordNumbers:
             reading = readings.get(letter)
             if reading is None:
                 reading = readings[letter] = self._reading(letter, codes)
-            if reading.plain and text and "(" not in text and text[0] not in "P#":
-                value = float(text) * reading.scale
-            elif reading.place < 0 and not reading.role and text[:1] in ("P", "#"):
+            if reading.place < 0 and not reading.role and text[:1] in ("P", "#"):
                 continue  # a value for the card, which moves no axis
-            else:
-                value = self._number(letter, text, reading) * reading.scale
+            value = self._number(letter, text, reading) * reading.scale
             if reading.bounds and not reading.bounds[0] <= value <= reading.bounds[1]:
                 low, high = reading.bounds
                 raise BlockError(f"{letter}{text[:20]}: {low:g} to {high:g} are printed", "out-of-range")
             if not -LARGEST < value < LARGEST:
                 raise BlockError(f"{letter}{text[:20]} is beyond every machine", "out-of-range")
-            if reading.place < 0:
-                into: dict[int, float] = {}
-                if reading.role:
-                    if reading.role in words.roles:
-                        raise BlockError(f"{letter} is given twice in a block", "repeated")
-                    words.roles[reading.role] = value
-                continue
-            into = (
-                words.centers if reading.is_center else words.distances if reading.is_distance else words.axes
-            )
-            if reading.place in into:
-                raise BlockError(f"{letter} is given twice in a block", "repeated")
-            into[reading.place] = value
+            words.put(letter, value, reading)
         return words
 
     def _number(self, letter: str, text: str, reading: WordReading) -> float:
         if "(" in text or text[:1] in ("P", "#"):
             sign = -1.0 if text.startswith("-") else 1.0
             return sign * worth(text.lstrip("+-"), self._parameters)
+        if reading.plain and text:
+            return float(text)
         word = TypedWord(letter, text, letter + text)
         number = self._reader.number(word, reading.form, reading.whole)
         if number.assumed:
@@ -83,33 +87,34 @@ class WordNumbers:
         return number.value
 
     def _reading(self, letter: str, codes: BlockCodes) -> WordReading:
-        facts = self._reader.codes.facts
         self._reader.active = dict(codes.modal.active)
         here = {TypedWord(code.code[0], code.code[1:], "").code for code in codes.codes}
         use = self._reader.use(letter, here)
         if use is not None:
-            is_inch = codes.feed_in_inch if use.role == "feed" else codes.modal.is_inch
-            unit = use.unit if isinstance(use.unit, str) else use.unit["in" if is_inch else "mm"]
-            scale = (
-                INCH if unit.startswith("in") else 1e-3 if unit == "ms" else 60.0 if unit == "min" else 1.0
-            )
-            form = (use.format, "") if use.format else None
-            plain = form is None and facts.zeros is None and not use.whole
-            bounds = None if use.bounds is None else (scale * use.bounds[0], scale * use.bounds[1])
-            return WordReading(
-                role=use.role or "", scale=scale, plain=plain, form=form, whole=use.whole, bounds=bounds
-            )
-        for axis, meaning, _ in self._reader.axis_words(letter):
-            if axis not in self._axes:
-                break
-            scale = INCH if self._reader.unit_of(axis) == "in" else 1.0
-            form = (facts.axes.format, axis) if facts.axes and facts.axes.format else None
-            return WordReading(
-                self._axes.index(axis),
-                meaning.startswith("center"),
-                meaning.startswith("distance") and codes.modal.is_absolute,
-                scale=scale,
-                plain=form is None and facts.zeros is None,
-                form=form,
-            )
-        raise BlockError(f"{letter}: this control has no such word", "unknown-word")
+            return self._reading_of_role(use, codes)
+        axis, meaning, _ = next(self._reader.axis_words(letter), ("", "", ()))
+        if axis not in self._axes:
+            raise BlockError(f"{letter}: this control has no such word", "unknown-word")
+        facts = self._reader.codes.facts
+        form = (facts.axes.format, axis) if facts.axes and facts.axes.format else None
+        return WordReading(
+            self._axes.index(axis),
+            meaning.startswith("center"),
+            meaning.startswith("distance") and codes.modal.is_absolute,
+            scale=INCH if self._reader.unit_of(axis) == "in" else 1.0,
+            plain=form is None and facts.zeros is None,
+            form=form,
+        )
+
+    def _reading_of_role(self, use: WordUse, codes: BlockCodes) -> WordReading:
+        is_inch = codes.feed_in_inch if use.role == "feed" else codes.modal.is_inch
+        unit = use.unit if isinstance(use.unit, str) else use.unit["in" if is_inch else "mm"]
+        scale = INCH if unit.startswith("in") else {"ms": 1e-3, "min": 60.0}.get(unit, 1.0)
+        return WordReading(
+            role=use.role or "",
+            scale=scale,
+            plain=use.format is None and self._reader.codes.facts.zeros is None and not use.whole,
+            form=(use.format, "") if use.format else None,
+            whole=use.whole,
+            bounds=use.bounds and (scale * use.bounds[0], scale * use.bounds[1]),
+        )
