@@ -98,20 +98,23 @@ def resolve_address(evaluation: FileState, text: str) -> ResolvedAddress:
 
 
 def resolve_all(evaluation: FileState, text: str) -> list[ResolvedAddress]:
-    """Return every instance that a text addresses: all words of ``P21``; raises UnknownParameterError."""
-    words = _words(evaluation, text)
-    return [ResolvedAddress(address) for address in words] if words else [resolve_address(evaluation, text)]
-
-
-def resolve_addresses(evaluation: FileState, text: str) -> list[Address]:
-    """Return the values that a text means where several are welcome: an id alone means all its instances,
-    a bit its word.
-
-    Raises UnknownParameterError.
+    """Return every instance that a text addresses where several are welcome: all words of ``P21``, and an id
+    alone on all axes; raises UnknownParameterError.
     """
     parameter = evaluation.schema.parameters.get(text.strip().casefold())
     if parameter is not None:
-        return [(parameter.id, instance) for instance in evaluation.machine_schema.instances(parameter)]
+        several = [(parameter.id, instance) for instance in evaluation.machine_schema.instances(parameter)]
+        several = _existing(evaluation, several)
+    else:
+        several = _words(evaluation, text)
+    return [ResolvedAddress(each) for each in several] or [resolve_address(evaluation, text)]
+
+
+def resolve_addresses(evaluation: FileState, text: str) -> list[Address]:
+    """Return the values that a text means where several are welcome: of a bit its word.
+
+    Raises UnknownParameterError.
+    """
     return [found.address for found in resolve_all(evaluation, text)]
 
 
@@ -149,8 +152,12 @@ def _claims(evaluation: FileState, text: str) -> list[Address]:
 
 def _words(evaluation: FileState, text: str) -> list[Address]:
     """Return the words of a number that has several (P21), those that exist for this machine if any does."""
-    words = evaluation.machine_schema.words(text)
-    return [a for a in words if evaluation.state(a).state != "hidden"] or words
+    return _existing(evaluation, evaluation.machine_schema.words(text))
+
+
+def _existing(evaluation: FileState, addresses: list[Address]) -> list[Address]:
+    """Return those that exist for this machine if any does, else all."""
+    return [a for a in addresses if evaluation.state(a).state != "hidden"] or addresses
 
 
 # -- instances
@@ -184,7 +191,8 @@ def _instance(evaluation: FileState, parameter: Parameter, instance: str, text: 
             f"{quoted(text)}: the axes {named} are all named {instance.upper()}: write {ways}"
         )
     letters = "" if len(instances) < 2 else _letters(evaluation, parameter)
-    raise UnknownParameterError(f"{quoted(text)}: {parameter.name} {_offered(instances)}{letters}")
+    way = "" if instance or not instances[1:] else f": write {text}@{instances[0]}"
+    raise UnknownParameterError(f"{quoted(text)}: {parameter.name} {_offered(instances)}{letters}{way}")
 
 
 def _letters(evaluation: FileState, parameter: Parameter) -> str:

@@ -113,6 +113,16 @@ def test_a_number_of_several_words_means_all_of_them(num: ParameterFile) -> None
         num.find("P21")
 
 
+def test_an_id_alone_means_all_axes_where_several_are_welcome(mill: ParameterFile) -> None:
+    found = [m.address for m in resolve_all(mill.evaluation, "Home.Calibration")]
+    assert found[:2] == [("home.calibration", "1"), ("home.calibration", "2")]
+    assert len(found) == sum(
+        mill.evaluation.state(("home.calibration", str(n))).state != "hidden" for n in range(1, 9)
+    )
+    with pytest.raises(UnknownParameterError, match=r": write home\.calibration@1$"):
+        mill.find("home.calibration")
+
+
 @pytest.mark.parametrize("text", ["P3N0.5", "p3n0.5", "P3.5", "axes.servoed.5"])
 def test_a_bit_is_named_behind_its_word(num: ParameterFile, text: str) -> None:
     found = resolve_address(num.evaluation, text)

@@ -16,9 +16,10 @@ from amp_studio.schema import Value
 from amp_studio.sim import SimulationError, Trace, address_of, simulate
 from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.law import law_of
+from amp_studio.sim.tuning.advice import OTHER_SIGN
 from amp_studio.sim.tuning.aims import AIMS
 from amp_studio.sim.tuning.loops import SOUND
-from amp_studio.sim.tuning.solver import Candidate, levels_of, solve
+from amp_studio.sim.tuning.solver import Candidate, gains_of, levels_of, solve
 from amp_studio.sim.tuning.trial import Trial
 from tests.campaigns import CAMPAIGN
 from tests.sim.tuning_campaign import Plant, faults, random_plants
@@ -117,6 +118,30 @@ def test_a_word_that_is_no_aim_and_an_open_loop_are_one_sentence() -> None:
 def test_a_grid_search_finds_nothing_that_the_solver_did_not(plant: Plant) -> None:
     """The short version of ``make tunings``."""
     assert list(faults(plant)) == []
+
+
+def test_an_integral_gain_of_the_other_sign_is_sought_on_the_side_of_the_gain_before_it() -> None:
+    """It was sought below 0 only, where none is sound, and a second run then found the one above 0."""
+    law, file = law_of("57c422b"), file_of("57c422b-label-press/LABEL_PRESS.amp")
+    sound = gains_of(Trial(file, lambda other: bind_axis(other, law, "X")))
+    file.set(("gain.integral", "X"), Value(-300))
+    gains = gains_of(Trial(file, lambda other: bind_axis(other, law, "X")))
+    assert [(each.name, each.low, each.high, each.sign) for each in gains] == [
+        (each.name, each.low, each.high, each.sign) for each in sound
+    ]
+    assert [each.present_size for each in gains] == [78.0, 17595.0, -300.0]
+
+
+@pytest.mark.skipif(not CAMPAIGN, reason="a search for three gains; make campaign")
+def test_a_wrong_sign_of_an_integral_gain_is_mended_at_once() -> None:
+    file = file_of("57c422b-label-press/LABEL_PRESS.amp")
+    sound = {each.parameter: each.value for each in simulate(file, "tune", "X").recommendations}
+    file.set(("gain.integral", "X"), Value(-300))
+    trace = simulate(file, "tune", "X")
+    assert {each.parameter: each.value for each in trace.recommendations} == sound
+    assert [each.price for each in trace.recommendations if each.parameter == "gain.integral"] == [OTHER_SIGN]
+    apply(file, trace)
+    assert simulate(file, "tune", "X").recommendations == ()
 
 
 def test_a_candidate_shows_by_how_much_a_count_moves_its_output() -> None:

@@ -36,6 +36,7 @@ CHATTER = (
 NONE_SOUND = "No gains within their bounds make it sound on this machine."
 ASK_TUNE = "The scenario tune finds gains."
 FILTER_WEAKER = "A resonance that the model does not have may ring on: your choice."
+OTHER_SIGN = "None: an integral gain of the other sign pushes the axis away from its target."
 RAISED = "It raises a gain on a machine that is partly assumed: your choice."
 
 
@@ -115,7 +116,9 @@ def _filter_price(trial: Tried, before: float | None, number: float) -> str:
 def _price(trial: Tried, solved: Solved, gain: Gain) -> str:
     """Return what a change of one gain costs, in a sentence."""
     number = abs(solved.numbers[gain.parameter])
-    share = number / abs(gain.present) if gain.present else 0.0
+    if gain.present_size < 0.0:
+        return OTHER_SIGN
+    share = number / gain.present_size if gain.present else 0.0
     choice = f" {RAISED}" if trial.axis.assumed else ""
     if share > 1.0 or not gain.present:
         if gain.name == "position_gain":

@@ -77,6 +77,11 @@ class Gain:
     may_be_none: bool
     """Whether 0 is a value of it: an integral gain."""
 
+    @property
+    def present_size(self) -> float:
+        """The present value without the sign that is right; below 0 where the present sign is the other."""
+        return self.sign * self.present
+
     def nearest(self, value: float) -> float:
         """Return the value that the control can have, without its sign."""
         if value <= 0.0:
@@ -194,7 +199,7 @@ class Solved:
 
 def gains_of(trial: Tried) -> list[Gain]:
     """Return the gains of an axis, from the inner loop outwards, that have a value and move its loops."""
-    found = []
+    found: list[Gain] = []
     for name in trial.axis.gains:
         source = trial.axis.sources.get(name)
         value = trial.value(source.parameter) if source else None
@@ -202,9 +207,11 @@ def gains_of(trial: Tried) -> list[Gain]:
             continue
         present = float(value.value)
         low, high = trial.range_of(source.parameter)
+        is_integral = "integral" in name
         # The sign of a gain is the wiring of a feedback: a search over both signs would try a loop that runs
-        # away, so only the size is sought, on the side of zero where it is.
-        sign = -1.0 if present < 0.0 else 1.0
+        # away, so only the size is sought, on the side of zero where it is. An integral gain of the other
+        # sign than the gain before it pushes away from the target: that one's sign is right for both.
+        sign = found[-1].sign if is_integral and found else math.copysign(1.0, present or 1.0)
         most = min(LARGEST if high is None else high, source.largest) if sign > 0.0 else -(low or -LARGEST)
         least = max(low or 0.0, 0.0) if sign > 0.0 else 0.0
         whole = source.whole or isinstance(value.value, int)
@@ -219,7 +226,7 @@ def gains_of(trial: Tried) -> list[Gain]:
             whole,
             sign,
             decimals,
-            "integral" in name and least == 0.0,
+            is_integral and least == 0.0,
         )
         if _moves(trial, gain):
             found.append(gain)
@@ -433,7 +440,7 @@ def solve(trial: Tried, aim: Aim, *, raising: bool = True, slowest: float = math
     ceiling = None if raising else {gain.parameter: abs(gain.present) for gain in gains}
     levels, filters = levels_of(aim, slowest), Filters(trial)
     settings = _Settings(trial, gains, ceiling, filters)
-    present = filters.present, tuple(abs(gain.present) for gain in gains)
+    present = filters.present, tuple(gain.present_size for gain in gains)
     before = settings.candidate(present) or Candidate(trial.axis)
     # The present gains are judged without the reserve: what is proposed once must not be improved
     # again.
