@@ -11,14 +11,16 @@ from .version import __version__
 
 TYPE_CHECKING = False  # the typing module is not loaded for it
 if TYPE_CHECKING:
+    from .assignments import AssignmentError, MachineError
     from .control import ConnectedControl, connect
     from .files import Change, RangeError
-    from .machine import AssignmentError, MachineError, MachineParameters, ParameterEntry, import_text
+    from .machine import MachineParameters, import_text
     from .machine import edit_machine as edit
     from .machine import new_machine as new
     from .machine import open_machine as open  # noqa: A004  # amp.open, as gzip.open
     from .schema import UnknownParameterError, Value, family_ids, load_schema
     from .validate import Finding
+    from .value_rows import ParameterEntry
 else:
     __getattr__ = front_page(__name__)
 

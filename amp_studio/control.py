@@ -12,8 +12,9 @@ from pathlib import Path
 from threading import Event
 from typing import Self
 
+from amp_studio.assignments import MachineError
 from amp_studio.files import Notify
-from amp_studio.machine import MachineError, MachineParameters
+from amp_studio.machine import MachineParameters
 from amp_studio.transfer import (
     Abilities,
     ControlIdentity,

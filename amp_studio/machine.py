@@ -7,74 +7,31 @@ the verbs of the command line are made of the same.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
+from amp_studio.assignments import MachineError, read_assignments, typed
 from amp_studio.errors import AmpStudioError
 from amp_studio.files import ENDING, ParameterFileError, open_file
 from amp_studio.schema import Value
+from amp_studio.value_rows import entry_of, value_row
 
 if TYPE_CHECKING:
     from amp_studio.files import Change, Comparison, Difference, Document, Notify, ParameterFile
     from amp_studio.formats import Account
-    from amp_studio.schema import Address, Parameter, ResolvedAddress, Schema
+    from amp_studio.schema import Address, ResolvedAddress, Schema
     from amp_studio.sim import MotionCheck, SweepWay, Trace
     from amp_studio.validate import BuilderRules, Finding, Fixed, Validator
 
-    NewValues = Mapping[str, "NewValue | ParameterEntry"] | Iterable[tuple[str, "NewValue | ParameterEntry"]]
+    from .assignments import NewValue, NewValues
+    from .value_rows import ParameterEntry
 
 # Every verb that opens a file loads this module, and most need little of it: a function imports what it
 # needs, so that a check starts as fast as without the library.
 
-NOT_SET = "not-set"
-"""The text of an assignment that clears a parameter."""
 _OF_SCENARIOS = ("move", "model", "tune", "sweep", "gear", "cam")
 """First words of the settings of a scenario that are no parameters."""
-
-NewValue = str | float | bool | Value | None
-"""What can be set: a text as a user types it (``5 mm``), a number in the unit of the file, yes or no,
-a Value, None to clear."""
-
-
-class MachineError(AmpStudioError, ValueError):
-    """What was asked of a machine cannot be done; nothing was changed, and nothing was written."""
-
-
-class AssignmentError(MachineError):
-    """Values that cannot be set; the text names each of them, and nothing was changed."""
-
-
-@dataclass(frozen=True)
-class ParameterEntry:
-    """One value of a machine, as it was when it was read."""
-
-    param: str
-    """Its number, or its address where it has none."""
-    id: str
-    instance: str
-    value: float | bool | str | None
-    """A number in ``unit``, the label of a choice, a text, yes or no; None where it is not set,
-    and for a secret."""
-    unit: str
-    raw: float | str | None
-    """What the control stores; None where it is unknown."""
-    default: bool
-    """Whether it is the printed default."""
-    state: str
-    """``in-force``, ``ignored``, ``unusable`` or ``hidden``."""
-    forced: bool
-    """Whether it is out of range on purpose."""
-    text: str
-    """Value and unit as a report prints them."""
-
-    def __str__(self) -> str:
-        return self.text
-
-
-_OF_ENTRY = ("param", "id", "instance", "value", "unit", "raw", "default", "state", "forced")
-"""Keys of a row that an entry has too."""
 
 
 class MachineParameters:
@@ -128,24 +85,16 @@ class MachineParameters:
 
         Raises UnknownParameterError.
         """
-        from amp_studio.schema import resolve_address, show_value
+        from amp_studio.schema import resolve_address
 
-        found = resolve_address(self.file.evaluation, address)
-        row = self.row(found)
-        if found.bit is not None:
-            text = "not set" if row["value"] is None else str(row["value"])
-        else:
-            text = show_value(self.schema.parameters[found.address[0]], self.file.get(found.address))
-        return ParameterEntry(**{name: row[name] for name in _OF_ENTRY}, text=text)
+        return entry_of(self.file, resolve_address(self.file.evaluation, address))
 
-    def row(self, found: ResolvedAddress, *, secrets: bool = False) -> dict[str, Any]:
+    def row(self, resolved: ResolvedAddress, *, secrets: bool = False) -> dict[str, Any]:
         """Return a value, or one field of a word of bits, as ``get --json`` gives it.
 
         A secret that is set has neither ``value`` nor ``raw`` unless ``secrets`` asks for them.
         """
-        if found.bit is not None:
-            return _bit_row(self.file, found.address, found.bit)
-        return _value_row(self.file, found.address, secrets)
+        return value_row(self.file, resolved, secrets=secrets)
 
     def __setitem__(self, address: str, value: NewValue | ParameterEntry) -> None:
         """Set one value; raises AssignmentError, RangeError."""
@@ -174,18 +123,14 @@ class MachineParameters:
 
     def _read(self, values: NewValues, notify: Notify) -> dict[Address, Value | None]:
         pairs = values.items() if isinstance(values, Mapping) else values
-        return read_assignments(self.file, ((name, _typed(value)) for name, value in pairs), notify)
+        return read_assignments(self.file, ((name, typed(value)) for name, value in pairs), notify)
 
     def values(self) -> tuple[ParameterEntry, ...]:
         """Return every value that is set, in the order of the manual."""
-        from amp_studio.schema import ResolvedAddress, show_value
+        from amp_studio.schema import ResolvedAddress
 
-        parameters, found = self.schema.parameters, []
-        for address in (a for a in self.file.addresses() if a in self.file.values):
-            row = self.row(ResolvedAddress(address))
-            text = show_value(parameters[address[0]], self.file.get(address))
-            found.append(ParameterEntry(**{name: row[name] for name in _OF_ENTRY}, text=text))
-        return tuple(found)
+        addresses = (address for address in self.file.addresses() if address in self.file.values)
+        return tuple(entry_of(self.file, ResolvedAddress(address)) for address in addresses)
 
     def axis(self, text: str) -> str:
         """Return the axis that is named by itself or by its letter (``1``, ``X``); raises
@@ -257,7 +202,7 @@ class MachineParameters:
             raise MachineError(unknown_name("rule", rule, sorted(rules)))
         named = resolve_addresses(self.file.evaluation, param) if param is not None else None
 
-        def wanted(finding: Finding) -> bool:
+        def is_chosen(finding: Finding) -> bool:
             return (
                 rule in (None, finding.rule)
                 and (finding.safe or not safe)
@@ -265,7 +210,7 @@ class MachineParameters:
             )
 
         validator.run()
-        return apply_fixes(validator, wanted)
+        return apply_fixes(validator, is_chosen)
 
     def diff(self, other: MachineParameters | str | Path) -> tuple[Difference, ...]:
         """Return what differs from another machine of the same family, or from a file; raises
@@ -330,8 +275,8 @@ class MachineParameters:
         from amp_studio.report import Contents
 
         try:
-            wanted, own = Contents(**contents), self.builder_rules()
-            return write_report(self.file, path, wanted, source=self.source, own=own, notify=notify)
+            chosen, own = Contents(**contents), self.builder_rules()
+            return write_report(self.file, path, chosen, source=self.source, own=own, notify=notify)
         except (TypeError, ValueError) as error:
             raise error if isinstance(error, AmpStudioError) else MachineError(str(error)) from None
 
@@ -406,9 +351,9 @@ def open_machine(
     if path.suffix.casefold() != ENDING and _is_text_of_control(path):
         from amp_studio.formats import open_for_reading
 
-        found = MachineParameters(open_for_reading(path, notify, family=family, machine=machine))
-        found.source = path
-        return found
+        read = MachineParameters(open_for_reading(path, notify, family=family, machine=machine))
+        read.source = path
+        return read
     opened = open_file(path)
     return MachineParameters(opened.file, path, opened.digest)
 
@@ -435,9 +380,9 @@ def edit_machine(path: str | Path, *, only_view: bool = False) -> MachineParamet
         what = "a report" if path.suffix.lower() == ".pdf" else "a control's own text"
         raise ParameterFileError(path, None, f"is {what}, which is not changed: import it first")
     document = Document.view(path) if only_view else Document.open(path)
-    found = MachineParameters(document.file, document.path, document.digest)
-    found.document = document
-    return found
+    edited = MachineParameters(document.file, document.path, document.digest)
+    edited.document = document
+    return edited
 
 
 def new_machine(
@@ -483,189 +428,12 @@ def import_text(
         notify=notify,
         take_account=accounts.append,
     )
-    found = MachineParameters(file)
-    (found.account,) = accounts
-    return found
+    imported = MachineParameters(file)
+    (imported.account,) = accounts
+    return imported
 
 
 def _setting(name: str) -> str:
     """Return the setting of a scenario that a name of Python means: ``move_feedrate``, ``servo__p_gain``."""
     first, _, rest = name.partition("_")
     return f"{first}.{rest}" if first in _OF_SCENARIOS and "." not in name else name.replace("__", ".")
-
-
-def _typed(value: NewValue | ParameterEntry) -> str | Value:
-    """Return a new value as a user types it."""
-    if isinstance(value, ParameterEntry):
-        return NOT_SET if value.value is None else f"{_plain(value.value)} {value.unit}".rstrip()
-    if isinstance(value, (str, Value)):
-        return value
-    return NOT_SET if value is None else _plain(value)
-
-
-def _plain(value: float | bool | str) -> str:
-    from amp_studio.schema import write_number
-
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    return value if isinstance(value, str) else write_number(value)
-
-
-# -- what a user types, and what he gets
-
-
-def _read_assigned(
-    trial: ParameterFile, param: str, address: Address, bit: int | None, text: str
-) -> Value | None:
-    """Return the value that a text gives an address, or one bit of it; None clears it. Raises ValueError."""
-    if not text:
-        raise ValueError(
-            f"no value is given ({param}={NOT_SET} clears it)" if bit is None else "no value is given"
-        )
-    if bit is not None:
-        return _with_bit(trial, address, bit, text)
-    return None if _clears(text) else _entered(trial, address, text)
-
-
-def read_assignments(
-    file: ParameterFile,
-    wanted: Iterable[tuple[str, str | Value]],
-    notify: Callable[[str], object] = lambda _message: None,
-) -> dict[Address, Value | None]:
-    """Read assignments in order, each in the light of those before it; the file itself is not changed.
-
-    Raises AssignmentError that names everything that cannot be set. ``notify`` is called with which parameter
-    a number means that is printed for several. A value is cleared by ``NOT_SET`` only:
-    an empty text may be a variable without a value.
-    """
-    from amp_studio.schema import UnknownParameterError, fault, resolve_address
-
-    trial = file.copy()
-    found: dict[Address, Value | None] = {}
-    slips: list[str] = []
-    for param, text in wanted:
-        try:
-            found_here = resolve_address(trial.evaluation, param)
-            address, bit = found_here.address, found_here.bit
-            if isinstance(text, Value):
-                found[address] = text
-                trial.set(address, text)
-                continue
-            value = _read_assigned(trial, param, address, bit, text)
-            if bit is None and address in found and found[address] != value:
-                raise ValueError("it is given two values")
-            found[address] = value
-        except UnknownParameterError as error:
-            slips.append(str(error))
-            continue
-        except ValueError as error:
-            slips.append(f"{param}: {error}")
-            continue
-        if message := found_here.remark(trial.schema):
-            notify(message)
-        trial.set(address, found[address])
-    if slips:
-        faults = ((a, fault(trial.evaluation, a, v)) for a, v in found.items() if v is not None)
-        slips += [f"{trial.machine_schema.short(a)}: {bad}" for a, bad in faults if bad]
-        raise AssignmentError("; ".join(slips))
-    return found
-
-
-def _entered(file: ParameterFile, address: Address, text: str) -> Value | None:
-    """Read a value, or an expression behind ``=``; raises InvalidValueError.
-
-    Nobody sees the result before it is set, so that what only looks like one (``10-5``) is none.
-    """
-    from amp_studio.validate import enter
-
-    if not text.lstrip().startswith("="):
-        return file.read(address, text)
-    return enter(file, address, text, lambda a: file.evaluation.unit(a, file.header.units)).value
-
-
-def _clears(text: str) -> bool:
-    """Return whether a text is ``NOT_SET``, also as ``get`` prints it: not set."""
-    return "-".join(text.casefold().split()) == NOT_SET
-
-
-def _with_bit(file: ParameterFile, address: Address, bit: int, text: str) -> Value:
-    """Return the value of a word of bits with one field changed;
-    a word that is not set counts as its default, or 0.
-    """
-    from amp_studio.schema import field_at, with_field
-
-    field = field_at(file.schema.parameters[address[0]], bit)
-    word = file.get(address) or file.default(address) or Value(0)
-    return Value(with_field(field, int(word.value), text), word.unit)
-
-
-def _bit_row(file: ParameterFile, address: Address, bit: int) -> dict[str, Any]:
-    """Return one field of a word of bits as ``get`` shows it."""
-    from amp_studio.schema import field_at, field_value
-
-    field = field_at(file.schema.parameters[address[0]], bit)
-    words = (file.get(address), file.default(address))
-    word, default = (None if v is None else field_value(field, int(v.value)) for v in words)
-    labels = {c.raw: c.label for c in field.choices or ()}
-    return {
-        "param": f"{file.machine_schema.short(address)}.{bit}",
-        "id": address[0],
-        "instance": address[1],
-        "bit": bit,
-        "label": field.label,
-        "value": labels.get(word, word),
-        "unit": "",
-        "raw": word,
-        "default": word == default,
-        "state": file.evaluation.state(address).state,
-        "forced": address in file.forced,
-    }
-
-
-def _value_row(file: ParameterFile, address: Address, secrets: bool) -> dict[str, Any]:
-    """Return a value as ``get --json`` gives it;
-    a secret that is set has neither value nor raw unless asked for.
-    """
-    from amp_studio.schema import stored_number, write_value
-
-    parameter, value = file.schema.parameters[address[0]], file.get(address)
-    masked = parameter.secret and not secrets
-    plain = None if value is None or masked else value.value
-    if isinstance(plain, (str, bool)):
-        plain = write_value(parameter, value)
-    raw = None
-    if value is not None and not masked:
-        raw = stored_number(parameter, value, turns=file.evaluation.turns(address))
-    return (
-        {
-            "param": file.machine_schema.short(address),
-            "id": address[0],
-            "instance": address[1],
-            "value": plain,
-            "unit": value.unit if value else file.evaluation.unit(address, file.header.units),
-            "raw": raw,
-            "default": file.is_default(address),
-            "state": file.evaluation.state(address).state,
-            "forced": address in file.forced,
-        }
-        | _labels(parameter, value)
-        | ({"secret": True, "set": value is not None} if parameter.secret else {})
-        | _real_figure(file, address)
-    )
-
-
-def _labels(parameter: Parameter, value: Value | None) -> dict[str, str]:
-    """Return what is set in a word of bits by its labels."""
-    from amp_studio.schema import labels_of_word
-
-    if not parameter.bits or value is None or not isinstance(value.value, int):
-        return {}
-    return {"labels": labels_of_word(parameter, value.value)}
-
-
-def _real_figure(file: ParameterFile, address: Address) -> dict[str, Any]:
-    """Return what a value in internal units is in mm or degrees."""
-    from amp_studio.schema import real_value
-
-    real = real_value(file.evaluation, address, file.get(address))
-    return {} if real is None else {"real": {"value": real.value, "unit": real.unit}}

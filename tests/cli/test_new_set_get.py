@@ -11,8 +11,8 @@ from textwrap import dedent
 
 import pytest
 
+from amp_studio.assignments import CLEARING_TEXT
 from amp_studio.files import backup_path, open_file
-from amp_studio.machine import NOT_SET
 from amp_studio.schema import Value, family_ids, load_schema
 
 # -- new -----------------------------------------------------------------------------------------------------
@@ -195,7 +195,7 @@ def test_no_choice_of_any_family_is_spelled_like_the_word_that_clears_a_value() 
         for parameter in load_schema(family).parameters.values():
             words = {w for c in parameter.choices or () for w in (c.key, c.label, c.code or "")}
             words |= {b.label for b in parameter.bits or ()}
-            assert NOT_SET not in {word.casefold() for word in words}, parameter.id
+            assert CLEARING_TEXT not in {word.casefold() for word in words}, parameter.id
 
 
 def test_assignments_count_one_after_the_other(amp, mill: Path) -> None:

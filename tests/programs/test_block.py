@@ -6,9 +6,9 @@ from __future__ import annotations
 
 import pytest
 
+from amp_studio.assignments import read_assignments
 from amp_studio.files import ParameterFile, new_file, open_file
 from amp_studio.files.example_files import examples_folder
-from amp_studio.machine import read_assignments
 from amp_studio.programs import BlockReader, ProgramBlockError, ReadBlock, power_up
 from amp_studio.programs.block import BlockWord
 

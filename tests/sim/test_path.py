@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from amp_studio.assignments import read_assignments
 from amp_studio.files import ParameterFile, new_file
-from amp_studio.machine import read_assignments
 from amp_studio.programs import path_letters, tool_path
 from amp_studio.sim import (
     PathRules,

@@ -9,8 +9,8 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
+from amp_studio.assignments import read_assignments
 from amp_studio.files import SavedVersion, open_file
-from amp_studio.machine import read_assignments
 from amp_studio.schema import Address, Value
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.motion.program_page import ProgramPage

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from amp_studio.assignments import read_assignments
 from amp_studio.families.grblhal.line import GrblLine
 from amp_studio.files import open_file
 from amp_studio.files.example_files import examples_folder
-from amp_studio.machine import read_assignments
 from amp_studio.meaning import migrate
 from amp_studio.transfer.links.endpoint import parse_endpoint
 from amp_studio.transfer.links.opening import connect

@@ -18,11 +18,11 @@ from math import isclose
 from pathlib import Path
 
 from amp_studio import AmpStudioError
+from amp_studio.assignments import read_assignments
 from amp_studio.families.linuxcnc.control.running import pins_of, values_of
 from amp_studio.files import ParameterFile, open_file
 from amp_studio.files.example_files import examples_folder
 from amp_studio.formats import import_file
-from amp_studio.machine import read_assignments
 from amp_studio.meaning import Migration, migrate
 
 from .test_real_program import USER, has_user

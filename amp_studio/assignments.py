@@ -1,0 +1,135 @@
+"""Assignments as a user types them, each read in the light of those before it: all of them or none."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING
+
+from amp_studio.errors import AmpStudioError
+from amp_studio.schema import Value
+from amp_studio.value_rows import ParameterEntry
+
+if TYPE_CHECKING:
+    from amp_studio.files import ParameterFile
+    from amp_studio.schema import Address
+
+    NewValues = Mapping[str, "NewValue | ParameterEntry"] | Iterable[tuple[str, "NewValue | ParameterEntry"]]
+
+# As in ``machine``, a function imports what it needs: a start loads no more than its verb uses.
+
+CLEARING_TEXT = "not-set"
+"""The text of an assignment that clears a parameter."""
+
+NewValue = str | float | bool | Value | None
+"""What can be set: a text as a user types it (``5 mm``), a number in the unit of the file, yes or no,
+a Value, None to clear."""
+
+
+class MachineError(AmpStudioError, ValueError):
+    """What was asked of a machine cannot be done; nothing was changed, and nothing was written."""
+
+
+class AssignmentError(MachineError):
+    """Values that cannot be set; the text names each of them, and nothing was changed."""
+
+
+def read_assignments(
+    file: ParameterFile,
+    assignments: Iterable[tuple[str, str | Value]],
+    notify: Callable[[str], object] = lambda _message: None,
+) -> dict[Address, Value | None]:
+    """Read assignments in order, each in the light of those before it; the file itself is not changed.
+
+    Raises AssignmentError that names everything that cannot be set. ``notify`` is called with which parameter
+    a number means that is printed for several. A value is cleared by ``CLEARING_TEXT`` only:
+    an empty text may be a variable without a value.
+    """
+    from amp_studio.schema import UnknownParameterError, fault, resolve_address
+
+    trial = file.copy()
+    values: dict[Address, Value | None] = {}
+    slips: list[str] = []
+    for param, text in assignments:
+        try:
+            resolved = resolve_address(trial.evaluation, param)
+            address, bit = resolved.address, resolved.bit
+            if isinstance(text, Value):
+                values[address] = text
+                trial.set(address, text)
+                continue
+            value = _read_assigned(trial, param, address, bit, text)
+            if bit is None and address in values and values[address] != value:
+                raise ValueError("it is given two values")
+            values[address] = value
+        except UnknownParameterError as error:
+            slips.append(str(error))
+            continue
+        except ValueError as error:
+            slips.append(f"{param}: {error}")
+            continue
+        if message := resolved.remark(trial.schema):
+            notify(message)
+        trial.set(address, values[address])
+    if slips:
+        faults = ((a, fault(trial.evaluation, a, v)) for a, v in values.items() if v is not None)
+        slips += [f"{trial.machine_schema.short(a)}: {bad}" for a, bad in faults if bad]
+        raise AssignmentError("; ".join(slips))
+    return values
+
+
+def _read_assigned(
+    trial: ParameterFile, param: str, address: Address, bit: int | None, text: str
+) -> Value | None:
+    """Return the value that a text gives an address, or one bit of it; None clears it. Raises ValueError."""
+    if not text:
+        raise ValueError(
+            f"no value is given ({param}={CLEARING_TEXT} clears it)" if bit is None else "no value is given"
+        )
+    if bit is not None:
+        return _with_bit(trial, address, bit, text)
+    return None if _clears(text) else _entered(trial, address, text)
+
+
+def _entered(file: ParameterFile, address: Address, text: str) -> Value | None:
+    """Read a value, or an expression behind ``=``; raises InvalidValueError.
+
+    Nobody sees the result before it is set, so that what only looks like one (``10-5``) is none.
+    """
+    from amp_studio.validate import enter
+
+    if not text.lstrip().startswith("="):
+        return file.read(address, text)
+    return enter(file, address, text, lambda a: file.evaluation.unit(a, file.header.units)).value
+
+
+def _clears(text: str) -> bool:
+    """Return whether a text is ``CLEARING_TEXT``, also as ``get`` prints it: not set."""
+    return "-".join(text.casefold().split()) == CLEARING_TEXT
+
+
+def _with_bit(file: ParameterFile, address: Address, bit: int, text: str) -> Value:
+    """Return the value of a word of bits with one field changed;
+    a word that is not set counts as its default, or 0.
+    """
+    from amp_studio.schema import field_at, with_field
+
+    field = field_at(file.schema.parameters[address[0]], bit)
+    word = file.get(address) or file.default(address) or Value(0)
+    return Value(with_field(field, int(word.value), text), word.unit)
+
+
+def typed(value: NewValue | ParameterEntry) -> str | Value:
+    """Return a new value as a user types it."""
+    if isinstance(value, ParameterEntry):
+        return CLEARING_TEXT if value.value is None else f"{_plain(value.value)} {value.unit}".rstrip()
+    if isinstance(value, (str, Value)):
+        return value
+    return CLEARING_TEXT if value is None else _plain(value)
+
+
+def _plain(value: float | bool | str) -> str:
+    from amp_studio.schema import write_number
+
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return value if isinstance(value, str) else write_number(value)
