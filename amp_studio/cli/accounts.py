@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from amp_studio.cli.console import note, print_json
+from amp_studio.cli.console import print_json, print_remark
 from amp_studio.cli.verb import Options
 
 if TYPE_CHECKING:
@@ -22,5 +22,5 @@ def print_account(
         print_json(account_json(machine.file, account))
         return
     for line in account_lines(machine.file, account, named):
-        note(line)
+        print_remark(line)
     print(f"{options.output}: {written}")

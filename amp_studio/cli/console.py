@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from amp_studio.schema import Schema
 
 
-def note(text: str) -> None:
+def print_remark(text: str) -> None:
     """Print a line that is no result."""
     print_notice(" ".join(text.split()))
 

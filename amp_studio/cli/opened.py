@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .console import note
+from .console import print_remark
 from .errors import UsageError
 from .verb import Options
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def opened(
-    path: Path, options: Options | None = None, notify: Callable[[str], None] = note
+    path: Path, options: Options | None = None, notify: Callable[[str], None] = print_remark
 ) -> MachineParameters:
     """Return the machine of a file that is only read;
     notes about a control's own text go to standard error.

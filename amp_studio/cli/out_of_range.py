@@ -9,7 +9,7 @@ import sys
 from amp_studio.files import ParameterFile, RangeDecision, settle
 from amp_studio.schema import Address
 
-from .console import ask, note
+from .console import ask, print_remark
 from .errors import UsageError
 
 
@@ -38,7 +38,7 @@ class _AtTheTerminal:
         return ask("new value: ")
 
     def refused(self, problem: str) -> None:
-        note(problem)
+        print_remark(problem)
 
 
 _LETTERS: dict[str, RangeDecision] = {"c": "keep", "e": "edit", "q": "quit"}

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .console import note
+from .console import print_remark
 from .errors import UsageError
 
 if TYPE_CHECKING:
@@ -47,10 +47,10 @@ def check_new(output: Path, what: str, *inputs: Path) -> None:
 def write_new(machine: MachineParameters, path: Path) -> None:
     """Save a new machine, named as its file; raises MachineError, SaveError."""
     machine.save_new(path)
-    note_all(machine.notes)
+    print_remarks(machine.notes)
 
 
-def note_all(notes: Sequence[str]) -> None:
+def print_remarks(notes: Sequence[str]) -> None:
     """Print what a save could not keep."""
     for message in notes:
-        note(message)
+        print_remark(message)

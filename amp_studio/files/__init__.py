@@ -81,7 +81,7 @@ if TYPE_CHECKING:
         set_value_note,
         value_note,
     )
-    from .origin import note_origin, origin_named, origin_of
+    from .origin import origin_named, origin_of, record_origin
     from .other_schema import by_schema
     from .parameter_file import (
         Change,

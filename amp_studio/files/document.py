@@ -25,7 +25,7 @@ from amp_studio.schema import (
 
 from .atomic import append_line, check_output, digest_of, write_atomic
 from .lock import EditLock, InUseError, now, user
-from .origin import note_origin
+from .origin import record_origin
 from .parameter_file import Change, Header, ParameterFile
 from .paths import backup_path, hidden_path, history_path, is_there, real_path, text_of_name
 from .reading import HEADER_SECTIONS, Opened, open_file, read_content, read_stored
@@ -180,7 +180,7 @@ class Document:
             raise InUseError(f"{self.path.name} was opened only to look at it: save it under a new name")
         self._lock.take()
         changes = self.unsaved_changes() if self.digest is not None else []
-        self.notes = [self._lock.note] if self._lock.note else []
+        self.notes = [self._lock.remark] if self._lock.remark else []
         self.digest = save_file(self.file, self.path, self.digest, self.notes.append)
         self.saved = dict(self.file.values)
         self._saved_rest = _rest_of(self.file)
@@ -192,7 +192,7 @@ class Document:
         path = Path(path)
         twin = self.file.copy()
         twin.header.name = text_of_name(path.stem)
-        note_origin(twin, path, self.path)
+        record_origin(twin, path, self.path)
         return Document.create(twin, path)
 
     def acknowledge(self, on_disk: Opened) -> None:

@@ -48,7 +48,7 @@ class EditLock:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self.note = ""
+        self.remark = ""
         """Why nobody is kept out, where the file system has no locks: a sentence for the person at work."""
         self.is_taken = False
         """Whether this object has the lock."""
@@ -56,10 +56,10 @@ class EditLock:
         self._place = path
 
     def take(self) -> None:
-        """Lock the file; raises InUseError. Where the file system has no locks there is a note instead."""
+        """Lock the file; raises InUseError. Where the file system has no locks there is a remark instead."""
         if self.is_taken:
             return
-        self.note = ""
+        self.remark = ""
         try:
             self._place = hidden_path(self.path, ".lock")
             self._handle = _locked(self._place)
@@ -75,7 +75,7 @@ class EditLock:
                 raise InUseError(
                     f"{self.path.name} cannot be locked ({self._place.name}): {message}"
                 ) from None
-            self.note = (
+            self.remark = (
                 f"{self.path.name} could not be locked ({message}): see that no other program changes it"
             )
         self.is_taken = True

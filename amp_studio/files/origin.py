@@ -16,7 +16,7 @@ MADE_FROM = "made_from"
 _NAMED = re.compile(rb"^[ \t]+made_from:[ \t]*(['\"]?)([^\r\n]+?)\1[ \t]*\r?$", re.MULTILINE)
 
 
-def note_origin(file: ParameterFile, path: Path, origin: Path) -> None:
+def record_origin(file: ParameterFile, path: Path, origin: Path) -> None:
     """Write into a file that will be at ``path`` what it is made from; nothing where no way leads there."""
     with contextlib.suppress(ValueError, OSError):  # another drive; no such folder
         file.header.extra[MADE_FROM] = Path(

@@ -33,7 +33,7 @@ from .axes import printed_axes, scope_of
 from .contents import SORTS, UNIT_CHOICES, Contents
 from .dangers import dangers_of
 from .drawings import drawings
-from .findings.alike import notes_of, suppressed_notes
+from .findings.alike import printed_findings, printed_suppressed
 from .language import Language, language_of
 from .model import CheckedMotion, ExchangeLine, PrintedFigure, PrintedProgram, ProgramState, Report, ReportRow
 from .parameter.manual_page import help_parts
@@ -92,8 +92,8 @@ def build_report(
         axis_heads=heads,
         axes=axes,
         notes=(
-            notes_of(file, now.findings, anchors, language)
-            + suppressed_notes(file, validator.suppressed, anchors, language)
+            printed_findings(file, now.findings, anchors, language)
+            + printed_suppressed(file, validator.suppressed, anchors, language)
         ),
         dangers=dangers_of(file.schema, printed, language),
         forced=_forced(file, found.rows),

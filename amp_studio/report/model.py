@@ -15,7 +15,7 @@ from typing import Protocol
 from amp_studio.schema import MASKED, ParameterState
 
 from .contents import SORTS, Contents
-from .findings.note import Note, NoteKind
+from .findings.printed_finding import PrintedFinding, PrintedSeverity
 from .language import language_of
 
 MARKS: dict[str, str] = {
@@ -407,7 +407,8 @@ class Report:
     also where the value is not printed."""
     axis_heads: tuple[str, ...]
     axes: tuple[tuple[str, ...], ...]
-    notes: tuple[Note, ...]
+    notes: tuple[PrintedFinding, ...]
+    """The findings; templates of builders know them by this name."""
     dangers: tuple[Danger, ...]
     """Of values that are active and not the printed default."""
     forced: tuple[ReportRow, ...]
@@ -479,11 +480,11 @@ class Report:
             for part in section.parts:
                 yield from part.rows
 
-    def severities(self) -> dict[NoteKind, tuple[Note, ...]]:
+    def severities(self) -> dict[PrintedSeverity, tuple[PrintedFinding, ...]]:
         """Return the findings by severity, errors first, suppressed ones last; empty severities are left
         out.
         """
-        names: tuple[NoteKind, ...] = ("error", "warning", "advice", "suppressed")
+        names: tuple[PrintedSeverity, ...] = ("error", "warning", "advice", "suppressed")
         found = {name: tuple(n for n in self.notes if n.severity == name) for name in names}
         return {name: notes for name, notes in found.items() if notes}
 

@@ -83,8 +83,8 @@ def print_report(
     )
     content, mistake = _rendered(report, path.suffix.lower(), folder)
     write_atomic(path, content, keep_backup=False, notify=notify)
-    if isinstance(content, PdfContent) and content.note:
-        notify(content.note)
+    if isinstance(content, PdfContent) and content.remark:
+        notify(content.remark)
     if mistake:
         notify(mistake.then("The standard report was written"))
     return mistake is None

@@ -18,10 +18,10 @@ def bind_axis(
     law: Law,
     axis: str | None = None,
     overrides: Mapping[str, ParameterValue] | None = None,
-    note: Callable[[Address], None] = lambda _address: None,
+    on_read: Callable[[Address], None] = lambda _address: None,
 ) -> AxisLaw:
     """Return one axis of a file, named by itself or its letter, with its machine; ``overrides`` are values by
-    parameter id or ``model.*``, ``note`` is called with each address that is read.
+    parameter id or ``model.*``, ``on_read`` is called with each address that is read.
 
     Raises SimulationError for an axis that is not fitted, a value that is missing,
     an override that is not used.
@@ -35,7 +35,7 @@ def bind_axis(
     if chosen not in fitted:
         raise SimulationError(f"Axis {chosen} is not fitted. Fitted: {', '.join(fitted)}")
     read = AxisParameters(
-        axis_values(file, note),
+        axis_values(file, on_read),
         chosen,
         overrides or {},
         file.schema.tables,
@@ -48,12 +48,12 @@ def bind_axis(
 
 
 def axis_values(
-    file: ParameterFile, note: Callable[[Address], None] = lambda _address: None
+    file: ParameterFile, on_read: Callable[[Address], None] = lambda _address: None
 ) -> ReadParameter:
-    """Return how the values of a file are read; ``note`` is called with each address."""
+    """Return how the values of a file are read; ``on_read`` is called with each address."""
 
     def value(parameter_id: str, instance: str) -> ParameterValue:
-        note((parameter_id, instance))
+        on_read((parameter_id, instance))
         return file.evaluation.canonical((parameter_id, instance))
 
     return value

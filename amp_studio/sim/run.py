@@ -138,7 +138,7 @@ def bound_machine(
     law: Law,
     names: Sequence[str],
     model: Mapping[str, ParameterValue],
-    note: Callable[[Address], None],
+    on_read: Callable[[Address], None],
 ) -> BoundMachine:
     """Return the machine of a file; raises SimulationError for an axis that is not fitted."""
     fitted = tuple(law.axes(file))
@@ -147,7 +147,7 @@ def bound_machine(
         return axis_name(file.evaluation, axis)
 
     def read(axis: str) -> AxisParameters:
-        values, tables = axis_values(file, note), file.schema.tables
+        values, tables = axis_values(file, on_read), file.schema.tables
         return AxisParameters(values, axis, {}, tables, file.machine, file.header.application)
 
     chosen = [
@@ -161,7 +161,7 @@ def bound_machine(
         raise SimulationError(f"An axis is given twice: {', '.join(names)}")
 
     def bind(axis: str | None, further: Mapping[str, ParameterValue]) -> AxisLaw:
-        return bind_axis(file, law, axis, {**model, **further}, note)
+        return bind_axis(file, law, axis, {**model, **further}, on_read)
 
     return BoundMachine(law, tuple(chosen), fitted, bind, read, letter)
 

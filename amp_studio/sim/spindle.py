@@ -103,7 +103,7 @@ class Spindle:
     def gear_for(
         self, speed: float, present: str | None, *, programmed: bool = False
     ) -> tuple[Gear | None, str]:
-        """Return the gear for a speed and a note about the choice; None where none has it,
+        """Return the gear for a speed and what is assumed of the choice; None where none has it,
         or the ``programmed`` one has it not.
 
         The manuals do not print which gear is taken where ranges overlap.
@@ -121,11 +121,11 @@ class Spindle:
             return None, ""
         if len(fitting) > 1:
             names = ", ".join(gear.name for gear in fitting)
-            note = (
+            assumption = (
                 f"ASSUMED: of the gears {names}, which all have this speed, the present one stays, else the"
                 " lowest is taken; it is not printed."
             )
-            return (engaged if engaged in fitting else fitting[0]), note
+            return (engaged if engaged in fitting else fitting[0]), assumption
         return fitting[0], ""
 
 

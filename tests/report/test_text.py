@@ -14,7 +14,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.report import SORTS, Contents, print_report
 from amp_studio.report.build import build_report
 from amp_studio.report.contents import Sort
-from amp_studio.report.findings.note import Note
+from amp_studio.report.findings.printed_finding import PrintedFinding
 from amp_studio.report.model import Listing, Report, ReportRow, Section
 from amp_studio.report.output.pdf import typst_literal, typst_source
 from amp_studio.report.output.text import render_text
@@ -71,7 +71,9 @@ SMALL = Report(
     axis_heads=("Axis", "Name"),
     axes=(("1", "X"),),
     notes=(
-        Note("error", 1, "Axis 1 X", (("a@1", "1300 Home Calibration"),), "Too far.", "1300 = 0 mm", "5-10"),
+        PrintedFinding(
+            "error", 1, "Axis 1 X", (("a@1", "1300 Home Calibration"),), "Too far.", "1300 = 0 mm", "5-10"
+        ),
     ),
     dangers=(),
     forced=(),

@@ -31,7 +31,7 @@ def sent(window: MainWindow, address: str, qtbot: QtBot) -> ControlPage:
     """Return the page after the file in front was sent, dangers checked."""
     page = at_control(window, address, "send", qtbot)
     page.checked.setChecked(True)
-    assert page.primary.isEnabled(), page.note.text()
+    assert page.primary.isEnabled(), page.hint.text()
     page.press()
     return settled(window, qtbot)
 

@@ -187,7 +187,7 @@ def test_e_stop_is_asked_before_anything_is_sent_and_again_until_it_is_pressed(
     page = at_control(window, control.address, "send", qtbot)
     page.checked.setChecked(True)
     assert "E-stop is not pressed" in page.conditions.accessibleDescription()
-    assert (page.primary.isEnabled(), page.note.text()) == (False, "Waiting: E-stop is not pressed")
+    assert (page.primary.isEnabled(), page.hint.text()) == (False, "Waiting: E-stop is not pressed")
     assert page.bar.text.text().startswith("Press E-stop at the machine.")
     assert page._asking.isActive(), "it is asked again every 2 s"
     assert window.menus["control.page"].iconText().endswith("not in E-stop")
@@ -246,7 +246,7 @@ def test_a_line_that_is_pulled_while_sending_ends_with_the_truth_and_one_next_st
     sending = slowed(monkeypatch, lambda _: control.stop())
     page.press()
     qtbot.waitUntil(sending.is_set, timeout=WAIT_MS)
-    qtbot.waitUntil(lambda: "trying again" in page.note.text(), timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: "trying again" in page.hint.text(), timeout=WAIT_MS)
     page.session.cancel()
     settled(window, qtbot)
     assert page.session.phase == "failed"
@@ -266,10 +266,10 @@ def test_errors_and_unsaved_changes_are_shown_in_the_page_before_anything_is_sen
     window.edits.commit(EXCESS, "0.001 mm")
     page = at_control(window, control.address, "send", qtbot)
     page.checked.setChecked(True)
-    assert (page.primary.isEnabled(), page.note.text()) == (False, "Waiting: the file is not saved")
+    assert (page.primary.isEnabled(), page.hint.text()) == (False, "Waiting: the file is not saved")
     page.bar.buttons[0].click()
     assert on_disk(path).get(EXCESS) == Value(0.001, "mm")
-    assert page.note.text() == "Waiting: the file has errors"
+    assert page.hint.text() == "Waiting: the file has errors"
     page.bar.buttons[0].click()
     assert page.primary.isEnabled()
 
@@ -375,7 +375,7 @@ def test_the_emulated_control_starts_and_ends_with_the_program(window: MainWindo
     action(window, "Emulated Control in E-Stop").trigger()  # out of E-stop
     qtbot.waitUntil(lambda: _flags(emulated.address) is False, timeout=WAIT_MS)
     page = at_control(window, emulated.address, "send", qtbot)
-    assert page.note.text() == "Waiting: E-stop is not pressed"
+    assert page.hint.text() == "Waiting: E-stop is not pressed"
     with qtbot.waitSignal(emulated.ended, timeout=WAIT_MS):
         action(window, "Stop Emulated Control").trigger()
     assert "stopped" in window.statusBar().currentMessage()

@@ -185,7 +185,7 @@ def test_what_is_kept_back_is_counted_and_not_listed(path, bare: bytes, open_win
     panel = with_all_findings(open_window, path, bare).findings
     panel.withhold(lambda finding: finding.rule.startswith("9pc.accdec."))
     assert not any("accdec" in group.key for group in panel.model.groups)
-    assert panel.note.text().startswith("8 as delivered, to be set in steps ")
+    assert panel.hint.text().startswith("8 as delivered, to be set in steps ")
     assert not panel.chips["warning"].isVisible()
 
 

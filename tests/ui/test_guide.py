@@ -277,7 +277,7 @@ def test_a_fresh_file_is_calm_wherever_one_looks(
     window.go_to(hardware)
     assert window.workspace.count("error") == 0
     assert window.table.values.worst == {}
-    assert "as delivered, to be set in steps" in window.findings.note.text()
+    assert "as delivered, to be set in steps" in window.findings.hint.text()
     assert "As delivered:" in window.detail.page.toPlainText()
     window.workspace.edit("begin", {("home.position", "1"): Value(1.0, "mm")})
     assert window.workspace.count("error") == 6

@@ -88,7 +88,7 @@ def test_a_control_is_connected_from_the_page_and_taken_from_the_list(
     UserSettings().keep_controls([KnownControl(control.address, when=NOW.isoformat(), reached=False)])
     page = window.welcome
     page.show_recent([])
-    assert rows(page)[0].note == "not reached"
+    assert rows(page)[0].status == "not reached"
     page.controls.list.setFocus()
     QTest.keyClick(page.controls.list, Qt.Key.Key_Return)
     (known,) = window.settings.controls()
@@ -103,7 +103,7 @@ def test_a_control_is_connected_from_the_page_and_taken_from_the_list(
     control.stop()
     page.controls.connect_button.click()
     assert "no connection to the control" in user.reads()
-    assert rows(page)[0].note == "not reached"
+    assert rows(page)[0].status == "not reached"
     assert "E-stop" not in rows(page)[0].second
     page.controls._on_current(page.controls._forget)
     assert rows(page) == []
@@ -116,6 +116,6 @@ def test_an_upload_that_fails_is_remembered_as_not_reached(open_window, monkeypa
         raise TransferError("no connection to the control (refused)")
 
     with pytest.raises(TransferError):
-        exchanges._noted(PLACE, "upload", fail, "")
+        exchanges._recorded(PLACE, "upload", fail, "")
     (known,) = exchanges.window.settings.controls()
     assert (known.address, known.verb, known.reached) == (PLACE, "upload", False)

@@ -100,12 +100,12 @@ def test_what_cannot_be_exchanged_is_shown_before_anything_is(
     window: MainWindow, several: SeveralControls, user: User
 ) -> None:
     assert several.primary.text() == "Compare With 0 Controls"
-    assert "Tick the controls" in several.note.text()
+    assert "Tick the controls" in several.hint.text()
     ticked(window, "x")
     assert "is no address" in user.reads()
     ticked(window, DEAD, "tcp://127.0.0.1:1?protocol=house")
     window.edits.commit(("servo.excess_error", "1"), "12 mm")
     window.control.page.turn("send")
-    assert several.note.text() == "Waiting: the file is not saved"
+    assert several.hint.text() == "Waiting: the file is not saved"
     several.bar.buttons[0].click()
-    assert several.note.text() == "Waiting: what is replaced is not checked"
+    assert several.hint.text() == "Waiting: what is replaced is not checked"

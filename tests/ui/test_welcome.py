@@ -110,8 +110,8 @@ def test_recent_files_show_machine_and_findings_once_the_page_is_at_rest(two, qt
     assert [row.second for row in rows(page.list)] == ["…", "…"]
     read_all(page, qtbot)
     broken, mill = rows(page.list)
-    assert (mill.second, mill.note, mill.counts) == ("MILL_1394, 9/PC, Mill, X Y Z B S", "no findings", {})
-    assert broken.note == "cannot be read"
+    assert (mill.second, mill.status, mill.counts) == ("MILL_1394, 9/PC, Mill, X Y Z B S", "no findings", {})
+    assert broken.status == "cannot be read"
     assert mill.right.startswith("today ")
 
 

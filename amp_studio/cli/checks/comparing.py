@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from amp_studio.cli.console import note
+from amp_studio.cli.console import print_remark
 
 if TYPE_CHECKING:
     from amp_studio.files import Comparison, Difference, Merge, ParameterFile, Row
@@ -13,14 +13,14 @@ if TYPE_CHECKING:
 
 
 def matched_by_letter_noted(b: ParameterFile, a: ParameterFile) -> ParameterFile:
-    """Return B with its axes at the numbers that their letters have in A; which moved is a note."""
+    """Return B with its axes at the numbers that their letters have in A; which moved is a remark."""
     from amp_studio.files import matched_by_letter
 
     matched = matched_by_letter(b, a)
     for letter, number, place in matched.moved:
-        note(f"axis {letter} is axis {number} in B; it is compared as axis {place}")
+        print_remark(f"axis {letter} is axis {number} in B; it is compared as axis {place}")
     for letter in matched.left_out:
-        note(f"axis {letter} of B is not compared: A has no free axis for it")
+        print_remark(f"axis {letter} of B is not compared: A has no free axis for it")
     return matched.file
 
 
@@ -72,7 +72,7 @@ def print_comparison(
     secrets: bool,
     other: tuple[ParameterFile, Sequence[Difference]] | None = None,
 ) -> None:
-    """Print each difference and how many there are, and note what the manual calls dangerous about them.
+    """Print each difference and how many there are, and print what the manual calls dangerous about them.
 
     ``file`` is one of the two sides, ``other`` is the second side with what only its schema has.
     """
@@ -82,7 +82,7 @@ def print_comparison(
     for difference in of_second:
         print_difference(second, difference, secrets)
     if found.differences or of_second:
-        note_dangers((file, found.differences), (second, of_second))
+        print_dangers((file, found.differences), (second, of_second))
     more = len(of_second)
     print(
         f"{len(found.differences) + more} differ, {found.same} are the same, {found.not_set_in_a + more} not"
@@ -90,13 +90,13 @@ def print_comparison(
     )
 
 
-def note_dangers(*sides: tuple[ParameterFile, Sequence[Difference]]) -> None:
-    """Note what the manual calls dangerous about values that differ, one line each."""
+def print_dangers(*sides: tuple[ParameterFile, Sequence[Difference]]) -> None:
+    """Print what the manual calls dangerous about values that differ, one line each."""
     from amp_studio.report import dangers_of_change
 
     for file, differences in sides:
         for danger in dangers_of_change(file, differences):
-            note(f"danger: {danger.line}")
+            print_remark(f"danger: {danger.line}")
 
 
 def print_difference(file: ParameterFile, difference: Difference, secrets: bool) -> None:

@@ -7,18 +7,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from amp_studio.cli.console import note
+from amp_studio.cli.console import print_remark
 from amp_studio.schema import load_schema
 from amp_studio.transfer import PRINT_SHEET, ControlSilentError, NoConnectionError, TransferError
 from amp_studio.transfer.links import parse_endpoint
 
 
-def note_by_hand(family: str) -> None:
-    """Note that an exchange is with an emulated control or a gateway, and offer the sheet;
+def print_by_hand(family: str) -> None:
+    """Print that an exchange is with an emulated control or a gateway, and offer the sheet;
     nothing for most families.
     """
     if sentence := load_schema(family).family.by_hand:
-        note(f"{sentence}: {PRINT_SHEET}. What answers here is an emulated control or a gateway.")
+        print_remark(f"{sentence}: {PRINT_SHEET}. What answers here is an emulated control or a gateway.")
 
 
 @contextmanager

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from amp_studio.cli.checks.comparing import difference_json
-from amp_studio.cli.console import note, print_json, progress
+from amp_studio.cli.console import print_json, print_remark, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.exit_codes import FAULT
 from amp_studio.cli.output import check_replaced
@@ -37,7 +37,7 @@ def verify_all_verb(options: Options) -> int:
             f"{folder} knows no control: no download is recorded there, and no project.yaml names one"
         )
     with asked_politely() as stop:
-        found = drift_of_all(known, lambda address: Exchange(progress(address), stop, notify=note))
+        found = drift_of_all(known, lambda address: Exchange(progress(address), stop, notify=print_remark))
     counts = {word: sum(each.result == word for each in found) for word in _CODES}
     if options.json:
         controls = [_entry(each, options.secrets) for each in found]
@@ -46,7 +46,7 @@ def verify_all_verb(options: Options) -> int:
     else:
         _print(found, counts, options.secrets)
     if options.report is not None:
-        write_paper(_paper(found, options.secrets), options.report, notify=note)
+        write_paper(_paper(found, options.secrets), options.report, notify=print_remark)
     return max(_CODES[each.result] for each in found)
 
 

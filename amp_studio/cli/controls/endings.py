@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from amp_studio.cli.console import note, progress
+from amp_studio.cli.console import print_remark, progress
 from amp_studio.cli.exit_codes import AT_CONTROL, CHANGED, FAULT
 from amp_studio.cli.screen import end_results, flush_results
 from amp_studio.cli.verb import Options
@@ -21,17 +21,17 @@ def exchange_of(options: Options, path: Path, stop: Stop) -> Exchange:
     from amp_studio.transfer import Exchange
 
     keep = options.keep / path.name if options.keep else path
-    return Exchange(progress(), stop, keep, record=path, notify=note)
+    return Exchange(progress(), stop, keep, record=path, notify=print_remark)
 
 
-def note_errors(machine: MachineParameters) -> str:
+def print_errors(machine: MachineParameters) -> str:
     """List the errors of a machine, by the rules beside it too; returns how many there are, "" for none."""
     from amp_studio.report import alike, counted, same_finding_text
 
     findings = machine.validator().run()
     errors = [finding for finding in findings if finding.severity == "error"]
     for same in alike(errors):
-        note(same_finding_text(machine.file, same))
+        print_remark(same_finding_text(machine.file, same))
     return counted(len(errors), "error") if errors else ""
 
 
@@ -49,9 +49,9 @@ def print_outcome(outcome: Outcome) -> int:
         flush_results()
     except BrokenPipeError:
         end_results()
-        note(f"amp-studio: nobody reads the results any more; {outcome.text}")
+        print_remark(f"amp-studio: nobody reads the results any more; {outcome.text}")
     except (OSError, ValueError):
         end_results()
-        note(f"amp-studio: the result cannot be printed; {outcome.text}")
+        print_remark(f"amp-studio: the result cannot be printed; {outcome.text}")
         code = max(code, CHANGED if outcome.written else FAULT)
     return code

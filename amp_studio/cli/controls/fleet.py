@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from amp_studio import MachineParameters
-from amp_studio.cli.console import note, print_json, progress
+from amp_studio.cli.console import print_json, print_remark, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.exit_codes import AT_CONTROL, CHANGED, FAULT, UNKNOWN
 from amp_studio.cli.output import check_new, write_new
@@ -114,7 +114,7 @@ def _uploaded(found: FleetResult[tuple[bytes, ParameterFile]], output: Path) -> 
 
 def record_upload(output: Path, file: ParameterFile, address: str, content: bytes) -> None:
     """Record an upload in the folder of the file that was made of it."""
-    exchange = Exchange(record=output, notify=note)
+    exchange = Exchange(record=output, notify=print_remark)
     record_look("upload", exchange, file.schema.family.family, address, content, "uploaded")
 
 
@@ -141,7 +141,9 @@ def _end(options: Options, rows: list[FleetRow]) -> int:
     wrong = [f"{row.address} {row.word}" for row, code in zip(rows, codes, strict=True) if code > 1]
     if not wrong:
         return max(codes)
-    note(f"amp-studio: {len(rows) - len(wrong)} of {counted(len(rows), 'control')} done; {', '.join(wrong)}")
+    print_remark(
+        f"amp-studio: {len(rows) - len(wrong)} of {counted(len(rows), 'control')} done; {', '.join(wrong)}"
+    )
     if UNKNOWN in codes:
         return UNKNOWN
     is_partly = options.verb == "download" and "done" in [row.word for row in rows]

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from amp_studio import MachineParameters
-from amp_studio.cli.console import note
+from amp_studio.cli.console import print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.verb import Options
-from amp_studio.files import MadeLike, examples, made_like, note_origin
+from amp_studio.files import MadeLike, examples, made_like, record_origin
 from amp_studio.schema import unknown_name
 
 
@@ -20,7 +20,7 @@ def file_like(options: Options, axes: list[str]) -> MachineParameters:
     """
     made = _made_like(options, axes)
     for text in _not_taken(made):
-        note(text)
+        print_remark(text)
     return MachineParameters(made.file)
 
 
@@ -39,7 +39,7 @@ def _made_like(options: Options, axes: list[str]) -> MadeLike:
     except ValueError as error:
         raise UsageError(str(error)) from None
     if path.exists():
-        note_origin(made.file, options.path, path)
+        record_origin(made.file, options.path, path)
     return made
 
 

@@ -209,17 +209,17 @@ def run_cam(axis: AxisLaw, settings: Settings) -> Trace:
             ids.cam_points,
         )
     if module.bit(ids.cam_mode, 8):
-        positions, note = (
+        positions, assumption = (
             _position_cam(module, settings, points),
             "Straight lines between the points (page 4-51).",
         )
     else:
         positions = _time_cam(module, settings, points, int(cycles))
-        note = (
+        assumption = (
             "A constant speed in each interval of the cam: what the module does between points is not"
             " printed."
         )
-    return _followed(axis, "cam", positions, {"points": (float(points), "")}, note)
+    return _followed(axis, "cam", positions, {"points": (float(points), "")}, assumption)
 
 
 def _time_cam(axis: ModuleAxis, settings: Settings, points: int, cycles: int) -> list[float]:
@@ -304,11 +304,11 @@ def _followed(
     scenario: str,
     positions: Sequence[float],
     found: dict[str, Figure],
-    note: str,
+    assumption: str,
     rest: float = _PAUSE,
 ) -> Trace:
     profile = profile_of(pieces_of(positions), positions[-1] if positions else 0.0)
-    return _run(axis, scenario, profile, end_of(profile), found, note, rest)
+    return _run(axis, scenario, profile, end_of(profile), found, assumption, rest)
 
 
 def _run(
@@ -317,7 +317,7 @@ def _run(
     profile: list[float],
     end: float,
     found: dict[str, Figure],
-    note: str,
+    assumption: str,
     rest: float = _PAUSE,
 ) -> Trace:
     motion = run_axis(axis, profile, Until(end + rest))
@@ -339,7 +339,7 @@ def _run(
         result=result,
         alarms=alarms_of(axis, motion),
         recommendations=(),
-        assumptions=(note, *assumptions(axis)),
+        assumptions=(assumption, *assumptions(axis)),
         limits={name: (level, axis.unit) for name, level in axis.limits.items()},
     )
 

@@ -1,4 +1,4 @@
-"""Findings of a report: equal messages about several axes become one note."""
+"""Findings of a report: equal messages about several axes become one printed finding."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from amp_studio.schema import Address, show_value
 from amp_studio.validate import AddressedValue, Finding, Suppressed
 
 from .lines import finding_text
-from .note import Note
+from .printed_finding import PrintedFinding
 
 _NAMED = 6
-"""Number of values that a note lists; a finding about more names only the first ones in its message."""
+"""Number of values that one lists; a finding about more names only the first ones in its message."""
 
 
-def notes_of(
+def printed_findings(
     file: ParameterFile, findings: Iterable[Finding], printed: set[str], language: Language = ENGLISH
-) -> tuple[Note, ...]:
-    """Return the findings as notes in their order;
+) -> tuple[PrintedFinding, ...]:
+    """Return the findings as they are printed, in their order;
     ``printed`` contains the anchors of the values in the report.
     """
-    return tuple(_note(file, same, printed, language) for same in alike(findings))
+    return tuple(_printed(file, same, printed, language) for same in alike(findings))
 
 
 def alike(findings: Iterable[Finding]) -> list[list[Finding]]:
@@ -42,16 +42,16 @@ def same_finding_text(file: ParameterFile, same: Sequence[Finding]) -> str:
     """Return what several findings have in common, in a line or more for the terminal: ``axes X, Y: …``."""
     if len(same) == 1:
         return finding_text(file, same[0])
-    note = _note(file, same, set())
+    finding = _printed(file, same, set())
     axes = [axis_letter(file, axis) or axis for axis in _axes(file, same)]
     place = f"{'axes' if len(axes) > 1 else 'axis'} {', '.join(axes)}: " if axes else ""
     every = (a for f in same for a in (f.addresses if len(f.addresses) <= _NAMED else f.causes[:_NAMED]))
     names = ", ".join(label for _, label in _links(file, list(dict.fromkeys(every)), set()))
-    first = f"{place}{names}{': ' if names else ''}{note.message}"
+    first = f"{place}{names}{': ' if names else ''}{finding.message}"
     cited = f" ({same[0].cited})" if same[0].cited else ""
-    lines = [f"{severity_name(note.severity):8} {first}{cited}"]
-    if note.fix:
-        lines.append(f"         suggested fix: {note.fix}")
+    lines = [f"{severity_name(finding.severity):8} {first}{cited}"]
+    if finding.fix:
+        lines.append(f"         suggested fix: {finding.fix}")
     return "\n".join(lines)
 
 
@@ -61,29 +61,31 @@ def _axes(file: ParameterFile, findings: Iterable[Finding]) -> list[str]:
     return sorted(axes, key=lambda axis: (len(axis), axis))
 
 
-def suppressed_notes(
+def printed_suppressed(
     file: ParameterFile, left: Iterable[Suppressed], printed: set[str], language: Language = ENGLISH
-) -> tuple[Note, ...]:
-    """Return the suppressed findings as notes, with name and reason."""
+) -> tuple[PrintedFinding, ...]:
+    """Return the suppressed findings as they are printed, with name and reason."""
     alike: dict[tuple[str, str, str], list[Finding]] = {}
     for suppressed in left:
         finding = replace(suppressed.finding, fix=(), effective=())
         by = f"{language.text('Suppressed by')} {suppressed.suppression.by}: {suppressed.suppression.reason}"
         alike.setdefault((finding.rule, finding.message, by), []).append(finding)
-    notes = [(_note(file, same, printed, language), by) for (_, _, by), same in alike.items()]
-    return tuple(replace(note, message=f"{note.message} {by}", severity="suppressed") for note, by in notes)
+    with_reasons = [(_printed(file, same, printed, language), by) for (_, _, by), same in alike.items()]
+    return tuple(
+        replace(each, message=f"{each.message} {by}", severity="suppressed") for each, by in with_reasons
+    )
 
 
-def _note(
+def _printed(
     file: ParameterFile, same: Sequence[Finding], printed: set[str], language: Language = ENGLISH
-) -> Note:
+) -> PrintedFinding:
     addresses = list(dict.fromkeys(a for f in same if len(f.addresses) <= _NAMED for a in f.addresses))
     fix = list(dict.fromkeys(r for f in same for r in f.fix))
     brings = next((f.brings for f in same if f.brings), None)
     brought = f" ({language.text('it brings a warning:')} {language.finding(brings)})" if brings else ""
     used = "; ".join(_settings(file, list(dict.fromkeys(s for f in same for s in f.effective)), language))
     effective = f" {language.text('Effective value in the control:')} {used}." if used else ""
-    return Note(
+    return PrintedFinding(
         severity=same[0].severity,
         count=len(same),
         place=_places(file, addresses),

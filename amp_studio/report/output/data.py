@@ -11,7 +11,7 @@ import json
 from dataclasses import asdict
 from typing import Any
 
-from amp_studio.report.findings.note import Note
+from amp_studio.report.findings.printed_finding import PrintedFinding
 from amp_studio.report.model import Report, ReportRow
 
 FORMAT = 1
@@ -70,7 +70,7 @@ def report_data(report: Report) -> dict[str, Any]:
             for line in report.axes
         ],
         "values": [_value(row) for row in rows],
-        "findings": [_finding(note) for note in report.notes],
+        "findings": [_finding(finding) for finding in report.notes],
         "not_set": [{"number": n or None, "name": name, "place": place} for n, name, place in report.not_set],
         "dangers": [
             {"text": danger.says, "page": danger.page, "about": [_address(a) for a, _ in danger.about]}
@@ -109,17 +109,17 @@ def _value(row: ReportRow) -> dict[str, Any]:
     }
 
 
-def _finding(note: Note) -> dict[str, Any]:
+def _finding(finding: PrintedFinding) -> dict[str, Any]:
     return {
-        "rule": note.rule,
-        "severity": note.severity,
-        "count": note.count,
-        "about": [{"id": parameter, "instance": instance} for parameter, instance in note.addresses],
-        "message": note.message,
+        "rule": finding.rule,
+        "severity": finding.severity,
+        "count": finding.count,
+        "about": [{"id": parameter, "instance": instance} for parameter, instance in finding.addresses],
+        "message": finding.message,
         "fix": [
             {"id": parameter, "instance": instance, "value": value, "unit": unit or None}
-            for (parameter, instance), value, unit in note.changes
+            for (parameter, instance), value, unit in finding.changes
         ],
-        "page": None if note.is_own else note.page or None,
-        "source": note.page if note.is_own else None,
+        "page": None if finding.is_own else finding.page or None,
+        "source": finding.page if finding.is_own else None,
     }

@@ -44,14 +44,14 @@ _BRIEF = 40
 class PdfContent(bytes):
     """A PDF, and what a person has to know about it."""
 
-    note: str = ""
+    remark: str = ""
     """Why it is no PDF/A and PDF/UA; empty where it is."""
 
     @classmethod
-    def noted(cls, content: bytes, note: str) -> PdfContent:
-        """Return a content with its note."""
+    def with_remark(cls, content: bytes, remark: str) -> PdfContent:
+        """Return a content with its remark."""
         pdf = cls(content)
-        pdf.note = note
+        pdf.remark = remark
         return pdf
 
 
@@ -156,9 +156,13 @@ def render_pdf(report: Report, own: Path | None = None) -> PdfContent:
     source = typst_source(report, own)
     attached = {"machine": report.machine_file, "report": render_json(report).decode("utf-8")}
     if own is None:
-        return PdfContent.noted(*set_pdf(source, _options(source, TEMPLATES) | {"sys_inputs": attached}))
+        return PdfContent.with_remark(
+            *set_pdf(source, _options(source, TEMPLATES) | {"sys_inputs": attached})
+        )
     with _mistakes(source, own):
-        return PdfContent.noted(*compiled(source, _options(source, own.parent) | {"sys_inputs": attached}))
+        return PdfContent.with_remark(
+            *compiled(source, _options(source, own.parent) | {"sys_inputs": attached})
+        )
 
 
 def set_pages(report: Report, ppi: int, own: Path | None = None) -> SetReport:
@@ -202,7 +206,7 @@ def _mistakes(source: str, own: Path | None) -> Iterator[None]:
 def typeset(source: str, date: datetime) -> PdfContent:
     """Return the PDF of Typst source, made at a date with its zone; raises ReportNotMadeError."""
     when = {"timestamp": date.replace(microsecond=0).isoformat()}
-    return PdfContent.noted(*set_pdf(source, _options(source, TEMPLATES) | when))
+    return PdfContent.with_remark(*set_pdf(source, _options(source, TEMPLATES) | when))
 
 
 def _options(source: str, root: Path) -> dict[str, Any]:

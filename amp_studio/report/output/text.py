@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 
-from amp_studio.report.findings.note import Note
+from amp_studio.report.findings.printed_finding import PrintedFinding
 from amp_studio.report.language import Language, language_of
 from amp_studio.report.model import MARKS, Listing, Report, ReportRow, printable
 
@@ -131,21 +131,21 @@ def _findings(report: Report, words: Language) -> Iterator[str]:
         yield words.text("No errors, no warnings, no recommendations.")
     for severity, notes in report.severities().items():
         yield words.counted(sum(n.count for n in notes), severity)
-        for note in notes:
-            yield from _finding(note, words)
+        for finding in notes:
+            yield from _finding(finding, words)
     yield ""
 
 
-def _finding(note: Note, words: Language) -> Iterator[str]:
-    cited = note.page if note.is_own else f"{words.text('page')} {note.page}"
-    page = f" ({cited})" if note.page else ""
-    place = f"{words.text(note.place)}: " if note.place else ""
-    yield from _wrapped(place + note.message + page, "  - ")
-    if note.about:
+def _finding(finding: PrintedFinding, words: Language) -> Iterator[str]:
+    cited = finding.page if finding.is_own else f"{words.text('page')} {finding.page}"
+    page = f" ({cited})" if finding.page else ""
+    place = f"{words.text(finding.place)}: " if finding.place else ""
+    yield from _wrapped(place + finding.message + page, "  - ")
+    if finding.about:
         about = words.text("About").lower()
-        yield from _wrapped(", ".join(label for _, label in note.about), f"    {about:<6} ")
-    if note.fix:
-        yield from _wrapped(note.fix, f"    {words.text('fix'):<6} ")
+        yield from _wrapped(", ".join(label for _, label in finding.about), f"    {about:<6} ")
+    if finding.fix:
+        yield from _wrapped(finding.fix, f"    {words.text('fix'):<6} ")
 
 
 def _dangers(report: Report, words: Language) -> Iterator[str]:

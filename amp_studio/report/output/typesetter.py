@@ -27,14 +27,14 @@ def set_pdf(source: str, options: dict[str, Any]) -> tuple[bytes, str]:
         answered = run_apart(__name__, json.dumps([source, options]).encode("ascii"))
     except ReportNotMadeError as error:
         raise ReportNotMadeError(f"The PDF {error}") from None
-    note, _, pdf = answered.partition(b"\n")
-    return pdf, json.loads(note)
+    remark, _, pdf = answered.partition(b"\n")
+    return pdf, json.loads(remark)
 
 
 def answer(asked: BinaryIO, out: BinaryIO) -> None:
     """Set what ``set_pdf`` asks for, in the process apart."""
-    pdf, note = compiled(*json.load(asked))
-    out.write(json.dumps(note).encode("ascii") + b"\n" + pdf)
+    pdf, remark = compiled(*json.load(asked))
+    out.write(json.dumps(remark).encode("ascii") + b"\n" + pdf)
 
 
 def compiled(source: str, options: dict[str, Any]) -> tuple[bytes, str]:

@@ -25,5 +25,5 @@ def write_by_ending(
         )
     content = render(printed)
     write_atomic(path, content, keep_backup=False, notify=notify)
-    if isinstance(content, PdfContent) and content.note:
-        notify(content.note)
+    if isinstance(content, PdfContent) and content.remark:
+        notify(content.remark)

@@ -146,13 +146,13 @@ def _geared(spindle: Spindle, settings: Settings, speed: float) -> tuple[Gear | 
         return gear, notes, []
     found: Gear | None
     if speed == 0.0:
-        found, note = (spindle.gear_for(spindle.gears[0].low, present)[0] or spindle.gears[0]), ""
+        found, assumption = (spindle.gear_for(spindle.gears[0].low, present)[0] or spindle.gears[0]), ""
     else:
-        found, note = spindle.gear_for(
+        found, assumption = spindle.gear_for(
             speed, present, programmed=spindle.programs_ranges and present is not None
         )
-    if note:
-        notes.append(note)
+    if assumption:
+        notes.append(assumption)
     if found is None:
         ranges = ", ".join(f"{gear.name}: {gear.low:g} to {gear.high:g}" for gear in spindle.gears)
         where = f"Range {present} does not have" if present else "No gear has"

@@ -68,7 +68,7 @@ def run_tap(machine: BoundMachine, settings: Settings) -> Trace:
     present = None if given is None else f"{given:g}" if isinstance(given, float) else str(given)
     if spindle.refusal:
         raise SimulationError(f"{spindle.refusal} ({page_text(spindle.page)})", "move.gear")
-    gear, note = spindle.gear_for(speed, present)
+    gear, assumption = spindle.gear_for(speed, present)
     if gear is None:
         raise SimulationError(
             f"No gear of spindle {spindle.name} has {value_text(speed, 'rpm')} ({page_text(spindle.page)})",
@@ -81,7 +81,9 @@ def run_tap(machine: BoundMachine, settings: Settings) -> Trace:
     tapping = law.tapping(machine, spindle, gear, axis, pitch)
     axis = machine.bind(name, dict(tapping.overrides)) if tapping.overrides else axis
     lag = above_zero(settings, "move.drive_time") or DRIVE_TIME
-    return _tapped(axis, spindle, gear, tapping, pitch, min(speed, tapping.speed), speed, depth, lag, note)
+    return _tapped(
+        axis, spindle, gear, tapping, pitch, min(speed, tapping.speed), speed, depth, lag, assumption
+    )
 
 
 def _tapping_axis(machine: BoundMachine) -> str:
@@ -99,7 +101,7 @@ def _tapped(
     asked: float,
     depth: float,
     lag: float,
-    note: str,
+    assumption: str,
 ) -> Trace:
     feed = speed / 60.0 * pitch
     own = next(iter(axis.ramps.values()))
@@ -145,7 +147,7 @@ def _tapped(
         **(tapping.figures or {}),
     }
     driven = LED if tapping.leads else DRIVEN.format(value_text(tapping.gain, "1/s"), value_text(lag, "s"))
-    notes = (note,) if note else ()
+    of_gear = (assumption,) if assumption else ()
     return Trace(
         scenario="tap",
         axis=axis.axis,
@@ -156,7 +158,7 @@ def _tapped(
         alarms=alarms,
         recommendations=(),
         assumptions=(
-            *notes,
+            *of_gear,
             *tapping.notes,
             driven,
             "ASSUMED: the reversal follows at once, without a dwell in the bottom.",

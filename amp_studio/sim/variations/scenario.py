@@ -102,10 +102,10 @@ def _gain_map(trial: Trial, move: Settings, figure: str, way: Way) -> Trace:
     points = points_of(varied, None, 1)
     job = _job(trial, varied, move, motion=motion, loops=True, others=others)
     trace = _trace(job, trial, points, _run(job, points, way), figure)
-    return replace(trace, assumptions=(*_note_of_others(others), *trace.assumptions))
+    return replace(trace, assumptions=(*_other_gains_in_words(others), *trace.assumptions))
 
 
-def _note_of_others(others: Mapping[str, float]) -> Iterator[str]:
+def _other_gains_in_words(others: Mapping[str, float]) -> Iterator[str]:
     """Yield which gains beside those of the map are not the present ones, if any."""
     if others:
         words = ", ".join(f"{name} is {value_text(number)}" for name, number in others.items())

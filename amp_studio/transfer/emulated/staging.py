@@ -33,7 +33,7 @@ class PendingDownload:
         return lengths == (16, 32, 32) and type(self.size) is int and 0 <= self.size <= LARGEST
 
     @property
-    def note(self) -> str:
+    def record_name(self) -> str:
         """The file it is written down in."""
         return f"{PREFIX}{self.transfer.hex()}.json"
 
@@ -58,12 +58,12 @@ class Staging:
     def begin(self, pending: PendingDownload) -> None:
         """Throw away what was begun before and begin this; raises OSError."""
         self.drop()
-        note = {
+        record = {
             name: value.hex() if isinstance(value, bytes) else value
             for name, value in asdict(pending).items()
         }
-        # The note first: bytes without one belong to no download, and are removed at the next start.
-        self._memory.replace(pending.note, to_json(note))
+        # The record first: bytes without one belong to no download, and are removed at the next start.
+        self._memory.replace(pending.record_name, to_json(record))
         self._memory.append(pending.part, b"")
         self.pending, self.size = pending, 0
 
@@ -87,7 +87,7 @@ class Staging:
         """Throw away what was begun. What cannot be removed now is removed at the next start."""
         pending, self.pending, self.size = self.pending, None, 0
         if pending is not None:
-            for name in (pending.part, pending.note):
+            for name in (pending.part, pending.record_name):
                 with contextlib.suppress(OSError):
                     self._memory.remove(name)
 
@@ -103,7 +103,7 @@ class Staging:
             )
         except (KeyError, TypeError, ValueError):
             pending = None
-        if pending is None or not pending.is_sound or pending.note != name:
+        if pending is None or not pending.is_sound or pending.record_name != name:
             raise StateError(f"{self._memory.folder / name} is damaged")
         return pending
 
@@ -111,7 +111,7 @@ class Staging:
         """Remove what belongs to no download, and one of which more has come than there is."""
         if self.pending is not None and self.size > self.pending.size:
             self.drop()
-        wanted = {self.pending.note, self.pending.part} if self.pending is not None else set()
+        wanted = {self.pending.record_name, self.pending.part} if self.pending is not None else set()
         for name in self._memory.names():
             if name.startswith(PREFIX) and name not in wanted:
                 self._memory.remove(name)

@@ -90,11 +90,11 @@ def _axis_here(window: StudioWindow) -> str:
     return axes[0] if axes else ""
 
 
-def _dialog(window: StudioWindow, title: str, note: str = "") -> AxisDialog:
+def _dialog(window: StudioWindow, title: str, hint: str = "") -> AxisDialog:
     """Return a dialog that offers the axis of the selected cell first."""
     from amp_studio.ui.dialogs.axis_dialogs import AxisDialog
 
-    return AxisDialog(window.workspace_in_front, title, _axis_here(window), window, note)
+    return AxisDialog(window.workspace_in_front, title, _axis_here(window), window, hint)
 
 
 def _ask(window: StudioWindow, title: str, parameter_ids: list[str]) -> None:
@@ -126,8 +126,8 @@ def name(window: StudioWindow) -> None:
 def configure_type(window: StudioWindow) -> None:
     """Make an axis linear, rotary, a spindle or unfitted; the units of its lengths change with it."""
     workspace, profile, title = window.workspace_in_front, _profile(window), tr("Configure axis type")
-    note = tr("The numbers stay the same; only the unit changes, from mm to degrees or from degrees to mm.")
-    dialog = _dialog(window, title, note)
+    hint = tr("The numbers stay the same; only the unit changes, from mm to degrees or from degrees to mm.")
+    dialog = _dialog(window, title, hint)
     dialog.ask_for([profile.type])
     if run_dialog(dialog):
         axis, text = dialog.axis(), dialog.texts()[(profile.type, dialog.axis())]
@@ -158,8 +158,8 @@ def add(window: StudioWindow) -> None:
 def delete(window: StudioWindow) -> None:
     """Make an axis unfitted and set its values to their defaults."""
     workspace = window.workspace_in_front
-    note = tr("The axis becomes unfitted and its values are set to their defaults. You can undo this.")
-    dialog = _dialog(window, tr("Delete axis"), note)
+    hint = tr("The axis becomes unfitted and its values are set to their defaults. You can undo this.")
+    dialog = _dialog(window, tr("Delete axis"), hint)
     if run_dialog(dialog):
         axis = dialog.axis()
         name = axis_title(workspace.file, axis)
@@ -172,8 +172,8 @@ def delete(window: StudioWindow) -> None:
 def copy(window: StudioWindow) -> None:
     """Copy the values of one axis to another of the same type."""
     workspace = window.workspace_in_front
-    note = tr("All values of the axis are copied, except its name. Both axes must have the same type.")
-    dialog = _dialog(window, tr("Copy axis"), note)
+    hint = tr("All values of the axis are copied, except its name. Both axes must have the same type.")
+    dialog = _dialog(window, tr("Copy axis"), hint)
     dialog.ask_for_target(tr("&To axis"))
     if run_dialog(dialog):
         source, axis = dialog.axis(), dialog.form.answer("target")
@@ -184,8 +184,8 @@ def copy(window: StudioWindow) -> None:
 def swap(window: StudioWindow) -> None:
     """Let two axes change places."""
     workspace = window.workspace_in_front
-    note = tr("The axes change places with all their values. What names an axis by its number follows.")
-    dialog = _dialog(window, tr("Swap axes"), note)
+    hint = tr("The axes change places with all their values. What names an axis by its number follows.")
+    dialog = _dialog(window, tr("Swap axes"), hint)
     dialog.ask_for_target(tr("&With axis"))
     if run_dialog(dialog):
         first, second = dialog.axis(), dialog.form.answer("target")

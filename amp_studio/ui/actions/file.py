@@ -18,9 +18,9 @@ from amp_studio.files import (
     backup_path,
     day_and_time,
     examples_folder,
-    note_origin,
     open_file,
     real_path,
+    record_origin,
     recover_backup,
     same_file,
     write_atomic,
@@ -79,7 +79,7 @@ class Files(Translated):
         )
         if path:
             if origin is not None:
-                note_origin(file, path, origin)
+                record_origin(file, path, origin)
             self.write_new(path, lambda: Document.create(file, path))
 
     def open_example(self, example: Path) -> None:

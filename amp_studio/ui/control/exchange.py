@@ -113,11 +113,11 @@ class ControlExchange(Translated):
                 return driver.identify(exchange)
 
         run = partial(run_exchange, self.tr("Connect"), work, self.window)
-        found: ControlIdentity = self._noted(address, "connect", run, family)
+        found: ControlIdentity = self._recorded(address, "connect", run, family)
         self.remember_contact(address, "connect", reached=True, family=found.family, name=found.name)
         return found
 
-    def _noted(self, address: str, verb: ControlVerb, act: Callable[[], Any], family: str) -> Any:
+    def _recorded(self, address: str, verb: ControlVerb, act: Callable[[], Any], family: str) -> Any:
         """Return the result of an exchange; one that fails is remembered as such."""
         from amp_studio.transfer import TransferError
 

@@ -194,7 +194,7 @@ class LivePage(QDialog):
                 self.start()
 
     def _answered(self, line: str) -> None:
-        self.happened.note(line)
+        self.happened.record_act(line)
         self._show_events()
 
     # -- asking ------------------------------------------------------------------

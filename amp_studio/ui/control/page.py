@@ -401,7 +401,7 @@ class ControlPage(ControlPageParts):
         self.primary.setEnabled(not button.why_off)
         tied = self.tr("Tied to what you see: if the control changes before, nothing is replaced.")
         is_tied = self.direction == "send" and phase == "ready" and bool(button.text)
-        self.note.setText(button.why_off or (tied if is_tied else ""))
+        self.hint.setText(button.why_off or (tied if is_tied else ""))
 
     # -- the one button ----------------------------------------------------------------
 
@@ -472,7 +472,7 @@ class ControlPage(ControlPageParts):
         except OSError as error:
             self.bar.say(message_in_words(str(error)), "error")
         else:
-            self.note.setText(self.tr("{name} is saved.").format(name=Path(text).name))
+            self.hint.setText(self.tr("{name} is saved.").format(name=Path(text).name))
 
     def _keep_current(self) -> None:
         if (row := self.table.current()) is not None:
@@ -482,7 +482,7 @@ class ControlPage(ControlPageParts):
         if self.session is not None:
             self.session.cancel()
             self.cancel.setEnabled(False)
-            self.note.setText(self.tr("Stopping at the next safe point …"))
+            self.hint.setText(self.tr("Stopping at the next safe point …"))
 
     def _escape(self) -> None:
         if self.several.is_busy:
@@ -509,7 +509,7 @@ class ControlPage(ControlPageParts):
         self.progress.setValue(done)
         self.steps.show_stage(stage, done, total)
         if stage in ("silent", "cut"):
-            self.note.setText(
+            self.hint.setText(
                 self.tr("The line is cut; trying again …")
                 if stage == "cut"
                 else self.tr("No answer for {done} s; trying again …").format(done=done)

@@ -96,7 +96,7 @@ class ControlPageParts(QWidget):
         self.keep = QPushButton()
         self.one = QPushButton(tr("Write This One Now"))
         self.checked = QCheckBox()
-        self.note = ElidedLabel()
+        self.hint = ElidedLabel()
         self.progress = QProgressBar()
         self.progress.setMaximumWidth(200)
         self.cancel = QPushButton()
@@ -127,7 +127,7 @@ class ControlPageParts(QWidget):
             side_by_side(0, self.keep, self.one, None, self.checked),
             self.steps_line,
             side_by_side(
-                FOOT, self.note, None, self.progress, self.cancel, self.proof, self.again, self.primary
+                FOOT, self.hint, None, self.progress, self.cancel, self.proof, self.again, self.primary
             ),
         )
         self.states = QStackedWidget()

@@ -123,23 +123,23 @@ class Happened:
         present = {(fault.axis, fault.code): fault for fault in status.faults}
         for key in [key for key in self.active if key not in present]:
             fault, since = self.active.pop(key)
-            self._note(f"{since:%H:%M:%S}–{now:%H:%M:%S} {titled(fault)}")
+            self._record(f"{since:%H:%M:%S}–{now:%H:%M:%S} {titled(fault)}")
         new = [key for key in present if key not in self.active]
         self.active |= {key: (present[key], now) for key in new}
         return bool(new)
 
     def _compare(self, axis: str, states: set[str], now: datetime) -> None:
-        """Note the states that have begun since the last reading; those of the first are no event."""
+        """Record the states that have begun since the last reading; those of the first are no event."""
         before = self._states.get(axis)
         self._states[axis] = states
         for state in sorted(states - before) if before is not None else ():
-            self._note(f"{now:%H:%M:%S} {f'{axis}: ' if axis else ''}{state}")
+            self._record(f"{now:%H:%M:%S} {f'{axis}: ' if axis else ''}{state}")
 
-    def note(self, text: str) -> None:
-        """Note what the operator did."""
-        self._note(f"{datetime.now(UTC).astimezone():%H:%M:%S} {text}")
+    def record_act(self, text: str) -> None:
+        """Record what the operator did, with the time."""
+        self._record(f"{datetime.now(UTC).astimezone():%H:%M:%S} {text}")
 
-    def _note(self, text: str) -> None:
+    def _record(self, text: str) -> None:
         self.events.insert(0, text)
         del self.events[HISTORY:]
 

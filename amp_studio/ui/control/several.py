@@ -68,7 +68,7 @@ class SeveralControls(QWidget):
             self.tr("All parameters of each are replaced; what it contains is kept beside the file first")
         )
         self.checked.toggled.connect(self._follow)
-        self.note = ElidedLabel()
+        self.hint = ElidedLabel()
         self.save_button = QPushButton(self.tr("Save &Table…"))
         self.save_button.clicked.connect(self.save)
         self.cancel = QPushButton(self.tr("Cancel"))
@@ -85,7 +85,7 @@ class SeveralControls(QWidget):
         parts.addWidget(self.table, 1)
         parts.addWidget(side_by_side(30, self.stop, None))
         parts.addWidget(side_by_side(30, self.checked, None))
-        parts.addWidget(side_by_side(FOOT, self.note, None, self.save_button, self.cancel, self.primary))
+        parts.addWidget(side_by_side(FOOT, self.hint, None, self.save_button, self.cancel, self.primary))
         self.setFocusProxy(self.table)
 
     # -- what is shown -----------------------------------------------------------
@@ -167,7 +167,7 @@ class SeveralControls(QWidget):
         self.checked.setVisible(self._sends and not self.is_busy)
         self.table.setEnabled(not self.is_busy)
         self.save_button.setEnabled(bool(self.rows))
-        self.note.setText("" if self.is_busy else why)
+        self.hint.setText("" if self.is_busy else why)
 
     def _why_not(self, workspace: Workspace | None) -> str:
         """Return what is missing before the exchanges, in words."""

@@ -27,12 +27,12 @@ class AxisDialog(FormDialog):
     """Asks for an axis and then for its choices and texts, its letter, or a second axis."""
 
     def __init__(
-        self, workspace: Workspace, title: str, axis: str, parent: QWidget | None = None, note: str = ""
+        self, workspace: Workspace, title: str, axis: str, parent: QWidget | None = None, hint: str = ""
     ) -> None:
         self._workspace = workspace
         self._axis = Field("axis", tr("&Axis"), "choice", axis, self._axes())
         self._wanted: list[str] = []
-        super().__init__(title, (self._axis,), title, parent, note=note, width=380)
+        super().__init__(title, (self._axis,), title, parent, hint=hint, width=380)
         self.form.entered.connect(self._choose)
 
     def _axes(self) -> list[tuple[str, str]]:

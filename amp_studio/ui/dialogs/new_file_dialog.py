@@ -55,7 +55,7 @@ class NewFileDialog(FormDialog):
             Field("family", tr("&Control"), "choice", family, family_choices()),
             Field("machine", tr("&Machine type"), "choice"),
             Field("axes", tr("&Axes")),
-            Field("note", "", "words"),
+            Field("hint", "", "words"),
             Field("units", tr("&Units shown"), "choice"),
             Field("like", tr("&Like"), "choice"),
             Field("name", tr("&Name"), default="MACHINE_1"),
@@ -122,19 +122,19 @@ class NewFileDialog(FormDialog):
         self.form.enable("axes", source is None and not fixed)
         if source is not None:
             self.form.enable("units", False)
-            note = self.tr("Machine type, axes and units are those of {name}. Not taken over: {own}.").format(
+            hint = self.tr("Machine type, axes and units are those of {name}. Not taken over: {own}.").format(
                 name=source.name, own=", ".join(p.name for p in of_one_machine(self._schema))
             )
         elif fixed:
-            note = self.tr("{reason}.").format(reason=fixed)
+            hint = self.tr("{reason}.").format(reason=fixed)
         else:
-            note = self._axes_note()
-        self.form.set_answer("note", note)
+            hint = self._hint_of_axes()
+        self.form.set_answer("hint", hint)
         hint = "" if fixed else self.tr("Leave empty for the default axes")
         self.form.editor("axes", QLineEdit).setPlaceholderText(hint)
         self.check()
 
-    def _axes_note(self) -> str:
+    def _hint_of_axes(self) -> str:
         """Return which letters there are, and what they are written to."""
         schema = self._schema
         family, declared = schema.family, schema.family.declared_axes

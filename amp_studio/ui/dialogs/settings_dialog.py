@@ -64,13 +64,13 @@ class SettingsDialog(QDialog):
             "Passwords are in the keyring of the system, or known until AMP Studio ends."
             " One that is forgotten is asked for at the next connection."
         )
-        for title, note, widgets in (
+        for title, hint, widgets in (
             (tr("General"), general, (self.form,)),
             (tr("Keys"), tr("The keys are fixed."), (self.search, self.keys)),
             (tr("Passwords"), kept, (self.passwords, forget)),
             (tr("Folders"), tr("Backups and templates are beside the file in front."), (self.folders, show)),
         ):
-            self.tabs.addTab(_page(note, widgets), title)
+            self.tabs.addTab(_page(hint, widgets), title)
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         buttons.rejected.connect(self.reject)
         layout = QVBoxLayout(self)
@@ -219,8 +219,8 @@ def _choose_first(rows: QTreeWidget) -> None:
     rows.setCurrentIndex(rows.model().index(0, 0))
 
 
-def _page(note: str, widgets: Sequence[QWidget]) -> QWidget:
-    page, label = QWidget(), QLabel(note)
+def _page(hint: str, widgets: Sequence[QWidget]) -> QWidget:
+    page, label = QWidget(), QLabel(hint)
     label.setWordWrap(True)
     column = QVBoxLayout(page)
     for widget in (*widgets, label):

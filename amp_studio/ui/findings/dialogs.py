@@ -91,8 +91,8 @@ class SuppressDialog(FormDialog):
             Field("name", tr("&Name"), default=who, check=lambda text: "" if text else name),
             Field("everywhere", everywhere, "check", default=False, enabled=bool(finding.addresses)),
         )
-        note = f"<b>{html.escape(finding_in_words(finding))}</b><br>{effect}"
-        super().__init__(tr("Suppress a Finding"), fields, tr("&Suppress"), parent, note=note, width=520)
+        hint = f"<b>{html.escape(finding_in_words(finding))}</b><br>{effect}"
+        super().__init__(tr("Suppress a Finding"), fields, tr("&Suppress"), parent, hint=hint, width=520)
 
     def params(self) -> tuple[str, ...]:
         """Return the parameters of the suppression; empty for all instances."""

@@ -164,10 +164,10 @@ class FindingsPanel(QWidget):
         self.scope.show_choice("file")
         self.suppressed = chip("")
         self.suppressed.clicked.connect(self._refresh)
-        self.note = QLabel()
-        self.note.setFont(font("small"))
-        self.note.setForegroundRole(self.note.palette().ColorRole.PlaceholderText)
-        self.note.linkActivated.connect(self._follow)
+        self.hint = QLabel()
+        self.hint.setFont(font("small"))
+        self.hint.setForegroundRole(self.hint.palette().ColorRole.PlaceholderText)
+        self.hint.linkActivated.connect(self._follow)
         self.several = QPushButton(self.tr("Fi&x Several…"))
         self.several.setIcon(icon("magic-wand"))
         self.several.clicked.connect(self.several_requested)
@@ -181,7 +181,7 @@ class FindingsPanel(QWidget):
             *self.chips.values(),
             self.scope,
             self.suppressed,
-            self.note,
+            self.hint,
         ):
             row.addWidget(widget)
         row.addStretch(1)
@@ -325,8 +325,8 @@ class FindingsPanel(QWidget):
         now = self._workspace.progress
         steps = ", ".join(map(str, now.deferred_to))
         text = self.tr("{number} as delivered, to be set in steps {steps}", "", len(now.deferred_to))
-        self.note.setText(text.format(number=waiting, steps=steps) if waiting else "")
-        self.note.setToolTip(worded(delivered_text(now.deferred, now.deferred_to)))
+        self.hint.setText(text.format(number=waiting, steps=steps) if waiting else "")
+        self.hint.setToolTip(worded(delivered_text(now.deferred, now.deferred_to)))
         self.several.setEnabled(self._workspace.may_edit and any(finding.fix for finding in reached))
 
     def _say_why_empty(self, number: int) -> None:

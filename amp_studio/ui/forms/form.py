@@ -276,13 +276,13 @@ class FormDialog(QDialog):
         does: str,
         parent: QWidget | None = None,
         *,
-        note: str = "",
+        hint: str = "",
         width: int = 480,
     ) -> None:
         super().__init__(parent)
         self.setWindowTitle(title)
         self.setMinimumWidth(width)
-        self.form, self.note, self.fault = FieldForm(fields), QLabel(note), QLabel()
+        self.form, self.hint, self.fault = FieldForm(fields), QLabel(hint), QLabel()
         self.fault.setTextFormat(Qt.TextFormat.PlainText)
         self.buttons = QDialogButtonBox(
             QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel
@@ -292,11 +292,11 @@ class FormDialog(QDialog):
         self.buttons.accepted.connect(self.accept)
         self.buttons.rejected.connect(self.reject)
         layout = QVBoxLayout(self)
-        for label in (self.note, self.fault):
+        for label in (self.hint, self.fault):
             label.setWordWrap(True)
-        for widget in (self.note, self.form, self.fault, self.buttons):
+        for widget in (self.hint, self.form, self.fault, self.buttons):
             layout.addWidget(widget)
-        self.note.setVisible(bool(note))
+        self.hint.setVisible(bool(hint))
         self._is_touched = False
         self.form.changed.connect(self._touch)
         self.check()

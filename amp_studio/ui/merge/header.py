@@ -43,10 +43,10 @@ class SourceButton(QToolButton):
     def show_source(self, source: MergeSource | None) -> None:
         """Show a source; None while there is none."""
         self.source = source
-        title, note = (source.title, source.note) if source else (self.tr("Choose…"), "")
+        title, detail = (source.title, source.detail) if source else (self.tr("Choose…"), "")
         self.setAccessibleName(self.tr("Source {letter}: {title}").format(letter=self.letter, title=title))
-        self.setAccessibleDescription(note)
-        self.setToolTip("\n".join(text for text in (title, note, source.remark if source else "") if text))
+        self.setAccessibleDescription(detail)
+        self.setToolTip("\n".join(text for text in (title, detail, source.remark if source else "") if text))
         self.update()
 
     def fill(self) -> None:
@@ -85,7 +85,7 @@ class SourceButton(QToolButton):
         room = QRect(box.right() + 8, 0, caret.left() - box.right() - 12, self.height())
         source = self.source
         two_lines(
-            painter, room, source.title if source else self.tr("Choose…"), source.note if source else ""
+            painter, room, source.title if source else self.tr("Choose…"), source.detail if source else ""
         )
         if self.hasFocus():
             painter.setPen(colour("sel"))
@@ -93,20 +93,20 @@ class SourceButton(QToolButton):
             painter.drawRoundedRect(self.rect().adjusted(1, 1, -2, -2), RADIUS, RADIUS)
 
 
-def two_lines(painter: QPainter, room: QRect, title: str, note: str) -> None:
+def two_lines(painter: QPainter, room: QRect, title: str, detail: str) -> None:
     """Paint a name and below it, smaller, what there is to say about it."""
     own, small = font("text", own=True), font("small")
-    upper = room.adjusted(0, 6, 0, -room.height() // 2) if note else room
+    upper = room.adjusted(0, 6, 0, -room.height() // 2) if detail else room
     painter.setFont(own)
     painter.setPen(colour("text"))
     elide = Qt.TextElideMode.ElideRight
     where = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
     painter.drawText(upper, where, QFontMetrics(own).elidedText(title, elide, room.width()))
-    if note:
+    if detail:
         painter.setFont(small)
         painter.setPen(colour("dim"))
         lower = room.adjusted(0, room.height() // 2 - 2, 0, -5)
-        painter.drawText(lower, where, QFontMetrics(small).elidedText(note, elide, room.width()))
+        painter.drawText(lower, where, QFontMetrics(small).elidedText(detail, elide, room.width()))
 
 
 class MergeHeader(QHeaderView):

@@ -91,7 +91,7 @@ class MachinesDialog(QDialog):
         self._files: list[ParameterFile] = []
         self._is_stale = False
         for each in opened:
-            each.changed.connect(self._note_change)
+            each.changed.connect(self._mark_stale)
         self.bar = MessageBar()
         self.list = QListWidget()
         self.list.setAccessibleName(self.tr("Machines"))
@@ -285,7 +285,7 @@ class MachinesDialog(QDialog):
         self.count.setText(text)
         self.table.setAccessibleDescription(text)
 
-    def _note_change(self, *_: object) -> None:
+    def _mark_stale(self, *_: object) -> None:
         self._is_stale = True
 
     def changeEvent(self, event: QEvent) -> None:

@@ -31,7 +31,7 @@ def save_merge_report(
         return
     path = path_of_kind(text, kind)
     names: dict[Side, str] = {
-        SIDES[column]: f"{source.title}, {source.note}" if source.note else source.title
+        SIDES[column]: f"{source.title}, {source.detail}" if source.detail else source.title
         for column, source in sorted(chosen.items())
     }
     try:

@@ -39,13 +39,13 @@ _NEWEST = 10
 class MergeSource:
     """One source as it was read.
 
-    ``title`` and ``note`` are what a person reads; ``is_now`` is the file in front with its unsaved changes;
+    ``title`` and ``detail`` are its two lines; ``is_now`` is the file in front with its unsaved changes;
     ``remark`` is what a person has to know of it: axes that were matched by their letters,
     another machine type.
     """
 
     title: str
-    note: str
+    detail: str
     file: ParameterFile
     is_now: bool = False
     remark: str = ""
@@ -90,8 +90,8 @@ class MergeSources(QObject):
     def now(self) -> MergeSource:
         """Return the file as it is, with what is not saved."""
         changes = len(self._workspace.document.unsaved_changes())
-        note = self.tr("this file, %n unsaved changes", "", changes) if changes else self.tr("this file")
-        return MergeSource(self._name, note, self._file.copy(), is_now=True)
+        detail = self.tr("this file, %n unsaved changes", "", changes) if changes else self.tr("this file")
+        return MergeSource(self._name, detail, self._file.copy(), is_now=True)
 
     def as_saved(self) -> MergeSource:
         """Return the file as it was saved or opened last."""
@@ -141,8 +141,8 @@ class MergeSources(QObject):
         """Return the file with one axis in the place of another."""
         letters = axis_letters(file)
         title = self.tr("Axis {source}").format(source=letters.get(source, source))
-        note = self.tr("in the place of axis {target}").format(target=letters.get(target, target))
-        return MergeSource(title, note, as_axis(file, source, target))
+        detail = self.tr("in the place of axis {target}").format(target=letters.get(target, target))
+        return MergeSource(title, detail, as_axis(file, source, target))
 
     # -- other files and controls ------------------------------------------------
 
@@ -150,7 +150,7 @@ class MergeSources(QObject):
         """Return another file, its axes matched by their letters; raises ParameterFileError, ValueError."""
         return self.other(mine, open_file(path).file, path.name, str(path.parent))
 
-    def other(self, mine: ParameterFile, file: ParameterFile, name: str, note: str) -> MergeSource:
+    def other(self, mine: ParameterFile, file: ParameterFile, name: str, detail: str) -> MergeSource:
         """Return a file of another machine, its axes matched by the letters of ``mine``; raises
         ValueError.
         """
@@ -166,7 +166,7 @@ class MergeSources(QObject):
         if file.machine != mine.machine:
             kind = self.tr("{file} is for another machine type ({machine}).")
             remarks.append(kind.format(file=name, machine=file.machine))
-        return MergeSource(name, note, matched.file, remark=" ".join(remarks))
+        return MergeSource(name, detail, matched.file, remark=" ".join(remarks))
 
     def last_download(self, file: ParameterFile) -> MergeSource:
         """Return what the last download put into a control; raises NoDownloadError."""
@@ -191,10 +191,10 @@ class MergeSources(QObject):
         from amp_studio.transfer.client import completed
 
         content = self._fitting(decode_content(image), address)
-        note = self.tr("read from the control at {time}").format(
+        detail = self.tr("read from the control at {time}").format(
             time=f"{datetime.now(UTC).astimezone():%H:%M}"
         )
-        return MergeSource(address, note, completed(content, image, file))
+        return MergeSource(address, detail, completed(content, image, file))
 
     def control_now(self, address: str) -> ReadSource:
         """Return what reads a control."""
@@ -314,8 +314,8 @@ class MergeSources(QObject):
 
     def _open_file(self, each: Workspace) -> ReadSource:
         mine, file = self._file.copy(), each.file.copy()
-        note = self.tr("open in another tab")
-        return lambda _progress, _cancel: self.other(mine, file, each.path.name, note)
+        detail = self.tr("open in another tab")
+        return lambda _progress, _cancel: self.other(mine, file, each.path.name, detail)
 
 
 def is_same_content(a: ParameterFile, b: ParameterFile) -> bool:

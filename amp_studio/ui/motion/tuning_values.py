@@ -63,8 +63,8 @@ class ValuesPage(QWidget):
         self.page, self._guarded = page, guarded
         self.target: TuningTarget | None = None
         self._filling = False
-        self.note = QLabel()
-        self.note.setWordWrap(True)
+        self.hint = QLabel()
+        self.hint.setWordWrap(True)
         self.table = QTableWidget(0, 5)
         self.table.setAccessibleName(self.tr("Values to tune: {page}").format(page=worded(page.title)))
         self.table.setHorizontalHeaderLabels(
@@ -118,7 +118,7 @@ class ValuesPage(QWidget):
             row.addWidget(self.read)
         layout = QVBoxLayout(self)
         layout.setSpacing(GAP2)
-        layout.addWidget(self.note)
+        layout.addWidget(self.hint)
         layout.addWidget(self.table, 1)
         layout.addLayout(row)
         scheme().changed.connect(self._refresh)
@@ -176,7 +176,7 @@ class ValuesPage(QWidget):
         self._filling = False
         page = self.tr("Page {page}.").format(page=self.page.page)
         none = self.tr("No axis of this file has any of these values.") if not addresses else ""
-        self.note.setText(" ".join(filter(None, (none, worded(self.page.note), page))))
+        self.hint.setText(" ".join(filter(None, (none, worded(self.page.note), page))))
         may = self.target.may_edit and bool(addresses)
         for widget in (self.decrease, self.increase, self.replace, self.add, self.step, self.read):
             if widget is not None:

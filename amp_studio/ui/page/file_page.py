@@ -94,7 +94,7 @@ class FilePage(QWidget):
         inner.addWidget(self.filters)
         inner.addWidget(self.table_view)
         self.middle = PictureSplit(sheet)
-        self.middle.rearranged.connect(self._note_cover)
+        self.middle.rearranged.connect(self._focus_front)
         layout.addWidget(self.bar)
         self._stack = FrontStack()
         self._stack.addWidget(self.middle)
@@ -261,7 +261,7 @@ class FilePage(QWidget):
         if self.middle.covers:
             self.show_pictures(False)
 
-    def _note_cover(self) -> None:
+    def _focus_front(self) -> None:
         """Give the keyboard to what is seen."""
         front = self.pictures if self.middle.covers and self.pictures is not None else self.table_view
         if self.focusProxy() is not front:

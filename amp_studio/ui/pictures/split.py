@@ -70,7 +70,7 @@ class PictureSplit(QSplitter):
         self._wanted = PictureLayout()
         self.setChildrenCollapsible(False)
         self.addWidget(sheet)
-        self.splitterMoved.connect(self._note_border)
+        self.splitterMoved.connect(self._keep_border)
 
     @property
     def is_shown(self) -> bool:
@@ -113,7 +113,7 @@ class PictureSplit(QSplitter):
         self.setSizes([share * 100, (100 - share) * 100])
         self.rearranged.emit()
 
-    def _note_border(self, *_: object) -> None:
+    def _keep_border(self, *_: object) -> None:
         table, pictures = self.sizes()
         share = round(100 * table / max(table + pictures, 1))
         share = min(max(share, 20), 80)

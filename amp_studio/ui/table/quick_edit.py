@@ -59,7 +59,7 @@ class QuickEdit(QDialog):
             return
         self._offer(found.address, found.remark(self._workspace.file.schema))
 
-    def _offer(self, address: Address | None, note: str = "") -> None:
+    def _offer(self, address: Address | None, hint: str = "") -> None:
         if self.editor is not None:
             self._form.removeRow(self.editor)
             self.editor = None
@@ -75,7 +75,7 @@ class QuickEdit(QDialog):
         allowed = allowed_text(self._workspace, address)
         bounds = self.tr("\nAllowed here: {allowed}").format(allowed=allowed) if allowed else ""
         self.name.setText(
-            f"{file.machine_schema.label(address)}, {place}{bounds}{inactive}" + (f"\n{note}" if note else "")
+            f"{file.machine_schema.label(address)}, {place}{bounds}{inactive}" + (f"\n{hint}" if hint else "")
         )
         if file.schema.parameters[address[0]].choices:
             self.editor = ChoiceBox(self._workspace, address, self)

@@ -87,7 +87,7 @@ class ValueTable(QTableView):
         self.setEditTriggers(triggers.DoubleClicked | triggers.EditKeyPressed | triggers.AnyKeyPressed)
         self.verticalHeader().setFixedWidth(LEAST_NAMES)
         self.verticalHeader().sectionClicked.connect(self._select_row)
-        self.horizontalHeader().sectionResized.connect(self._note_drag)
+        self.horizontalHeader().sectionResized.connect(self._keep_widths)
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
         self.addActions(list(actions))
         self.selectionModel().currentChanged.connect(self._emit_selected)
@@ -457,7 +457,7 @@ class ValueTable(QTableView):
         self._take_widths(replace(wanted, columns=columns, frozen=frozen))
         self._more.place()
 
-    def _note_drag(self, *_: object) -> None:
+    def _keep_widths(self, *_: object) -> None:
         """Keep the widths when the user has set one, until another list is shown."""
         self._is_dragged = self._is_dragged or not self._is_fitting
 

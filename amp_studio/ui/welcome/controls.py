@@ -120,7 +120,7 @@ class WelcomeControls(QWidget):
             name,
             second=about or self.tr("family not known yet"),
             right=f"{verbs[control.verb]} {when}".strip() if control.reached else when,
-            note="" if control.reached else self.tr("not reached"),
+            status="" if control.reached else self.tr("not reached"),
         )
 
     # -- what is done ------------------------------------------------------------------

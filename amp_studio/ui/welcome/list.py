@@ -46,7 +46,7 @@ class WelcomeRow:
     right: str = ""
     counts: Mapping[str, int] | None = None
     """Severity -> how many; None while it is not known."""
-    note: str = ""
+    status: str = ""
     """In the place of the counts: ``no findings``, ``cannot be read``."""
     star: bool | None = None
     """Whether it is pinned; None where nothing can be."""
@@ -59,7 +59,9 @@ class WelcomeRow:
         """Return the row as a screen reader reads it."""
         counted = [f"{n} {s}" for s, n in (self.counts or {}).items()]
         return ", ".join(
-            filter(None, (self.title, self.second, self.middle, *counted, self.note, self.right, *self.words))
+            filter(
+                None, (self.title, self.second, self.middle, *counted, self.status, self.right, *self.words)
+            )
         )
 
 
@@ -168,9 +170,9 @@ class RowDelegate(QStyledItemDelegate):
             width = max(painter.fontMetrics().horizontalAdvance(row.right), 96 if row.star is not None else 0)
             painter.drawText(QRect(x - width, place.top(), width, place.height()), _RIGHT, row.right)
             x -= width + GAP3
-        if row.note:
-            width = painter.fontMetrics().horizontalAdvance(row.note)
-            painter.drawText(QRect(x - width, place.top(), width, place.height()), _RIGHT, row.note)
+        if row.status:
+            width = painter.fontMetrics().horizontalAdvance(row.status)
+            painter.drawText(QRect(x - width, place.top(), width, place.height()), _RIGHT, row.status)
             x -= width + GAP3
         for severity in reversed(_SEVERITIES):
             if count := (row.counts or {}).get(severity, 0):

@@ -246,13 +246,13 @@ class WelcomePage(QWidget):
         if found is None:
             return
         if isinstance(found, str):
-            self.list.show_row(item, replace(row, second=found, note=self.tr("cannot be read")))
+            self.list.show_row(item, replace(row, second=found, status=self.tr("cannot be read")))
             return
         name = found.name if found.name.casefold() != path.stem.casefold() else ""
         machine = [name, found.family_name, found.machine, " ".join(found.axes[:12])]
-        note = "" if found.counts else self.tr("no findings")
+        status = "" if found.counts else self.tr("no findings")
         self.list.show_row(
-            item, replace(row, second=", ".join(filter(None, machine)), counts=found.counts, note=note)
+            item, replace(row, second=", ".join(filter(None, machine)), counts=found.counts, status=status)
         )
 
     def _filter(self, text: str) -> None:

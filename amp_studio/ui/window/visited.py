@@ -36,11 +36,11 @@ class VisitedPlaces(Translated):
         self._is_going = False
         self.menu = QMenu(self.tr("Recent P&laces"), window)
         self.menu.aboutToShow.connect(self._fill)
-        window.tabs.current_changed.connect(self._note)
+        window.tabs.current_changed.connect(self._remember)
 
     def add(self, page: FilePage) -> None:
         """Follow the selection of a page."""
-        page.selected.connect(lambda *_: self._note(page))
+        page.selected.connect(lambda *_: self._remember(page))
 
     def forget(self, page: FilePage) -> None:
         """Drop the places of a page that closes: they, and the menu, would keep its whole file."""
@@ -48,7 +48,7 @@ class VisitedPlaces(Translated):
         self._places = [place for place in self._places if place.page is not page]
         self.menu.clear()
 
-    def _note(self, page: FilePage | None) -> None:
+    def _remember(self, page: FilePage | None) -> None:
         if self._is_going or page is None or page is not self._window.page:
             return
         address = page.table_view.address()

@@ -7,7 +7,7 @@ from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli.arguments import BY_LETTER, JSON, LANGUAGE, OUTPUT, PATHS, TEXT
-from amp_studio.cli.console import note, print_json
+from amp_studio.cli.console import print_json, print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.verb import Options, Verb, VerbArgument
@@ -86,7 +86,7 @@ def _write(options: Options, files: list[ParameterFile], names: Sequence[str]) -
     from amp_studio.report import machines_paper, write_paper
 
     paper = machines_paper(files, names, everything=options.everything, language=options.language)
-    write_paper(paper, options.output, notify=note)
+    write_paper(paper, options.output, notify=print_remark)
     print(options.output)
 
 

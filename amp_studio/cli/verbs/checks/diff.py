@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from amp_studio.cli.arguments import BY_LETTER, JSON, LANGUAGE, OUTPUT, SECRETS, TEXT, file_or_address
-from amp_studio.cli.console import note, print_json, progress
+from amp_studio.cli.console import print_json, print_remark, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.verb import Options, Verb, VerbArgument
@@ -101,7 +101,7 @@ def _write_paper(
     write_paper(
         differences_paper(a, found, (options.a, name), facts, more=more, language=options.language),
         options.output,
-        notify=note,
+        notify=print_remark,
     )
     print(options.output)
 
@@ -141,7 +141,7 @@ def _other_side(options: Options, a: ParameterFile) -> tuple[ParameterFile, str 
     from amp_studio.transfer.client import last_download
 
     last = last_download(a, Path(options.a))
-    note(f"last download: {last.when} to {last.control}")
+    print_remark(f"last download: {last.when} to {last.control}")
     return last.file, None, "its last download"
 
 

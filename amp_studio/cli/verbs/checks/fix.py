@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli import candidates
 from amp_studio.cli.arguments import DRY_RUN, JSON, PATH
-from amp_studio.cli.console import note, print_json
+from amp_studio.cli.console import print_json, print_remark
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ def run(options: Options) -> int:
     else:
         print("\n".join(_lines(options, file, done, findings)))
     if not done:
-        note(_nothing(options, validator))
+        print_remark(_nothing(options, validator))
     return int(left["error"] > 0)
 
 

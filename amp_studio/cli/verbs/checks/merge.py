@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli.arguments import DRY_RUN, JSON, OUTPUT, SECRETS, TEXT, path_of
-from amp_studio.cli.console import note, print_json
+from amp_studio.cli.console import print_json, print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_new
@@ -65,7 +65,7 @@ def run(options: Options) -> int:
     if refitted := merge.refitted(result):
         names = ", ".join(result.machine_schema.label(row.address) for row in refitted[:4])
         more = f" and {len(refitted) - 4} more" if len(refitted) > 4 else ""
-        note(
+        print_remark(
             "the axis moves otherwise in the result, and the unit follows with the same figure:"
             f" {names}{more}"
         )
@@ -76,7 +76,7 @@ def run(options: Options) -> int:
     else:
         _print(merge, options)
         for finding in new:
-            note(f"new in the result: {finding_text(result, finding)}")
+            print_remark(f"new in the result: {finding_text(result, finding)}")
     return 1 if merge.open_conflicts else 0
 
 
@@ -140,7 +140,7 @@ def _settle(merge: Merge, texts: list[str]) -> None:
             )
         rows = [row for row in merge.rows if row.id.part == "value" and row.address == found.address]
         if not any(row.kind != "same" for row in rows):
-            note(f"{param.strip()} is the same on all sides")
+            print_remark(f"{param.strip()} is the same on all sides")
         merge.take(side, rows)
 
 
@@ -167,7 +167,7 @@ def _write(result: ParameterFile, options: Options) -> None:
         result.header.name = text_of_name(options.output.stem)
     content = readable_content(result, options.output, previous)
     expected = "" if options.git else None
-    write_atomic(options.output, content, expected, keep_backup=False, notify=note)
+    write_atomic(options.output, content, expected, keep_backup=False, notify=print_remark)
 
 
 def _print(merge: Merge, options: Options) -> None:

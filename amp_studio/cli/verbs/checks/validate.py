@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from amp_studio.cli.arguments import TEXT, count, path_of
-from amp_studio.cli.console import note, progress
+from amp_studio.cli.console import print_remark, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.verb import Options, Verb, VerbArgument
@@ -145,7 +145,7 @@ def _results(
 def _print(form: CheckFormat, one: CheckResult) -> None:
     """Print the notes and the fault of a file, and its result where that need not wait for the others."""
     for text in (*one.notes, *([f"amp-studio: {one.fault}"] if one.fault else [])):
-        note(text)
+        print_remark(text)
     if not form.needs_all and (text := form.line_of(one)):
         print(text)
 

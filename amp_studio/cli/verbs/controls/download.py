@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from amp_studio.cli.arguments import EXPECT, JSON, PATH, TEXT, kept_in, several_controls
-from amp_studio.cli.console import note, progress
+from amp_studio.cli.console import print_remark, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.stopping import asked_politely
@@ -37,12 +37,12 @@ def run(options: Options) -> int:
     contains.
     """
     from amp_studio import connect
-    from amp_studio.cli.controls.by_hand import note_by_hand, ways_offered
-    from amp_studio.cli.controls.endings import exchange_of, note_errors, print_outcome
+    from amp_studio.cli.controls.by_hand import print_by_hand, ways_offered
+    from amp_studio.cli.controls.endings import exchange_of, print_errors, print_outcome
     from amp_studio.cli.controls.fleet import check_fleet, download_to_several, is_fleet
 
     machine, path = opened(options.path, options), options.path
-    errors = note_errors(machine)
+    errors = print_errors(machine)
     if errors and not options.accept_errors:
         raise UsageError(f"{path} has {errors}: nothing was sent (--accept-errors sends it anyway)")
     name = machine.schema.family.family
@@ -50,7 +50,7 @@ def run(options: Options) -> int:
     with asked_politely() as stop, ways_offered(name, options.to[0]):
         if is_fleet(options, options.to):
             return download_to_several(options, machine.file, exchange_of(options, path, stop))
-        control = connect(options.to[0], progress=progress(), cancel=stop, notify=note)
+        control = connect(options.to[0], progress=progress(), cancel=stop, notify=print_remark)
         outcome = control.download(machine, expect=options.expect, accept_errors=True, keep=options.keep)
-        note_by_hand(name)
+        print_by_hand(name)
         return print_outcome(outcome)

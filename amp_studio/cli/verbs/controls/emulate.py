@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from amp_studio.cli.arguments import FAMILY, MACHINE, folder, path_of
-from amp_studio.cli.console import assignments, family, note
+from amp_studio.cli.console import assignments, family, print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
@@ -88,10 +88,10 @@ def _secured(options: Options) -> Endpoint:
         raise UsageError("--key belongs to a --certificate")
     password = read_password(options.password_file) if options.password_file is not None else ""
     if options.password_file is not None and can_others_read(options.password_file):
-        note(f"warning: {options.password_file} can be read by other users of this computer")
+        print_remark(f"warning: {options.password_file} can be read by other users of this computer")
     warning = (
         exposure(place.host, has_tls=place.kind == "tls", has_password=bool(password)) if place.host else ""
     )
     if warning:
-        note(f"warning: {warning}")
+        print_remark(f"warning: {warning}")
     return replace(place, security=Security(password, options.certificate, options.key))

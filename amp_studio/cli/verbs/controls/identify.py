@@ -29,7 +29,7 @@ VERB = Verb(
 def run(options: Options) -> int:
     """Print who answers at an address, and what it contains."""
     from amp_studio import connect
-    from amp_studio.cli.controls.by_hand import note_by_hand, ways_offered
+    from amp_studio.cli.controls.by_hand import print_by_hand, ways_offered
     from amp_studio.files import fitted_axes
     from amp_studio.report import counted
     from amp_studio.transfer import ImageError
@@ -39,7 +39,7 @@ def run(options: Options) -> int:
     with ways_offered(options.family or "", options.address):
         found = connect(options.address, options.family or "", progress=progress()).look()
     control, abilities, content = found.identity, found.abilities, found.content
-    note_by_hand(control.family)
+    print_by_hand(control.family)
     unreadable, axes, values, signature = "", list(control.axes), 0, control.signature
     try:
         file = found.machine().file

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from amp_studio.cli.arguments import OUTPUT, line_options, seconds
-from amp_studio.cli.console import note, progress
+from amp_studio.cli.console import print_remark, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.output import check_new
 from amp_studio.cli.screen import print_over
@@ -79,7 +79,7 @@ def run(options: Options) -> int:
         named = f" (sent as {file.name})" if file.name and file.name != path.name else ""
         print(f"{path}: {counted(len(content), 'byte')}{named}")
         if file.padding and not options.keep_padding:
-            note(
+            print_remark(
                 f"{counted(file.padding, 'byte')} 1Ah at its end were taken for padding (--keep-padding keeps"
                 " them)"
             )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from amp_studio.cli.arguments import EXPECT, TO, kept_in, path_of
-from amp_studio.cli.console import note, progress
+from amp_studio.cli.console import print_remark, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.stopping import asked_politely
 from amp_studio.cli.verb import Options, Verb, VerbArgument
@@ -28,23 +28,23 @@ VERB = Verb(
 def run(options: Options) -> int:
     """Put back what a control has contained; codes as of a download."""
     from amp_studio import MachineParameters, connect
-    from amp_studio.cli.controls.endings import note_errors, print_outcome
+    from amp_studio.cli.controls.endings import print_errors, print_outcome
     from amp_studio.transfer.client import digest_path, open_copy
 
     path = options.copy
     copy = open_copy(path)
     if not copy.is_checked:
-        note(f"{digest_path(path)} is not there: {path.name} goes back unchecked")
+        print_remark(f"{digest_path(path)} is not there: {path.name} goes back unchecked")
     if copy.file is None:
-        note(f"{path} goes back byte for byte, but this program cannot read it: {copy.fault}")
-    elif errors := note_errors(MachineParameters(copy.file, path)):
+        print_remark(f"{path} goes back byte for byte, but this program cannot read it: {copy.fault}")
+    elif errors := print_errors(MachineParameters(copy.file, path)):
         if not copy.is_kept:
             raise UsageError(
                 f"{path} has {errors}, and no image beside it proves that a control contained it: nothing was"
                 " sent (download --accept-errors sends it anyway)"
             )
-        note(f"{path} goes back with {errors}, as the control contained it")
+        print_remark(f"{path} goes back with {errors}, as the control contained it")
     with asked_politely() as stop:
-        control = connect(options.to, progress=progress(), cancel=stop, notify=note)
+        control = connect(options.to, progress=progress(), cancel=stop, notify=print_remark)
         outcome = control.restore(copy, expect=options.expect, keep=options.keep)
         return print_outcome(outcome)

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from amp_studio.cli.arguments import JSON, ON_FAULT, OUTPUT, several_controls
-from amp_studio.cli.console import note, print_json, progress
+from amp_studio.cli.console import print_json, print_remark, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.output import check_new, write_new
 from amp_studio.cli.stopping import asked_politely
@@ -39,7 +39,7 @@ VERB = Verb(
 def run(options: Options) -> int:
     """Fetch what a control contains under a new name: its file, or byte for byte as an image."""
     from amp_studio import connect
-    from amp_studio.cli.controls.by_hand import note_by_hand
+    from amp_studio.cli.controls.by_hand import print_by_hand
     from amp_studio.cli.controls.fleet import check_fleet, is_fleet, record_upload, upload_several
     from amp_studio.cli.out_of_range import settle_values
     from amp_studio.files import erased_question
@@ -65,11 +65,11 @@ def run(options: Options) -> int:
     else:
         machine = _readable(image, output)
         file = machine.file
-        note_by_hand(file.schema.family.family)
+        print_by_hand(file.schema.family.family)
         settle_values(file, options.on_fault, "an upload")
         write_new(machine, output)
         if question := erased_question(file):
-            note(f"{output}: {question}")
+            print_remark(f"{output}: {question}")
         values = len(file.values)
         text = f"{output}: {counted(values, 'value')}"
         record_upload(output, file, source, image)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict
 
 from amp_studio.cli.arguments import JSON, PATH, SECRETS, TEXT, several_controls
-from amp_studio.cli.console import note, print_json, progress
+from amp_studio.cli.console import print_json, print_remark, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.stopping import asked_politely
@@ -56,8 +56,10 @@ def run(options: Options) -> int:
         with asked_politely() as stop:
             from amp_studio.transfer import Exchange
 
-            return verify_several(options, file, Exchange(cancel=stop, record=options.path, notify=note))
-    control = connect(options.control[0], progress=progress(), notify=note)
+            return verify_several(
+                options, file, Exchange(cancel=stop, record=options.path, notify=print_remark)
+            )
+    control = connect(options.control[0], progress=progress(), notify=print_remark)
     with ways_offered(file.schema.family.family, control.address):
         found = control.verify(machine)
     if options.json:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from amp_studio.cli.arguments import JSON, OUTPUT, PATH, SECRETS, TEXT
-from amp_studio.cli.console import note
+from amp_studio.cli.console import print_remark
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_replaced
 from amp_studio.cli.verb import Options, Verb, VerbArgument
@@ -29,7 +29,7 @@ def run(options: Options) -> int:
 
     check_replaced(options.output, options.path)
     machine = opened(options.path, options)
-    account = machine.export(options.output, options.format, secrets=options.secrets, notify=note)
+    account = machine.export(options.output, options.format, secrets=options.secrets, notify=print_remark)
     number = counted(len(machine.file.values), "value")
     print_account(options, machine, account, f"{account.format}, {account.written} of {number}")
     return 0

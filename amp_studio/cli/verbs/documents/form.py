@@ -6,7 +6,7 @@ from pathlib import Path
 
 from amp_studio.cli import candidates
 from amp_studio.cli.arguments import LANGUAGE, OUTPUT
-from amp_studio.cli.console import is_family, note
+from amp_studio.cli.console import is_family, print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_replaced
@@ -44,6 +44,8 @@ def run(options: Options) -> int:
         path = Path(options.what)
         check_replaced(options.output, path)
         file, everything = opened(path).file, False
-    write_paper(form_paper(file, everything=everything, language=options.language), options.output, note)
+    write_paper(
+        form_paper(file, everything=everything, language=options.language), options.output, print_remark
+    )
     print(options.output)
     return 0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from amp_studio.cli import candidates
 from amp_studio.cli.arguments import JSON, ON_FAULT, OUTPUT, count, path_of
-from amp_studio.cli.console import note
+from amp_studio.cli.console import print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.output import check_new, write_new
 from amp_studio.cli.verb import Options, Verb, VerbArgument
@@ -64,7 +64,7 @@ def run(options: Options) -> int:
     except ValueError as error:
         raise UsageError(f"{options.text}: {error}") from None
     for message in notes:
-        note(message)
+        print_remark(message)
     settle_values(machine.file, options.on_fault, "an import")
     write_new(machine, options.output)
     account = machine.account

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from amp_studio.cli.arguments import LANGUAGE, OUTPUT, PATH, TEXT, path_of
-from amp_studio.cli.console import note
+from amp_studio.cli.console import print_remark
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_replaced
 from amp_studio.cli.verb import Options, Verb, VerbArgument
@@ -82,7 +82,7 @@ def run(options: Options) -> int:
         paper=options.paper,
         check=options.check,
         programs=tuple(options.program),
-        notify=note,
+        notify=print_remark,
     )
     print(options.output)
     return 0 if as_wanted else 1

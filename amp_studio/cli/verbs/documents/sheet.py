@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli import candidates
 from amp_studio.cli.arguments import JSON, LANGUAGE, OUTPUT, PATH, SECRETS, TEXT, file_or_address, path_of
-from amp_studio.cli.console import note, print_json, progress
+from amp_studio.cli.console import print_json, print_remark, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_replaced
@@ -98,9 +98,9 @@ def run(options: Options) -> int:
         raise UsageError(str(error)) from None
     _tick(options, file, sheet, ticks)
     if ticks.forgotten:
-        note(f"{counted(ticks.forgotten, 'tick')} left out: the values have changed since")
+        print_remark(f"{counted(ticks.forgotten, 'tick')} left out: the values have changed since")
     for warning in sheet.warnings:
-        note(words.sentence(warning))
+        print_remark(words.sentence(warning))
     if options.check:
         return _check(options, file, sheet, ticks)
     _print(options, sheet, ticks, {})
@@ -195,7 +195,7 @@ def _print(options: Options, sheet: Sheet, ticks: Ticks, found: dict[str, ReadBa
         language=options.language,
     )
     if options.output:
-        write_sheet(printed, options.output, note)
+        write_sheet(printed, options.output, print_remark)
     if options.json:
         print_json(_json(sheet, ticks, found))
     elif options.output:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli import candidates
 from amp_studio.cli.arguments import JSON, count
-from amp_studio.cli.console import family, note, print_json
+from amp_studio.cli.console import family, print_json, print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.verb import Options, Verb, VerbArgument
@@ -103,7 +103,7 @@ def run(options: Options) -> int:
     else:
         print(f"Nothing found for {quoted(query)}" + (f". Nearest: {nearest}" if nearest else ""))
         for way in _ways_on(others, sources):
-            note(way)
+            print_remark(way)
     return 0
 
 

@@ -6,10 +6,10 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from amp_studio.cli.arguments import JSON, PATH, SECRETS
-from amp_studio.cli.console import note, print_json
+from amp_studio.cli.console import print_json, print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
-from amp_studio.cli.output import note_all
+from amp_studio.cli.output import print_remarks
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ def run(options: Options) -> int:
         changes = _change(file, options.operation, options.arguments)
         if changes:
             machine.save(verb=f"axis {options.operation}")
-        note_all(machine.notes)
+        print_remarks(machine.notes)
         _print_changes(file, changes, options)
     return 0
 
@@ -139,7 +139,7 @@ def _print_changes(file: ParameterFile, changes: Sequence[Change], options: Opti
     for address, old, new in changed:
         print(f"{file.machine_schema.named(address)}: {old} -> {new}")
     if not changed:
-        note("no change")
+        print_remark("no change")
 
 
 def _axes_json(file: ParameterFile) -> list[dict[str, object]]:

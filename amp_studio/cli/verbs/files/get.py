@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli import candidates
 from amp_studio.cli.arguments import JSON, PATH, SECRETS, TEXT
-from amp_studio.cli.console import note, print_json
+from amp_studio.cli.console import print_json, print_remark
 from amp_studio.cli.opened import opened
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
@@ -109,7 +109,7 @@ def run(options: Options) -> int:
     if marks := marks_asked(options):
         found = with_marks(machine, options.path, found, marks)
     for message in filter(None, dict.fromkeys(m.remark(file.schema) for m in found)):
-        note(message)
+        print_remark(message)
     rows = [machine.row(each, secrets=options.secrets) for each in found]
     if options.json:
         print_json({"values": rows})

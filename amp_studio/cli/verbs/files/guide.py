@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli import candidates
 from amp_studio.cli.arguments import JSON, LANGUAGE, OUTPUT, TEXT, path_of
-from amp_studio.cli.console import family, is_family, note, print_json
+from amp_studio.cli.console import family, is_family, print_json, print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
-from amp_studio.cli.output import check_replaced, note_all
+from amp_studio.cli.output import check_replaced, print_remarks
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
@@ -129,7 +129,7 @@ def _changed(options: Options) -> MachineParameters:
         _change(options, machine)
         if machine.document and machine.document.is_dirty:
             machine.save(verb="guide")
-            note_all(machine.notes)
+            print_remarks(machine.notes)
     return machine
 
 
@@ -206,13 +206,15 @@ def _change(options: Options, machine: MachineParameters) -> None:
     come = progress(validator, validator.run())
     wanted = {a: value for a in come.of(step).open if (value := file.default(a)) is not None}
     file.set_checked(wanted)
-    note(f"{step.title}: {counted(len(wanted), 'value')} set to the default")
+    print_remark(f"{step.title}: {counted(len(wanted), 'value')} set to the default")
 
 
 def _write(options: Options, file: ParameterFile, come: GuideProgress, path: Path) -> int:
     from amp_studio.report import build_check_list, write_check_list
 
-    write_check_list(build_check_list(file, come, path, language=options.language), options.output, note)
+    write_check_list(
+        build_check_list(file, come, path, language=options.language), options.output, print_remark
+    )
     print(options.output)
     return 0
 

@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 from amp_studio.cli.arguments import JSON, PATH, TEXT
-from amp_studio.cli.console import note
+from amp_studio.cli.console import print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.verb import Options, Verb, VerbArgument
@@ -56,10 +56,10 @@ def run(options: Options) -> int:
     if options.output is None:
         return 0
     try:
-        written = write_migration_folder(migration, options.output, notify=note)
+        written = write_migration_folder(migration, options.output, notify=print_remark)
     except OSError as error:
         raise UsageError(f"{options.output}: {error.strerror or error}; nothing was written") from None
-    note(f"{options.output}: {', '.join(written)}")
+    print_remark(f"{options.output}: {', '.join(written)}")
     return 0
 
 

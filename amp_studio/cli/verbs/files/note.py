@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from amp_studio.cli.arguments import JSON, PATH
-from amp_studio.cli.console import note, print_json
+from amp_studio.cli.console import print_json, print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
-from amp_studio.cli.output import note_all
+from amp_studio.cli.output import print_remarks
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
@@ -64,8 +64,8 @@ def run(options: Options) -> int:
         if is_new:
             machine.save(verb="note")
         else:
-            note("no change")
-        note_all(machine.notes)
+            print_remark("no change")
+        print_remarks(machine.notes)
     return 0
 
 
@@ -78,7 +78,7 @@ def _show(options: Options) -> int:
     elif text:
         print(text)
     else:
-        note("no note")
+        print_remark("no note")
     return 0
 
 
@@ -92,7 +92,7 @@ def _list(options: Options) -> int:
         )
         return 0
     if not found:
-        note("no notes")
+        print_remark("no notes")
     for one in found:
         head = one.label if one.subject != "machine" else "Machine"
         print(f"{head}{f' ({one.about})' if one.about else ''}:")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from amp_studio.cli import candidates
 from amp_studio.cli.arguments import PATH
-from amp_studio.cli.console import assignments, note
+from amp_studio.cli.console import assignments, print_remark
 from amp_studio.cli.errors import UsageError
-from amp_studio.cli.output import note_all
+from amp_studio.cli.output import print_remarks
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 VERB = Verb(
@@ -50,15 +50,15 @@ def run(options: Options) -> int:
         if changes or file.forced != marks:
             machine.save(verb="set --force" if options.force else "set")
         for message in notes:
-            note(message)
-        note_all(machine.notes)
+            print_remark(message)
+        print_remarks(machine.notes)
         if not changes:
-            note("no change")
+            print_remark("no change")
         for change in changes:
             parameter = file.schema.parameters[change.address[0]]
             name = file.machine_schema.named(change.address)
             print(f"{name}: {show_value(parameter, change.old)} -> {show_value(parameter, change.new)}")
             state = file.evaluation.state(change.address)
             if not state.is_active:
-                note(f"{name} is inactive ({state_name(state.state)}): {state.why}")
+                print_remark(f"{name} is inactive ({state_name(state.state)}): {state.why}")
     return 0

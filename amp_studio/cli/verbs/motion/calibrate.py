@@ -10,7 +10,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli.arguments import AXIS, DRY_RUN, JSON, OUTPUT, PATH, path_of
-from amp_studio.cli.console import note, print_json
+from amp_studio.cli.console import print_json, print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.output import check_replaced
 from amp_studio.cli.verb import Options, Verb, VerbArgument
@@ -147,8 +147,8 @@ def _draw(options: Options, file: ParameterFile, proposal: Proposal) -> None:
 
     letter = axis_name(file.evaluation, proposal.axis) or proposal.axis
     scene = proposal_scene(proposal, f"Axis {letter}: mean errors")
-    write_atomic(options.output, scene_svg(scene).encode(), keep_backup=False, notify=note)
-    note(f"Written: {options.output}")
+    write_atomic(options.output, scene_svg(scene).encode(), keep_backup=False, notify=print_remark)
+    print_remark(f"Written: {options.output}")
 
 
 def _instances(file: ParameterFile, offered: Compensation) -> tuple[str, ...]:
@@ -297,7 +297,7 @@ def _lines(
     if found.measurement is not None and found.measurement.assumed:
         used = asdict(found.measurement.answers)
         for name in found.measurement.assumed:
-            note(f"assumed, because nothing names it: {_OPTIONS[name]} {used[name]}")
+            print_remark(f"assumed, because nothing names it: {_OPTIONS[name]} {used[name]}")
 
 
 def _measured(measurement: Measurement, proposal: Proposal) -> Iterator[str]:
@@ -308,7 +308,7 @@ def _measured(measurement: Measurement, proposal: Proposal) -> Iterator[str]:
     figures, unit = proposal.figures, unit_text(proposal.unit)
     used = measurement.answers
     for text in proposal.notes:
-        note(text)
+        print_remark(text)
     if measurement.is_circle:
         yield (
             f"{counted(len(measurement.runs), 'circle')} of a ball-bar; errors of the radius in"
@@ -363,7 +363,7 @@ def _table_lines(
         for at, by in table.points:
             yield f"{float(at / size):14.5f} {float(form.figure(table, at, by) / size):14.5f}"
         for remark in form.remarks(file, axis, table):
-            note(remark)
+            print_remark(remark)
     yield from form.limits(file, axis)
     yield form.switching
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from amp_studio.cli.arguments import AXIS, DRY_RUN, JSON, OUTPUT, PATH, path_of
-from amp_studio.cli.console import note, print_json
+from amp_studio.cli.console import print_json, print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.output import check_replaced
 from amp_studio.cli.verb import Options, Verb, VerbArgument
@@ -83,8 +83,10 @@ def _draw(options: Options, cam: CamProfile) -> None:
     from amp_studio.files import write_atomic
     from amp_studio.sim import cam_picture
 
-    write_atomic(options.output, picture_svg(cam_picture(cam)).encode(), keep_backup=False, notify=note)
-    note(f"Written: {options.output}")
+    write_atomic(
+        options.output, picture_svg(cam_picture(cam)).encode(), keep_backup=False, notify=print_remark
+    )
+    print_remark(f"Written: {options.output}")
 
 
 def _show(options: Options, cam: CamProfile, changed: int) -> None:

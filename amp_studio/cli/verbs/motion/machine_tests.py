@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from amp_studio.cli.arguments import AXIS, JSON, OUTPUT, PATH, TEXT
-from amp_studio.cli.console import note, print_json
+from amp_studio.cli.console import print_json, print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_replaced
@@ -72,7 +72,7 @@ def text(test: MachineTest) -> str:
         return "\n".join([*lines, f"  refused: {test.refusal}"])
     lines += [f"    {line}" for line in test.lines]
     lines += [f"  [ ] {step.do}.\n      Must be seen: {step.see}." for step in test.steps]
-    return "\n".join([*lines, *(f"  {note}" for note in test.notes)])
+    return "\n".join([*lines, *(f"  {text}" for text in test.notes)])
 
 
 def _write(path: Path, tests: Sequence[MachineTest]) -> None:
@@ -85,4 +85,4 @@ def _write(path: Path, tests: Sequence[MachineTest]) -> None:
     if test.refusal:
         raise UsageError(test.refusal)
     write_atomic(path, "".join(f"{line}\n" for line in test.lines).encode("ascii"), keep_backup=False)
-    note(f"{path}: {len(test.lines)} lines")
+    print_remark(f"{path}: {len(test.lines)} lines")

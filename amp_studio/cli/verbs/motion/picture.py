@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from amp_studio.cli.arguments import JSON, OUTPUT, PATH, TEXT
-from amp_studio.cli.console import note, print_json
+from amp_studio.cli.console import print_json, print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_replaced
@@ -58,8 +58,8 @@ def run(options: Options) -> int:
     except KeyError as error:
         raise UsageError(str(error.args[0])) from None
     if options.output:
-        write_atomic(options.output, scene_svg(scene).encode(), keep_backup=False, notify=note)
-        note(f"Written: {options.output}")
+        write_atomic(options.output, scene_svg(scene).encode(), keep_backup=False, notify=print_remark)
+        print_remark(f"Written: {options.output}")
     if options.json:
         print_json(scene_json(scene))
     elif not options.output:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli import candidates
 from amp_studio.cli.arguments import AXIS, JSON, OUTPUT, PATH, count, path_of, seconds
-from amp_studio.cli.console import assignments, note, print_json, progress
+from amp_studio.cli.console import assignments, print_json, print_remark, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_replaced
@@ -214,7 +214,7 @@ def run(options: Options) -> int:
     elif options.trigger:
         raise UsageError("--trigger belongs to --against")
     for message in messages:
-        note(message)
+        print_remark(message)
     if options.output:
         is_picture = options.output.suffix.lower() in DRAWN
         earlier = _earlier(machine, trace, settings, system) if own and is_picture else None
@@ -235,9 +235,11 @@ def _write(options: Options, file: ParameterFile, trace: Trace, before: Trace | 
     if options.output.suffix.lower() in PAPERS:
         name = options.path.name
         given = _given_machine(options)
-        write_motion_paper(file, name, trace, options.output, note, before=before, chart=chart, machine=given)
+        write_motion_paper(
+            file, name, trace, options.output, print_remark, before=before, chart=chart, machine=given
+        )
     else:
-        write_trace(trace, options.output, note, before=before, chart=chart)
+        write_trace(trace, options.output, print_remark, before=before, chart=chart)
 
 
 def _trigger(options: Options) -> Trigger | None:
@@ -358,7 +360,7 @@ def _identify(options: Options, of: MachineParameters) -> int:
     else:
         trace = identify(file, options.record, axis, options.scale, options.units, options.turn)
     if options.output and options.output.suffix.lower() in (".yaml", ".yml"):
-        write_machine(trace, file.schema.family.family, options.output, note)
+        write_machine(trace, file.schema.family.family, options.output, print_remark)
     elif options.output:
         _write(options, file, trace, None)
     if options.json:

@@ -7,14 +7,14 @@ from typing import Literal
 
 from amp_studio.schema import Address, Severity
 
-NoteKind = Severity | Literal["suppressed"]
+PrintedSeverity = Severity | Literal["suppressed"]
 
 
 @dataclass(frozen=True, slots=True)
-class Note:
+class PrintedFinding:
     """One finding, or several equal ones about different axes."""
 
-    severity: NoteKind
+    severity: PrintedSeverity
     count: int
     place: str
     """``Axis 1 X, 2 Y``; empty for a finding about many values."""
