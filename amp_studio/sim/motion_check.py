@@ -15,27 +15,16 @@ from .binding import bind_axis
 from .errors import SimulationError
 from .law import Law, law_of
 from .run import simulate
-from .scenarios.spindle import HIGHEST
+from .scenario import Scenario
+from .scenarios import SCENARIOS
 from .trace import Alarm, Figure, Trace
 
 Verdict = Literal["good", "doubtful", "bad", "not possible"]
-CHECKED = ("step", "velocity", "frequency", "circle", "home", "jog", "travel")
-"""Scenarios that ask for nothing and change nothing, in the order in which they are shown."""
 LEAST_PHASE, LEAST_GAIN = 30.0, 6.0
 """deg and dB: margins below which a loop is doubtful (as the solver of the gains asks at least)."""
 NEAR_GRID = (20.0, 80.0)
 """% of a turn between switch and marker that is sure (Syntec 2.2)."""
-FIGURES = {
-    "step": ("steady_following_error", "peak_following_error", "settle_time", "overshoot", "peak_output"),
-    "velocity": ("settle_time", "overshoot", "peak_torque"),
-    "frequency": ("bandwidth", "phase_margin", "gain_margin"),
-    "circle": ("radius_error", "circularity"),
-    "home": ("home_position", "home_grid", "switch_overrun", "time"),
-    "jog": ("feedrate", "stop_position", "time"),
-    "travel": ("limit", "stop_position", "overrun"),
-    "spindle": ("gear", "output", "ramp_time", "speed"),
-}
-"""The figures of a check, as far as the scenario has them."""
+PROGRAMMED = "ASSUMED: {0}; the file does not give what a program does."
 
 
 @dataclass(frozen=True)
@@ -65,40 +54,49 @@ def check_motion(file: ParameterFile, axis: str | None = None) -> Iterator[Motio
     if not axes:
         raise SimulationError(law.motion.without_axes)
     chosen = axes if axis is None else (axis,)
-    for scenario in (each for each in CHECKED if each in law.motion.scenarios):
-        for each in chosen:
-            yield _checked(file, law, scenario, each)
-            if scenario == "circle":
-                break  # two axes make it
-    if axis is None and "spindle" in law.motion.scenarios and (checked := _spindle_checked(file)):
-        yield checked
+    for scenario in {**SCENARIOS, **law.own}.values():
+        if not scenario.checked or scenario.name not in (*law.motion.scenarios, *law.own):
+            continue
+        if not (scenario.once and scenario.of_machine):
+            for each in chosen[:1] if scenario.once else chosen:
+                yield _checked(file, law, scenario, each)
+        elif axis is None and (checked := _of_spindle(file, law, scenario)):
+            yield checked
 
 
-def _spindle_checked(file: ParameterFile) -> MotionCheck | None:
+def _of_spindle(file: ParameterFile, law: Law, scenario: Scenario) -> MotionCheck | None:
     """Return the check of the first spindle at its highest speed; None for a file without one."""
-    try:
-        trace = simulate(file, "spindle", None, {"move.speed": HIGHEST}, advise=False)
-    except SimulationError as error:
-        read = (error.parameter,) if error.parameter in file.schema.parameters else ()
-        return MotionCheck("spindle", "", "", "not possible", why=error.what, params=read) if read else None
-    verdict, why = _verdict(trace)
-    figures = {name: trace.result[name] for name in FIGURES["spindle"] if name in trace.result}
-    if trace.result.get("deviation_at_end", (0.0, ""))[0]:
-        verdict, why = "doubtful", "The speed stays outside of the tolerance of its watch"
-    return MotionCheck("spindle", "", "", verdict, figures, trace.alarms, why, (), trace.assumptions)
+    checked = _checked(file, law, scenario, None)
+    return None if checked.verdict == "not possible" and not checked.params else checked
 
 
-def _checked(file: ParameterFile, law: Law, scenario: str, axis: str) -> MotionCheck:
-    letter = axis_name(file.evaluation, axis) or axis
+def _checked(file: ParameterFile, law: Law, scenario: Scenario, axis: str | None) -> MotionCheck:
+    letter = "" if axis is None else axis_name(file.evaluation, axis) or axis
     try:
-        trace = simulate(file, scenario, axis, advise=False)
+        trace, assumed = _run(file, scenario, axis)
     except SimulationError as error:
         read = (error.parameter,) if error.parameter in file.schema.parameters else ()
-        return MotionCheck(scenario, axis, letter, "not possible", why=error.what, params=read)
+        return MotionCheck(scenario.name, axis or "", letter, "not possible", why=error.what, params=read)
     verdict, why = _verdict(trace)
-    figures = {name: trace.result[name] for name in FIGURES[scenario] if name in trace.result}
-    params = _parameters(file, law, trace) if verdict != "good" else ()
-    return MotionCheck(scenario, axis, letter, verdict, figures, trace.alarms, why, params, trace.assumptions)
+    if verdict == "bad" and scenario.programmed:
+        verdict = "doubtful"  # the speed is the program's: another one may be good
+    figures = {name: trace.result[name] for name in scenario.checked if name in trace.result}
+    params = _parameters(file, law, trace) if verdict != "good" and axis is not None else ()
+    notes = (*assumed, *trace.assumptions)
+    return MotionCheck(scenario.name, axis or "", letter, verdict, figures, trace.alarms, why, params, notes)
+
+
+def _run(file: ParameterFile, scenario: Scenario, axis: str | None) -> tuple[Trace, tuple[str, ...]]:
+    """Return the trace of a scenario with what is in the file, or with what a program gives besides, and
+    what was taken for it; raises SimulationError.
+    """
+    try:
+        return simulate(file, scenario.name, axis, advise=False), ()
+    except SimulationError as error:
+        if error.parameter not in scenario.programmed:
+            raise
+    given = ", ".join(f"{name} {value}" for name, value in scenario.programmed.items())
+    return simulate(file, scenario.name, axis, scenario.programmed, advise=False), (PROGRAMMED.format(given),)
 
 
 def _verdict(trace: Trace) -> tuple[Verdict, str]:
@@ -111,6 +109,8 @@ def _verdict(trace: Trace) -> tuple[Verdict, str]:
     if alarms:
         return "bad", alarms[0].message
     figure = {name: value for name, (value, _) in trace.result.items() if value is not None}
+    if figure.get("deviation_at_end"):
+        return "doubtful", "The speed stays outside of the tolerance of its watch"
     if trace.scenario == "home" and trace.result.get("home_position", (0.0, ""))[0] is None:
         return "bad", "The axis does not reach its home position"
     if trace.scenario == "step" and trace.result.get("in_position_time", (0.0, ""))[0] is None:

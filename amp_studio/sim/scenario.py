@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from amp_studio.schema import unknown_name
 
@@ -38,6 +38,12 @@ class Scenario:
     """Whether it is not about one axis: run(machine, settings) with a `BoundMachine`."""
     several: Callable[..., Trace] | None = None
     """The same for several axes at once, run like one of the machine; None where it takes one axis."""
+    checked: tuple[str, ...] = ()
+    """The figures that a check of the machine shows; () for a scenario that it leaves out."""
+    once: bool = False
+    """Whether a check runs it once for the machine instead of for each axis."""
+    programmed: Mapping[str, float | str] = field(default_factory=dict)
+    """What a program gives where the file does not, as a check takes it."""
 
 
 def number(settings: Settings, name: str) -> float | None:

@@ -25,10 +25,9 @@ def test_every_scenario_of_every_axis_has_a_verdict_in_validate_too(
     assert run(["validate", str(router), "--motion", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)["motion"]
     asked = {(check["scenario"], check["axis"]) for check in found["checks"]}
-    assert asked == {(scenario, axis) for scenario in ("step", "home", "jog", "travel") for axis in "XYZ"} | {
-        ("spindle", "")
-    }
-    assert (found["good"], found["doubtful"], found["bad"]) == (13, 0, 0)
+    of_axes = ("step", "home", "jog", "travel", "probe")
+    assert asked == {(scenario, axis) for scenario in of_axes for axis in "XYZ"} | {("spindle", "")}
+    assert (found["good"], found["doubtful"], found["bad"]) == (16, 0, 0)
     home = next(check for check in found["checks"] if check["scenario"] == "home")
     assert home["figures"]["home_position"] == {"value": -787.0, "unit": "mm"}
     assert any("ASSUMED" in note for note in home["assumptions"])
@@ -72,5 +71,5 @@ def test_another_ending_is_refused_before_anything_runs(
 def test_validate_adds_the_motion_in_words(router: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["set", str(router), "$22=0", "$20=0"]) == 0  # neither homing nor limits: the least motion
     assert run(["validate", str(router), "--motion"]) == 1, "what depends on homing is wrong now"
-    assert "7 good, 0 doubtful, 0 bad" in capsys.readouterr().out
+    assert "10 good, 0 doubtful, 0 bad" in capsys.readouterr().out
     assert run(["validate", str(router), "--motion", "--format", "sarif"]) == 2

@@ -133,4 +133,5 @@ SCENARIO = Scenario(
     run_hard_stop,
     gains=False,
     of_machine=True,
+    checked=("detection_torque", "following_error", "pressed_in"),
 )

@@ -384,8 +384,27 @@ COMMANDS = {
             TUNE,
             run_procedure,
         ),
-        Scenario("gear", "The axis at rest is geared to a moving reference", GEAR, run_gear),
-        Scenario("cam", "A time cam or a position cam", CAM, run_cam),
-        Scenario("backlash", "A move with backlash compensation", BACKLASH, run_backlash),
+        Scenario(
+            "gear",
+            "The axis at rest is geared to a moving reference",
+            GEAR,
+            run_gear,
+            checked=("gear_ratio", "speed", "peak_following_error"),
+            programmed={"gear.time": 1.0},
+        ),
+        Scenario(
+            "cam",
+            "A time cam or a position cam",
+            CAM,
+            run_cam,
+            checked=("points", "peak_following_error", "peak_output"),
+        ),
+        Scenario(
+            "backlash",
+            "A move with backlash compensation",
+            BACKLASH,
+            run_backlash,
+            checked=("move_1", "move_2", "peak_following_error"),
+        ),
     )
 }

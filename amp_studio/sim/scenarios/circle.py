@@ -274,5 +274,11 @@ def _assumptions(axis: AxisLaw, other: AxisLaw, second: AxisLaw | None) -> tuple
 
 
 SCENARIO = Scenario(
-    "circle", "Two axes on a circle: radius error and reversal spikes", SETTINGS, run_circle, second=True
+    "circle",
+    "Two axes on a circle: radius error and reversal spikes",
+    SETTINGS,
+    run_circle,
+    second=True,
+    checked=("radius_error", "circularity"),
+    once=True,
 )

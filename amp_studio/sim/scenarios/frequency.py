@@ -354,5 +354,9 @@ def _swept_gain(opened: Response) -> float | None:
 
 
 SCENARIO = Scenario(
-    "frequency", "Swept sine beside the linear model: bandwidth and margins", SETTINGS, run_frequency
+    "frequency",
+    "Swept sine beside the linear model: bandwidth and margins",
+    SETTINGS,
+    run_frequency,
+    checked=("bandwidth", "phase_margin", "gain_margin"),
 )

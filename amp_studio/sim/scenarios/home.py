@@ -275,4 +275,11 @@ def _figures(
     return figures
 
 
-SCENARIO = Scenario("home", "Homing: switch, marker and home position", SETTINGS, run_home, gains=False)
+SCENARIO = Scenario(
+    "home",
+    "Homing: switch, marker and home position",
+    SETTINGS,
+    run_home,
+    gains=False,
+    checked=("home_position", "home_grid", "switch_overrun", "time"),
+)

@@ -89,4 +89,10 @@ def _chosen(what: str, name: ParameterValue, known: Mapping[str, float]) -> floa
     return float(known[key])
 
 
-SCENARIO = Scenario("jog", "A continuous or incremental jog", SETTINGS, run_jog)
+SCENARIO = Scenario(
+    "jog",
+    "A continuous or incremental jog",
+    SETTINGS,
+    run_jog,
+    checked=("feedrate", "stop_position", "time"),
+)

@@ -170,4 +170,5 @@ SCENARIO = Scenario(
     "A torque comes at once on the load of a standing axis: stiffness, sag, recovery",
     SETTINGS,
     run_load,
+    checked=("stiffness", "sag", "recovery_time"),
 )

@@ -226,4 +226,6 @@ SCENARIO = Scenario(
     run_probe,
     gains=False,
     of_machine=True,
+    checked=("speed", "probe_error", "overrun", "band"),
+    programmed={"move.speed": 100.0},
 )

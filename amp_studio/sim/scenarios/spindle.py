@@ -352,4 +352,7 @@ SCENARIO = Scenario(
     run_spindle,
     gains=False,
     of_machine=True,
+    checked=("gear", "output", "ramp_time", "speed"),
+    once=True,
+    programmed={"move.speed": HIGHEST},
 )

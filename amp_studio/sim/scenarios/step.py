@@ -102,4 +102,16 @@ def _at_limit(axis: AxisLaw, torque: Series) -> float | None:
     return 100.0 * float(np.mean(np.abs(torque) >= 0.999 * limit)) if math.isfinite(limit) else None
 
 
-SCENARIO = Scenario("step", "One commanded move of one axis, from rest to rest", MOVE_SETTINGS, run_step)
+SCENARIO = Scenario(
+    "step",
+    "One commanded move of one axis, from rest to rest",
+    MOVE_SETTINGS,
+    run_step,
+    checked=(
+        "steady_following_error",
+        "peak_following_error",
+        "settle_time",
+        "overshoot",
+        "peak_output",
+    ),
+)

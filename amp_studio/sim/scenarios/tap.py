@@ -23,11 +23,11 @@ from amp_studio.sim.spindle import Gear, Spindle, Tapping
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
 from .columns import alarms_of, column_units, per_minute
-from .spindle import spindle_of
+from .spindle import HIGHEST, spindle_of
 
 SETTINGS = {
     "move.pitch": "pitch of the thread (mm); --pitch is the same",
-    "move.speed": "speed of the spindle (rpm); --speed is the same",
+    "move.speed": "speed of the spindle (rpm), or highest; --speed is the same",
     "move.depth": "depth of the hole (mm); default: 15 mm",
     "move.spindle": "which spindle, by its number; default: the first",
     "move.gear": "the gear it is in; default: one that has the speed",
@@ -58,12 +58,13 @@ def run_tap(machine: BoundMachine, settings: Settings) -> Trace:
     law = machine.law
     if law.tapping is None:
         raise SimulationError("No solid tapping is printed for this family")
-    pitch, speed = above_zero(settings, "move.pitch"), above_zero(settings, "move.speed")
-    if pitch is None or speed is None:
+    pitch = above_zero(settings, "move.pitch")
+    if pitch is None or settings.get("move.speed") is None:
         name = "move.pitch" if pitch is None else "move.speed"
         raise SimulationError(f"Give {name}: tap --pitch 1 --speed 600", name)
     depth = above_zero(settings, "move.depth") or DEPTH
     spindle = spindle_of(machine, settings)
+    speed = _speed(spindle, settings)
     given = settings.get("move.gear")
     present = None if given is None else f"{given:g}" if isinstance(given, float) else str(given)
     if spindle.refusal:
@@ -84,6 +85,15 @@ def run_tap(machine: BoundMachine, settings: Settings) -> Trace:
     return _tapped(
         axis, spindle, gear, tapping, pitch, min(speed, tapping.speed), speed, depth, lag, assumption
     )
+
+
+def _speed(spindle: Spindle, settings: Settings) -> float:
+    """Return the speed that is asked for, rpm: the highest one that a gear has while tapping, or the one
+    given.
+    """
+    if settings["move.speed"] == HIGHEST:
+        return max((min(gear.high, gear.tap_speed) for gear in spindle.gears), default=0.0)
+    return above_zero(settings, "move.speed") or 0.0
 
 
 def _tapping_axis(machine: BoundMachine) -> str:
@@ -202,4 +212,7 @@ SCENARIO = Scenario(
     run_tap,
     gains=False,
     of_machine=True,
+    checked=("gear", "speed", "reversal_error", "depth_error"),
+    once=True,
+    programmed={"move.pitch": 1.0, "move.speed": HIGHEST},
 )

@@ -265,4 +265,5 @@ SCENARIO = Scenario(
     run_travel,
     gains=False,
     several=run_plane,
+    checked=("limit", "stop_position", "overrun"),
 )

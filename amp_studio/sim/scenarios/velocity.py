@@ -118,5 +118,9 @@ def _swing(velocity: Series) -> float:
 
 
 SCENARIO = Scenario(
-    "velocity", "One step of the velocity command on the velocity loop alone", SETTINGS, run_velocity
+    "velocity",
+    "One step of the velocity command on the velocity loop alone",
+    SETTINGS,
+    run_velocity,
+    checked=("settle_time", "overshoot", "peak_torque"),
 )

@@ -1,0 +1,49 @@
+"""The check of a machine takes every scenario that a file allows, also those of one family."""
+
+from __future__ import annotations
+
+import pytest
+
+from amp_studio.sim import MotionCheck, check_motion, motion_check
+from tests.programs.test_block import example
+
+USUAL = motion_check.SCENARIOS
+
+
+@pytest.fixture
+def checks_of(monkeypatch: pytest.MonkeyPatch):
+    """Return checks by scenario, with those of the usual scenarios alone that a test is about: the others
+    take most of the time.
+    """
+
+    def checked(name: str, axis: str | None, *usual: str) -> dict[str, MotionCheck]:
+        monkeypatch.setattr(motion_check, "SCENARIOS", {each: USUAL[each] for each in usual})
+        return {each.scenario: each for each in check_motion(example(name), axis)}
+
+    return checked
+
+
+def test_gear_cam_and_backlash_of_a_module_are_checked(checks_of) -> None:
+    """A geared axis jumps to the speed of a reference that is at full speed: the fault is shown,
+    and doubtful, as the reference is that of a program.
+    """
+    found = checks_of("57c422b-label-press", "Y")
+    assert {name: check.verdict for name, check in found.items()} == {
+        "gear": "doubtful",
+        "cam": "good",
+        "backlash": "not possible",  # its command position is 0: no move
+    }
+    assert [alarm.code for alarm in found["gear"].alarms] == ["VELOCITY ERROR"]
+
+
+def test_a_hard_stop_and_a_probe_are_checked_with_the_figures_of_the_file(checks_of) -> None:
+    found = checks_of("mill-1394", "1", "probe")
+    assert found["hard-stop"].figures["detection_torque"] == (90.0, "%")
+    assert found["probe"].figures["speed"] == (pytest.approx(250.0), "mm/min")
+    assert not any("what a program does" in note for note in found["probe"].assumptions)
+
+
+def test_what_a_program_gives_is_assumed_and_shown(checks_of) -> None:
+    tap = checks_of("num-1060-mill", None, "tap")["tap"]
+    assert (tap.verdict, tap.figures["speed"]) == ("good", (2000.0, "rpm"))
+    assert tap.assumptions[0].startswith("ASSUMED: move.pitch 1.0, move.speed highest")
