@@ -5,7 +5,7 @@ or the path stops (tp.c, blendmath.c). Rounded corners become short straight row
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -83,12 +83,10 @@ class _Writer:
     joint_by: list[int] = field(default_factory=list)
 
     def bound(self, speed: tuple[float, int], ramp: tuple[float, int]) -> None:
-        for value, by, (amount, cause) in (
-            (self.speed, self.speed_by, speed),
-            (self.ramp, self.ramp_by, ramp),
-        ):
-            value.append(amount)
-            by.append(cause)
+        self.speed.append(speed[0])
+        self.speed_by.append(speed[1])
+        self.ramp.append(ramp[0])
+        self.ramp_by.append(ramp[1])
         self.joint.append(math.inf)
         self.joint_by.append(0)
 
@@ -117,6 +115,12 @@ class _Shaping:
         self._kink, self._stop, self._change, self._back, self._given = range(2 * count, 2 * count + 5)
         self._count = count
         self._straight = [n for n, letter in enumerate(path.axes) if letter in "XYZ"]
+        columns = {letter: n for n, letter in enumerate(path.axes)}
+        self._planes = {
+            n: tuple(columns["XYZ"[each]] for each in plane)
+            for n, plane in enumerate(PLANES)
+            if columns.keys() >= {*"XYZ"}
+        }
         self._out = _Writer(RowsWriter(path.axes))
 
     def shape(self) -> ShapedPath:
@@ -348,29 +352,53 @@ class _Shaping:
             one.top = min(one.top, left / (self._figures.period * LEAST_CYCLES))
         if left > SHORTEST:
             self._write(one, start, begun)
-        parts = max(2, math.ceil(corner.angle / (2.0 * math.sqrt(2.0 * WITHIN / max(corner.radius, WITHIN)))))
-        row, path = one.row, self._path
-        if len(self._out.rows.kind) + parts > MOST_ROWS:
-            raise SimulationError(f"The rounded corners of the program become more than {MOST_ROWS} moves")
         middle_to_start = [
             (u * math.cos(corner.angle) - v) / math.sin(corner.angle)
             for u, v in zip(one.last, two.first, strict=True)
         ]
         center = [s - corner.radius * n for s, n in zip(start, middle_to_start, strict=True)]
+        plane = None if one.is_rapid else self._plane_of(one, two)
+        # An arc has no way but in a plane of the program: half of it for each of the two blocks. Elsewhere
+        # straight rows are within WITHIN of it.
+        parts = 2 if plane is not None else self._straight_rows(corner)
+        if len(self._out.rows.kind) + parts > MOST_ROWS:
+            raise SimulationError(f"The rounded corners of the program become more than {MOST_ROWS} moves")
+        row, path = one.row, self._path
+        kind = RAPID if one.is_rapid else LINE if plane is None else ARC
+        feed = 0.0 if one.is_rapid else corner.wanted
+        arc = (0.0,) * 3 if plane is None else self._flat_arc(one, two, center, plane, corner.angle / parts)
         for n in range(1, parts + 1):
             angle = corner.angle * n / parts
-            place = (
-                end
-                if n == parts
-                else tuple(
-                    c + corner.radius * (math.cos(angle) * r + math.sin(angle) * u)
-                    for c, r, u in zip(center, middle_to_start, one.last, strict=True)
-                )
+            place = tuple(
+                c + corner.radius * (math.cos(angle) * r + math.sin(angle) * u)
+                for c, r, u in zip(center, middle_to_start, one.last, strict=True)
             )
-            kind = RAPID if one.is_rapid else LINE
-            feed = 0.0 if one.is_rapid else corner.wanted
             self._out.rows.add(
-                place, kind, int(path.line[two.row if n * 2 > parts else row]), feed, 0, int(path.free[row])
+                end if n == parts else place,
+                kind,
+                int(path.line[two.row if n * 2 > parts else row]),
+                feed,
+                0,
+                int(path.free[row]),
+                arc,
+                plane or 0,
             )
             self._out.bound((corner.speed, corner.by), (corner.acceleration, corner.ramp_by + self._count))
         return end
+
+    def _plane_of(self, one: PathSegment, two: PathSegment) -> int | None:
+        """Return the plane of the program in which two moves lie; None where they leave all three."""
+        u, v = one.last, two.first
+        return next((n for n, (_, _, third) in self._planes.items() if not (u[third] or v[third])), None)
+
+    def _flat_arc(
+        self, one: PathSegment, two: PathSegment, center: Sequence[float], plane: int, angle: float
+    ) -> tuple[float, float, float]:
+        """Return the center of a rounded corner in its plane, and its sweep."""
+        a, b, _ = self._planes[plane]
+        turn = one.last[a] * two.first[b] - one.last[b] * two.first[a]
+        return center[a], center[b], math.copysign(angle, turn)
+
+    @staticmethod
+    def _straight_rows(corner: _Corner) -> int:
+        return max(2, math.ceil(corner.angle / (2.0 * math.sqrt(2.0 * WITHIN / max(corner.radius, WITHIN)))))

@@ -8,6 +8,7 @@ import math
 from array import array
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from operator import mul
 
 import numpy as np
 
@@ -174,11 +175,23 @@ def _on_one_line(begin: PathPoint, end: PathPoint, chain: _Chain, joins: float, 
     last = chain.end
     if joins == 0.0 or len(chain) > MOST_JOINED or any(end[n] != last[n] for n in rotary) or end == begin:
         return False
+    # The newest point is the one beyond which the path turns: most corners need no look at the others.
+    near = _square_off(begin, end, last) <= joins * joins
+    if not near or len(chain) == 1:
+        return near
     off = np.array(chain.flat).reshape(len(chain), len(begin)) - np.array(begin)
     way = np.array(end) - np.array(begin)
     share = np.clip(off @ way / (way @ way), 0.0, 1.0)
     apart = off - share[:, None] * way
     return not bool(((apart * apart).sum(axis=1) > joins * joins).any())
+
+
+def _square_off(begin: PathPoint, end: PathPoint, point: PathPoint) -> float:
+    """Return the square of the distance of a point from a straight move."""
+    way = [e - b for e, b in zip(end, begin, strict=True)]
+    off = [p - b for p, b in zip(point, begin, strict=True)]
+    share = min(max(sum(map(mul, off, way)) / sum(map(mul, way, way)), 0.0), 1.0)
+    return math.fsum((o - share * w) ** 2 for o, w in zip(off, way, strict=True))
 
 
 def _straight(path: ToolPath, begin: PathPoint, end: PathPoint, row: int, limits: AxisLimits) -> PathSegment:

@@ -97,7 +97,9 @@ def test_corners_of_a_hostile_program_are_bounded(
 ) -> None:
     monkeypatch.setattr("amp_studio.families.linuxcnc.law_blends.MOST_ROWS", 100)
     job = ProgramJob(
-        ["G64 P9999 G1 F900", *("X-100", "Y-100", "X0", "Y0") * 9], [0.0] * 3, with_contour=False
+        ["G64 P9999 G1 F900", *("X-100 Y-50 Z5", "X-50 Y-100 Z-5", "X0 Y-50 Z5", "X0 Y0 Z0") * 9],
+        [0.0] * 3,
+        with_contour=False,
     )
     with pytest.raises(SimulationError, match="more than 100 moves"):
         job.run(mill)

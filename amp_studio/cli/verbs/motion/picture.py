@@ -23,7 +23,7 @@ VERB = Verb(
     VerbArgument(
         "--speed",
         metavar="PERCENT",
-        help="of the signals of the loops, in %% of the rapid feedrate; default: 100",
+        help="of the signals of the loops, in % of the rapid feedrate; default: 100",
     ),
     OUTPUT.but(required=False, help="file to write (.svg)"),
     JSON,

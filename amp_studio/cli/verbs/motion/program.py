@@ -32,7 +32,7 @@ VERB = Verb(
         action="append",
         default=[],
         metavar="PARAM=VALUE",
-        help="the same program with another value, as 5 or +20%%; several are tried each and together",
+        help="the same program with another value, as 5 or +20%; several are tried each and together",
         completes=candidates.assignments,
     ),
     VerbArgument(
@@ -40,7 +40,7 @@ VERB = Verb(
         action="append",
         default=[],
         metavar="PARAM=FROM:TO:STEPS",
-        help="the same program with a row of values, as 1210=200:800:4 or 1210=-20%%:+20%%",
+        help="the same program with a row of values, as 1210=200:800:4 or 1210=-20%:+20%",
         completes=candidates.assignments,
     ),
     VerbArgument(
