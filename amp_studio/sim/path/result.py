@@ -207,7 +207,7 @@ def _lines(
     for row in limited_by(file, run):
         if row["share"] >= SMALL:
             param = f"  {row['param']}" if row["param"] else ""
-            time = value_text(row["time_s"], "s", 4)
+            time = value_text(row["time_s"], "s", 5)
             yield f"  {100.0 * row['share']:5.1f} %  {time:>10}  {row['name']}{param}"
     yield contour_text(run)
     if tries:
