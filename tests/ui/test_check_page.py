@@ -34,7 +34,14 @@ def test_every_scenario_of_the_file_is_a_row_with_its_verdict(router: Workspace,
     qtbot.waitUntil(lambda: not Task.running and len(window.checks) >= 16, timeout=10 * WAIT_MS)
     assert window.table.rowCount() == len(window.checks)
     assert window.summary.text() == "16 good"
-    assert {check.scenario for check in window.checks} == {"step", "home", "jog", "travel", "spindle", "probe"}
+    assert {check.scenario for check in window.checks} == {
+        "step",
+        "home",
+        "jog",
+        "travel",
+        "spindle",
+        "probe",
+    }
 
 
 def test_a_parameter_of_what_is_not_good_can_be_followed(router: Workspace, qtbot: QtBot) -> None:

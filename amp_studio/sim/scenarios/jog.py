@@ -90,9 +90,5 @@ def _chosen(what: str, name: ParameterValue, known: Mapping[str, float]) -> floa
 
 
 SCENARIO = Scenario(
-    "jog",
-    "A continuous or incremental jog",
-    SETTINGS,
-    run_jog,
-    checked=("feedrate", "stop_position", "time"),
+    "jog", "A continuous or incremental jog", SETTINGS, run_jog, checked=("feedrate", "stop_position", "time")
 )

@@ -107,11 +107,5 @@ SCENARIO = Scenario(
     "One commanded move of one axis, from rest to rest",
     MOVE_SETTINGS,
     run_step,
-    checked=(
-        "steady_following_error",
-        "peak_following_error",
-        "settle_time",
-        "overshoot",
-        "peak_output",
-    ),
+    checked=("steady_following_error", "peak_following_error", "settle_time", "overshoot", "peak_output"),
 )
