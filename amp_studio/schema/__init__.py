@@ -113,7 +113,7 @@ if TYPE_CHECKING:
     from .model.compiled_json import record_text
     from .model.motion import NO_MOTION
     from .model.parameter import ValueType
-    from .model.plausible import AmongAxes, Gears, Proportion, Quotient, TravelEnds, TravelSpan
+    from .model.plausible import AmongAxes, Gears, Proportion, Quotient, Towards, TravelEnds, TravelSpan
     from .model_errors import read_model
     from .nearest import close_matches, did_you_mean, unknown_name
     from .quoting import quoted, short

@@ -161,6 +161,8 @@ def plausible_machines(family: str, count: int, seed: int = 1) -> Iterator[Param
         table = RECIPES[family].table
         if table and not is_table(file, *table):
             continue
+        if family == "57c422b" and slide_of(file) < CAM:
+            continue
         if all(is_of_experience(finding) for finding in Validator(file).run()):
             made += 1
             yield file
@@ -174,6 +176,15 @@ def is_table(file: ParameterFile, length: str, screw: str, speed: str) -> bool:
     )
     is_one = max(a, b) <= 10 * min(a, b)
     return is_one and (speeds[0] != speeds[1] or screws[0] == screws[1])
+
+
+CAM = 16000
+"""Counts that the cam of the label press moves its slide there and back."""
+
+
+def slide_of(file: ParameterFile) -> float:
+    """Return the travel of the slide, in counts: no machine has one that is shorter than its cam."""
+    return sum(abs(file.values[f"setup.overtravel_{end}", "Y"].value) for end in ("positive", "negative"))
 
 
 def is_of_experience(finding: Finding) -> bool:

@@ -14,13 +14,15 @@ class Usual(Model):
     """The usual values, where there are but a few."""
     choices: tuple[str, ...] = ()
     """The keys of the usual choices, ``yes`` and ``no`` of a yes/no."""
+    bits: tuple[int, ...] = ()
+    """The bits of a word that are ever set: no other one has a meaning that is printed or known."""
     also: tuple[float, ...] = ()
     """Values beside these that mean something else, as 0 for off."""
 
     def __post_init__(self) -> None:
-        if sum(map(bool, (self.between, self.among, self.choices))) != 1:
+        if sum(map(bool, (self.between, self.among, self.choices, self.bits))) != 1:
             raise ValueError(
-                "what is usual is 'between' bounds in a unit, 'among' a few values, or 'choices'"
+                "what is usual is 'between' bounds in a unit, 'among' a few values, 'choices' or 'bits'"
             )
         if any(low >= high for low, high in self.between.values()):
             raise ValueError("the least usual value is below the greatest")
@@ -37,6 +39,15 @@ class TravelSpan(Model):
     """Positions of the same axis."""
     beyond: float = 0
     """Part of the travel that a position may be outside, as a switch is."""
+    strokes: tuple[ParameterId, ...] = ()
+    """Tables of steps of the same axis, whose motion is not longer than the travel."""
+
+
+class TextBegins(Model):
+    """A text of the machine that begins in one way."""
+
+    param: ParameterId
+    begins: str
 
 
 class SpeedLimit(Model):
@@ -65,6 +76,8 @@ class AmongAxes(Model):
     over: ParameterId | None = None
     within: float
     """Times that one is at most away from its nearest like."""
+    is_zero_odd: bool = False
+    """Whether 0 is asked about where every other one has a value."""
 
 
 class TravelEnds(Model):
@@ -72,6 +85,20 @@ class TravelEnds(Model):
 
     high: ParameterId
     low: ParameterId | None = None
+    unlimited: float | None = None
+    """The number, without its sign, that means no end; an axis has both ends or none."""
+
+    is_zone: bool = False
+    """Whether these are ends of a zone within the travel, whose lengths are not compared."""
+
+
+class Towards(Model):
+    """A speed whose sign is the direction to a place at one end of the travel."""
+
+    speed: ParameterId
+    place: ParameterId
+    low: ParameterId
+    high: ParameterId
 
 
 class Gears(Model):
@@ -115,6 +142,8 @@ class Plausible(Model):
     """Parameters that as a rule have one value on one axis, as an acceleration and its deceleration."""
     twins: tuple[tuple[ParameterId, ParameterId], ...] = ()
     """Two parameters, one an axis and one a joint, that as a rule have one value; in the order of both."""
+    twins_where: TextBegins | None = None
+    """The machines on which they have it; None is all."""
     ladders: tuple[tuple[ParameterId, ...], ...] = ()
     """Parameters that rise from one to the next, most often by one factor."""
     not_above: tuple[SpeedLimit, ...] = ()
@@ -126,6 +155,17 @@ class Plausible(Model):
     table: dict[ParameterId, float] = {}
     """What X and Y of a table have alike: asked about where they differ in one of these, by so many times or
     by a slip's factor."""
+    upright: dict[ParameterId, tuple[float, float]] = {}
+    """Speeds and ramps -> the least and the greatest share of the greater one of X and Y that the upright
+    axis Z has."""
+    uniform: tuple[ParameterId, ...] = ()
+    """What all axes that move alike have alike on most machines, a way of being driven or a direction."""
+    counted: tuple[ParameterId, ...] = ()
+    """Numbers of connectors, given out to the axes one after another; 0 is none."""
+    signed: tuple[ParameterId, ...] = ()
+    """Parameters whose sign is a direction, by which axes differ that are otherwise alike."""
+    towards: tuple[Towards, ...] = ()
+    """Speeds that go to the end of the travel that is near."""
     travels: tuple[TravelEnds, ...] = ()
     """Travels, compared among the axes."""
     gears: tuple[Gears, ...] = ()

@@ -15,10 +15,10 @@ from itertools import combinations
 from typing import NamedTuple
 
 from amp_studio.files import ParameterFile, are_alike, axis_letter
-from amp_studio.schema import ACTIVE, Address, Parameter, Schema, dimension, show_value
+from amp_studio.schema import ACTIVE, Address, Parameter, Schema, Value, dimension, show_value
 from amp_studio.validate.finding import Finding
 
-from .slip import slip_between
+from .slip import slip_as_written, slip_between
 
 ALIKE = "plausible.alike"
 REASON = (
@@ -105,6 +105,7 @@ class Alike:
     def __init__(self, file: ParameterFile) -> None:
         self._file = file
         self._comparable = _comparable(file.schema)
+        self._signed = frozenset(file.schema.plausible.signed)
         self._rows: dict[str, dict[str, dict[str, _Seen]]] = {}
         """Scope -> instance -> parameter -> what is compared."""
         self._pairs: dict[tuple[str, str, str], _Pair] = {}
@@ -118,7 +119,7 @@ class Alike:
         keys, known = evaluation.keys, evaluation.known_states()
         for (scope, instance), addresses in _places(self._file.schema, self._file.machine).items():
             row = {
-                address[0]: _Seen(keys[address], dimension(value.unit))
+                address[0]: self._seen(address[0], keys[address], value)
                 for address in addresses
                 if (value := values.get(address)) is not None
                 and (known.get(address) or evaluation.state(address)) is ACTIVE
@@ -172,7 +173,8 @@ class Alike:
             return
         usual = max(counts, key=lambda seen: counts[seen])
         odd = next(instance for instance, seen in column.items() if seen != usual)
-        words = slip_between(column[odd].key, usual.key) if column[odd].measures == usual.measures else ""
+        like = next(instance for instance, seen in column.items() if seen == usual)
+        words = self._slip(scope, name, odd, like) if column[odd].measures == usual.measures else ""
         if words and (scope != "axis" or all(are_alike(self._file, odd, i) for i in column)):
             self._odd[scope, name] = _Odd(odd, words)
 
@@ -182,7 +184,13 @@ class Alike:
         value = self._file.values.get(address)
         if value is None or not evaluation.state(address).is_active:
             return None
-        return _Seen(evaluation.keys[address], dimension(value.unit))
+        return self._seen(address[0], evaluation.keys[address], value)
+
+    def _seen(self, name: str, key: Hashable, value: Value) -> _Seen:
+        """Return what is compared; of a value whose sign is a direction only the size."""
+        if name in self._signed and isinstance(key, int | float):
+            key = abs(key)
+        return _Seen(key, dimension(value.unit))
 
     def findings(self) -> Iterator[Finding]:
         """Yield what differs between instances that are otherwise alike, a finding a parameter and scope."""
@@ -193,7 +201,7 @@ class Alike:
                 continue
             is_sure = count == 1 and compared >= _SURE
             for name in pair.differing:
-                if (is_sure and self._comparable[name]) or self._slip(scope, name, a, b):
+                if (is_sure and self._comparable[name]) or self._is_slip(scope, name, a, b):
                     asked.setdefault((scope, name), []).append((a, b, compared - count))
         for (scope, name), pairs in asked.items():
             yield self._finding(scope, name, pairs)
@@ -214,10 +222,16 @@ class Alike:
             agree = [pair.compared[0] - len(pair.differing) for pair in pairs]
             yield self._finding(scope, name, [(odd, i, n) for i, n in zip(others, agree, strict=True)])
 
-    def _slip(self, scope: str, name: str, a: str, b: str) -> bool:
+    def _is_slip(self, scope: str, name: str, a: str, b: str) -> bool:
         left, right = self._rows[scope][a][name], self._rows[scope][b][name]
         same = left.measures == right.measures
-        return same and bool(slip_between(left.key, right.key) or slip_between(right.key, left.key))
+        return same and bool(self._slip(scope, name, a, b) or self._slip(scope, name, b, a))
+
+    def _slip(self, scope: str, name: str, a: str, b: str) -> str:
+        """Return in words how the value of one instance came of that of another; "" for no slip."""
+        rows, values = self._rows[scope], self._file.values
+        words = slip_between(rows[a][name].key, rows[b][name].key)
+        return slip_as_written(words, values[name, a], values[name, b])
 
     def _finding(self, scope: str, name: str, pairs: list[tuple[str, str, int]]) -> Finding:
         """Return the finding about a parameter: the one that differs from the rest, or both of two."""
@@ -247,8 +261,7 @@ class Alike:
         )
 
     def _words(self, scope: str, name: str, a: str, b: str) -> str:
-        rows = self._rows[scope]
-        words = slip_between(rows[a][name].key, rows[b][name].key)
+        words = self._slip(scope, name, a, b)
         return f" ({words} the other)" if words else ""
 
     def _label(self, name: str, instance: str) -> str:

@@ -10,22 +10,28 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 
 from amp_studio.files import ParameterFile, are_alike, axis_letter
-from amp_studio.schema import AmongAxes, Gears, Proportion, TravelEnds
+from amp_studio.schema import AmongAxes, Gears, Proportion, Towards, TravelEnds
 from amp_studio.validate.finding import Finding
 
 from .active_value import ActiveValue, ActiveValues, sentence
 from .slip import slip_between
 
-AMONG, TABLE, TRAVEL, GEAR, PROPORTION = (
+AMONG, TABLE, UPRIGHT, TRAVEL, TOWARDS, GEAR, PROPORTION = (
     "plausible.among-axes",
     "plausible.table",
+    "plausible.upright",
     "plausible.travel",
+    "plausible.towards",
     "plausible.gear",
     "plausible.proportion",
 )
 AMONG_REASON = "ours, not the manual's: like axes of one machine seldom lie so far apart"
 TABLE_REASON = "ours, not the manual's: X and Y of a table have the same motors, screws and ramps as a rule"
 TRAVEL_REASON = "ours, not the manual's: the travels of one machine are in proportion to each other"
+UPRIGHT_REASON = (
+    "ours, not the manual's: the upright axis is about as fast as the table, or slower, as a rule"
+)
+TOWARDS_REASON = "ours, not the manual's: a search goes to the end of the travel at which the switch is"
 GEAR_REASON = "ours, not the manual's: every gear multiplies the speeds of one and the same motor"
 PROPORTION_REASON = "ours, not the manual's: the two pairs of ends belong to one straight line"
 _NEAR, _SHARE = 8.0, 5.0
@@ -35,6 +41,13 @@ _SPREAD = 4.0
 """Times that the speeds of one gear are spread wider than those of every other one."""
 _TABLE = 16.0
 """Times that one side of a table is longer than the other: one for profiles and tubes has 6 m by 0.4 m."""
+
+_UPRIGHT = 3.0
+"""Times that the upright axis is longer than the longer side of the table."""
+_UNLIMITED = 1e6
+"""Length in mm or deg from which on an axis has no ends."""
+_BESIDE = 0.1
+"""Part of the travel that a place is at most away from an end that it is at."""
 
 Ends = tuple[ActiveValue, ActiveValue]
 """The end of a travel at the reference point, and the other one."""
@@ -50,12 +63,16 @@ class AxisRelations:
     def checks(self) -> Iterator[Check]:
         """Yield the parameters that a check reads, and the check."""
         facts = self._file.schema.plausible
-        for one in facts.among_axes:
-            yield (one.of, *((one.over,) if one.over else ())), partial(self._among, one)
+        for among in facts.among_axes:
+            yield (among.of, *((among.over,) if among.over else ())), partial(self._among, among)
         for travel in facts.travels:
             yield tuple(filter(None, (travel.low, travel.high))), partial(self._travels, travel)
         if facts.table:
             yield tuple(facts.table), partial(self._same_on_table, facts.table)
+        for name, span in facts.upright.items():
+            yield (name,), partial(self._beside_table, name, span)
+        for one in facts.towards:
+            yield (one.speed, one.place, one.low, one.high), partial(self._towards, one)
         for gears in facts.gears:
             yield (gears.low, gears.high), partial(self._gears, gears)
         for pair in facts.proportions:
@@ -68,6 +85,10 @@ class AxisRelations:
             under = over[instance].number if instance in over else None if fact.over else 1.0
             if isinstance(one.number, float) and one.number and isinstance(under, float) and under:
                 numbers.append((abs(one.number / under), one))
+        if fact.is_zero_odd and len(numbers) == len(self._values[fact.of]) - 1 and numbers:
+            zero = next(one for one in self._values[fact.of].values() if not one.number)
+            if are_alike(self._file, zero.address[1], numbers[0][1].address[1]):
+                return [self._finding(AMONG, AMONG_REASON, zero, numbers[0][1])]
         found = []
         for number, one in numbers:
             like = [
@@ -85,9 +106,11 @@ class AxisRelations:
 
     def _travels(self, fact: TravelEnds) -> list[Finding]:
         lows = self._values[fact.low] if fact.low else {}
-        ends = []
+        ends, one_sided = [], []
         for instance, high in self._values[fact.high].items():
             low = lows.get(instance)
+            if fact.unlimited and low is not None:
+                one_sided += self._one_sided(fact.unlimited, low, high)
             if not isinstance(high.number, float) or (fact.low and low is None) or self._is_unlimited(high):
                 continue
             if low is None:
@@ -95,10 +118,19 @@ class AxisRelations:
             elif isinstance(low.number, float) and low.measures == high.measures:
                 near, far = sorted((low, high), key=lambda end: abs(float(end.number)))
                 ends.append((near, far))
-        found = self._table(ends)
+        found = [] if fact.is_zone else self._table(ends)
         if fact.low and len(ends) > 2:
             found += [f for n in range(len(ends)) for f in self._near(ends[n], ends[:n] + ends[n + 1 :])]
-        return found
+        return found + one_sided
+
+    def _one_sided(self, unlimited: float, low: ActiveValue, high: ActiveValue) -> list[Finding]:
+        """Find an axis that has one end only, or both without a limit on one side."""
+        stored = [self._file.values[one.address].value for one in (low, high)]
+        none = [isinstance(number, int | float) and abs(number) >= unlimited for number in stored]
+        if none == [True, True] and _side(low) < 0 < _side(high):
+            return []
+        odd, other = (high, low) if none[0] else (low, high)
+        return [self._finding(TRAVEL, TRAVEL_REASON, odd, other)] if any(none) else []
 
     def _is_unlimited(self, end: ActiveValue) -> bool:
         """Return whether an end is the printed default: no limit, as a rule."""
@@ -138,6 +170,9 @@ class AxisRelations:
         x, y = named.get("X"), named.get("Y")
         if x is None or y is None or not x[0] or not y[0] or x[1].measures != y[1].measures:
             return []
+        z = named.get("Z")
+        if z is not None and z[1].measures == x[1].measures and z[0] > _UPRIGHT * max(x[0], y[0]):
+            return [self._finding(TRAVEL, TRAVEL_REASON, z[1], max(x, y, key=lambda side: side[0])[1])]
         longer, shorter = (x, y) if x[0] > y[0] else (y, x)
         if longer[0] > _TABLE * shorter[0]:
             return [self._finding(TRAVEL, TRAVEL_REASON, longer[1], shorter[1])]
@@ -161,6 +196,33 @@ class AxisRelations:
         is_slip = slip_between(x.number, y.number) or slip_between(y.number, x.number)
         is_odd = is_slip or _apart(_size(x), _size(y)) >= names[x.address[0]]
         return [self._finding(TABLE, TABLE_REASON, x, y)] if is_odd else []
+
+    def _beside_table(self, name: str, span: tuple[float, float]) -> list[Finding]:
+        """Compare the upright axis with the faster side of the table."""
+        named = {axis_letter(self._file, i): one for i, one in self._values[name].items()}
+        sides = [one for letter in "XY" if (one := named.get(letter)) is not None]
+        z = named.get("Z")
+        if z is None or len(sides) != 2 or any(one.measures != z.measures for one in sides):
+            return []
+        most = max(sides, key=_size)
+        if not _size(z) or span[0] * _size(most) <= _size(z) <= span[1] * _size(most):
+            return []
+        return [self._finding(UPRIGHT, UPRIGHT_REASON, z, most)]
+
+    def _towards(self, fact: Towards) -> list[Finding]:
+        found, values = [], self._values
+        for instance, speed in values[fact.speed].items():
+            ends = [values[name].get(instance) for name in (fact.place, fact.low, fact.high)]
+            if not _size(speed) or any(one is None for one in ends):
+                continue
+            place, low, high = (one for one in ends if one is not None)
+            if not place.measures == low.measures == high.measures:
+                continue
+            down, up = float(place.number) - float(low.number), float(high.number) - float(place.number)
+            is_at_end = 0 < down + up < _UNLIMITED and min(abs(down), abs(up)) <= _BESIDE * (down + up)
+            if is_at_end and _side(speed) != (1 if abs(up) < abs(down) else -1):
+                found.append(self._finding(TOWARDS, TOWARDS_REASON, speed, place))
+        return found
 
     def _gears(self, fact: Gears) -> list[Finding]:
         lows, highs = self._values[fact.low], self._values[fact.high]
@@ -216,6 +278,8 @@ class AxisRelations:
 _WORDS = {
     AMONG: "on one machine they are nearer to each other as a rule",
     TABLE: "in all else X and Y agree",
+    UPRIGHT: "beside X and Y the upright axis is about as fast, or slower, as a rule",
+    TOWARDS: "that is at the other end of the travel",
     TRAVEL: "the ends of travel of one machine are in proportion as a rule",
     GEAR: "the ranges of the gears do not follow each other",
     PROPORTION: "speed and output do not begin on one straight line",

@@ -16,7 +16,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value, canonical, dimension, show_value
 from amp_studio.validate.finding import Finding
 
-from .slip import slip_between
+from .slip import slip_as_written, slip_between
 
 EARLIER = "plausible.earlier"
 REASON = (
@@ -79,7 +79,8 @@ class EarlierValues:
             return ""
         if not self._may_have_slipped(address[0], is_same_machine=one.is_same_machine):
             return ""
-        return slip_between(canonical(new.value, new.unit), canonical(old.value, old.unit))
+        words = slip_between(canonical(new.value, new.unit), canonical(old.value, old.unit))
+        return slip_as_written(words, new, old)
 
     def _may_have_slipped(self, name: str, *, is_same_machine: bool) -> bool:
         """Return whether a parameter is a number that a user gives, and not one by which machines differ."""

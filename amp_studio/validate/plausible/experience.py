@@ -9,14 +9,15 @@ from amp_studio.schema import Address
 from amp_studio.validate.finding import Finding
 
 from .alike import ALIKE, Alike
-from .axis_relations import AMONG, GEAR, PROPORTION, TABLE, TRAVEL
+from .axis_columns import COUNTED, UNIFORM
+from .axis_relations import AMONG, GEAR, PROPORTION, TABLE, TOWARDS, TRAVEL, UPRIGHT
 from .axis_words import NO_AXIS, AxisWords
 from .earlier import EARLIER, Earlier, EarlierValues
 from .relations import ABOVE, LADDER, NEEDS, QUOTIENT, UNEQUAL, Relations
 from .rows import ROW, EqualRows
 from .seldom import SELDOM, SeldomChanged
 from .smooth import JUMP, SmoothTables, TextCurves
-from .steps import NOT_CLOSED, TURN_BACK, StepTables
+from .steps import NOT_CLOSED, STROKE, TURN_BACK, StepTables
 from .usual import USUAL, UsualValues
 from .within import OUTSIDE, WithinTravel
 
@@ -28,12 +29,17 @@ TITLES = {
     ROW: "A row that is not like the others",
     NO_AXIS: "A bit of an axis that is not there",
     NOT_CLOSED: "A motion that does not come back to where it began",
+    STROKE: "A motion that is longer than the travel",
     TURN_BACK: "A single step backwards",
     UNEQUAL: "Values that are equal as a rule",
     LADDER: "A value that does not fit between its neighbours",
     QUOTIENT: "Two values far from each other",
     AMONG: "Like axes far from each other",
+    UNIFORM: "One axis that is not as the others",
+    COUNTED: "A connector out of the order of the axes",
     TABLE: "X and Y of a table that differ",
+    UPRIGHT: "An upright axis that is faster than the table, or far slower",
+    TOWARDS: "A search that goes to the other end",
     TRAVEL: "Travels that are out of proportion",
     GEAR: "Gears that do not follow each other",
     PROPORTION: "Shares that are not equal",

@@ -10,6 +10,7 @@ from amp_studio.schema import Address, Quotient, canonical, unit_text, write_fig
 from amp_studio.validate.finding import Finding
 
 from .active_value import ActiveValue, ActiveValues, sentence
+from .axis_columns import AxisColumns
 from .axis_relations import AxisRelations
 from .slip import slip_between
 
@@ -41,7 +42,8 @@ class Relations:
         for names in facts.same:
             self._add(names, partial(self._same, names))
         for pair in facts.twins:
-            self._add(pair, partial(self._twins, pair))
+            where = [facts.twins_where.param] if facts.twins_where else []
+            self._add((*pair, *where), partial(self._twins, pair))
         for names in facts.ladders:
             self._add(names, partial(self._ladder, names))
         for quotient in facts.quotients:
@@ -50,8 +52,9 @@ class Relations:
             self._add(pair, partial(self._needs, pair))
         for one in facts.not_above:
             self._add((one.limit, *one.are), partial(self._above, one.limit, one.are))
-        for names, check in AxisRelations(file, self._values).checks():
-            self._add(names, check)
+        for part in (AxisRelations(file, self._values), AxisColumns(file, self._values)):
+            for names, check in part.checks():
+                self._add(names, check)
         self._found: list[list[Finding]] = [[] for _ in self._checks]
 
     def _add(self, names: Sequence[str], check: Callable[[], list[Finding]]) -> None:
@@ -99,6 +102,11 @@ class Relations:
         return found
 
     def _twins(self, pair: tuple[str, str]) -> list[Finding]:
+        where = self._file.schema.plausible.twins_where
+        if where is not None:
+            texts = [str(one.number) for one in self._values[where.param].values()]
+            if not any(text.lower().startswith(where.begins) for text in texts):
+                return []
         left, right = (list(self._values[name].values()) for name in pair)
         if len(left) != len(right):
             return []
@@ -112,8 +120,12 @@ class Relations:
         found = []
         for row in self._rows(names):
             numbers = [one.number for one in row if isinstance(one.number, float) and one.number > 0]
-            if len(numbers) == len(names) and (n := misfit(numbers)) is not None:
+            if len(numbers) != len(names):
+                continue
+            if (n := misfit(numbers)) is not None:
                 found.append(self._out_of_ladder(row, n))
+            elif (n := not_rising(numbers)) is not None:
+                found.append(self._not_rising(row, n))
         return found
 
     def _above(self, limit: str, names: Sequence[str]) -> list[Finding]:
@@ -182,6 +194,20 @@ class Relations:
         compared = tuple(one.address for one in beside)
         return Finding(LADDER, "advice", (row[n].address,), message, compared=compared, reason=LADDER_REASON)
 
+    def _not_rising(self, row: Sequence[ActiveValue], n: int) -> Finding:
+        before = row[n - 1]
+        both = f"{sentence(self._file, row[n])}, and {sentence(self._file, before)}"
+        message = f"{both}: the steps go one way as a rule"
+        compared = (before.address,)
+        return Finding(
+            LADDER,
+            "advice",
+            (row[n].address,),
+            f"{message}. Is it meant?",
+            compared=compared,
+            reason=LADDER_REASON,
+        )
+
     def _out_of_proportion(self, one: ActiveValue, other: ActiveValue, usual: tuple[float, float]) -> Finding:
         unit = self._file.values[one.address].unit
         low, high = (write_figure(float(f"{bound / canonical(1.0, unit):.2g}")) for bound in usual)
@@ -201,6 +227,14 @@ class Relations:
         return Finding(
             ABOVE, "advice", (one.address,), message, compared=(most.address,), reason=ABOVE_REASON
         )
+
+
+def not_rising(numbers: Sequence[float]) -> int | None:
+    """Return the place of the first value that is not above the one before it, or not below it in a ladder
+    that leads down.
+    """
+    up = 1 if numbers[-1] > numbers[0] else -1
+    return next((n for n in range(1, len(numbers)) if up * numbers[n] <= up * numbers[n - 1]), None)
 
 
 def _is_slip(a: float | str | bool, b: float | str | bool) -> bool:

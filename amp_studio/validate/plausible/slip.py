@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Hashable
 from typing import TypeGuard
 
+from amp_studio.schema import Value
+
 _INCH = 25.4
+SWAPPED = "two digits swapped against"
 _FACTORS = {
     10.0: "ten times",
     0.1: "a tenth of",
@@ -66,7 +69,18 @@ def slip_between(value: Hashable, other: Hashable) -> str:
     for factor, words in _FACTORS.items():
         if abs(ratio - factor) <= 1e-9 * abs(factor) or _is_rounded(value, other * factor):
             return words
-    return "two digits swapped against" if _is_swapped(float(value), float(other)) else ""
+    return SWAPPED if _is_swapped(float(value), float(other)) else ""
+
+
+def slip_as_written(words: str, value: Value, other: Value) -> str:
+    """Return the slip that explains two canonical numbers, or two swapped digits of the written ones.
+
+    7.5 mm/s and 9 mm/s are 450 and 540 mm/min, and no slip; 19 mm/s for 91 mm/s is one.
+    """
+    if words not in ("", SWAPPED):
+        return words
+    is_one_unit = value.unit == other.unit and _is_number(value.value) and _is_number(other.value)
+    return SWAPPED if is_one_unit and slip_between(value.value, other.value) == SWAPPED else ""
 
 
 def _is_rounded(value: float, exact: float) -> bool:

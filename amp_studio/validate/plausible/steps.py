@@ -7,12 +7,14 @@ that goes one way, but for a single step, has the sign of that step wrong.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import accumulate
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value, show_value
 from amp_studio.validate.finding import Finding
 
-NOT_CLOSED, TURN_BACK = "plausible.not-closed", "plausible.turn-back"
+NOT_CLOSED, TURN_BACK, STROKE = "plausible.not-closed", "plausible.turn-back", "plausible.stroke"
+STROKE_REASON = "ours, not the manual's: the axis stops at the end of its travel before the motion is through"
 REASON = (
     "ours, not the manual's: a motion that runs again and again comes back to where it began, or goes one way"
     " only"
@@ -42,12 +44,20 @@ class _Motion:
         for places, belongs in ((self.ahead, step > 0), (self.behind, step < 0)):
             (places.add if belongs else places.discard)(address)
 
+    @property
+    def stroke(self) -> float:
+        """How far the places that the steps lead to are apart."""
+        places = [0.0, *accumulate(self.steps.values())]
+        return max(places) - min(places)
+
 
 class StepTables:
     """The tables of steps of one file, as the facts of its family name them."""
 
     def __init__(self, file: ParameterFile) -> None:
         self._file, self._names = file, frozenset(file.schema.plausible.steps)
+        self._travels = {name: span for span in file.schema.plausible.within for name in span.strokes}
+        self._ends = frozenset(end for span in self._travels.values() for end in (span.low, span.high))
         self._motions: dict[Address, _Motion] = {}
         """Parameter and axis -> its motion."""
 
@@ -66,7 +76,7 @@ class StepTables:
     def look_again(self, address: Address) -> bool:
         """Look at one step again; returns whether anything is otherwise."""
         if address[0] not in self._names:
-            return False
+            return address[0] in self._ends
         step, motion = self._step(address), self._motions.get(_whole(address))
         if step is None or motion is None or address not in motion.steps:
             self.look_at_all()
@@ -85,6 +95,8 @@ class StepTables:
         for whole, motion in self._motions.items():
             if len(motion.steps) < _LEAST:
                 continue
+            if whole[0] in self._travels:
+                yield from self._too_long(whole, motion)
             fewer = min(motion.ahead, motion.behind, key=len)
             most = max(motion.forward, motion.backward)
             rest = motion.forward - motion.backward
@@ -92,6 +104,32 @@ class StepTables:
                 yield self._turning_back(next(iter(fewer)))
             elif fewer and 1e-9 * most < abs(rest) <= _NEARLY * most:
                 yield self._not_closed(whole, motion, rest)
+
+    def _too_long(self, whole: Address, motion: _Motion) -> Iterator[Finding]:
+        """Yield that a motion is longer than the travel of its axis."""
+        span, file = self._travels[whole[0]], self._file
+        ends = (span.low, whole[1]), (span.high, whole[1])
+        values = [file.values[a] for a in ends if a in file.values and file.evaluation.state(a).is_active]
+        first = next(iter(motion.steps))
+        numbers = [v.value for v in (*values, file.values[first]) if isinstance(v.value, int | float)]
+        if len({value.unit for value in (*values, file.values[first])}) != 1 or len(numbers) != 3:
+            return
+        if motion.stroke > numbers[1] - numbers[0] > 0:
+            parameters = file.schema.parameters
+            stroke, low, high = (
+                show_value(parameters[name], value)
+                for name, value in zip(
+                    (whole[0], span.low, span.high),
+                    (Value(round(motion.stroke), values[0].unit), *values),
+                    strict=True,
+                )
+            )
+            label = file.schema.on(file.machine).label(first)
+            message = (
+                f"{label}: the steps from here on move the axis by {stroke}, and its travel is from {low} to"
+                f" {high}. Is it meant?"
+            )
+            yield Finding(STROKE, "advice", (first,), message, compared=ends, reason=STROKE_REASON)
 
     def _turning_back(self, address: Address) -> Finding:
         schema = self._file.schema

@@ -76,7 +76,7 @@ def _facts(schema: Schema) -> dict[str, _Known]:
     found = {}
     for parameter in schema.parameters.values():
         usual = schema.plausible.usual.get(parameter.id)
-        is_choice = usual is not None and bool(usual.choices)
+        is_choice = usual is not None and bool(usual.choices or usual.bits)
         if parameter.type not in ("integer", "real") and not is_choice:
             continue
         if parameter.secret or parameter.access == "read":
@@ -163,6 +163,8 @@ def _doubt(facts: _Known, value: Value) -> str:
     usual = facts.usual
     if isinstance(value.value, (bool, str)):
         return _doubt_of_choice(facts.parameter, usual, value.value) if usual is not None else ""
+    if usual is not None and usual.bits:
+        return _doubt_of_bits(usual, int(value.value))
     number = float(value.value)
     measures = dimension(value.unit)
     if (
@@ -176,11 +178,28 @@ def _doubt(facts: _Known, value: Value) -> str:
         unit = unit.replace("deg", "mm")  # the manual prints one number for linear and rotary axes
     if facts.default is not None and dimension(unit) == facts.default_measures:
         words = slip_of_default(canonical(number, unit), facts.default, facts.default_digits)
-        if words:
+        if words and not ("25.4" in words and _is_as_round(facts, number, value.unit)):
             return f"that is {words} the printed default"
     if number < 0 and not facts.signed and measures in _NEVER_NEGATIVE:
         return f"a negative {measures} has no meaning"
     return ""
+
+
+def _is_as_round(facts: _Known, number: float, unit: str) -> bool:
+    """Return whether a number in another unit is as round as the printed default: 150 mm/s2 is chosen in a
+    metric file, as 150 in/s2 was for an inch one.
+    """
+    default = facts.parameter.default
+    return default is not None and unit != default.unit and significant_digits(number) <= facts.default_digits
+
+
+def _doubt_of_bits(usual: Usual, word: int) -> str:
+    """Return which bits of a word are set without a known meaning, in words; "" for none."""
+    unknown = [str(bit) for bit in range(word.bit_length()) if word >> bit & 1 and bit not in usual.bits]
+    if not unknown:
+        return ""
+    are = "bits {} have" if len(unknown) > 1 else "bit {} has"
+    return f"{are.format(', '.join(unknown))} no meaning that is printed or known"
 
 
 def _doubt_of_choice(parameter: Parameter, usual: Usual, value: bool | str) -> str:
