@@ -171,7 +171,7 @@ def programs_of(file: ParameterFile, paths: Sequence[Path]) -> Iterator[PrintedP
                 ProgramLimit(row["letter"], row["name"], row["param"], row["time_s"], row["share"])
                 for row in limited_by(file, run)
             ),
-            contour_text(run),
+            contour_text(file, run),
             tuple(f"Line {alarm.line}: {f'{alarm.code} {alarm.message}'.strip()}" for alarm in run.alarms),
             drawn,
             run.assumptions,

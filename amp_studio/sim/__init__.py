@@ -95,6 +95,7 @@ if TYPE_CHECKING:
     from .trace import Alarm, Figure, Recommendation, Trace, titled
     from .tuning.linear import linear_model
     from .tuning.trial import address_of, named_parameter
+    from .unit_system import length_unit, path_error_text, path_error_unit
     from .variations.scenario import Way as SweepWay
     from .write import trace_summary, trace_text, with_uncertainty, write_trace
     from .zones import Zone

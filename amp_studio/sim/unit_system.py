@@ -37,6 +37,17 @@ def length_unit(file: ParameterFile, system: str | None = None) -> str:
     return found if found in LENGTHS else "mm"
 
 
+def path_error_unit(length: str) -> tuple[str, float]:
+    """Return the unit in which the error of a path is shown, µm or in, and how many of it a mm has."""
+    return ("in", 1.0 / MM_PER_INCH) if length == "in" else ("µm", 1000.0)
+
+
+def path_error_text(error: float, length: str) -> str:
+    """Return the error of a path, in mm, as a person reads it."""
+    unit, times = path_error_unit(length)
+    return value_text(times * error, unit, 3)
+
+
 def axis_unit(file: ParameterFile, axis: str, length: str) -> str:
     """Return the unit that an axis moves in: ``length``, or deg where it turns."""
     family = file.schema.family

@@ -121,7 +121,7 @@ def test_a_path_is_coloured_by_its_feed_and_by_its_error_too(window: ProgramPage
     qtbot.waitUntil(lambda: window.outcome is not None, timeout=10 * WAIT_MS)
     for colours, words in (
         ("feed", "% of the feed"),
-        ("error", "% of 168 µm"),
+        ("error", "% of 0.00663 in"),
         ("limit", "A feed as programmed"),
     ):
         window.colours.buttons[colours].click()

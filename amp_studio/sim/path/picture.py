@@ -23,9 +23,12 @@ from amp_studio.drawing import (
     panel_of,
 )
 from amp_studio.files import ParameterFile
+from amp_studio.schema import canonical
 from amp_studio.sim.path_rules import Indices, PathRows
 from amp_studio.sim.rounding import value_text
+from amp_studio.sim.unit_system import length_unit, own_unit, path_error_text, path_error_unit
 
+from .limits_met import GuardedBox
 from .moment import PathMoment
 from .planner import ProgramPlan
 from .profiles import path_points
@@ -53,8 +56,8 @@ ERROR_PARTS = (0.25, 0.5, 0.75)
 def path_picture(
     file: ParameterFile, run: ProgramRun, moment: PathMoment | None = None, colours: PathColours = "limit"
 ) -> Picture:
-    """Return the picture of a program, with a dot where the axes are at one moment."""
-    plan = run.plan
+    """Return the picture of a program in the unit of the file, with a dot where the axes are at a moment."""
+    plan, length = run.plan, length_unit(file)
     facts = [f"{plan.path.blocks} blocks, {value_text(plan.time, 's', 4)}"]
     letters = limit_letters(run)
     times = plan.time_by_cause()
@@ -64,28 +67,29 @@ def path_picture(
         if times[n] > 0.0
     ]
     if run.contour is not None:
-        facts.append(f"largest contour error {value_text(1000.0 * run.contour.largest, 'µm', 3)}")
-    panels = [_speed(plan)]
+        facts.append(f"largest contour error {path_error_text(run.contour.largest, length)}")
+    panels = [_speed(plan, length)]
     if run.contour is not None:
-        error = Curve("contour error", run.contour.time, 1000.0 * run.contour.error, "now", dense=True)
-        panels.append(panel_of("contour error", (error,), ("time", "s"), "µm"))
+        unit, per_mm = path_error_unit(length)
+        error = Curve("contour error", run.contour.time, per_mm * run.contour.error, "now", dense=True)
+        panels.append(panel_of("contour error", (error,), ("time", "s"), unit))
     classes = _classes(file, run, letters, colours)
-    plan_scene = path_scene(run, classes, moment, tilted=False)
-    tilted = path_scene(run, classes, moment, tilted=True)
+    plan_scene = path_scene(run, classes, moment, length, tilted=False)
+    tilted = path_scene(run, classes, moment, length, tilted=True)
     return Picture(
         "program", tuple(facts), tuple(panels), plan_scene, tilted, bool(run.alarms), run.assumptions
     )
 
 
-def _speed(plan: ProgramPlan) -> Scene:
+def _speed(plan: ProgramPlan, length: str) -> Scene:
     start, times = plan.start[:, None], plan.times
     moments = np.column_stack(
         [start[:, 0], start[:, 0] + times[:, 0], start[:, 0] + times[:, 0] + times[:, 1]]
     )
     time = np.append(moments.ravel(), plan.time)
     speed = np.append(np.column_stack([plan.entry, plan.peak, plan.peak]).ravel(), 0.0)
-    curve = Curve("speed", time, 60.0 * speed, "now")
-    return panel_of("speed along the path", (curve,), ("time", "s"), "mm/min")
+    curve = Curve("speed", time, 60.0 * speed / canonical(1.0, length), "now")
+    return panel_of("speed along the path", (curve,), ("time", "s"), own_unit("mm/min", length))
 
 
 @dataclass(frozen=True)
@@ -119,7 +123,7 @@ def _classes(file: ParameterFile, run: ProgramRun, letters: dict[int, str], colo
             np.maximum.at(largest, run.contour.row, np.abs(run.contour.error))
         whole = float(largest.max()) if count else 0.0
         by = np.digitize(largest / (whole or 1.0), ERROR_PARTS)
-        whole_text = value_text(1000.0 * whole, "µm", 3)
+        whole_text = path_error_text(whole, length_unit(file))
         texts = _parts(ERROR_PARTS, f"below {{}} % of {whole_text}", f"from {{}} % of {whole_text} on")
     found = dict(enumerate("ABCD"))
     return _Classes(by.astype(np.int64), found, dict(zip(found.values(), texts, strict=True)))
@@ -129,11 +133,13 @@ def _parts(parts: Sequence[float], text: str, last: str) -> list[str]:
     return [*(text.format(f"{100.0 * part:g}") for part in parts), last.format(f"{100.0 * parts[-1]:g}")]
 
 
-def path_scene(run: ProgramRun, classes: _Classes, moment: PathMoment | None, *, tilted: bool) -> Scene:
+def path_scene(
+    run: ProgramRun, classes: _Classes, moment: PathMoment | None, length: str, *, tilted: bool
+) -> Scene:
     """Return the path in plan (the first two axes) or tilted (three), in the colours of its classes."""
-    plan = run.plan
+    plan, size = run.plan, canonical(1.0, length)
     points, rows = path_points(plan, WITHIN)
-    flat = _flat(points, tilted=tilted)
+    flat = _flat(points / size, tilted=tilted)
     by, letters = classes.of_rows, classes.letters
     step = max(1, len(flat) // MOST_POINTS)
     lines: list[Polyline] = []
@@ -162,43 +168,50 @@ def path_scene(run: ProgramRun, classes: _Classes, moment: PathMoment | None, *,
         part="program",
         title=f"path {title}",
         subtitle=key,
-        x=Scale("" if tilted else axes[0], "mm", left, right, is_written=not tilted),
-        y=Scale("" if tilted else axes[min(1, len(axes) - 1)], "mm", low, high, is_written=not tilted),
+        x=Scale("" if tilted else axes[0], length, left, right, is_written=not tilted),
+        y=Scale("" if tilted else axes[min(1, len(axes) - 1)], length, low, high, is_written=not tilted),
         equal=True,
-        areas=() if tilted else tuple(_zones(run, axes, (left, right), (low, high))),
-        lines=(*lines, *(() if tilted else _limits(run, axes, (left, right), (low, high)))),
-        dots=() if moment is None else (_dot(moment, tilted=tilted),),
+        areas=() if tilted else tuple(_zones(run, axes, size, (left, right), (low, high))),
+        lines=(*lines, *(() if tilted else _limits(run, axes, size, (left, right), (low, high)))),
+        dots=() if moment is None else (_dot(moment, size, tilted=tilted),),
         texts=tuple(texts),
         share=2.2,
     )
 
 
-def _dot(moment: PathMoment, *, tilted: bool) -> Dot:
-    x, y = _flat(moment.place[None, :], tilted=tilted)[0].tolist()
+def _dot(moment: PathMoment, size: float, *, tilted: bool) -> Dot:
+    x, y = _flat(moment.place[None, :] / size, tilted=tilted)[0].tolist()
     return Dot((x, y))
 
 
+def _sides(box: GuardedBox, axes: Sequence[str], size: float) -> list[tuple[float, float]]:
+    """Return the sides of a box along the first two axes, in units of the picture."""
+    everywhere = (-math.inf, math.inf)
+    found = (box.sides.get(axis, everywhere) for axis in axes[:2])
+    return [(low / size, high / size) for low, high in found]
+
+
 def _zones(
-    run: ProgramRun, axes: Sequence[str], wide: tuple[float, float], tall: tuple[float, float]
+    run: ProgramRun, axes: Sequence[str], size: float, wide: tuple[float, float], tall: tuple[float, float]
 ) -> Iterator[FilledArea]:
     """Yield the zones in the plane of the first two axes that reach into the picture."""
-    everywhere = (-math.inf, math.inf)
     for box in run.guarded:
         if not box.keeps_in and set(box.sides) & set(axes[:2]):
-            (left, right), (low, high) = (box.sides.get(axis, everywhere) for axis in axes[:2])
+            (left, right), (low, high) = _sides(box, axes, size)
             if left < wide[1] and right > wide[0] and low < tall[1] and high > tall[0]:
                 yield FilledArea(left, low, right, high, "outside", box.name)
 
 
 def _limits(
-    run: ProgramRun, axes: Sequence[str], wide: tuple[float, float], tall: tuple[float, float]
+    run: ProgramRun, axes: Sequence[str], size: float, wide: tuple[float, float], tall: tuple[float, float]
 ) -> Iterator[Polyline]:
     """Yield the limits of travel that lie in the picture."""
     for box in run.guarded:
-        for edge in box.sides.get(axes[0], ()) if box.keeps_in else ():
+        sides = _sides(box, axes, size) if box.keeps_in else []
+        for edge in sides[0] if sides else ():
             if wide[0] < edge < wide[1]:
                 yield Polyline(((edge, tall[0]), (edge, tall[1])), "limit", True)
-        for edge in box.sides.get(axes[1], ()) if box.keeps_in and len(axes) > 1 else ():
+        for edge in sides[1] if sides[1:] else ():
             if tall[0] < edge < tall[1]:
                 yield Polyline(((wide[0], edge), (wide[1], edge)), "limit", True)
 

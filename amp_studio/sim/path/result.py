@@ -13,7 +13,7 @@ from amp_studio.schema import Address, Value, show_value
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.path_rules import Indices, PathLimit
 from amp_studio.sim.rounding import rounded, value_text
-from amp_studio.sim.unit_system import in_text, length_unit
+from amp_studio.sim.unit_system import in_text, length_unit, path_error_text, path_error_unit
 
 from .job import ProgramVersion, WhatIf, scaled
 from .planner import ProgramPlan
@@ -185,15 +185,15 @@ def program_text(
     return "\n".join(in_text(line, length) for line in _lines(file, run, tries, others))
 
 
-def contour_text(run: ProgramRun) -> str:
-    """Return the contour error in words, or why there is none."""
+def contour_text(file: ParameterFile, run: ProgramRun) -> str:
+    """Return the contour error in words, in the unit of the file, or why there is none."""
     contour = run.contour
     if contour is None:
         return f"No contour error: {run.why_no_contour}"
+    largest, p95 = (path_error_text(each, length_unit(file)) for each in (contour.largest, contour.p95))
     return (
-        f"Contour error: at most {value_text(1000.0 * contour.largest, 'µm', 3)} in line {_line(run)}"
-        f" after {value_text(float(contour.time[contour.worst]), 's', 4)};"
-        f" 95 % of the time below {value_text(1000.0 * contour.p95, 'µm', 3)}"
+        f"Contour error: at most {largest} in line {_line(run)}"
+        f" after {value_text(float(contour.time[contour.worst]), 's', 4)}; 95 % of the time below {p95}"
     )
 
 
@@ -209,13 +209,13 @@ def _lines(
             param = f"  {row['param']}" if row["param"] else ""
             time = value_text(row["time_s"], "s", 5)
             yield f"  {100.0 * row['share']:5.1f} %  {time:>10}  {row['name']}{param}"
-    yield contour_text(run)
+    yield contour_text(file, run)
     if tries:
         yield "What if:"
         yield from (_try_line(file, run, each) for each in tries)
     if others:
         yield "Under other files:"
-        yield from (f"  {each.name}: {_other_line(run, each.run, each.why_not)}" for each in others)
+        yield from (f"  {each.name}: {_other_line(file, run, each.run, each.why_not)}" for each in others)
     for alarm in run.alarms:
         code = f"{alarm.code}: " if alarm.code else ""
         yield f"Line {alarm.line}: {code}{alarm.message}"
@@ -228,19 +228,20 @@ def _try_line(file: ParameterFile, before: ProgramRun, each: WhatIf) -> str:
         f"{file.machine_schema.short(address)} {before_it} -> {after_it}"
         for address, before_it, after_it in _changes(file, each)
     )
-    text = f"  {changed}: {_other_line(before, each.run, each.why_not)}"
+    text = f"  {changed}: {_other_line(file, before, each.run, each.why_not)}"
     if each.run is not None and each.not_allowed:
         text += f"; not allowed: {'; '.join(each.not_allowed)}"
     return text
 
 
-def _other_line(before: ProgramRun, run: ProgramRun | None, why_not: str) -> str:
+def _other_line(file: ParameterFile, before: ProgramRun, run: ProgramRun | None, why_not: str) -> str:
     if run is None:
         return why_not
     share = run.plan.time / before.plan.time - 1.0 if before.plan.time else 0.0
     text = f"{value_text(run.plan.time, 's', 5)}, {100.0 * share:+.1f} % time"
     if run.contour is not None and before.contour is not None:
-        text += f", {1000.0 * (run.contour.largest - before.contour.largest):+.3g} µm"
+        unit, times = path_error_unit(length_unit(file))
+        text += f", {times * (run.contour.largest - before.contour.largest):+.3g} {unit}"
     return text
 
 

@@ -26,11 +26,13 @@ from amp_studio.sim import (
     ProgramVersion,
     SimulationError,
     WhatIf,
+    length_unit,
     limit_sort,
     limit_tries,
     limited_by,
     line_rows,
     moment_at,
+    path_error_text,
     path_picture,
     run_against,
     try_summary,
@@ -266,6 +268,7 @@ class ProgramPage(PageOfFile):
     def start(self, job: ProgramJob, name: str) -> None:
         """Run a program under the file of now."""
         self._file = self._read()
+        self.tries.show_lengths_in(length_unit(self._file))
         try:
             text = str(self.form.answers()["zero"]).strip()
             zero = typed_places(text, self._file) if text else None
@@ -396,7 +399,7 @@ class ProgramPage(PageOfFile):
         time = written(value_text(run.plan.time, "s", 4))
         words = [f"{self._name}: {run.plan.path.blocks} {self.tr('blocks')}", time]
         if run.contour is not None:
-            error = written(value_text(1000.0 * run.contour.largest, "µm", 3))
+            error = written(path_error_text(run.contour.largest, length_unit(self._file)))
             words.append(self.tr("largest contour error {error}").format(error=error))
         self.title.setText(", ".join(words))
         alarms = [f"{self.tr('Line')} {each.line}: {each.code} {each.message}" for each in run.alarms[:2]]

@@ -9,7 +9,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QTableWidgetItem, QVBoxLayout, QWidget
 
 from amp_studio.schema import Address, Value
-from amp_studio.sim import value_text
+from amp_studio.sim import path_error_text, path_error_unit, value_text
 from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.theme import GAP, GAP2, font
 
@@ -18,13 +18,13 @@ from .program_tables import fill, read_table
 Values = Mapping[Address, Value]
 
 
-def effect(found: Mapping[str, Any]) -> tuple[str, str, str]:
+def effect(found: Mapping[str, Any], length: str) -> tuple[str, str, str]:
     """Return time, its change and that of the largest contour error of a try, as they are shown."""
     error = found.get("contour_error_change", {}).get("value")
     return (
         written(f"{found['time']['value']:.4g}"),
         written(f"{100.0 * found['time_change']:+.1f}"),
-        "" if error is None else written(f"{1000.0 * error:+.3g}"),
+        "" if error is None else written(f"{path_error_unit(length)[1] * error:+.3g}"),
     )
 
 
@@ -36,11 +36,11 @@ class WhatIfPanel(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
+        self._length = "mm"
         self._values: list[Values | None] = []
-        self.table = read_table(
-            self.tr("What if"), (self.tr("Change"), self.tr("s"), self.tr("%"), self.tr("Error, µm"))
-        )
+        self.table = read_table(self.tr("What if"), (self.tr("Change"), self.tr("s"), self.tr("%"), ""))
         self.table.itemChanged.connect(self._changed)
+        self.show_lengths_in("mm")
         self.together = QLabel()
         self.together.setFont(font("text", own=True))
         self.together.setWordWrap(True)
@@ -77,7 +77,7 @@ class WhatIfPanel(QWidget):
     def add(self, change: str, values: Values | None, found: Mapping[str, Any], *, is_ticked: bool) -> None:
         """Add a change with its effect; one without values, an earlier version, is not ticked."""
         self.table.blockSignals(True)
-        fill(self.table, [(change, *effect(found))], add=True)
+        fill(self.table, [(change, *effect(found, self._length))], add=True)
         self._values.append(values)
         if values is not None:
             item = self.table.item(self.table.rowCount() - 1, 0)
@@ -85,6 +85,12 @@ class WhatIfPanel(QWidget):
             item.setCheckState(Qt.CheckState.Checked if is_ticked else Qt.CheckState.Unchecked)
         self.table.blockSignals(False)
         self._show_buttons()
+
+    def show_lengths_in(self, length: str) -> None:
+        """Show the errors of the tries to come in the unit of a file, whose length is in ``mm`` or ``in``."""
+        self._length = length
+        unit = path_error_unit(length)[0]
+        self.table.horizontalHeaderItem(3).setText(self.tr("Error, {unit}").format(unit=unit))
 
     def clear(self) -> None:
         """Forget all changes."""
@@ -104,9 +110,11 @@ class WhatIfPanel(QWidget):
     def show_together(self, found: Mapping[str, Any]) -> None:
         """Show what the ticked changes bring together."""
         time = written(value_text(found["time"]["value"], "s", 4))
-        text = self.tr("Ticked together: {time}, {share} %").format(time=time, share=effect(found)[1])
+        text = self.tr("Ticked together: {time}, {share} %").format(
+            time=time, share=effect(found, self._length)[1]
+        )
         if "contour_error" in found:
-            error = written(value_text(1000.0 * found["contour_error"]["value"], "µm", 3))
+            error = written(path_error_text(found["contour_error"]["value"], self._length))
             text += "; " + self.tr("largest contour error {error}").format(error=error)
         self.together.setText(text)
 
