@@ -55,6 +55,56 @@ def test_the_bits_of_appendix_c_are_those_of_the_axes_of_the_file() -> None:
     assert "AXIS0 0.6" in lines[1]
 
 
+def test_the_speeds_of_a_num_are_run_by_the_printed_program_inside_its_travel() -> None:
+    """11-3: to 100 and -100, at a tenth of P30 and at the whole of it; the travel of X is -1 to 600 mm."""
+    found = programs_of("num-1060-mill/MILL_1060.amp", "0")
+    assert found["slow"].lines == ("N10 G9 X399.5 F600", "N15 G9 X199.5", "N20 G79 N10", "N25 M02")
+    assert found["fast"].lines[0].endswith("F6000")
+    assert found["fast"].steps[1].see.startswith("6000 internal units")  # 100 mm/s x 60 ms, in µm
+
+
+def test_the_first_motion_of_a_num_axis_compares_with_kvar_and_emax() -> None:
+    """6-44: 29491 / (VMAX x T) x k and VMAX x T x 11/10/k, of 100 mm/s, 60 ms and 1 µm: 4915 and 6600."""
+    see = " ".join(step.see for step in programs_of("num-1060-mill/MILL_1060.amp", "0")["servo-loop"].steps)
+    assert "KVAR 4915 and EMAX 6600 at 6000 mm/min and 60 ms; the file has 4915 and 6600" in see
+    measurement = programs_of("num-1060-mill/MILL_1060.amp", "1")["measurement"]
+    assert "211 for Y" in measurement.steps[0].see  # 5-25: error 210 to 241
+
+
+def test_a_modulo_axis_of_a_num_is_checked_in_degrees() -> None:
+    """7-18: off the switch in steps of 1 deg, then by 180 deg."""
+    lines = programs_of("num-1060-mill/MILL_1060.amp", "3")["homing"].lines
+    assert any("L5=L5+1" in line for line in lines)
+    assert any("EL1/1000+180" in line for line in lines)
+
+
+MASKS = {"gear": ["0ADH", "0ADH"], "velocity": ["0AFH", "0BBH"]}
+
+
+@pytest.mark.parametrize("name", MASKS)
+def test_the_tasks_of_a_module_clear_the_printed_bits_of_its_mode(name: str) -> None:
+    """5-8 and 5-9: before the mode is switched on, and off again."""
+    task = programs_of("57c422b-label-press/LABEL_PRESS.amp", "X")[name]
+    assert [line.rpartition(" ")[2] for line in task.lines if " AND " in line] == MASKS[name]
+    if name == "velocity":  # half of 160000 counts/s, times 65.536
+        assert "CMD_VEL!=5242880" in task.lines
+
+
+def test_the_task_of_a_cam_begins_it_and_ends_it() -> None:
+    """5-10: mode 9 is continuous and in words; 32 points of 12.5 ms."""
+    task = programs_of("57c422b-label-press/LABEL_PRESS.amp", "Y")["cam"]
+    assert task.lines[:3] == ("REG_2179%=0", "REG_2178%=9", r"REG_2114%=080H \GOSUB 25000")
+    assert "32 points are run through in 0.4 s" in task.steps[0].see
+    assert programs_of("57c422b-label-press/LABEL_PRESS.amp", "X")["cam"].refusal
+
+
+def test_the_inputs_of_a_module_are_those_that_register_2_uses() -> None:
+    """3-9, step 15; 011CH uses no home switch."""
+    wiring = programs_of("57c422b-label-press/LABEL_PRESS.amp", "X")["wiring"]
+    assert not any("home switch" in step.do for step in wiring.steps)
+    assert any("drive fault" in step.do for step in wiring.steps)
+
+
 def test_a_family_that_prints_none_is_named() -> None:
     with pytest.raises(SimulationError, match="No test program is printed"):
         programs_of("grblhal-router/GRBL_ROUTER.amp")

@@ -12,6 +12,12 @@ from __future__ import annotations
 HOME_SWITCH, HOME_NEGATIVE, MARKER, OVERTRAVEL_SWITCHES = 1 << 0, 1 << 2, 1 << 3, 1 << 4
 DRIVE_FAULT, SOFTWARE_OVERTRAVEL, OVERTRAVEL_COASTS = 1 << 8, 1 << 10, 1 << 11
 """Of register 2."""
+INPUTS = {
+    HOME_SWITCH: "home switch",
+    OVERTRAVEL_SWITCHES: "overtravel switch at each end",
+    DRIVE_FAULT: "drive fault input",
+}
+"""Bit of register 2 -> what it has the module look at."""
 ROTARY = 1 << 4
 """Of register 0, printed (4-4)."""
 
