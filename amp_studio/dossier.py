@@ -13,6 +13,7 @@ from amp_studio.files import (
     RECORD,
     Notify,
     ParameterFile,
+    axis_letter,
     content_of,
     local_time,
     read_content,
@@ -25,6 +26,7 @@ from amp_studio.report import (
     ExchangeLine,
     PrintedFigure,
     PrintedProgram,
+    PrintedTest,
     ProgramLimit,
     SetReport,
     print_report,
@@ -146,6 +148,41 @@ def checks_of(file: ParameterFile) -> Iterator[CheckedMotion]:
             yield CheckedMotion(check.verdict, check.scenario, check.letter, figures, text)
     except SimulationError:  # a family without a law, a file without axes
         return
+
+
+def machine_tests_of(file: ParameterFile, axis: str | None = None) -> Iterator[PrintedTest]:
+    """Yield the programs and procedures that try each axis of a file out, or one axis named by itself;
+    nothing for a family that prints none, and for an axis that cannot be made.
+    """
+    from amp_studio.sim import SimulationError, machine_tests, simulated_axes
+
+    shown: set[tuple[str, tuple[str, ...]]] = set()
+    for each in (axis,) if axis else simulated_axes(file):
+        try:
+            tests = machine_tests(file, each)
+        except SimulationError:
+            continue
+        letter = axis_letter(file, each) or each
+        for test in tests:
+            if test.lines and (test.title, test.lines) in shown:  # of the whole machine
+                continue
+            shown.add((test.title, test.lines))
+            name = tick_of_test(test.name, each)
+            yield PrintedTest(
+                name,
+                f"{letter}: {test.title}",
+                test.page,
+                test.lines,
+                tuple((f"{step.do}.", f"{step.see}.") for step in test.steps),
+                test.notes,
+                test.refusal,
+                file.header.done.get(name, ""),
+            )
+
+
+def tick_of_test(name: str, axis: str) -> str:
+    """Return what a tick of a test is kept under in the file."""
+    return f"{name}@{axis}"
 
 
 def programs_of(file: ParameterFile, paths: Sequence[Path]) -> Iterator[PrintedProgram]:

@@ -7,12 +7,13 @@ from amp_studio.files import ParameterFile
 from .steps import SetupStep
 
 
-def tick(file: ParameterFile, step: SetupStep, by: str | None) -> bool:
-    """Tick a step as done by somebody at some time (``by``), or take the tick away (None);
-    returns whether that is new.
+def tick(file: ParameterFile, step: SetupStep | str, by: str | None) -> bool:
+    """Tick a step, or a test at the machine by its id, as done by somebody at some time (``by``), or take the
+    tick away (None); returns whether that is new.
     """
-    if (file.header.done.get(step.id) is None) == (by is None):
+    key = step if isinstance(step, str) else step.id
+    if (file.header.done.get(key) is None) == (by is None):
         return False
-    others = {name: who for name, who in file.header.done.items() if name != step.id}
-    file.header.done = others if by is None else {**others, step.id: by}
+    others = {name: who for name, who in file.header.done.items() if name != key}
+    file.header.done = others if by is None else {**others, key: by}
     return True

@@ -122,3 +122,27 @@ def test_a_program_is_written_as_the_control_reads_it(
     assert message["tests"][0]["steps"][0]["see"]
     assert run(["machine-tests", str(MILL), "warp"]) == 2
     assert "Known: tuning" in capsys.readouterr().err
+
+
+def test_steps_at_the_machine_are_ticked_and_on_the_check_list(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Each has a box of its own, and the guide shows who ticked a test."""
+    from amp_studio.cli import run
+
+    mill = tmp_path / "mill.amp"
+    mill.write_bytes((EXAMPLES / "num-1060-mill" / "MILL_1060.amp").read_bytes())
+    assert run(["machine-tests", str(mill), "servo-loop", "--axis", "Y", "--done"]) == 0
+    assert run(["machine-tests", str(mill), "--done"]) == 2
+    assert run(["guide", str(mill)]) == 0
+    assert "[x] at the machine: servo-loop, axis 1, ticked" in capsys.readouterr().out
+    listed = tmp_path / "list.txt"
+    assert run(["guide", str(mill), "-o", str(listed)]) == 0
+    text = listed.read_text("utf-8").partition("TESTS AT THE MACHINE")[2]
+    assert "[x] Y: First motion under servo-control (page 6-44)" in text
+    assert "[ ] Z: First motion under servo-control (page 6-44)" in text
+    assert "Must be seen: it cuts off the power." in text
+    assert run(["machine-tests", str(mill), "servo-loop", "--axis", "Y", "--not-done"]) == 0
+    page = tmp_path / "tests.html"
+    assert run(["machine-tests", str(mill), "slow", "-o", str(page)]) == 0
+    assert page.read_text("utf-8").count("N20 G79 N10") == 4  # one for each axis

@@ -30,7 +30,9 @@ def leave_out_what_takes_long(patch: pytest.MonkeyPatch) -> None:
     tests/sim do so.
     """
     if not CAMPAIGN:
-        patch.setattr("amp_studio.sim.motion_check.CHECKED", ("step",))
+        from amp_studio.sim.scenarios import SCENARIOS
+
+        patch.setattr("amp_studio.sim.motion_check.SCENARIOS", {"step": SCENARIOS["step"]})
         patch.setattr("amp_studio.sim.scenarios.frequency.POINTS", 2)
         patch.setattr("amp_studio.sim.variations.scenario.SIDE", 3)
         patch.setattr("amp_studio.sim.path.program._contour", lambda plan, axes: (None, "not computed here"))

@@ -23,6 +23,7 @@ from page_pictures import BEGINS_WITH, files_of
 from amp_studio import cli
 from amp_studio.cli import console
 from amp_studio.schema.yaml_reader import read_yaml
+from amp_studio.sim.scenarios import SCENARIOS
 from amp_studio.transfer.links.endpoint import parse_endpoint
 from amp_studio.transfer.links.opening import listen
 from amp_studio.transfer.plain.line import ByteLine, Patience
@@ -331,7 +332,7 @@ def without_empty(found: object, described: str) -> str:
 def test_the_page_of_commands_has_the_keys_of_every_json_document(
     stage: Stage, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("amp_studio.sim.motion_check.CHECKED", ("step",))
+    monkeypatch.setattr("amp_studio.sim.motion_check.SCENARIOS", {"step": SCENARIOS["step"]})
     for name, source in {**PROGRAM, **PRESS, "mill.amp": MILL, "second.amp": MILL}.items():
         shutil.copy(source, name)
     Path("plate.nc").write_text("G20 G90 G61\nG1 X-0.2 F100\nM2\n", encoding="utf-8")

@@ -60,12 +60,12 @@ def _measurement(machine: BoundMachine, axis: AxisLaw, letter: str) -> MachineTe
             "the shown movement is the real one; else calculate MULTI / DIVI of P11 again",
         ),
     )
-    return MachineTest("measurement", f"Measurement of axis {letter}", "5-25", steps=steps)
+    return MachineTest("measurement", "Measurement before servo-control", "5-25", steps=steps)
 
 
 def _servo_loop(machine: BoundMachine, axis: AxisLaw, letter: str) -> MachineTest:
     """The loop closed for the first time, with KVAR and EMAX of its top speed and time constant (6-44)."""
-    title, notes = f"First motion of axis {letter} under servo-control", list[str]()
+    title, notes = "First motion under servo-control", list[str]()
     words = read_words(machine.read(axis.axis), notes)
     top, constant = words.top * 60.0, words.constant * 1000.0
     gain = loop_gain_coefficient(top, constant, words.length, words.voltage)
@@ -119,7 +119,7 @@ def _zero_point(axis: AxisLaw, letter: str) -> MachineTest:
                 f"Move axis {letter} slowly to {ends}", "it is stopped by P17 before the electrical switch"
             )
         )
-    return MachineTest("zero-point", f"Zero point and travel of axis {letter}", "7-16", steps=tuple(steps))
+    return MachineTest("zero-point", "Zero point and travel", "7-16", steps=tuple(steps))
 
 
 def _homing(machine: BoundMachine, axis: AxisLaw, letter: str) -> MachineTest:
@@ -253,8 +253,8 @@ def _of_speed(machine: BoundMachine, axis: AxisLaw, letter: str, speed: float) -
         ),
         MachineTestStep(
             "Read the ERROR column of the AXIS page at the steady speed",
-            f"{behind:.0f} internal units in both directions (speed x time constant); else adjust the scale of"
-            f" the drive, {words.voltage:g} V at the highest speed",
+            f"{behind:.0f} internal units in both directions (speed x time constant); else adjust the scale"
+            f" of the drive, {words.voltage:g} V at the highest speed",
         ),
         MachineTestStep(
             "Read the ERROR column of the axes that are at rest",

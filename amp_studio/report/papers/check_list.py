@@ -5,7 +5,7 @@ every value that is not set with a blank.
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -24,6 +24,7 @@ from amp_studio.version import __version__
 from .endings import write_by_ending
 
 WIDTH = 100
+AT_MACHINE = "Tests at the machine"
 _MOST_CHOICES = 6
 """Choices that a line of the list still has room for."""
 
@@ -64,6 +65,24 @@ class ListedStep:
 
 
 @dataclass(frozen=True)
+class PrintedTest:
+    """One program or procedure that tries a machine out."""
+
+    id: str
+    """As a tick names it: ``homing@0``."""
+    title: str
+    page: str
+    lines: tuple[str, ...] = ()
+    steps: tuple[tuple[str, str], ...] = ()
+    """What to do, and what must be seen."""
+    notes: tuple[str, ...] = ()
+    refusal: str = ""
+    """Why the file does not allow it."""
+    ticked: str = ""
+    """When and by whom it was ticked as done."""
+
+
+@dataclass(frozen=True)
 class CheckList:
     """The list of one file at one moment."""
 
@@ -75,6 +94,7 @@ class CheckList:
     summary: str
     steps: tuple[ListedStep, ...]
     date: datetime
+    tests: tuple[PrintedTest, ...] = ()
     program: str = f"AMP Studio {__version__}"
     language: str = "en"
     """Code of the language of the list's own words."""
@@ -91,8 +111,9 @@ def build_check_list(
     path: Path | None = None,
     date: datetime | None = None,
     language: str = "en",
+    tests: Iterable[PrintedTest] = (),
 ) -> CheckList:
-    """Return the check list of a file: the steps that its machine needs;
+    """Return the check list of a file: the steps that its machine needs, and ``tests`` at the machine;
     ``language`` is a code of ``language_codes``.
     """
     order, words = file.schema.commissioning, language_of(language, file.schema.family.family)
@@ -108,6 +129,7 @@ def build_check_list(
         summary=done,
         steps=tuple(_listed(file, each, words) for each in now.needed),
         date=date or datetime.now().astimezone(),
+        tests=tuple(tests),
         language=language,
     )
 
@@ -177,6 +199,28 @@ def check_list_lines(checks: CheckList) -> Iterator[str]:
             yield from _wrapped(text, " " * 8)
         for value in each.values:
             yield from _value_lines(value, words)
+    if checks.tests:
+        yield from ("", words.text(AT_MACHINE).upper())
+    for test in checks.tests:
+        yield from _test_lines(test, words)
+
+
+def _test_lines(test: PrintedTest, words: Language) -> Iterator[str]:
+    """Yield a test: its program as it is, each step with a box."""
+    mark = "x" if test.ticked else " "
+    yield ""
+    yield from _wrapped(f"{test.title} ({words.text(f'page {test.page}')})", f"[{mark}] ")
+    if test.ticked:
+        yield from _wrapped(with_local_times(test.ticked), " " * 8)
+    if test.refusal:
+        yield from _wrapped(test.refusal, " " * 8)
+        return
+    yield from (f"{'':12}{printable(line)}" for line in test.lines)
+    for do, see in test.steps:
+        yield from _wrapped(do, "        [ ] ")
+        yield from _wrapped(see, f"{'':12}{words.text('Must be seen')}: ")
+    for note in test.notes:
+        yield from _wrapped(note, " " * 8)
 
 
 def _value_lines(value: OpenValue, words: Language) -> Iterator[str]:

@@ -9,7 +9,8 @@ from PySide6.QtCore import QUrl
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QFileDialog
 
-from amp_studio.files import check_output
+from amp_studio.files import Notify, ParameterFile, check_output
+from amp_studio.guide import GuideProgress
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.base.workspace import Workspace
@@ -20,8 +21,6 @@ def write_check_list_of(window: StudioWindow, workspace: Workspace) -> None:
     """Ask for a file and write the check list into it, then open it; nothing where the dialog is
     cancelled.
     """
-    from amp_studio.report import build_check_list, write_check_list
-
     endings = tr("PDF (*.pdf);;Web page (*.html);;Text (*.txt)")
     start = workspace.path.with_name(f"{workspace.path.stem}-check-list.pdf")
     text, chosen = QFileDialog.getSaveFileName(window, tr("Check List"), str(start), endings)
@@ -31,10 +30,28 @@ def write_check_list_of(window: StudioWindow, workspace: Workspace) -> None:
     if not path.suffix:
         path = path.with_suffix(chosen[chosen.index("*") + 1 : -1])
     check_output(path, workspace.path)
-    checks = build_check_list(
-        workspace.file, workspace.progress, workspace.path, language=window.report_choice.contents.language
-    )
     notes: list[str] = []
-    in_background(window, tr("Check List"), partial(write_check_list, checks, path, notes.append))
+    write = partial(
+        _write,
+        workspace.file.copy(),
+        workspace.progress,
+        workspace.path,
+        window.report_choice.contents.language,
+        path,
+        notes.append,
+    )
+    in_background(window, tr("Check List"), write)
     window.show_status("; ".join([tr("{path} written").format(path=path), *notes]))
     QDesktopServices.openUrl(QUrl.fromLocalFile(str(path)))
+
+
+def _write(
+    file: ParameterFile, progress: GuideProgress, name: Path, language: str, path: Path, notify: Notify
+) -> None:
+    """Write the list with the tests at the machine, which the simulator makes."""
+    from amp_studio.dossier import machine_tests_of
+    from amp_studio.report import build_check_list, write_check_list
+
+    write_check_list(
+        build_check_list(file, progress, name, language=language, tests=machine_tests_of(file)), path, notify
+    )

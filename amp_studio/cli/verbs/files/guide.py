@@ -210,11 +210,11 @@ def _change(options: Options, machine: MachineParameters) -> None:
 
 
 def _write(options: Options, file: ParameterFile, come: GuideProgress, path: Path) -> int:
+    from amp_studio.dossier import machine_tests_of
     from amp_studio.report import build_check_list, write_check_list
 
-    write_check_list(
-        build_check_list(file, come, path, language=options.language), options.output, print_remark
-    )
+    checks = build_check_list(file, come, path, language=options.language, tests=machine_tests_of(file))
+    write_check_list(checks, options.output, print_remark)
     print(options.output)
     return 0
 
@@ -249,6 +249,7 @@ def _value_text(value: OpenValue) -> str:
 
 
 def _overview(file: ParameterFile, come: GuideProgress, path: Path) -> Iterator[str]:
+    from amp_studio.files import with_local_times
     from amp_studio.report import delivered_text, open_value
 
     yield f"{path}: {come.done} of {len(come.needed)} steps done, {come.set} of {come.total} values set"
@@ -263,6 +264,10 @@ def _overview(file: ParameterFile, come: GuideProgress, path: Path) -> Iterator[
                 yield f"        {' '.join(filter(None, (value.number, value.name, value.place)))}"
             if len(each.open) > _MOST:
                 yield f"        and {len(each.open) - _MOST} more"
+    known = {each.step.id for each in come.steps}
+    for name, who in file.header.done.items():
+        if name not in known:
+            yield f"[x] at the machine: {name.replace('@', ', axis ')}, ticked {with_local_times(who)}"
     if come.deferred:
         yield f"{delivered_text(come.deferred, come.deferred_to)}; validate --json lists them"
 

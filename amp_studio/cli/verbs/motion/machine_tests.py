@@ -5,7 +5,7 @@ or refused with the reason.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,7 +17,10 @@ from amp_studio.cli.output import check_replaced
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
+    from amp_studio.files import ParameterFile
     from amp_studio.sim import MachineTest
+
+PAPERS = (".pdf", ".html")
 
 VERB = Verb(
     __doc__,
@@ -26,13 +29,23 @@ VERB = Verb(
         "name", nargs="?", metavar="TEST", help="one of them by its name; without it all are listed"
     ),
     AXIS,
-    OUTPUT.but(required=False, help="file for the program of one test, as the control reads it"),
+    OUTPUT.but(
+        required=False,
+        help="file for the program of one test, as the control reads it; .pdf or .html for the check list of"
+        " all of them",
+    ),
+    VerbArgument(
+        "--done", action="store_true", help="tick the test of an axis as done; it is kept in the file"
+    ),
+    VerbArgument("--not-done", action="store_true", help="take that tick away"),
     JSON,
     *TEXT,
-    writes=("output",),
+    writes=("output", "path"),
     examples=(
         "amp-studio machine-tests MILL_1394.amp --axis X",
         "amp-studio machine-tests MILL_1394.amp tuning --axis X -o tuning.nc",
+        "amp-studio machine-tests MILL_1394.amp -o tests.pdf",
+        "amp-studio machine-tests MILL_1394.amp tuning --axis X --done",
     ),
 )
 
@@ -43,8 +56,12 @@ def run(options: Options) -> int:
 
     if options.output:
         check_replaced(options.output, options.path)
+    if options.done or options.not_done:
+        return _tick(options)
     machine = opened(options.path, options)
     file, axis = machine.file, machine.axis(options.axis) if options.axis else None
+    if options.output and options.output.suffix.lower() in PAPERS:
+        return _write_list(options, file, axis)
     tests = machine_tests(file, axis)
     if options.name:
         tests = _named_test(tests, options.name)
@@ -55,6 +72,45 @@ def run(options: Options) -> int:
     else:
         print("\n\n".join(map(text, tests)))
     return int(bool(options.name) and bool(tests[0].refusal))
+
+
+def _tick(options: Options) -> int:
+    """Tick the test that is named, of the axis or of the first one, or take its tick away."""
+    from amp_studio import edit
+    from amp_studio.dossier import tick_of_test
+    from amp_studio.files import now, user
+    from amp_studio.guide import tick
+    from amp_studio.sim import machine_tests, simulated_axes
+
+    if not options.name or (options.done and options.not_done):
+        raise UsageError("Name the one test that is ticked, with --done or --not-done")
+    with edit(options.path) as machine:
+        axis = machine.axis(options.axis) if options.axis else next(iter(simulated_axes(machine.file)), "")
+        test = _named_test(machine_tests(machine.file, axis), options.name)[0]
+        if tick(
+            machine.file, tick_of_test(test.name, axis), f"{now()} by {user()}" if options.done else None
+        ):
+            machine.save(verb="machine-tests")
+    print(f"{options.path}: {test.name} of axis {axis} {'ticked' if options.done else 'not ticked'}")
+    return 0
+
+
+def _write_list(options: Options, file: ParameterFile, axis: str | None) -> int:
+    """Write the tests as a list with a box for each step."""
+    from amp_studio.dossier import machine_tests_of
+    from amp_studio.guide import progress
+    from amp_studio.report import build_check_list, write_check_list
+    from amp_studio.validate import Validator
+
+    name = f"{options.name}@" if options.name else ""
+    tests = [test for test in machine_tests_of(file, axis) if test.id.startswith(name)]
+    if not tests:
+        raise UsageError(f"{options.path} has no such test. `amp-studio machine-tests` lists them")
+    come = progress(Validator(file), ())
+    checks = build_check_list(file, replace(come, steps=()), options.path, tests=tests)
+    write_check_list(replace(checks, summary="", order=""), options.output, print_remark)
+    print(options.output)
+    return 0
 
 
 def _named_test(tests: Sequence[MachineTest], name: str) -> tuple[MachineTest, ...]:
