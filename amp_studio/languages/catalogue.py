@@ -19,6 +19,7 @@ TextSection = Literal[
     "patterns",
     "titles",
     "title_patterns",
+    "sentences",
     "nouns",
     "units",
     "messages",

@@ -32,6 +32,22 @@ _REMARK = re.compile(r"\((inferred|figure lost|codes lost)\)")
 
 
 @dataclass(frozen=True)
+class SentencePattern:
+    """A sentence whose figures and names are ``{names}``, and its words in another language."""
+
+    words: str
+    """Its longest part without a name: a text that lacks it is another sentence."""
+    pattern: re.Pattern[str]
+    """Each name is a group."""
+    own: str
+
+    def found(self, text: str) -> dict[str, str] | None:
+        """Return name -> what the text has in its place; None for another sentence."""
+        found = self.pattern.fullmatch(text) if self.words in text else None
+        return None if found is None else found.groupdict()
+
+
+@dataclass(frozen=True)
 class Language:
     """One language: English phrase -> its own, and patterns for phrases with a part that changes."""
 
@@ -49,8 +65,9 @@ class Language:
     message_patterns: tuple[tuple[re.Pattern[str], str], ...] = ()
     facts: FactTexts = NO_TEXTS
     """What decides in the facts of a family."""
-    fact_patterns: tuple[tuple[re.Pattern[str], str], ...] = ()
-    """Sentences of a family with figures in them: their names are groups."""
+    sentences: tuple[SentencePattern, ...] = ()
+    """Sentences with figures in them, those of a family first, and the longest of each first: a long one is
+    not taken for what a short one puts into its name."""
     units: dict[str, str] = field(default_factory=dict)
     """Printed unit -> its own spelling."""
     point: str = "."
@@ -85,9 +102,9 @@ class Language:
         known = self.facts.sentences.get(english) or self.titles.get(english)
         if known is not None:
             return known
-        for pattern, own in self.fact_patterns:
-            if found := pattern.fullmatch(english):
-                return own.format_map({name: part(text) for name, text in found.groupdict().items()})
+        for sentence in self.sentences:
+            if (figures := sentence.found(english)) is not None:
+                return sentence.own.format_map({name: part(text) for name, text in figures.items()})
         for pattern, own in self.title_patterns:
             if found := pattern.fullmatch(english):
                 return own.format(*map(part, found.groups()))
@@ -188,34 +205,39 @@ def language_of(code: str, family: str = "") -> Language:
     if code == "en":
         return ENGLISH
     if family:
-        facts = fact_texts(family, code)
-        patterns = tuple((_pattern_of(english), own) for english, own in facts.patterns.items())
-        return replace(language_of(code), facts=facts, fact_patterns=patterns)
+        facts, shared = fact_texts(family, code), language_of(code)
+        return replace(shared, facts=facts, sentences=(*_sentences(facts.patterns), *shared.sentences))
     name = name_of_language(code)
+    sentences = _own(code, "sentences")
     return Language(
         code,
         name,
         _own(code, "phrases"),
         _compiled(_own(code, "patterns")),
         {noun: (forms[0], forms[-1]) for noun, forms in own_texts(code, "nouns").items()},
-        _own(code, "titles"),
+        _own(code, "titles") | {text: own for text, own in sentences.items() if not figures_in(text)},
         _compiled(_own(code, "title_patterns")),
         _own(code, "messages"),
         _compiled(_own(code, "message_patterns")),
+        sentences=_sentences({text: own for text, own in sentences.items() if figures_in(text)}),
         units=_own(code, "units"),
         point=_own(code, "window")["."],
     )
 
 
-def _pattern_of(sentence: str) -> re.Pattern[str]:
-    """Return what finds a sentence whose figures are ``{names}``, each a group."""
-    names = figures_in(sentence)
-    parts = re.split(r"\{([a-z_]+)\}", sentence)
-    return re.compile(
-        "".join(
-            f"(?P<{part}>.+?)" if n % 2 and part in names else re.escape(part) for n, part in enumerate(parts)
-        )
-    )
+def _sentences(texts: dict[str, str]) -> tuple[SentencePattern, ...]:
+    """Return sentences (English -> own), the one with the most words beside its names first."""
+    found = []
+    for english, own in texts.items():
+        parts = re.split(r"\{([a-z_]+)\}", english)  # words, a name, words, a name, words
+        words = parts[::2]
+        pattern = ""
+        for n, part in enumerate(parts):
+            again = part in parts[1:n:2]
+            name = f"(?P={part})" if again else f"(?P<{part}>.+?)"
+            pattern += name if n % 2 else re.escape(part)
+        found.append((sum(map(len, words)), SentencePattern(max(words, key=len), re.compile(pattern), own)))
+    return tuple(sentence for _, sentence in sorted(found, key=lambda each: -each[0]))
 
 
 def _own(code: str, section: TextSection) -> dict[str, str]:

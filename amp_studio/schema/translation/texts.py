@@ -57,8 +57,9 @@ def compile_texts(compiled: Compiled, files: list[Path]) -> FactTexts:
                 raise DatabaseError(path, line(place), wrong)
             if place[0] == "rules" and place[2] == "message":
                 messages[str(place[1])] = text
-            else:
-                sentences[english[place]] = text
+            # A message that was made in English is found by its words, as any other sentence.
+            has_figures = place[0] == "rules" and figures_in(english[place])
+            (patterns if has_figures else sentences)[english[place]] = text
         for phrase, text in translation.phrases.items():
             if figures_in(phrase) != figures_in(text):
                 raise DatabaseError(path, line(("phrases", phrase)), _OTHER_NAMES)

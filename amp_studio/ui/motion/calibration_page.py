@@ -215,6 +215,7 @@ class CalibrationPage(QWidget):
 
     def _show_table(self, file: ParameterFile, offered: Compensation) -> None:
         form, axis = offered.table, self.axis.currentData()
+        family = file.schema.family.family
         assert form is not None
         assert self.target is not None
         try:
@@ -226,10 +227,10 @@ class CalibrationPage(QWidget):
             lines = (*form.limits(file, axis), form.switching)
         except CalibrationError as error:
             lines = (str(error), form.switching)
-        self.fault.setText(fault)
+        self.fault.setText(sentenced(fault, family))
         self.fault.setStyleSheet(f"color: {colour('warn').name()}")
         self.fault.setVisible(bool(fault))
-        self.limits.setText("\n".join(sentenced(line) for line in lines))
+        self.limits.setText("\n".join(sentenced(line, family) for line in lines))
         self._fill(table)
         self.plot.show_errors(
             (ErrorTrace(self.tr("error that the table takes away"), table.curve, "now"),), table.unit

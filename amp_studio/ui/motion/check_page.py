@@ -58,7 +58,7 @@ class _Checking(QObject):
                     break
                 self.checked.emit(check)
         except SimulationError as error:
-            return error.what
+            return sentenced(error.what, self._file.schema.family.family)
         return ""
 
 

@@ -37,7 +37,7 @@ from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3
-from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.translated import sentenced, worded
 from amp_studio.ui.forms.form import Field, FieldForm
 
 
@@ -124,18 +124,26 @@ class IdentifyDialog(QDialog):
         except (SimulationError, OSError) as error:
             self.trace = None
             self.plot.clear_picture()
-            self.message.setText(str(error))
+            self.message.setText(self._sentence(str(error)))
         else:
             self.plot.draw(picture_of(self.trace))
             found = [
-                f"{worded(each.parameter)} {written(value_text(each.value, each.unit))}: {each.why}"
+                f"{worded(each.parameter)} {written(value_text(each.value, each.unit))}:"
+                f" {self._sentence(each.why)}"
                 for each in self.trace.recommendations
             ]
-            texts = (*self.trace.doubts, *found, *map(worded, self.trace.assumptions))
+            texts = (
+                *map(self._sentence, self.trace.doubts),
+                *found,
+                *map(self._sentence, self.trace.assumptions),
+            )
             self.message.setText("\n".join(texts))
         self._show_figures()
         for button in (self.use, self.save):
             button.setEnabled(self.trace is not None)
+
+    def _sentence(self, text: str) -> str:
+        return sentenced(text, self._file.schema.family.family)
 
     def _show_figures(self) -> None:
         while self.figures.rowCount():
@@ -143,7 +151,7 @@ class IdentifyDialog(QDialog):
         if self.trace is None:
             return
         for words, text in figure_rows(self.trace):
-            self.figures.addRow(worded(words), QLabel(text))
+            self.figures.addRow(worded(words), QLabel(self._sentence(text)))
         if "rows_used" in self.trace.result:
             used, rows = (int(self.trace.result[name][0] or 0) for name in ("rows_used", "rows"))
             text = self.tr("{used} of {all}").format(used=used, all=rows)
@@ -165,7 +173,7 @@ class IdentifyDialog(QDialog):
             try:
                 write_machine(self.trace, self._file.schema.family.family, path)
             except (SaveError, OSError) as error:
-                self.message.setText(str(error))
+                self.message.setText(self._sentence(str(error)))
             else:
                 self.message.setText(self.tr("{path} written").format(path=path))
 

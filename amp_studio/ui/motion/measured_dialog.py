@@ -32,6 +32,7 @@ from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3, colour
+from amp_studio.ui.base.translated import sentenced
 from amp_studio.ui.forms.form import Field, FieldForm
 
 from .error_plot import ErrorPlot, ErrorTrace
@@ -184,7 +185,7 @@ class MeasuredDialog(QDialog):
             )
         except (CalibrationError, OSError) as error:
             self.proposal = None
-            self._show_nothing(str(error))
+            self._show_nothing(sentenced(str(error), self._file.schema.family.family))
         else:
             self._show(measurement, self.proposal)
         self.form.show_visible()

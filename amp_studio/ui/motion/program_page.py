@@ -47,7 +47,7 @@ from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.scene_painter import TOKENS
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import GAP2, GAP3, colour, font, scheme
-from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.translated import sentenced, worded
 from amp_studio.ui.forms.form import Field, FieldForm
 from amp_studio.ui.forms.segment import Segment
 from amp_studio.ui.page.page_of_file import PageOfFile
@@ -216,7 +216,7 @@ class ProgramPage(PageOfFile):
         try:
             block = BlockReader(self._read()).read(text)
         except ProgramBlockError as error:
-            self._say(str(error))
+            self._say(self._worded(str(error)))
             return
         short = self._file.machine_schema.short
         self.words.show()
@@ -225,14 +225,14 @@ class ProgramPage(PageOfFile):
             [
                 (
                     word.word,
-                    "" if word.number is None else value_text(word.number, word.unit, 9),
-                    f"{word.meaning}: {word.fault}" if word.fault else word.meaning,
+                    "" if word.number is None else self._worded(value_text(word.number, word.unit, 9)),
+                    ": ".join(map(self._worded, filter(None, (word.meaning, word.fault)))),
                     ", ".join(short(address) for address in word.params),
                 )
                 for word in block.words
             ],
         )
-        self._say("; ".join(block.faults) or "; ".join(block.assumptions))
+        self._say("; ".join(map(self._worded, block.faults or block.assumptions)))
 
     def _show_power_up(self) -> None:
         """Show the codes after power-up, what changes them, and the calls of the builder's programs."""
@@ -242,7 +242,12 @@ class ProgramPage(PageOfFile):
         fill(
             self.words,
             [
-                (line.code, "", f"{line.what}: {line.meaning}", ", ".join(map(short, line.params)))
+                (
+                    line.code,
+                    "",
+                    f"{self._worded(line.what)}: {self._worded(line.meaning)}",
+                    ", ".join(map(short, line.params)),
+                )
                 for line in (*found.active, *found.changes, *found.calls)
             ],
         )
@@ -263,7 +268,7 @@ class ProgramPage(PageOfFile):
         try:
             self.start(ProgramJob(read_program(path)), path.name)
         except (ProgramBlockError, OSError) as error:
-            self._say(str(error))
+            self._say(self._worded(str(error)))
 
     def start(self, job: ProgramJob, name: str) -> None:
         """Run a program under the file of now."""
@@ -273,7 +278,7 @@ class ProgramPage(PageOfFile):
             text = str(self.form.answers()["zero"]).strip()
             zero = typed_places(text, self._file) if text else None
         except SimulationError as error:
-            self._say(str(error))
+            self._say(self._worded(str(error)))
             return
         self._job, self._name = replace(job, zero=zero), name
         job = self._job
@@ -288,7 +293,7 @@ class ProgramPage(PageOfFile):
         try:
             values = typed_values(self._file, text.split(";"))
         except SimulationError as error:
-            self._say(str(error))
+            self._say(self._worded(str(error)))
             return
         self._compute([values], is_ticked=True)
 
@@ -334,7 +339,7 @@ class ProgramPage(PageOfFile):
         assert self.outcome is not None
         for each in found:
             if each.run is None:
-                self._say(each.why_not)
+                self._say(self._worded(each.why_not))
                 continue
             self.tries.add(each.name, None, run_against(self.outcome, each.run), is_ticked=False)
         self._say(self.tr("{count} earlier versions").format(count=len(found)))
@@ -350,10 +355,10 @@ class ProgramPage(PageOfFile):
     def _show_together(self, tried: WhatIf) -> None:
         assert self.outcome is not None
         if tried.run is None:
-            self._say(tried.why_not)
+            self._say(self._worded(tried.why_not))
             return
         self.tries.show_together(try_summary(self._file, self.outcome, tried))
-        self._say("; ".join(tried.not_allowed))
+        self._say("; ".join(map(self._worded, tried.not_allowed)))
 
     def _begin(
         self, work: Callable[[Callable[[str, float], None]], object], show: Callable[..., None]
@@ -370,9 +375,11 @@ class ProgramPage(PageOfFile):
             return work(step)
 
         task = self._task = Task(run, self)
-        task.progressed.connect(lambda what, done, _of: self._say(f"{what} {done} %"))
+        task.progressed.connect(lambda what, done, _of: self._say(f"{self._worded(what)} {done} %"))
         task.done.connect(show)
-        task.failed.connect(lambda error: self._say("" if isinstance(error, StoppedError) else str(error)))
+        task.failed.connect(
+            lambda error: self._say("" if isinstance(error, StoppedError) else self._worded(str(error)))
+        )
         task.begin()
 
     def _show(self, run: ProgramRun) -> None:
@@ -384,14 +391,14 @@ class ProgramPage(PageOfFile):
                 (
                     row["letter"],
                     f"{worded(row['name'])}  {row['param']}".rstrip(),
-                    f"{row['time_s']:.3g}",
+                    written(f"{row['time_s']:.3g}"),
                     f"{100 * row['share']:.0f}",
                 )
                 for row in limited_by(self._file, run)
             ],
         )
         assert self._job is not None
-        listed = {n: (letter, f"{time:.3g}") for n, (letter, time) in line_rows(run).items()}
+        listed = {n: (letter, written(f"{time:.3g}")) for n, (letter, time) in line_rows(run).items()}
         fill(
             self.lines,
             [(line, *listed.get(n, ("", ""))) for n, line in enumerate(self._job.lines[:MOST_LINES], 1)],
@@ -402,7 +409,10 @@ class ProgramPage(PageOfFile):
             error = written(path_error_text(run.contour.largest, length_unit(self._file)))
             words.append(self.tr("largest contour error {error}").format(error=error))
         self.title.setText(", ".join(words))
-        alarms = [f"{self.tr('Line')} {each.line}: {each.code} {each.message}" for each in run.alarms[:2]]
+        alarms = [
+            f"{self.tr('Line')} {each.line}: {each.code} {self._worded(each.message)}"
+            for each in run.alarms[:2]
+        ]
         self._say("; ".join(alarms))
         self._colour_letters()
         self.bar.show_parts(
@@ -414,7 +424,10 @@ class ProgramPage(PageOfFile):
         self.play.show_program(run.plan.time)
         text = self.tr("Cutter radius compensation and the tool are not simulated. Assumed: {count}")
         self.missing.setText(text.format(count=len(run.assumptions)))
-        self.missing.setToolTip("\n".join(map(worded, run.assumptions)))
+        self.missing.setToolTip("\n".join(map(self._worded, run.assumptions)))
+
+    def _worded(self, text: str) -> str:
+        return sentenced(text, self._read().schema.family.family)
 
     def _colour_letters(self) -> None:
         """Write the letters of limits in the colours that the path has."""
@@ -452,7 +465,7 @@ class ProgramPage(PageOfFile):
             changes = [f"{one['param']}\n{one['from']} → {one['to']}" for one in found["changes"]]
             self.tries.add("\n".join(changes), each, found, is_ticked=is_ticked)
             notes += tried.not_allowed
-        self._say("; ".join(notes))
+        self._say("; ".join(map(self._worded, notes)))
         self._try_together()
 
     def _apply_ticked(self) -> None:

@@ -46,17 +46,17 @@ class FiguresPage(QTextBrowser):
     def _at(self, time_s: float) -> str:
         return html.escape(self.tr("at {time} s").format(time=written(f"{time_s:.4g}")))
 
-    def show_trace(self, trace: Trace, before: Trace | None, kind: str = "saved") -> None:
-        """Show the figures of a trace, with those of the saved file or of what was ``kept``."""
+    def show_trace(self, family: str, trace: Trace, before: Trace | None, kind: str = "saved") -> None:
+        """Show the figures of a trace of a family, with those of the saved file or of what was ``kept``."""
         shade = severity_colour("error").name()
         alarms = "".join(
             f'<p style="color:{shade}"><b>{html.escape(a.code)}</b> {self._at(a.time_s)}:'
-            f" {html.escape(sentenced(a.message))}</p>"
+            f" {html.escape(sentenced(a.message, family))}</p>"
             for a in trace.alarms
         )
         warn = severity_colour("warning").name()
         doubts = "".join(
-            f'<p style="color:{warn}">{html.escape(sentenced(text))}</p>' for text in trace.doubts
+            f'<p style="color:{warn}">{html.escape(sentenced(text, family))}</p>' for text in trace.doubts
         )
         beside = self.tr("kept") if kind == "kept" else self.tr("saved")
         self.setHtml(
@@ -143,8 +143,9 @@ class RecommendationsPage(QScrollArea):
         if usable:
             head.addWidget(self._button(self.tr("Apply"), [each]), alignment=Qt.AlignmentFlag.AlignTop)
         column.addLayout(head)
-        price = self.tr("Price: {price}").format(price=sentenced(each.price)) if each.price else ""
-        for text in (sentenced(each.why), price):
+        family = schema.family.family
+        price = self.tr("Price: {price}").format(price=sentenced(each.price, family)) if each.price else ""
+        for text in (sentenced(each.why, family), price):
             if text:
                 label = QLabel(html.escape(text))
                 label.setWordWrap(True)
@@ -170,7 +171,7 @@ class AssumptionsPage(QTextBrowser):
     def _at(self, time_s: float) -> str:
         return html.escape(self.tr("at {time} s").format(time=written(f"{time_s:.4g}")))
 
-    def show_trace(self, trace: Trace) -> None:
-        """Show the assumptions of a trace."""
+    def show_trace(self, family: str, trace: Trace) -> None:
+        """Show the assumptions of a trace of a family."""
         ordered = sorted(trace.assumptions, key=lambda text: not text.startswith("ASSUMED"))
-        self.setHtml("".join(f"<p>{html.escape(sentenced(text))}</p>" for text in ordered))
+        self.setHtml("".join(f"<p>{html.escape(sentenced(text, family))}</p>" for text in ordered))

@@ -15,6 +15,7 @@ from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import GAP
+from amp_studio.ui.base.translated import sentenced
 
 from .tuning_target import TuningTarget
 
@@ -151,7 +152,8 @@ class StepAnswer(QWidget):
     def _failed(self, error: Exception) -> None:
         self.plot.clear_picture()
         self.trace = None
-        self.text.setText(str(error))
+        family = self._target.file.schema.family.family if self._target else ""
+        self.text.setText(sentenced(str(error), family))
 
     def _finished(self) -> None:
         self._task = None

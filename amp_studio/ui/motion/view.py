@@ -403,15 +403,17 @@ class MotionView(PageOfFile):
         for button in (self.save_button, self.all_of_it, self.keep):
             button.setEnabled(True)
         self.settling.setEnabled(settling_span(trace) is not None)
+        schema = self._workspace.file.schema
+        family = schema.family.family
         assumed = sum(text.startswith("ASSUMED") for text in trace.assumptions)
         text = self.tr("<b>%n figures of the machine are assumed</b>, see Assumed.", "", assumed)
-        self.summary.setText(f"{html.escape(worded(trace.model))}. {text if assumed else ''}")
-        self.recommendations.show_all(self._workspace.file.schema, trace.recommendations, self._may_apply)
+        self.summary.setText(f"{html.escape(sentenced(trace.model, family))}. {text if assumed else ''}")
+        self.recommendations.show_all(schema, trace.recommendations, self._may_apply)
         count = len(trace.recommendations)
         self.tabs.setTabText(
             1, self.tr("Recommended ({count})").format(count=count) if count else self.tr("Recommended")
         )
-        self.assumptions.show_trace(trace)
+        self.assumptions.show_trace(family, trace)
         taken = (_ASSUMED.match(text) for text in trace.assumptions)
         self.machine.show_defaults(
             {found[1]: self.tr("{what}, assumed").format(what=found[2]) for found in taken if found}
@@ -422,7 +424,8 @@ class MotionView(PageOfFile):
         if self.trace is not None:
             self.chart.setVisible(self.trace.scenario == "frequency")
             self.plot.draw(picture_of(self.trace, self.before, str(self.chart.currentData())))
-            self.figures.show_trace(self.trace, self.before, str(self.against.currentData()))
+            family = self._workspace.file.schema.family.family
+            self.figures.show_trace(family, self.trace, self.before, str(self.against.currentData()))
 
     def _zoom_to_settling(self) -> None:
         self.plot.zoom(settling_span(self.trace) if self.trace else None)

@@ -1,0 +1,72 @@
+"""What a motion states is German in German: assumptions, doubts, reasons, prices, alarms and refusals."""
+
+import re
+from collections.abc import Iterator
+
+import pytest
+
+from amp_studio.files import ParameterFile, open_file
+from amp_studio.files.example_files import examples_folder
+from amp_studio.report.language import language_of
+from amp_studio.sim import SimulationError, check_motion, listing, simulate, simulated_axes
+from tests.campaigns import CAMPAIGN
+from tests.report.test_german import FUNCTION_WORDS
+
+EXAMPLES = {path.parent.name: path for path in sorted(examples_folder().glob("*/*.amp"))}
+QUICK = {"57c422b-label-press", "lathe-ls176", "num-1060-mill", "acromill-router"}
+"""Examples whose first axis ``make test`` moves once; a campaign runs all scenarios of all, of three axes."""
+QUOTED = r"„[^“]*“|'[^']*'"
+
+
+def stated(file: ParameterFile) -> Iterator[str]:
+    """Yield every sentence of the motions of a file."""
+    for axis in list(simulated_axes(file))[: 3 if CAMPAIGN else 1]:
+        for scenario in listing(file).scenarios:
+            if scenario.name == "sweep" or not (scenario.name == "step" or CAMPAIGN):
+                continue
+            try:
+                trace = simulate(file, scenario.name, axis)
+            except SimulationError as error:
+                yield str(error)
+                continue
+            yield from (trace.model, *trace.assumptions, *trace.doubts)
+            yield from (text for each in trace.recommendations for text in (each.why, each.price))
+            yield from (alarm.message for alarm in trace.alarms)
+    if CAMPAIGN:
+        yield from (check.why for check in check_motion(file))
+
+
+@pytest.mark.parametrize("example", EXAMPLES if CAMPAIGN else sorted(QUICK))
+def test_no_sentence_of_a_motion_has_english_words(example: str) -> None:
+    file = open_file(EXAMPLES[example]).file
+    words = language_of("de", file.schema.family.family)
+    names = sorted((p.name for p in file.schema.parameters.values()), key=len, reverse=True)
+    known = re.compile("|".join((*map(re.escape, names), QUOTED)))
+    german = {text: words.sentence(text) for text in stated(file) if text}
+    assert len(german) > 3
+    assert [de for de in german.values() if FUNCTION_WORDS.search(known.sub("", de))] == []
+    assert [text for text, de in german.items() if re.search(r"[a-z] [a-z]{3,} ", text) and text == de] == []
+
+
+PUT_TOGETHER = {
+    "The velocity loop has too little margin with a load of 2.5 times the inertia of the motor: Ms 2.87,"
+    " 22.7 deg phase margin and 6.36 dB gain margin; all gains together Ms 1.24, 89.1 deg phase margin on the"
+    " assumed machine (page 7-54, aim normal).": (
+        "Der Drehzahlregler hat mit einer Last vom 2,5-Fachen der Motorträgheit zu wenig Reserve: Ms 2,87,"
+        " Phasenreserve 22,7°, Amplitudenreserve 6,36 dB; alle Verstärkungen zusammen: Ms 1,24, Phasenreserve"
+        " 89,1°, an der angenommenen Maschine (Seite 7-54, Ziel normal)."
+    ),
+    "Every count of the feedback moves the output 1.1 times as much. It raises a gain on a machine that is"
+    " partly assumed: your choice.": (
+        "Jedes Inkrement der Rückmeldung bewegt den Ausgang 1,1-mal so stark. Es erhöht eine Verstärkung an"
+        " einer zum Teil angenommenen Maschine: Ihre Wahl."
+    ),
+    "ASSUMED: the second axis of the circle is like axis X.": (
+        "ANGENOMMEN: die zweite Achse des Kreises ist wie die Achse X."
+    ),
+}
+
+
+@pytest.mark.parametrize("english", PUT_TOGETHER, ids=range(len(PUT_TOGETHER)))
+def test_a_sentence_is_put_together_of_its_parts(english: str) -> None:
+    assert language_of("de", "9pc").sentence(english) == PUT_TOGETHER[english]
