@@ -33,7 +33,7 @@ def answer(words: Sequence[str], breaks: str) -> None:
         if words[:1] == ["--line"]
         else 0
     )
-    for found in dict.fromkeys(_found(before, current)):
+    for found in dict.fromkeys(_candidates(before, current)):
         if found.startswith(current):
             print(found[begin:])
 
@@ -51,7 +51,7 @@ def _words_of(line: str) -> list[str]:
     return []
 
 
-def _found(before: Sequence[str], current: str) -> Iterator[str]:
+def _candidates(before: Sequence[str], current: str) -> Iterator[str]:
     """Yield what may come after the words ``before`` in the place of the one that is typed;
     more than fits is no matter.
     """

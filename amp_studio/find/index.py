@@ -32,7 +32,7 @@ class Match(NamedTuple):
     """Words of the question that are mistyped or only begun, with those that were found for them."""
 
 
-class _Found(NamedTuple):
+class _WordMatch(NamedTuple):
     worth: float
     where: Where
     word: str
@@ -73,7 +73,7 @@ class SearchIndex:
         words = self.asked(query)
         if not words:
             return []
-        found: dict[int, dict[str, _Found]] = {}
+        found: dict[int, dict[str, _WordMatch]] = {}
         weights = {}
         for word in words:
             per_entry = self._entries_like(word)
@@ -138,9 +138,9 @@ class SearchIndex:
                 return [word[:n], word[n:]]
         return [word]
 
-    def _entries_like(self, word: str) -> dict[int, _Found]:
+    def _entries_like(self, word: str) -> dict[int, _WordMatch]:
         """Return for each entry the best of its words that a typed one can be."""
-        best: dict[int, _Found] = {}
+        best: dict[int, _WordMatch] = {}
         bare = word.lstrip("0") if word.isdigit() else ""
         likes = self.vocabulary.like(word)
         if bare and bare not in likes:
@@ -149,7 +149,7 @@ class SearchIndex:
             for n, where in self._having.get(known, {}).items():
                 worth = WORTH[where] * likeness
                 if n not in best or worth > best[n].worth:
-                    best[n] = _Found(worth, where, known)
+                    best[n] = _WordMatch(worth, where, known)
         return best
 
     def _weight(self, count: int) -> float:
@@ -172,7 +172,7 @@ class SearchIndex:
             texts = self._plain[n] = [(WORTH[where] / 4, " ".join(words_of(text))) for where, text in own]
         return max((worth for worth, text in texts if asked in text), default=0.0)
 
-    def _match(self, score: float, n: int, hits: dict[str, _Found]) -> Match:
+    def _match(self, score: float, n: int, hits: dict[str, _WordMatch]) -> Match:
         ordered = sorted(hits.items(), key=lambda hit: -hit[1].worth)
         where = tuple(dict.fromkeys(hit.where for _, hit in ordered))
         typed = tuple((word, hit.word) for word, hit in ordered if word != hit.word)

@@ -149,10 +149,10 @@ class Vocabulary:
         if known is None:  # the words of a question stay while the next is typed
             if len(self._like) >= _REMEMBERED:
                 self._like.clear()
-            known = self._like[word] = self._found_like(word)
+            known = self._like[word] = self._similar_words(word)
         return known
 
-    def _found_like(self, word: str) -> dict[str, float]:
+    def _similar_words(self, word: str) -> dict[str, float]:
         found = {word: 1.0} if word in self._at else {}
         for longer in self.begun(word):
             found[longer] = PREFIX + (1 - PREFIX) * len(word) / (len(longer) + 1)

@@ -13,7 +13,16 @@ if TYPE_CHECKING:
     from .any_file import is_text_of_control, open_for_reading
     from .bare_figures import default_system, read_figure, system_of, write_figure
     from .import_export import all_formats, export_file, export_of, file_of, formats_of, import_file, offer_of
-    from .passthrough_lines import PassthroughLine, keep, kept, mark, marked, neighbours, plain, without_marks
+    from .passthrough_lines import (
+        PassthroughLine,
+        keep_lines,
+        lines_kept,
+        mark,
+        marked,
+        neighbours,
+        plain,
+        without_marks,
+    )
     from .spreadsheet_block import BlockCell, block_html, block_text, read_block, two_ways
     from .text_format import FamilyNotGivenError, FormatError, ReadOptions, TextFormat, TextOffer, TextRead
 else:

@@ -28,7 +28,7 @@ class PassthroughLine:
     kept_as: str = ""
 
 
-def keep(found: TextRead, kind: str, rows: Sequence[PassthroughLine], *, always: bool = False) -> None:
+def keep_lines(found: TextRead, kind: str, rows: Sequence[PassthroughLine], *, always: bool = False) -> None:
     """Keep the lines of a script where one of them is not understood, or ``always``;
     ``kind`` is a word for its format.
     """
@@ -41,7 +41,7 @@ def keep(found: TextRead, kind: str, rows: Sequence[PassthroughLine], *, always:
         found.extra[f"{kind}_script"] = {"lines": [_row_text(row) for row in rows]}
 
 
-def kept(file: ParameterFile, kind: str) -> list[str] | None:
+def lines_kept(file: ParameterFile, kind: str) -> list[str] | None:
     """Return the lines of a file's script, with marks for its settings; None where nothing is kept.
 
     Raises FormatError for a kept line whose place is lost: what it does there, nobody knows.

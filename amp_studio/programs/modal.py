@@ -109,7 +109,7 @@ class ModalCodes:
     def __init__(self, file: ParameterFile, reader: BlockReader, path: ProgramPath, notes: list[str]) -> None:
         """``notes`` gets what is assumed."""
         self._file, self._reader, self._path, self._notes = file, reader, path, notes
-        self._kept: dict[tuple[tuple[str, ...], tuple[str, ...]], BlockCodes] = {}
+        self._known_blocks: dict[tuple[tuple[str, ...], tuple[str, ...]], BlockCodes] = {}
         self._states: dict[tuple[str, ...], ModalState] = {}
         for key, code in reader.codes.started.items():
             reader.active.setdefault(key, code)
@@ -117,11 +117,11 @@ class ModalCodes:
 
     def take(self, written: tuple[str, ...]) -> BlockCodes:
         """Return what the codes of a block do in the present state, which becomes that of the block."""
-        codes = self._kept.get((written, self.now.key))
+        codes = self._known_blocks.get((written, self.now.key))
         if codes is None:
-            if len(self._kept) > MOST_SHAPES:
-                self._kept.clear()
-            codes = self._kept[written, self.now.key] = self._codes_of(written)
+            if len(self._known_blocks) > MOST_SHAPES:
+                self._known_blocks.clear()
+            codes = self._known_blocks[written, self.now.key] = self._codes_of(written)
         self.now = codes.modal
         return codes
 

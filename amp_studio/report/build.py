@@ -68,7 +68,7 @@ def build_report(
     contents = contents or Contents()
     language = language_of(contents.language, file.schema.family.family)
     found = rows_of(file, contents.units, language)
-    printed = tuple(row for row in found.rows if _is_wanted(row, contents))
+    printed = tuple(row for row in found.rows if _is_printed(row, contents))
     anchors = {row.anchor for row in printed}
     validator = validator_of(file, source, own)
     now = present(validator, validator.run())
@@ -113,7 +113,7 @@ def build_report(
     )
 
 
-def _is_wanted(row: ReportRow, contents: Contents) -> bool:
+def _is_printed(row: ReportRow, contents: Contents) -> bool:
     """Return whether a value is printed; one that was forced is in every report."""
     if row.forced:
         return True

@@ -176,7 +176,7 @@ class Evaluation:
             kept = answers.active[id(groups)] = groups, found
         return kept[1]
 
-    def how_state_is_found(self, address: Address) -> Hashable:
+    def state_plan(self, address: Address) -> Hashable:
         """Return what is equal for addresses whose states are the same whatever the values."""
         return self._conditions.state_plan(address)
 

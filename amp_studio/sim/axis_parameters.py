@@ -40,7 +40,7 @@ class AxisParameters:
         """Return the values of another axis of the same file."""
         return AxisParameters(self._value, axis, {}, self.tables, self.machine, self.application)
 
-    def given(self, parameter: str) -> bool:
+    def is_overridden(self, parameter: str) -> bool:
         """Return whether a value is overridden."""
         return self._overrides.get(parameter) is not None
 

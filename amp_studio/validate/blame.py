@@ -12,7 +12,7 @@ from .plan import RuleCheck
 _Named = tuple[tuple[str, Program | None], ...]
 
 
-class Given(Protocol):
+class CheckContext(Protocol):
     """What the expressions of a check see."""
 
     @property
@@ -24,7 +24,7 @@ class Given(Protocol):
         """What the engine is given."""
 
 
-def about(check: RuleCheck, given: Given) -> tuple[tuple[Address, ...], tuple[Address, ...]]:
+def about(check: RuleCheck, given: CheckContext) -> tuple[tuple[Address, ...], tuple[Address, ...]]:
     """Return what is wrong, in the order of ``blames``, and what that was compared with,
     in that of ``compares``.
 
@@ -40,7 +40,7 @@ def about(check: RuleCheck, given: Given) -> tuple[tuple[Address, ...], tuple[Ad
     return tuple(causes), tuple([a for a in compared if a not in causes])
 
 
-def _met(check: RuleCheck, named: _Named, given: Given) -> Iterator[Address]:
+def _met(check: RuleCheck, named: _Named, given: CheckContext) -> Iterator[Address]:
     """Yield the addresses whose values answer to the conditions of their names."""
     for name, condition in named:
         if condition is None:
@@ -55,7 +55,7 @@ def _met(check: RuleCheck, named: _Named, given: Given) -> Iterator[Address]:
                 yield address
 
 
-def _is_met(condition: Program, given: Given, value: Any, at: int) -> bool:
+def _is_met(condition: Program, given: CheckContext, value: Any, at: int) -> bool:
     """Return whether a value answers to a condition; one that is not set,
     or of a kind that it does not name, does not.
     """
@@ -66,7 +66,7 @@ def _is_met(condition: Program, given: Given, value: Any, at: int) -> bool:
         return False
 
 
-def _values(check: RuleCheck, name: str, given: Given) -> Iterator[tuple[Address, Any]]:
+def _values(check: RuleCheck, name: str, given: CheckContext) -> Iterator[tuple[Address, Any]]:
     """Yield what a name means with its value; of a list all that are there, the others with null."""
     value = given.values[check.names.index(name)]
     for listed_name, listed in check.lists:

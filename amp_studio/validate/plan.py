@@ -165,7 +165,7 @@ class Plan:
         parameters, found = self.evaluation.schema.parameters, dict[object, list[Address]]()
         for address in self.addresses:
             if not parameters[address[0]].optional:
-                found.setdefault(self.evaluation.how_state_is_found(address), []).append(address)
+                found.setdefault(self.evaluation.state_plan(address), []).append(address)
         return tuple(map(tuple, found.values()))
 
     @cached_property

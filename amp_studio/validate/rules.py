@@ -41,7 +41,7 @@ _SHOWN = 4
 """Values that a message about a rule shows."""
 
 
-class _Given:
+class _KeyedContext:
     """What the expressions of a check see: the values with their keys, and the context of the engine."""
 
     def __init__(self, keys: tuple[Key, ...], make_context: Callable[[list[Any]], Context]) -> None:
@@ -227,7 +227,7 @@ class RuleChecks:
 
     def _finding(self, check: RuleCheck, keys: tuple[Key, ...]) -> Finding:
         rule, effective = check.rule, check.expressions.finding.effective
-        given = _Given(keys, lambda values: self._context(check, values))
+        given = _KeyedContext(keys, lambda values: self._context(check, values))
         fix = self._fix(check, given)
         causes, compared = about(check, given)
         figures = self._texts(check, given)
@@ -254,7 +254,7 @@ class RuleChecks:
         state = self._file.evaluation.state
         return tuple([a for a in addresses if state(a).state != "hidden"]) or addresses
 
-    def _texts(self, check: RuleCheck, given: _Given) -> dict[str, str]:
+    def _texts(self, check: RuleCheck, given: _KeyedContext) -> dict[str, str]:
         """Return the texts of the names in the message."""
         entries = check.expressions.finding
         texts = {}
@@ -271,7 +271,7 @@ class RuleChecks:
             texts |= self._worked_out_texts(check, given)
         return texts
 
-    def _worked_out_texts(self, check: RuleCheck, given: _Given) -> dict[str, str]:
+    def _worked_out_texts(self, check: RuleCheck, given: _KeyedContext) -> dict[str, str]:
         """Return the figures of the message."""
         own = [single.address for single in check.singles]
         turns = any(self._file.evaluation.turns(address) for address in own)
@@ -294,7 +294,7 @@ class RuleChecks:
     def _value_text(self, address: Address) -> str:
         return show_value(self._file.schema.parameters[address[0]], self._file.values.get(address))
 
-    def _result(self, check: RuleCheck, given: _Given, expression: Expression) -> Any:
+    def _result(self, check: RuleCheck, given: _KeyedContext, expression: Expression) -> Any:
         return expression.result(given.keys, self._circumstances(check), lambda: given.context)
 
     def _text(self, found: Any, unit: str, entered: set[str]) -> str:
@@ -314,7 +314,7 @@ class RuleChecks:
         number, unit_name = write_figure(found), unit_text(unit)
         return f"{number}{unit_name}" if unit_name == "°" else f"{number} {unit_name}".rstrip()
 
-    def _fix(self, check: RuleCheck, given: _Given) -> tuple[AddressedValue, ...]:
+    def _fix(self, check: RuleCheck, given: _KeyedContext) -> tuple[AddressedValue, ...]:
         """Return what the rule would change; nothing if it would not help.
         Whether it does harm is for a trial.
         """
@@ -323,7 +323,7 @@ class RuleChecks:
         return fix if fix and self._mends(check, given, fix) else ()
 
     def _set(
-        self, check: RuleCheck, given: _Given, assignments: tuple[tuple[str, Expression], ...]
+        self, check: RuleCheck, given: _KeyedContext, assignments: tuple[tuple[str, Expression], ...]
     ) -> Iterator[AddressedValue]:
         """Yield what the rule sets, if that is another value than the present one; no secret goes
         elsewhere.
@@ -337,7 +337,7 @@ class RuleChecks:
             if value is not None and value != self._file.values.get(address):
                 yield AddressedValue(address, value)
 
-    def _mends(self, check: RuleCheck, given: _Given, fix: tuple[AddressedValue, ...]) -> bool:
+    def _mends(self, check: RuleCheck, given: _KeyedContext, fix: tuple[AddressedValue, ...]) -> bool:
         """Return whether the rule is satisfied with its own suggested fixes,
         which were rounded as the parameter needs it.
         """

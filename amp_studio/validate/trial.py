@@ -149,11 +149,11 @@ class Trials:
             return _Tried(self._is_good_on_another_machine(finding, filed), None)
         asked = self._plan.asked_by((*(c.address for c in changes), *(s.address for s in finding.fix)))
         self._checks.look_again()
-        if self._found(place):
+        if self._is_found_again(place):
             return _Tried(False, self._bad_by(finding, (), asked))
         brings = None
         for other in asked:
-            if not self._found(other):
+            if not self._is_found_again(other):
                 continue
             found = self._finding(other)
             # A check that found something before, but now about more values, has found something new.
@@ -180,7 +180,7 @@ class Trials:
             return asked
         return frozenset(places)
 
-    def _found(self, place: FindingPlace) -> bool:
+    def _is_found_again(self, place: FindingPlace) -> bool:
         if isinstance(place, int):
             return self._checks.rules.is_broken(self._check(place))
         return self._checks.of_value(place) is not None

@@ -16,7 +16,7 @@ from amp_studio.sim.identification.drive_record import drive_record_of, speed_fa
 from amp_studio.sim.identification.friction import fit_friction
 from amp_studio.sim.identification.response import response_of_text
 from amp_studio.sim.variations.job import SweepJob
-from amp_studio.sim.variations.running import Kept
+from amp_studio.sim.variations.running import DoneChunks
 
 from .texts import REPOSITORY, mutants, violations
 
@@ -88,7 +88,7 @@ def fuzz_sweep_parts(folder: Path, seed: int, count: int) -> list[str]:
     """Damage what is kept of a stopped sweep: a part is used as it was written, or not at all."""
     job, points = SweepJob(b"", "1", (), (), (), motion=False, loops=True), np.zeros((4, 1))
     output, whole = folder / "map.csv", np.arange(14.0).reshape(2, 7)
-    kept = Kept.beside(output, job, points)
+    kept = DoneChunks.beside(output, job, points)
     kept.add(0, whole)
     kept.add(2, whole)
     path = output.with_name("map.csv.part")
@@ -96,7 +96,7 @@ def fuzz_sweep_parts(folder: Path, seed: int, count: int) -> list[str]:
 
     def look(text: str) -> None:
         path.write_bytes(text.encode("utf-8", "surrogatepass"))
-        for start, part in Kept.beside(output, job, points).done.items():
+        for start, part in DoneChunks.beside(output, job, points).done.items():
             assert start in (0, 2), start
             assert np.array_equal(part, whole)
 

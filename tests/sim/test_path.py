@@ -84,7 +84,7 @@ def test_the_time_is_that_of_a_search_over_a_fine_grid(router: ParameterFile) ->
     plan = planned(router, ZIGZAG, rules())
     cosine = (plan.geometry.last[:-1] * plan.geometry.first[1:]).sum(axis=1)
     joint = np.where(cosine < 0.99, 5.0 + 10.0 * (1.0 + cosine), np.inf)
-    assert plan.time == pytest.approx(fine_time(plan, joint, plan.wanted, 500.0), rel=2e-3)
+    assert plan.time == pytest.approx(fine_time(plan, joint, plan.programmed, 500.0), rel=2e-3)
 
 
 @pytest.mark.parametrize("known", [1, 2, 5, 40])
@@ -103,7 +103,7 @@ def test_a_short_look_ahead_is_that_of_a_control_that_knows_so_many_blocks(
         following = min(n + 1 + known, count)  # at the start of the next block one more is known
         later = 0.0
         for k in range(following - 1, n, -1):
-            most = min(joint[k - 1], plan.wanted[k - 1], plan.wanted[k])
+            most = min(joint[k - 1], plan.programmed[k - 1], plan.programmed[k])
             later = min(most, math.sqrt(later**2 + 120.0 * plan.geometry.length[k]))
         speed = min(later, math.sqrt(speed**2 + 120.0 * plan.geometry.length[n]))
     assert plan.entry.tolist() == pytest.approx(entries)

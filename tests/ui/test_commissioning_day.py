@@ -195,7 +195,7 @@ def the_reversal_error_is_tuned(day: Day) -> None:
 
 def the_control_gets_it_after_a_look_at_what_changes(day: Day, control: Control) -> None:
     page = at_control(day.window, control.address, "send", day.qtbot)
-    assert len(page.table.taken(file=True)) > 100
+    assert len(page.table.rows_taking(file=True)) > 100
     page.checked.setChecked(True)
     for answer in page.bar.buttons:
         answer.click()

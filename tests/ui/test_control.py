@@ -40,7 +40,7 @@ def test_a_file_is_sent_read_back_and_read_again(
     """
     control = start_control()
     page = at_control(window, control.address, "send", qtbot)
-    count = len(page.table.taken(file=True))
+    count = len(page.table.rows_taking(file=True))
     assert page.primary.text() == f"Send {count} Values to the Control"
     assert count > 100
     assert not page.primary.isEnabled(), "what can be dangerous is not checked"
@@ -114,12 +114,12 @@ def test_space_changes_the_side_of_a_row_with_ctrl_of_its_group_and_all_follow_t
     page = at_control(window, start_control(file=nearly(window)).address, "send", qtbot)
     first = page.table.topLevelItem(0).child(0)
     page.table.setCurrentItem(first)
-    before = len(page.table.taken(file=True))
+    before = len(page.table.rows_taking(file=True))
     QTest.keyClick(page.table, Qt.Key.Key_Space)
-    assert len(page.table.taken(file=True)) == before - 1
+    assert len(page.table.rows_taking(file=True)) == before - 1
     QTest.keyClick(page.table, Qt.Key.Key_Space)
     QTest.keyClick(page.table, Qt.Key.Key_Space, Qt.KeyboardModifier.ControlModifier)
-    assert len(page.table.taken(file=True)) == before - page.table.topLevelItem(0).childCount()
+    assert len(page.table.rows_taking(file=True)) == before - page.table.topLevelItem(0).childCount()
     choice = scheme().choice
     for theme in ("dark", "light"):
         scheme().choose(theme)

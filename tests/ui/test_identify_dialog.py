@@ -141,11 +141,11 @@ def test_the_figures_of_a_record_fill_the_fields_when_they_are_accepted(
     monkeypatch.setattr(IdentifyDialog, "exec", lambda self: QDialog.DialogCode.Accepted)
     page.record.click()
     assert runs == ["run"]
-    assert page.form.given()["model.acceleration_per_output"].endswith(" mm/s2")
+    assert page.form.filled_in()["model.acceleration_per_output"].endswith(" mm/s2")
     page.leave_axis("1")
-    assert len(page.form.given()) == 4
+    assert len(page.form.filled_in()) == 4
     field = page.form.editors["model.gravity"]
     assert isinstance(field, QLineEdit)
     field.setText("7")
     page.leave_axis("2")
-    assert page.form.given() == {"model.gravity": "7"}, "what somebody has typed stays"
+    assert page.form.filled_in() == {"model.gravity": "7"}, "what somebody has typed stays"

@@ -35,7 +35,7 @@ def test_an_acr_card_is_verified_and_downloaded_over_its_terminal(
     card = AcrCard(DeviceSetup("acromill", Memory(tmp_path / "card"), print))
     with served(card, "tcp://127.0.0.1:0?protocol=terminal") as (address, _):
         page = at_control(window, address, "send", qtbot)
-        assert len(page.table.taken(file=True)) == 1, (
+        assert len(page.table.rows_taking(file=True)) == 1, (
             "what a card does not keep is not shown as a change of it"
         )
         page.checked.setChecked(True)

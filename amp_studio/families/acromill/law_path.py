@@ -46,7 +46,7 @@ def path_rules(machine: BoundMachine) -> PathRules:
             raise SimulationError(f"{name} is {value:g}; it must not be negative", name)
         return PathLimit(value * scale, (name, ""))
 
-    def given(*limits: PathLimit | None) -> tuple[PathLimit, ...]:
+    def present_ones(*limits: PathLimit | None) -> tuple[PathLimit, ...]:
         return tuple(each for each in limits if each is not None)
 
     minute = 1.0 / 60.0
@@ -55,10 +55,10 @@ def path_rules(machine: BoundMachine) -> PathRules:
     return PathRules(
         feed_ramp=Ramp("linear"),
         rapid_ramp=Ramp("linear"),
-        feed=given(highest),
-        rapid=given(rapid, highest),
-        feed_acceleration=given(limit(ids.feed_acc_dec)),
-        rapid_acceleration=given(limit(ids.rapid_acc_dec)),
+        feed=present_ones(highest),
+        rapid=present_ones(rapid, highest),
+        feed_acceleration=present_ones(limit(ids.feed_acc_dec)),
+        rapid_acceleration=present_ones(limit(ids.rapid_acc_dec)),
         corner=_corner(limit(ids.acute_angle_1), limit(ids.acute_angle_2), limit(ids.min_corner, minute)),
         look_ahead=PathLimit(blocks.value + 1.0, blocks.param) if blocks else None,
         rapid_rests=True,

@@ -47,7 +47,7 @@ def state_of(
     writing: Writing, found: GrblContent, *, has_lost_memory: bool = False
 ) -> tuple[AtControl, tuple[str, ...]]:
     """Return what a control that shows ``found`` contains of a download, and which settings are new."""
-    present, wanted = names_of(writing.present), names_of(writing.wanted)
+    present, wanted = names_of(writing.present), names_of(writing.target)
     names = {f"${n}" for n in writing.settings} | writing.others.keys()
     # Rates of single axes come and go with $22: only what was there or is sent can be old or new.
     wanted = {name: text for name, text in wanted.items() if name in names or name in present}
@@ -81,5 +81,5 @@ def names_of(content: GrblContent) -> dict[str, str]:
 
 def _is_shown(writing: Writing, found: GrblContent, name: str, text: str, reported: str) -> bool:
     if name in PUT_BACK:
-        return name not in offset_differences(writing.wanted, found)
+        return name not in offset_differences(writing.target, found)
     return is_shown_as(text, reported) if name[1:].isdigit() else text == reported

@@ -71,7 +71,7 @@ class GrblContentKind:
         names them). Raises ImageError for a value that the control would not store as it is.
         """
         present = read_content(current)
-        wanted = _wanted(file, present, current)
+        wanted = _settings_for(file, present, current)
         settings = _fitted(wanted.settings, present, described(current))
         return write_content(replace(present, settings=settings))
 
@@ -80,7 +80,7 @@ class GrblContentKind:
         raises ImageError.
         """
         present = read_content(current)
-        wanted = _wanted(file, present, current)
+        wanted = _settings_for(file, present, current)
         lacking = sorted({*wanted.lacking, *_lacking(wanted.settings, present)})
         lost = (
             [f"bits of axes that the control does not have ({named_bits(wanted.lost)})"]
@@ -91,7 +91,7 @@ class GrblContentKind:
 
     def stays(self, file: ParameterFile, current: bytes) -> str:
         """Return the bits of masks that a control has and the file does not; raises ImageError."""
-        return named_bits(_wanted(file, read_content(current), current).kept)
+        return named_bits(_settings_for(file, read_content(current), current).kept)
 
     def lacks(self, content: bytes, earlier: bytes) -> str:  # noqa: ARG002  # other kinds need them
         """Return "": settings come and go with options, and are read until two readings are the same."""
@@ -147,7 +147,7 @@ def _schema_of(read: GrblContent, content: bytes) -> Schema:
 
 
 @dataclass(frozen=True)
-class _Wanted:
+class _SentSettings:
     """What a file sets at one control.
 
     ``settings``  number -> text
@@ -162,7 +162,7 @@ class _Wanted:
     lost: MaskBits
 
 
-def _wanted(file: ParameterFile, present: GrblContent, current: bytes) -> _Wanted:
+def _settings_for(file: ParameterFile, present: GrblContent, current: bytes) -> _SentSettings:
     """Return what a file sets at a control.
 
     Raises ImageError for a file of another family,
@@ -192,7 +192,7 @@ def _wanted(file: ParameterFile, present: GrblContent, current: bytes) -> _Wante
     # option off unseen.
     kept = {n: bits for n, bits in kept.items() if n in settings and n in present.settings}
     settings |= {n: with_bits(settings[n], bits, present.settings[n]) for n, bits in kept.items()}
-    return _Wanted(settings, lacking, kept, lost)
+    return _SentSettings(settings, lacking, kept, lost)
 
 
 def _build(schema: Schema, content: GrblContent) -> Build:

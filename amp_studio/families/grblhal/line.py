@@ -88,7 +88,7 @@ class GrblLine:
         self.alarm: int | None = None
         self.has_lost_memory = False
         self._clock, self._sleep = waiting.now, waiting.sleep
-        self._rest = b""
+        self._buffer = b""
         self._lines: deque[str] = deque()
         self._owed = 0  # refusals of first lines that may still come, before any other answer
         self._begin(START, lingers=False)
@@ -209,7 +209,7 @@ class GrblLine:
                 quiet_since = self._clock()
             while self._lines:
                 refused += self._is_refusal(self._lines.popleft())
-        self._rest = b""
+        self._buffer = b""
         # Every first line is refused once; those not seen yet are still on their way.
         self._owed = max(0, sent - refused)
         self._waiting.heard()
@@ -244,8 +244,8 @@ class GrblLine:
         """Part what has come into lines; empty ones mean nothing."""
         if data:
             self._waiting.heard()
-        *lines, self._rest = (self._rest + data).split(b"\n")
-        if len(self._rest) > LONGEST_LINE or any(len(line) > LONGEST_LINE for line in lines):
+        *lines, self._buffer = (self._buffer + data).split(b"\n")
+        if len(self._buffer) > LONGEST_LINE or any(len(line) > LONGEST_LINE for line in lines):
             raise ProtocolMismatchError("the control sends a line without an end")
         texts = (line.strip(b"\r\0").decode("utf-8", errors="replace") for line in lines)
         self._lines.extend(text for text in texts if text.strip())

@@ -34,15 +34,15 @@ class Writing:
 
     def __init__(
         self,
-        wanted: GrblContent,
+        target: GrblContent,
         present: GrblContent,
         known: Mapping[int, DescribedSetting],
         sent: SentValues,
     ) -> None:
-        self.wanted, self.present, self._known = wanted, present, known
+        self.target, self.present, self._known = target, present, known
         self.names = {number: setting.name for number, setting in known.items()}
-        self.settings = {n: text for n, text in wanted.settings.items() if present.settings.get(n) != text}
-        self.others = dict(chain(offset_commands(wanted, present), startup_commands(wanted, present)))
+        self.settings = {n: text for n, text in target.settings.items() if present.settings.get(n) != text}
+        self.others = dict(chain(offset_commands(target, present), startup_commands(target, present)))
         self.sent = sent
         sent.total = len(self.settings) + len(self.others)
 
@@ -59,7 +59,7 @@ class Writing:
             self._round(line, left, progress)
             reported = read_settings(line, self.present)
             left = {
-                n: text for n, text in self.wanted.settings.items() if not self._is_there(n, text, reported)
+                n: text for n, text in self.target.settings.items() if not self._is_there(n, text, reported)
             }
         if self.others:
             self._write_others(line, progress)
@@ -69,7 +69,7 @@ class Writing:
         waiting = restart_notes(self.settings, self._known)
         coarse = coarse_notes(self.settings, self.present.settings, self.names)
         return Receipt(
-            restart_needed=bool(waiting), notes=(*coarse, *waiting, *left_notes(self.wanted, self.present))
+            restart_needed=bool(waiting), notes=(*coarse, *waiting, *left_notes(self.target, self.present))
         )
 
     def _is_there(self, number: int, text: str, reported: Mapping[int, str]) -> bool:

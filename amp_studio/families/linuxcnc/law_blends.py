@@ -60,14 +60,15 @@ class _Corner:
     """A rounded corner; u, u/s."""
 
     radius: float
-    taken: float
-    """Of each of its moves."""
+    cut: float
+    """Length that it takes of each of its moves, u."""
     angle: float
     speed: float
     by: int
     acceleration: float
     ramp_by: int
-    wanted: float
+    programmed: float
+    """Speed as programmed."""
 
 
 @dataclass
@@ -258,7 +259,7 @@ class _Shaping:
         return any(move.first[n] for n in range(self._count) if n not in self._straight)
 
     def _most(self, move: PathSegment) -> float:
-        return min(move.wanted * self._figures.greatest_override, move.top)
+        return min(move.programmed * self._figures.greatest_override, move.top)
 
     def _kinked(self, one: PathSegment, two: PathSegment, speed: float) -> float:
         """Return the share of an acceleration that a change of direction takes in a cycle (TP1894)."""
@@ -306,7 +307,7 @@ class _Shaping:
         if radius * phi < SHORTEST:
             return None
         speed = min(speed, radius * phi / self._figures.period)
-        wanted = max(min(each.wanted, each.top) for each in (one, two))
+        wanted = max(min(each.programmed, each.top) for each in (one, two))
         return _Corner(
             radius, radius / math.tan(theta), phi, speed, by, acceleration * TANGENTIAL, ramp_by, wanted
         )
@@ -340,7 +341,7 @@ class _Shaping:
 
     def _round(self, one: PathSegment, two: PathSegment, corner: _Corner, begun: PathPoint) -> PathPoint:
         """Write the first move as far as the corner, and the corner; return where it ends."""
-        d = corner.taken
+        d = corner.cut
         start = tuple(e - d * u for e, u in zip(one.end, one.last, strict=True))
         end = tuple(e + d * u for e, u in zip(one.end, two.first, strict=True))
         left = one.length - d
@@ -365,7 +366,7 @@ class _Shaping:
             raise SimulationError(f"The rounded corners of the program become more than {MOST_ROWS} moves")
         row, path = one.row, self._path
         kind = RAPID if one.is_rapid else LINE if plane is None else ARC
-        feed = 0.0 if one.is_rapid else corner.wanted
+        feed = 0.0 if one.is_rapid else corner.programmed
         arc = (0.0,) * 3 if plane is None else self._flat_arc(one, two, center, plane, corner.angle / parts)
         for n in range(1, parts + 1):
             angle = corner.angle * n / parts

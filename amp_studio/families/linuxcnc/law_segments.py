@@ -37,8 +37,8 @@ class PathSegment:
     first: PathPoint
     """Directions at its ends, of length 1."""
     last: PathPoint
-    wanted: float
-    """As programmed; infinite in rapid."""
+    programmed: float
+    """Speed; infinite in rapid."""
     top: float
     top_by: int
     acceleration: float

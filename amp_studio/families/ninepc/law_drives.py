@@ -132,7 +132,7 @@ def _inertia(read: AxisParameters, motor: str, ratio: int, travel: float) -> Ine
         demand(read, OWN_ACCELERATION, own, own > 0.0, "must be above 0")
         return Inertia(100.0 * own * 2.0 * math.pi / travel, "")
     torque, inertia = (
-        above_zero(read, name) if read.given(name) else None for name in (OWN_TORQUE, OWN_INERTIA)
+        above_zero(read, name) if read.is_overridden(name) else None for name in (OWN_TORQUE, OWN_INERTIA)
     )
     return inertia_of(motor, ratio, read.tables, torque, inertia)
 
@@ -171,7 +171,9 @@ def _gains(read: AxisParameters, motor: str, ratio: int, notes: list[str]) -> tu
     """Return the gains that the control uses: those of its tables for a standard motor,
     unless one is set by hand (7-6).
     """
-    by_hand = read.given(ids.velocity_proportional_gain) or read.given(ids.velocity_integral_gain)
+    by_hand = read.is_overridden(ids.velocity_proportional_gain) or read.is_overridden(
+        ids.velocity_integral_gain
+    )
     if (
         read.value(ids.standard_motor_values, everywhere=True) is True
         and motor != "nonstandard"

@@ -143,7 +143,7 @@ class MovingAxis:
         vectors, self._rows = prepared(self.axis, [], Until(axis.servo_period * CHUNK), substeps)
         self._vectors: list[Any] = [*vectors]
         """Lists, or arrays once machine code runs."""
-        self._kept: list[npt.NDArray[np.float64]] = []
+        self._chunks: list[npt.NDArray[np.float64]] = []
         self._count = 0  # rows that are kept
         self._alarm_row: int | None = None
         self._end: float | None = None
@@ -212,7 +212,7 @@ class MovingAxis:
             self._end = self.time
             self._stand_still()
             self.advance(REST + self.axis.servo_period)
-        whole = np.concatenate(self._kept) if self._kept else self._rows[:0]
+        whole = np.concatenate(self._chunks) if self._chunks else self._rows[:0]
         names = [*kernel.COLUMNS, *(name for name, _ in self.axis.monitors)]
         return Motion(
             dict(zip(names, np.ascontiguousarray(whole.T), strict=True)),
@@ -226,9 +226,9 @@ class MovingAxis:
         """Return how far the load has been beyond a place in a direction, u; where no rows are kept,
         how far it is.
         """
-        if not self._kept:
+        if not self._chunks:
             return sign * (self.load - place)
-        return max(float((sign * (rows[:, 3] - place)).max()) for rows in self._kept)
+        return max(float((sign * (rows[:, 3] - place)).max()) for rows in self._chunks)
 
     # -- orders that go on while it is stepped ------------------------------------------
 
@@ -442,7 +442,7 @@ class MovingAxis:
             self._alarm_row = self._count + int(self._vectors[STATE][kernel.ALARM_ROW])
         kept = rows.copy()
         kept[:, POSITIONS] += self._origin
-        self._kept.append(kept)
+        self._chunks.append(kept)
         self._count += filled
 
     def _take_command(self) -> None:

@@ -59,14 +59,14 @@ def leg(distance: float, feedrate: float, ramp: Ramp, entry: float = 0.0, leave:
     Raises SimulationError where the block is too short for the change of velocity.
     """
 
-    def taken(peak: float) -> float:
+    def way_of_ramps(peak: float) -> float:
         return length(change(ramp, entry, peak)) + length(change(ramp, peak, leave))
 
     peak = feedrate
-    if taken(peak) > distance:
+    if way_of_ramps(peak) > distance:
         low, high = max(entry, leave), feedrate
         # Rounding alone must not refuse a block that is exactly as long as its change of velocity.
-        if taken(low) > distance * (1.0 + 1e-12):
+        if way_of_ramps(low) > distance * (1.0 + 1e-12):
             raise SimulationError(
                 f"A block of {distance:g} is too short to change the velocity from {entry * 60.0:g} to"
                 f" {leave * 60.0:g} a minute"
@@ -77,9 +77,9 @@ def leg(distance: float, feedrate: float, ramp: Ramp, entry: float = 0.0, leave:
             middle = 0.5 * (low + high)
             if middle in (low, high):  # no number lies between them
                 break
-            low, high = (middle, high) if taken(middle) <= distance else (low, middle)
+            low, high = (middle, high) if way_of_ramps(middle) <= distance else (low, middle)
         peak = low
-    left = max(distance - taken(peak), 0.0)
+    left = max(distance - way_of_ramps(peak), 0.0)
     even = [Piece(left / peak, peak)] if left > 0.0 and peak > 0.0 else []
     return [*change(ramp, entry, peak), *even, *change(ramp, peak, leave)]
 

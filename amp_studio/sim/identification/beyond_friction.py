@@ -37,7 +37,7 @@ for a doubt."""
 
 
 @dataclass(frozen=True)
-class Found:
+class EstimatedFigure:
     """A figure and its standard error."""
 
     value: float
@@ -55,7 +55,7 @@ def _left(fit: FrictionFit, torque: Series) -> tuple[float, int]:
     return float(rest @ rest), int(used.sum())
 
 
-def time_shift(fit: FrictionFit) -> Found:
+def time_shift(fit: FrictionFit) -> EstimatedFigure:
     """Return by how many s the motion is later than its torque in the record: where the fit is best."""
     most = max(LEAST_ROWS, math.ceil(FURTHEST_SHIFT / fit.period))
     shifts = fit.period * np.arange(
@@ -66,19 +66,19 @@ def time_shift(fit: FrictionFit) -> Found:
     low, middle, high = left[best - 1 : best + 2]
     bend = low - 2.0 * middle + high
     if bend <= 0.0:
-        return Found(0.0, math.inf)
+        return EstimatedFigure(0.0, math.inf)
     step = shifts[1] - shifts[0]
     rows = (
         _left(fit, fit.torque)[1] * fit.period / max(fit.window, fit.period)
     )  # rows of one filter are not independent
     spread = middle / max(1.0, rows - 5.0)
-    return Found(
+    return EstimatedFigure(
         float(shifts[best] + 0.5 * step * (low - high) / bend),
         float(step * math.sqrt(2.0 * spread / bend * max(1.0, fit.period / fit.window))),
     )
 
 
-def is_shifted(fit: FrictionFit, shift: Found) -> bool:
+def is_shifted(fit: FrictionFit, shift: EstimatedFigure) -> bool:
     """Return whether a shift is there and matters."""
     inside = abs(shift.value) < max(FURTHEST_SHIFT, LEAST_ROWS * fit.period) * 0.98
     return inside and abs(shift.value) > SURE * shift.error and abs(shift.value) > LEAST_SHIFT * fit.period
@@ -88,8 +88,8 @@ def is_shifted(fit: FrictionFit, shift: Found) -> bool:
 class StaticFriction:
     """Friction at the start of a motion, and the speed (u/s) over which it falls to the Coulomb friction."""
 
-    static: Found
-    speed: Found
+    static: EstimatedFigure
+    speed: EstimatedFigure
 
 
 def static_friction(fit: FrictionFit, coulomb: float) -> StaticFriction | None:
@@ -123,7 +123,9 @@ def static_friction(fit: FrictionFit, coulomb: float) -> StaticFriction | None:
     if more < SURE * error or more < 0.05 * max(coulomb, 1e-12):
         return None
     step = float(STRIBECK[1] / STRIBECK[0]) - 1.0
-    return StaticFriction(Found(coulomb + more, error), Found(share * top, step * share * top))
+    return StaticFriction(
+        EstimatedFigure(coulomb + more, error), EstimatedFigure(share * top, step * share * top)
+    )
 
 
 def residual_doubts(fit: FrictionFit, unit: str) -> Iterator[str]:

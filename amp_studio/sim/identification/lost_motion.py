@@ -8,7 +8,7 @@ import numpy as np
 
 from amp_studio.sim.series import Series
 
-from .beyond_friction import SURE, Found
+from .beyond_friction import SURE, EstimatedFigure
 from .friction import FrictionFit
 
 CRUISING = 0.2
@@ -16,7 +16,7 @@ CRUISING = 0.2
 LEAST_ROWS = 40
 
 
-def backlash(fit: FrictionFit, time: Series, motor: Series, load: Series) -> Found | None:
+def backlash(fit: FrictionFit, time: Series, motor: Series, load: Series) -> EstimatedFigure | None:
     """Return by how much the load lags behind its motor in one direction more than in the other, in the unit
     of the record.
 
@@ -40,5 +40,5 @@ def backlash(fit: FrictionFit, time: Series, motor: Series, load: Series) -> Fou
     inverse = np.linalg.pinv(table.T @ table)
     turned = np.array([-1.0, 1.0, 0.0])
     error = math.sqrt(float(turned @ inverse @ turned) * float(rest @ rest) / rows)
-    found = Found(float(turned @ coefficients), error)
-    return found if found.value > SURE * error else Found(0.0, error)
+    found = EstimatedFigure(float(turned @ coefficients), error)
+    return found if found.value > SURE * error else EstimatedFigure(0.0, error)

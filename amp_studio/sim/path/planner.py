@@ -80,8 +80,8 @@ class ProgramPlan:
     ramps: tuple[Ramp, Ramp]
     """Of feed and of rapid."""
     is_rapid: npt.NDArray[np.bool_]
-    wanted: PathRows
-    """Programmed speed."""
+    programmed: PathRows
+    """Speed as programmed, u/s."""
 
     @property
     def time(self) -> float:

@@ -257,7 +257,7 @@ class Search:
     ) -> None:
         self._trial, self.gains, self.filters = trial, gains, filters
         self._known: dict[GainPoint, Candidate | None] = {}
-        self._kept: dict[tuple[GainPoint, int], bool] = {}
+        self._keeps_margins: dict[tuple[GainPoint, int], bool] = {}
         self._best: dict[int, GainPoint | None] = {}
         self._near: dict[int, float] = {}  # the last largest value of a gain: where the next one is sought
         self._most = [min(gain.high, (ceiling or {}).get(gain.parameter, math.inf)) for gain in gains]
@@ -279,10 +279,10 @@ class Search:
     def keeps(self, point: GainPoint, levels: Sequence[Level], level: int) -> bool:
         """Return whether the gains keep a level."""
         key = point, level
-        if key not in self._kept:
+        if key not in self._keeps_margins:
             tried = self.candidate(point)
-            self._kept[key] = tried is not None and levels[level].keeps(tried)
-        return self._kept[key]
+            self._keeps_margins[key] = tried is not None and levels[level].keeps(tried)
+        return self._keeps_margins[key]
 
     def yields(self, point: GainPoint) -> float:
         """Return how far a torque moves the load: its largest way and the mean one."""

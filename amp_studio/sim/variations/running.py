@@ -43,7 +43,7 @@ SUFFIX = ".part"
 
 
 @dataclass
-class Kept:
+class DoneChunks:
     """The chunks of a job that are done, in a file beside the result; each is written when it comes."""
 
     path: Path | None
@@ -51,13 +51,13 @@ class Kept:
     done: dict[int, Matrix] = field(default_factory=dict)
 
     @classmethod
-    def beside(cls, output: Path | None, job: SweepJob, points: Matrix) -> Kept:
+    def beside(cls, output: Path | None, job: SweepJob, points: Matrix) -> DoneChunks:
         """Return what is kept beside an output of the same job; nothing of another one."""
-        kept = cls(None if output is None else output.with_name(output.name + SUFFIX), job.digest(points))
-        if kept.path is not None:
+        chunks = cls(None if output is None else output.with_name(output.name + SUFFIX), job.digest(points))
+        if chunks.path is not None:
             with suppress(OSError, ValueError, KeyError, TypeError):
-                kept._read(len(job.columns), len(points))
-        return kept
+                chunks._read(len(job.columns), len(points))
+        return chunks
 
     def _read(self, width: int, count: int) -> None:
         assert self.path is not None
@@ -116,7 +116,7 @@ def run_job(
     ``progress`` is called with every part that is done, and may raise to stop; with ``output`` what is done
     is kept beside it and used by the next call. Raises SimulationError for a cluster that cannot be reached.
     """
-    kept = Kept.beside(output, job, points)
+    kept = DoneChunks.beside(output, job, points)
     starts = [start for start in range(0, len(points), AT_ONCE) if start not in kept.done]
 
     def report() -> None:

@@ -33,7 +33,7 @@ class LiveTuning:
         """``keep`` and ``record`` are as those of an exchange, and hold for all of this session."""
         self._driver, self._place = driver, keep
         self._address, self._record = address, record
-        self._kept = ""
+        self._backup = ""
         self._start = b""
         self._current = b""
         self.file: ParameterFile | None = None
@@ -115,7 +115,7 @@ class LiveTuning:
 
     def _keep(self, recording: Recording, content: bytes) -> str:
         """Keep what the control contained at the first look; later contents are those of this session."""
-        if not self._kept:
+        if not self._backup:
             recording.check_whole(self._driver, content, self._place.parent)
-            self._kept = str(keep_image(content, self._place.parent, self._place.stem))
-        return self._kept
+            self._backup = str(keep_image(content, self._place.parent, self._place.stem))
+        return self._backup

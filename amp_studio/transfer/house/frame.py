@@ -62,7 +62,7 @@ class FrameDecoder:
 
     def __init__(self) -> None:
         self.bad_frames = 0
-        self._rest = b""
+        self._buffer = b""
         self._skipping = False
 
     def feed(self, data: bytes) -> list[Frame]:
@@ -73,7 +73,7 @@ class FrameDecoder:
         return frames
 
     def _end(self, piece: bytes) -> Frame | None:
-        encoded, self._rest = self._rest + piece, b""
+        encoded, self._buffer = self._buffer + piece, b""
         if self._skipping or len(encoded) > MAX_ENCODED:
             self._skipping = False
             self.bad_frames += 1
@@ -88,9 +88,9 @@ class FrameDecoder:
     def _keep(self, rest: bytes) -> None:
         if self._skipping:
             return
-        self._rest += rest
-        if len(self._rest) > MAX_ENCODED:
-            self._rest, self._skipping = b"", True
+        self._buffer += rest
+        if len(self._buffer) > MAX_ENCODED:
+            self._buffer, self._skipping = b"", True
 
 
 def cobs_encode(data: bytes) -> bytes:

@@ -80,7 +80,7 @@ class ProvenLink:
 
     def __init__(self, link: Link, rest: bytes) -> None:
         self._link = link
-        self._rest = rest
+        self._buffer = rest
         self.write, self.close = link.write, link.close
 
     @property
@@ -90,7 +90,7 @@ class ProvenLink:
 
     def read(self, timeout: float) -> bytes:
         """Return what has come."""
-        rest, self._rest = self._rest, b""
+        rest, self._buffer = self._buffer, b""
         return rest or self._link.read(timeout)
 
 

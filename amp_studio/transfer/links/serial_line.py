@@ -211,12 +211,12 @@ class PortListener:
     def __init__(self, endpoint: Endpoint) -> None:
         self.endpoint = endpoint
         self._link: SerialLink | None = open_port(endpoint)
-        self._given = False
+        self._was_returned = False
 
     def accept(self, timeout: float) -> SerialLink | None:
         """Return the line once; after it was closed or lost, open it again when the port is there again."""
-        if self._link is not None and not self._given:
-            self._given = True
+        if self._link is not None and not self._was_returned:
+            self._was_returned = True
             return self._link
         if self._link is not None and self._link.is_open:
             return None

@@ -75,7 +75,8 @@ def _what_arrived(protocol: str, sender: BlockSender, files: Sequence[PlainFile]
     if protocol == "raw":
         return "how much has arrived is not known: look at the control"
     total = sum(len(file.content) for file in files)
-    return f"{sender.taken} of {total} bytes were acknowledged: look at the control what it has made of them"
+    done = sender.accepted_bytes
+    return f"{done} of {total} bytes were acknowledged: look at the control what it has made of them"
 
 
 def receive_files(

@@ -63,7 +63,7 @@ class ByteLine:
         self.now = clock
         self._link = link
         self._cancel = cancel
-        self._rest = bytearray()
+        self._buffer = bytearray()
         self._heard_at = self._reported_at = clock()
 
     @property
@@ -81,28 +81,28 @@ class ByteLine:
     def get(self, count: int, seconds: float) -> bytes:
         """Return ``count`` bytes, or fewer where no further one has come for so long."""
         end = self.now() + seconds
-        while len(self._rest) < count:
+        while len(self._buffer) < count:
             self.look()
             left = end - self.now()
             if left <= 0:
                 break
             came = self._read(min(left, LOOK))
             if came:
-                self._rest += came
+                self._buffer += came
                 end = self.now() + seconds
-        data = bytes(self._rest[:count])
-        del self._rest[:count]
+        data = bytes(self._buffer[:count])
+        del self._buffer[:count]
         return data
 
     def waiting(self) -> bytes:
         """Return what has come already."""
-        data = bytes(self._rest) or self._read(0)
-        self._rest.clear()
+        data = bytes(self._buffer) or self._read(0)
+        self._buffer.clear()
         return data
 
     def put_back(self, data: bytes) -> None:
         """Have bytes read again."""
-        self._rest[:0] = data
+        self._buffer[:0] = data
 
     def put(self, data: bytes) -> float:
         """Write, and return when the last byte has left this end: a slow line takes its time after that."""
@@ -120,8 +120,8 @@ class ByteLine:
     def await_time(self, when: float) -> None:
         """Wait until a time."""
         while (left := when - self.now()) > 0:
-            self._rest += self._read(min(left, LOOK))
-            del self._rest[:-STORED]
+            self._buffer += self._read(min(left, LOOK))
+            del self._buffer[:-STORED]
             self.look()
 
     def give_up(self) -> None:
@@ -136,8 +136,8 @@ class ByteLine:
     def wait_until_quiet(self) -> None:
         """Forget what comes until the line is quiet, for some seconds at most."""
         end = self.now() + max(3.0, 10 * self.quiet)
-        while self.now() < end and (self._rest or self.get(1, self.quiet)):
-            self._rest.clear()
+        while self.now() < end and (self._buffer or self.get(1, self.quiet)):
+            self._buffer.clear()
 
     def look(self) -> None:
         """Raise PlainFileError where somebody has broken off; notify of silences."""

@@ -22,7 +22,7 @@ class BlockSender:
         self._easy = 0
         self._crc = False
         self.has_begun = False
-        self.taken = 0
+        self.accepted_bytes = 0
 
     def await_start(self) -> None:
         """Wait until the receiver asks for the first block: by C with CRC, by NAK with checksums."""
@@ -39,7 +39,7 @@ class BlockSender:
             piece = content[at : at + self._length(len(content) - at)]
             self.send_block(number, piece)
             number, at = number + 1, at + len(piece)
-            self.taken += len(piece)
+            self.accepted_bytes += len(piece)
             self._line.progress("send", at, len(content))
         self._repeat(bytes([EOT]), "the end of the file")
 

@@ -134,10 +134,10 @@ class Scheme(QObject):
         self.choice: ThemeChoice = "system"
         hints = QGuiApplication.styleHints()
         self._system_is_dark = QGuiApplication.palette().color(QPalette.ColorRole.Window).lightness() < 128
-        self.is_dark = self._wanted()
+        self.is_dark = self._is_dark_chosen()
         hints.colorSchemeChanged.connect(lambda _: self.choose(self.choice))
 
-    def _wanted(self) -> bool:
+    def _is_dark_chosen(self) -> bool:
         if self.choice != "system":
             return self.choice == "dark"
         found = QGuiApplication.styleHints().colorScheme()
@@ -150,7 +150,7 @@ class Scheme(QObject):
             wanted = {"light": Qt.ColorScheme.Light, "dark": Qt.ColorScheme.Dark}
             # The frames that the system draws follow too.
             QGuiApplication.styleHints().setColorScheme(wanted.get(choice, Qt.ColorScheme.Unknown))
-        if self._wanted() != self.is_dark:
+        if self._is_dark_chosen() != self.is_dark:
             self.is_dark = not self.is_dark
             _apply_colours()
             self.changed.emit()

@@ -276,7 +276,7 @@ class DifferenceTable(QTreeWidget):
 
     # -- what is sent --------------------------------------------------------------
 
-    def taken(self, *, file: bool) -> list[SideRow]:
+    def rows_taking(self, *, file: bool) -> list[SideRow]:
         """Return the rows that take the file's side, or those that take the control's."""
         return [row for row in self.rows.values() if row.takes_file is file]
 
@@ -285,7 +285,7 @@ class DifferenceTable(QTreeWidget):
         lines: list[str] = []
         if self._file is None:
             return lines
-        for row in self.taken(file=True):
+        for row in self.rows_taking(file=True):
             address, difference = row.difference.address, row.difference
             old, new = (self.text_of(address, value) for value in (difference.b, difference.a))
             lines.append(f"{describe(self._file, address)}: {old} → {new}")
@@ -295,12 +295,14 @@ class DifferenceTable(QTreeWidget):
         """Return the rows whose value of the control stays, or goes into the file when it is read;
         without those that the control does not contain, which stay as they are in the file.
         """
-        return [row for row in self.taken(file=False) if not row.is_fixed]
+        return [row for row in self.rows_taking(file=False) if not row.is_fixed]
 
     def dangers(self) -> tuple[Danger, ...]:
         """Return what the manual calls dangerous about the values that change, each statement once."""
         if self._file is None:
             return ()
         return dangers_of_change(
-            self._file, [row.difference for row in self.taken(file=True)], facts_in_words(self._file.schema)
+            self._file,
+            [row.difference for row in self.rows_taking(file=True)],
+            facts_in_words(self._file.schema),
         )

@@ -199,7 +199,7 @@ class ControlPage(ControlPageParts):
             self.backup,
             self.session,
             self.file,
-            to_send=len(self.table.taken(file=True)),
+            to_send=len(self.table.rows_taking(file=True)),
             kept=len(self.table.kept()),
             has_rows=bool(self.table.rows),
             has_dangers=self.direction == "send" and bool(self.table.dangers()),

@@ -31,7 +31,7 @@ class AxisDialog(FormDialog):
     ) -> None:
         self._workspace = workspace
         self._axis = Field("axis", tr("&Axis"), "choice", axis, self._axes())
-        self._wanted: list[str] = []
+        self._asked_ids: list[str] = []
         super().__init__(title, (self._axis,), title, parent, hint=hint, width=380)
         self.form.entered.connect(self._choose)
 
@@ -44,7 +44,7 @@ class AxisDialog(FormDialog):
 
     def ask_for(self, parameter_ids: list[str]) -> None:
         """Show a field for each of these parameters of the chosen axis; choices are lists."""
-        self._wanted = parameter_ids
+        self._asked_ids = parameter_ids
         self.form.offer((self._axis, *(self._field((p, self.axis())) for p in parameter_ids)))
 
     def _field(self, address: Address) -> Field:
@@ -70,8 +70,8 @@ class AxisDialog(FormDialog):
     def _choose(self, key: str) -> None:
         if key != "axis":
             return
-        if self._wanted:
-            self.ask_for(self._wanted)
+        if self._asked_ids:
+            self.ask_for(self._asked_ids)
         elif "letter" in self.form.editors:
             self.form.set_answer("letter", axis_letter(self._workspace.file, self.axis()))
 
@@ -81,7 +81,7 @@ class AxisDialog(FormDialog):
 
     def texts(self) -> dict[Address, str]:
         """Return the chosen label, or the text, of each parameter."""
-        given = {parameter_id: self.form.answer(parameter_id) for parameter_id in self._wanted}
+        given = {parameter_id: self.form.answer(parameter_id) for parameter_id in self._asked_ids}
         return {(key, self.axis()): str(text) for key, text in given.items() if text is not None}
 
 

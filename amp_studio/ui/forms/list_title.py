@@ -20,17 +20,17 @@ class ListTitle(QLabel):
 
     def __init__(self) -> None:
         super().__init__()
-        self._name = self._rest = ""
+        self._name = self._remark = ""
         self._strong = font("text")
         self._strong.setWeight(self._strong.Weight.Bold)
         self.setFont(font("text"))
         self.setContentsMargins(6, 4, 6, 4)
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
 
-    def show_title(self, name: str, rest: str) -> None:
+    def show_title(self, name: str, remark: str) -> None:
         """Show a name, and what follows it where there is room."""
-        self._name, self._rest = name, rest
-        self.setText(f"<b>{escape(name)}</b> — {escape(rest)}")  # for screen readers
+        self._name, self._remark = name, remark
+        self.setText(f"<b>{escape(name)}</b> — {escape(remark)}")  # for screen readers
         self._show_tip()
         self.update()
 
@@ -53,13 +53,13 @@ class ListTitle(QLabel):
         name = strong.elidedText(self._name, Qt.TextElideMode.ElideRight, room)
         wide = strong.horizontalAdvance(name)
         left = room - wide
-        rest = plain.elidedText(f" — {self._rest}", Qt.TextElideMode.ElideRight, left)
+        rest = plain.elidedText(f" — {self._remark}", Qt.TextElideMode.ElideRight, left)
         return name, wide, rest if left >= _LEAST_REST else ""
 
     def _show_tip(self) -> None:
         name, _, rest = self._parts()
-        is_whole = name == self._name and rest == f" — {self._rest}"
-        self.setToolTip("" if is_whole else f"{self._name} — {self._rest}")
+        is_whole = name == self._name and rest == f" — {self._remark}"
+        self.setToolTip("" if is_whole else f"{self._name} — {self._remark}")
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)

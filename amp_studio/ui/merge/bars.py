@@ -160,15 +160,15 @@ class ResultBar(QFrame):
         row = QHBoxLayout(self)
         row.setContentsMargins(12, 4, 12, 4)
         row.setSpacing(8)
-        self.mark, self.summary, self.found = QLabel(), QLabel(), QToolButton()
-        self.found.setCheckable(True)
-        self.found.toggled.connect(findings.setVisible)
+        self.mark, self.summary, self.findings_button = QLabel(), QLabel(), QToolButton()
+        self.findings_button.setCheckable(True)
+        self.findings_button.toggled.connect(findings.setVisible)
         self.report = QPushButton(icon("printer"), self.tr("&Report…"))
         self.save, self.merge = QPushButton(self.tr("Save Result A&s…")), QPushButton()
         self.merge.setProperty("primary", True)
         for button in (self.report, self.save, self.merge):
             button.setAutoDefault(False)
-        for widget in (self.mark, self.summary, self.found):
+        for widget in (self.mark, self.summary, self.findings_button):
             row.addWidget(widget)
         row.addStretch()
         for button in (self.report, self.save, self.merge):
@@ -186,10 +186,12 @@ class ResultBar(QFrame):
         counts = [sum(f.severity == severity for f in new or ()) for severity in ("error", "warning")]
         names = (self.tr("%n new errors", "", counts[0]), self.tr("%n new warnings", "", counts[1]))
         text = ", ".join(name for name, count in zip(names, counts, strict=True) if count)
-        self.found.setText(text or (self.tr("Checking …") if new is None else self.tr("No new finding")))
-        self.found.setEnabled(bool(new))
+        self.findings_button.setText(
+            text or (self.tr("Checking …") if new is None else self.tr("No new finding"))
+        )
+        self.findings_button.setEnabled(bool(new))
         if not new:
-            self.found.setChecked(False)
+            self.findings_button.setChecked(False)
         self._findings.fill(new or ())
 
 

@@ -30,8 +30,8 @@ class MergeCheck(QObject):
     def __init__(self, workspace: Workspace, parent: QObject) -> None:
         super().__init__(parent)
         self._workspace = workspace
-        self._wanted: tuple[Merge, bool] | None = None
-        self._found: ResultCheck | None = None
+        self._asked: tuple[Merge, bool] | None = None
+        self._checked: ResultCheck | None = None
         self._task: Task | None = None
         self._painted = QTimer(self)
         self._painted.setSingleShot(True)
@@ -41,19 +41,19 @@ class MergeCheck(QObject):
     @property
     def is_ready(self) -> bool:
         """Whether it is known what would be found."""
-        return self._found is not None
+        return self._checked is not None
 
     def start(self, merge: Merge, *, is_file: bool) -> None:
         """Check the result of other sources; ``is_file``: the open file is one of them,
         and its findings are known.
         """
-        self._wanted, self._found = (merge, is_file), None
+        self._asked, self._checked = (merge, is_file), None
         self._painted.start()
 
     def _begin(self) -> None:
-        if self._task is not None or self._wanted is None:
+        if self._task is not None or self._asked is None:
             return
-        (merge, is_file), own = self._wanted, self._workspace.validator.own
+        (merge, is_file), own = self._asked, self._workspace.validator.own
         before = self._workspace.findings if is_file else None
 
         def work(_: TaskProgress, __: threading.Event) -> tuple[Merge, ResultCheck]:
@@ -67,8 +67,8 @@ class MergeCheck(QObject):
 
     def _done(self, made: tuple[Merge, ResultCheck]) -> None:
         self._task = None
-        if self._wanted is not None and made[0] is self._wanted[0]:
-            self._found = made[1]
+        if self._asked is not None and made[0] is self._asked[0]:
+            self._checked = made[1]
             self.follow()
             self.ready.emit()
         else:
@@ -80,15 +80,15 @@ class MergeCheck(QObject):
 
     def follow(self) -> None:
         """Check again what a choice has changed."""
-        if self._found is None or self._wanted is None or self._found.update(self._wanted[0], _MANY):
+        if self._checked is None or self._asked is None or self._checked.update(self._asked[0], _MANY):
             return
-        self._found = None  # so many at once are checked in the background
+        self._checked = None  # so many at once are checked in the background
         self._painted.start()
 
     def new(self) -> list[Finding]:
         """Return the errors and warnings that the file would get; none while they are not known."""
-        return [f for f in self._found.new if f.severity != "advice"] if self._found else []
+        return [f for f in self._checked.new if f.severity != "advice"] if self._checked else []
 
     def of_choice(self, row: Row, choice: MergeChoice) -> list[Finding] | None:
         """Return the findings about a row if that were chosen; None while they are not known."""
-        return self._found.with_choice(row, choice) if self._found else None
+        return self._checked.with_choice(row, choice) if self._checked else None

@@ -349,7 +349,7 @@ class MergeWindow(QDialog):
         errors = any(f.severity == "error" for f in self.check.new())
         if errors and not self._warned:
             self._warned = True
-            self.outcome.found.setChecked(True)
+            self.outcome.findings_button.setChecked(True)
             self._count()
             return
         column = self._target_column()

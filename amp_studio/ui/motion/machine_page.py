@@ -39,14 +39,14 @@ class MachinePage(QWidget):
         super().__init__()
         self._run, self._present, self._fail = run, present, fail
         self.form = SettingsForm(run)
-        self._taken: tuple[str, dict[str, str]] = "", {}
-        """Axis of the machine that was taken from a record or a file, and its figures."""
-        note = QLabel(
+        self._filled_in: tuple[str, dict[str, str]] = "", {}
+        """Axis whose fields were filled in from a record or a file, and the figures."""
+        hint = QLabel(
             self.tr(
                 "What the control does not know. An empty field takes what is assumed or given by parameters."
             )
         )
-        note.setWordWrap(True)
+        hint.setWordWrap(True)
         self.record, self.open = (
             QPushButton(self.tr("From a Recor&d…")),
             QPushButton(self.tr("&Open Machine…")),
@@ -60,7 +60,7 @@ class MachinePage(QWidget):
         buttons.addWidget(self.open)
         buttons.addStretch()
         column = QVBoxLayout(self)
-        column.addWidget(note)
+        column.addWidget(hint)
         column.addLayout(buttons)
         column.addWidget(scrolled(self.form))
 
@@ -91,7 +91,7 @@ class MachinePage(QWidget):
 
     def _fill(self, settings: Mapping[str, str]) -> None:
         """Fill the fields of a machine and simulate with it."""
-        self._taken = self._present()[1], dict(settings)
+        self._filled_in = self._present()[1], dict(settings)
         for name, text in settings.items():
             field = self.form.editors.get(name)
             if not isinstance(field, QLineEdit):
@@ -102,13 +102,13 @@ class MachinePage(QWidget):
 
     def leave_axis(self, axis: str) -> None:
         """Empty the fields that have the machine of another axis than ``axis``,
-        unless somebody has changed them.
+        unless the user has changed them.
         """
-        of, settings = self._taken
+        of, settings = self._filled_in
         if of == axis:
             return
         for name, text in settings.items():
             field = self.form.editors.get(name)
             if isinstance(field, QLineEdit) and field.text() == text:
                 field.clear()
-        self._taken = axis, {}
+        self._filled_in = axis, {}

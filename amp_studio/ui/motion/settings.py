@@ -82,8 +82,8 @@ class SettingsForm(FieldForm):
                 unit, _, _ = field.placeholderText().rpartition(empty)
                 field.setPlaceholderText(f"{unit}{empty} {text}")
 
-    def given(self) -> dict[str, float | str]:
-        """Return what is given; raises ValueError with one sentence for a wrong unit or no number."""
+    def filled_in(self) -> dict[str, float | str]:
+        """Return the settings that are filled in; raises ValueError for a wrong unit or no number."""
         given = {name: text for name, text in self.answers().items() if text}
         return {
             name: _read(name, text, unit) if (unit := self._unit(name)) else text

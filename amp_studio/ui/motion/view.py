@@ -108,7 +108,7 @@ class MotionView(PageOfFile):
         """The record of the machine that is laid over."""
         self.trace: Trace | None = None
         self.before: Trace | None = None
-        self._kept: dict[tuple[str, str], ParameterFile] = {}
+        self._reference_values: dict[tuple[str, str], ParameterFile] = {}
         """Scenario and axis -> the values that were kept to compare with."""
         # The values of both traces; None until there is one.
         self._file_ran: ParameterFile | None = None
@@ -257,7 +257,7 @@ class MotionView(PageOfFile):
         self.scenario.setToolTip(chosen.title if chosen else "")
         self.settings.offer_settings(chosen.settings if chosen else {}, self._units(), others)
         self.machine.offer_settings(found.model, ("", ""))
-        self._offer_kept()
+        self._offer_reference()
 
     def show_axis(self, axis: str) -> None:
         """Choose an axis where it can be simulated; another instance than of an axis changes nothing."""
@@ -288,9 +288,9 @@ class MotionView(PageOfFile):
         self.machine_page.leave_axis(str(self.axis.currentData()))
         self.run()
 
-    def _offer_kept(self) -> None:
+    def _offer_reference(self) -> None:
         """Offer what was kept for this scenario and axis, where something was."""
-        is_kept = self._what in self._kept
+        is_kept = self._what in self._reference_values
         rows = self.against.model()
         assert isinstance(rows, QStandardItemModel)
         rows.item(self.against.findData("kept")).setEnabled(is_kept)
@@ -308,7 +308,7 @@ class MotionView(PageOfFile):
         """Return the values that those of ``file`` are compared with; None where none differs."""
         match self.against.currentData():
             case "kept":
-                return self._kept.get(self._what)
+                return self._reference_values.get(self._what)
             case "saved" if self._workspace.document.saved != file.values:
                 saved = self._workspace.document.as_saved()
                 saved.header.units = file.header.units
@@ -339,7 +339,7 @@ class MotionView(PageOfFile):
             self._stop(self._impossible)
             return
         try:
-            settings = {**self.settings.given(), **self.machine.given()}
+            settings = {**self.settings.filled_in(), **self.machine.filled_in()}
         except ValueError as error:
             self._fail(error)
             return
@@ -443,8 +443,8 @@ class MotionView(PageOfFile):
 
     def _keep_before(self) -> None:
         if self._file_ran is not None:
-            self._kept[self._what] = self._file_ran
-        self._offer_kept()
+            self._reference_values[self._what] = self._file_ran
+        self._offer_reference()
         if self.against.currentData() == "kept":
             self.run()
         self.against.setCurrentIndex(self.against.findData("kept"))
@@ -515,7 +515,7 @@ class MotionView(PageOfFile):
         trace, file = self.trace, self._file_ran
         assert trace is not None
         assert file is not None
-        given = [(name, str(value), self.tr("entered")) for name, value in self.machine.given().items()]
+        given = [(name, str(value), self.tr("entered")) for name, value in self.machine.filled_in().items()]
         name, before = self._workspace.path.name, self.before
         write_motion_paper(file, name, trace, path, notes.append, before=before, chart=chart, machine=given)
 

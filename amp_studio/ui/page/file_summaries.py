@@ -18,13 +18,13 @@ from amp_studio.ui.base.task import Task, TaskProgress
 class FileSummaries(QObject):
     """The summaries of one window; a file that has changed is read again when it is wanted."""
 
-    found = Signal(object)
+    summary_read = Signal(object)
     """The path of a file whose summary is known now."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._known: dict[tuple[Path, int], FileSummary | str] = {}
-        self._wanted: list[Path] = []
+        self._asked: list[Path] = []
         self._reading: Task | None = None
         self._is_over = False
 
@@ -33,19 +33,19 @@ class FileSummaries(QObject):
         return self._known.get(_version(path))
 
     def want(self, paths: Iterable[Path]) -> None:
-        """Read what is not known of these files, in their order; what was wanted before is wanted no
-        longer.
+        """Read what is not known of these files, in their order; what was asked for before is
+        dropped.
         """
-        self._wanted = [] if self._is_over else list(paths)
+        self._asked = [] if self._is_over else list(paths)
         self._next()
 
     def stop(self) -> None:
         """Read nothing any more; the window is closing."""
-        self._wanted, self._is_over = [], True
+        self._asked, self._is_over = [], True
 
     def _next(self) -> None:
-        while self._wanted and self._reading is None:
-            path = self._wanted.pop(0)
+        while self._asked and self._reading is None:
+            path = self._asked.pop(0)
             if self.of(path) is None:
                 self._reading = task = Task(partial(_summary, path))
                 task.done.connect(self._keep)  # a bound method: it ends with this object
@@ -55,7 +55,7 @@ class FileSummaries(QObject):
     def _keep(self, read: tuple[tuple[Path, int], FileSummary | str]) -> None:
         version, summary = read
         self._known[version] = summary
-        self.found.emit(version[0])
+        self.summary_read.emit(version[0])
 
     def _done(self) -> None:
         self._reading = None

@@ -140,7 +140,7 @@ class PicturesPage(QWidget):
         across, down = self.width() // LEAST_CARD[0], (self.height() - AROUND) // LEAST_CARD[1]
         return min(max(across if self.height() < LOW else down, 1), 1 + SIDE), False
 
-    def _wanted(self, count: int) -> list[str]:
+    def _names_for(self, count: int) -> list[str]:
         """Return the pictures for so many places, that of the selected value among them."""
         names = list(self._pictures)
         if self._filter in names:
@@ -153,10 +153,10 @@ class PicturesPage(QWidget):
         or one alone.
         """
         self._placed = count, is_large = self._shape()
-        wanted = self._wanted(count)
-        several = len(wanted) > 1
+        names = self._names_for(count)
+        several = len(names) > 1
         hidden = [card for card in self.cards.values() if card not in self._seen]
-        seen = [self.card(each) for each in wanted]
+        seen = [self.card(each) for each in names]
         for card in seen:
             if card in hidden:  # it did not follow the file meanwhile
                 card.follow(self._pictures[card.picture.name])

@@ -67,7 +67,7 @@ class PictureSplit(QSplitter):
         super().__init__()
         self._sheet = sheet
         self._pictures: QWidget | None = None
-        self._wanted = PictureLayout()
+        self._chosen = PictureLayout()
         self.setChildrenCollapsible(False)
         self.addWidget(sheet)
         self.splitterMoved.connect(self._keep_border)
@@ -85,7 +85,7 @@ class PictureSplit(QSplitter):
     @property
     def arrangement(self) -> Arrangement:
         """Where the pictures are, or would be."""
-        return self._wanted.fitting(self.width(), self.height())
+        return self._chosen.fitting(self.width(), self.height())
 
     def take(self, pictures: QWidget) -> None:
         """Take the page of pictures in, hidden."""
@@ -93,15 +93,15 @@ class PictureSplit(QSplitter):
         pictures.hide()
         self.addWidget(pictures)
 
-    def show_pictures(self, wanted: bool) -> None:
+    def show_pictures(self, visible: bool) -> None:
         """Show the pictures where they belong, or the table alone."""
         if self._pictures is not None:
-            self._pictures.setVisible(wanted)
+            self._pictures.setVisible(visible)
             self._arrange()
 
-    def arrange(self, wanted: PictureLayout) -> None:
+    def arrange(self, layout: PictureLayout) -> None:
         """Put the pictures into the chosen place."""
-        self._wanted = wanted
+        self._chosen = layout
         self._arrange()
 
     def _arrange(self) -> None:
@@ -109,7 +109,7 @@ class PictureSplit(QSplitter):
         is_below = place == "below"
         self.setOrientation(Qt.Orientation.Vertical if is_below else Qt.Orientation.Horizontal)
         self._sheet.setVisible(not self.is_shown or place != "instead")
-        share = self._wanted.below if is_below else self._wanted.beside
+        share = self._chosen.below if is_below else self._chosen.beside
         self.setSizes([share * 100, (100 - share) * 100])
         self.rearranged.emit()
 
@@ -118,11 +118,11 @@ class PictureSplit(QSplitter):
         share = round(100 * table / max(table + pictures, 1))
         share = min(max(share, 20), 80)
         is_below = self.orientation() == Qt.Orientation.Vertical
-        self._wanted = replace(self._wanted, below=share) if is_below else replace(self._wanted, beside=share)
-        self.arranged.emit(self._wanted)
+        self._chosen = replace(self._chosen, below=share) if is_below else replace(self._chosen, beside=share)
+        self.arranged.emit(self._chosen)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
-        before = self._wanted.fitting(event.oldSize().width(), event.oldSize().height())
+        before = self._chosen.fitting(event.oldSize().width(), event.oldSize().height())
         if self.is_shown and before != self.arrangement:
             QTimer.singleShot(0, self, self._arrange)  # not while the layout is at work

@@ -58,7 +58,7 @@ class ProjectTree(QWidget):
         self._settle.timeout.connect(self.refresh)
         self.tree.itemActivated.connect(lambda item, _: self._activate(item))
         self.tree.customContextMenuRequested.connect(self._menu_at)
-        self._window.summaries.found.connect(self._mark_path)
+        self._window.summaries.summary_read.connect(self._mark_path)
         self._window.tabs.current_changed.connect(self._mark_all)
         page.workspace.changed.connect(self._mark_own)
         page.workspace.saved.connect(self._mark_own)

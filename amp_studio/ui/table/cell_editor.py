@@ -30,8 +30,8 @@ class Refusal(NamedTuple):
 
     problem: str
     allowed: str = ""
-    wanted: str = ""
-    """What the rules want of the value."""
+    by_rules: str = ""
+    """What the rules need of the value."""
     can_force: bool = False
     """Whether it is only out of range."""
 
@@ -159,9 +159,9 @@ class RefusalFrame(QFrame):
         layout.setVerticalSpacing(3)
         self._sign = QLabel()
         layout.addWidget(self._sign, 0, 0, Qt.AlignmentFlag.AlignTop)
-        self._problem, self._wanted, self._keys = QLabel(), QLabel(), QLabel()
+        self._problem, self._by_rules, self._keys = QLabel(), QLabel(), QLabel()
         for row, (label, role) in enumerate(
-            ((self._problem, "text"), (self._wanted, "small"), (self._keys, "small"))
+            ((self._problem, "text"), (self._by_rules, "small"), (self._keys, "small"))
         ):
             label.setTextFormat(Qt.TextFormat.RichText)
             label.setFont(font("text" if role == "text" else "small"))
@@ -187,18 +187,18 @@ class RefusalFrame(QFrame):
         """Show a refusal."""
         self._filled = refusal, keys
         allowed = self.tr("Allowed: {range}").format(range=refusal.allowed) if refusal.allowed else ""
-        self.text = "\n".join(filter(None, (refusal.problem, allowed, refusal.wanted)))
+        self.text = "\n".join(filter(None, (refusal.problem, allowed, refusal.by_rules)))
         dim, cap = colour("dim").name(), colour("hover").name()
         caps = "&nbsp;&nbsp; ".join(
             f'<span style="background-color:{cap}">&nbsp;{key}&nbsp;</span> {_html(what)}'
             for key, what in keys
         )
         self._problem.setText(f"<b>{_html(refusal.problem)}.</b> {_html(allowed)}")
-        self._wanted.setText(f'<span style="color:{dim}">{_html(refusal.wanted)}</span>')
-        self._wanted.setVisible(bool(refusal.wanted))
+        self._by_rules.setText(f'<span style="color:{dim}">{_html(refusal.by_rules)}</span>')
+        self._by_rules.setVisible(bool(refusal.by_rules))
         self._keys.setText(f'<span style="color:{dim}">{caps}</span>')
         room = self.parentWidget().width() - 16
-        lines = (self._problem, self._wanted, self._keys)
+        lines = (self._problem, self._by_rules, self._keys)
         for label in lines:
             label.setWordWrap(False)
         widest = max(label.sizeHint().width() for label in lines)

@@ -83,10 +83,10 @@ class DetailPanel(QWidget):
         self._rows.addWidget(self._side)
         self._rows.addWidget(self.page, 1)
         self.setFocusProxy(self.page)
-        self._rest = QTimer(self)
-        self._rest.setSingleShot(True)
-        self._rest.setInterval(_REST_MS)
-        self._rest.timeout.connect(self._ask_rules)
+        self._pause = QTimer(self)
+        self._pause.setSingleShot(True)
+        self._pause.setInterval(_REST_MS)
+        self._pause.timeout.connect(self._ask_rules)
         workspace.changed.connect(self._show)
         workspace.saved.connect(self._show)
         scheme().changed.connect(self._show)
@@ -146,7 +146,7 @@ class DetailPanel(QWidget):
         if self._is_stale:  # written when somebody can see it
             return
         address, file = self._address, self._workspace.file
-        self._rest.stop()
+        self._pause.stop()
         if address is None:
             self.number.clear()
             self.name.setText(self.tr("Parameter"))
@@ -170,7 +170,7 @@ class DetailPanel(QWidget):
         self._show_axes(address)
         self.bar.show_range(self._in_range(address))
         if self.bar.isVisibleTo(self):
-            self._rest.start()
+            self._pause.start()
         self._writer.may_have_download = real_path(self._workspace.path).with_name(RECORD).exists()
         text = self._writer.write(address)
         if self.page.property("written") != text:  # a page that did not change stays where it was scrolled to

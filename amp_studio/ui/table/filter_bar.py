@@ -68,7 +68,7 @@ class FilterBar(QWidget):
         self.active: set[Mark] = set()
         self._recent: dict[Address, None] = {}
         self.marks.recent = self._recent
-        self._kept: set[tuple[str, str]] = set()
+        self._passed: set[tuple[str, str]] = set()
         """Rows that passed since the filter or the list was chosen."""
         self._list: object = None
         self._is_stale = True
@@ -139,7 +139,7 @@ class FilterBar(QWidget):
         if "since-download" not in active:
             self.marks.downloaded = None  # another download may come; it is read again when it is asked for
         self.active = active
-        self._kept.clear()
+        self._passed.clear()
         self._take_state()
         self._table.filter_rows(self._passes if active else None)
         self._show_choice()
@@ -149,11 +149,11 @@ class FilterBar(QWidget):
         """Return whether a row has all the filters, or had them when they or the list were chosen."""
         if self._list is not self._table.asked:
             self._list = self._table.asked
-            self._kept.clear()
+            self._passed.clear()
         key = (row.parameter.id, row.instance)
-        if key not in self._kept and self.marks.passing(self.active, addresses):
-            self._kept.add(key)
-        return key in self._kept
+        if key not in self._passed and self.marks.passing(self.active, addresses):
+            self._passed.add(key)
+        return key in self._passed
 
     # -- following the file --------------------------------------------------------------------
 

@@ -72,11 +72,11 @@ class WelcomePage(QWidget):
         self._window, self._files, self._open_project = window, files, open_project
         self._summaries = window.summaries
         self._reading: Task | None = None
-        self._rest = QTimer(self)
-        self._rest.setSingleShot(True)
-        self._rest.setInterval(_REST_MS)
-        self._rest.timeout.connect(self._read)
-        self._summaries.found.connect(self._describe_path)
+        self._pause = QTimer(self)
+        self._pause.setSingleShot(True)
+        self._pause.setInterval(_REST_MS)
+        self._pause.timeout.connect(self._read)
+        self._summaries.summary_read.connect(self._describe_path)
         self.message = MessageBar()
         self.families = WelcomeList(self.tr("New file"))
         self.examples = WelcomeList(self.tr("Examples"))
@@ -289,11 +289,11 @@ class WelcomePage(QWidget):
 
     def showEvent(self, event: QShowEvent) -> None:
         super().showEvent(event)
-        self._rest.start()
+        self._pause.start()
 
     def hideEvent(self, event: QHideEvent) -> None:
         super().hideEvent(event)
-        self._rest.stop()
+        self._pause.stop()
         self._summaries.want([])
 
     def _read(self) -> None:

@@ -82,7 +82,7 @@ class Docks(Translated):
         self._is_first = True
         self._width_before = _PANELS[1][2]
         """Width of the parameter before the preview came beside it."""
-        self._taken: set[str] = set()
+        self._closed_for_room: set[str] = set()
         """Docks that a small window has taken away."""
         self._is_low = self._is_folded = False
         """Whether the window has no room for the findings,
@@ -305,10 +305,10 @@ class Docks(Translated):
     def show(self, title: str) -> None:
         """Show a panel, wherever a small window has put it, and give it the focus."""
         dock = self._dock(title)
-        if title == "Parameter" and title in self._taken:
+        if title == "Parameter" and title in self._closed_for_room:
             self.chooser.show_choice(title)
             self._turn_bottom(title)
-            dock = self._dock("Findings" if title in self._taken else title)
+            dock = self._dock("Findings" if title in self._closed_for_room else title)
         elif title == "Findings":
             self.chooser.show_choice(title)
             self._turn_bottom(title)
@@ -317,7 +317,7 @@ class Docks(Translated):
         if dock.isHidden():
             dock.show()
             if (
-                title in self._taken and dock.isHidden()
+                title in self._closed_for_room and dock.isHidden()
             ):  # the window is too small for a separate side: it is below now
                 self.show(title)
                 return
@@ -329,7 +329,7 @@ class Docks(Translated):
         """Show a panel with the focus; close the one that has it.
         A panel that opens again is as large as it was.
         """
-        dock = self._dock("Findings" if title == "Parameter" and title in self._taken else title)
+        dock = self._dock("Findings" if title == "Parameter" and title in self._closed_for_room else title)
         inside, focused = dock.widget(), self._window.focusWidget()
         if dock.isHidden() or focused is None or not (inside is focused or inside.isAncestorOf(focused)):
             self.show(title)
@@ -363,7 +363,7 @@ class Docks(Translated):
             self._window.resizeDocks([below], [height], Qt.Orientation.Vertical)
 
     def _set_small(self, title: str, is_small: bool) -> None:
-        if is_small != (title in self._taken):
+        if is_small != (title in self._closed_for_room):
             with self._moving():
                 self._make_way(title) if is_small else self._put_back(title)
 
@@ -372,7 +372,7 @@ class Docks(Translated):
         dock = self._dock(title)
         if dock.isHidden() or dock.isFloating():
             return
-        self._taken.add(title)
+        self._closed_for_room.add(title)
         dock.hide()
         if title == "Parameter":
             self._move_parameter(self._bottom, self._bottom_heads)
@@ -380,7 +380,7 @@ class Docks(Translated):
     def _put_back(self, title: str) -> None:
         """Show a dock again where it was."""
         dock = self._dock(title)
-        self._taken.discard(title)
+        self._closed_for_room.discard(title)
         if title == "Parameter":
             self._move_parameter(None, None)
         dock.show()
@@ -426,7 +426,7 @@ class Docks(Translated):
 
     def _widen(self) -> None:
         """Put back what a small window has taken away, so that an arrangement is that of a large one."""
-        for title in tuple(self._taken):
+        for title in tuple(self._closed_for_room):
             self._set_small(title, False)
         self._is_low = False
         self._fold()

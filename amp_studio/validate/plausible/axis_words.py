@@ -17,13 +17,13 @@ class AxisWords:
 
     def __init__(self, file: ParameterFile) -> None:
         self._file, self._names = file, frozenset(file.schema.plausible.axis_words)
-        self._found: dict[Address, Finding] = {}
+        self._findings: dict[Address, Finding] = {}
         self._there = 0
         """A bit for each axis whose input is used."""
 
     def look_at_all(self) -> None:
         """Look at every word."""
-        self._found.clear()
+        self._findings.clear()
         if not self._names:
             return
         there, every = set(shown_axes(self._file)), axis_instances(self._file)
@@ -35,19 +35,19 @@ class AxisWords:
         """Look at one word again; returns whether anything is otherwise."""
         if address[0] not in self._names:
             return False
-        before = self._found.pop(address, None)
+        before = self._findings.pop(address, None)
         value = self._file.values.get(address)
         if value is not None and isinstance(value.value, int) and value.value & ~self._there:
             bits = value.value & ~self._there
             every = axis_instances(self._file)
             named = [axis for n, axis in enumerate(every) if bits >> n & 1]
             if named and self._file.evaluation.state(address).is_active:
-                self._found[address] = self._finding(address, named)
-        return self._found.get(address) != before
+                self._findings[address] = self._finding(address, named)
+        return self._findings.get(address) != before
 
     def findings(self) -> Iterator[Finding]:
         """Yield what was found."""
-        yield from self._found.values()
+        yield from self._findings.values()
 
     def _finding(self, address: Address, axes: list[str]) -> Finding:
         label = self._file.schema.on(self._file.machine).label(address)

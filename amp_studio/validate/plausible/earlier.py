@@ -44,12 +44,12 @@ class EarlierValues:
 
     def __init__(self, file: ParameterFile, earlier: Sequence[Earlier] = ()) -> None:
         self._file, self.earlier = file, tuple(earlier)
-        self._found: list[dict[Address, str]] = []
+        self._findings: list[dict[Address, str]] = []
         """What differs from each of the earlier contents, and how."""
 
     def look_at_all(self) -> None:
         """Compare everything."""
-        self._found = [
+        self._findings = [
             {
                 address: words
                 for address, old in one.values.items()
@@ -61,7 +61,7 @@ class EarlierValues:
     def look_again(self, address: Address) -> bool:
         """Compare one value again; returns whether anything is otherwise."""
         is_other = False
-        for one, found in zip(self.earlier, self._found, strict=True):
+        for one, found in zip(self.earlier, self._findings, strict=True):
             before, words = found.pop(address, ""), self._words(one, address)
             if words:
                 found[address] = words
@@ -95,7 +95,7 @@ class EarlierValues:
         for another reason need no second question.
         """
         done = set(asked)
-        for one, found in zip(self.earlier, self._found, strict=True):
+        for one, found in zip(self.earlier, self._findings, strict=True):
             if len(found) > max(_MOST, len(one.values) // _SHARE):
                 continue
             for address, words in found.items():

@@ -60,12 +60,12 @@ class Experience:
         words = AxisWords(file), WithinTravel(file), Relations(file), SeldomChanged(file)
         self._parts = (Alike(file), UsualValues(file), *tables, *words)
         self._earlier = EarlierValues(file, earlier)
-        self._found: tuple[Finding, ...] | None = None
+        self._findings: tuple[Finding, ...] | None = None
         self._is_stale = True
 
     def look_at_all(self) -> None:
         """Look at the whole file, once the findings are asked for: between them there may be many edits."""
-        self._found, self._is_stale = None, True
+        self._findings, self._is_stale = None, True
 
     def look_again(self, changed: Iterable[Address]) -> None:
         """Look again at the changed addresses; one that decides which values count is a reason
@@ -80,7 +80,7 @@ class Experience:
         for address in addresses:
             for part in (*self._parts, self._earlier):
                 if part.look_again(address):
-                    self._found = None
+                    self._findings = None
 
     def findings(self) -> tuple[Finding, ...]:
         """Return what there is now, in no order."""
@@ -88,8 +88,8 @@ class Experience:
             for part in (*self._parts, self._earlier):
                 part.look_at_all()
             self._is_stale = False
-        if self._found is None:
+        if self._findings is None:
             found = [finding for part in self._parts for finding in part.findings()]
             asked = {cause for finding in found for cause in finding.causes}
-            self._found = (*found, *self._earlier.findings(asked))
-        return self._found
+            self._findings = (*found, *self._earlier.findings(asked))
+        return self._findings

@@ -55,7 +55,7 @@ class Relations:
         for part in (AxisRelations(file, self._values), AxisColumns(file, self._values)):
             for names, check in part.checks():
                 self._add(names, check)
-        self._found: list[list[Finding]] = [[] for _ in self._checks]
+        self._findings: list[list[Finding]] = [[] for _ in self._checks]
 
     def _add(self, names: Sequence[str], check: Callable[[], list[Finding]]) -> None:
         for name in names:
@@ -65,7 +65,7 @@ class Relations:
     def look_at_all(self) -> None:
         """Make every check."""
         self._values.clear()
-        self._found = [check() for check in self._checks]
+        self._findings = [check() for check in self._checks]
 
     def look_again(self, address: Address) -> bool:
         """Make the checks of one value again; returns whether anything is otherwise."""
@@ -73,13 +73,13 @@ class Relations:
         self._values.clear()
         for n in self._of.get(address[0], ()):
             found = self._checks[n]()
-            is_other |= found != self._found[n]
-            self._found[n] = found
+            is_other |= found != self._findings[n]
+            self._findings[n] = found
         return is_other
 
     def findings(self) -> Iterator[Finding]:
         """Yield what was found."""
-        for found in self._found:
+        for found in self._findings:
             yield from found
 
     def _rows(self, names: Sequence[str]) -> Iterator[list[ActiveValue]]:

@@ -51,11 +51,11 @@ class EqualRows:
         tables = _tables_of(file.schema, file.machine)
         self._tables = frozenset(name for name in tables if scope((name, "")) == "global")
         self._equal = file.schema.plausible.equal_rows
-        self._found: dict[str, Finding] = {}
+        self._findings: dict[str, Finding] = {}
 
     def look_at_all(self) -> None:
         """Look at every table."""
-        self._found.clear()
+        self._findings.clear()
         for name in dict.fromkeys(address[0] for address in self._file.values):
             if name in self._tables:
                 self._look_at(name)
@@ -67,12 +67,12 @@ class EqualRows:
         name = address[0]
         if name not in self._tables and name not in self._equal:
             return False
-        before = self._found.pop(name, None)
+        before = self._findings.pop(name, None)
         if name in self._equal:
             self._look_at_equal(name)
         else:
             self._look_at(name)
-        return self._found.get(name) != before
+        return self._findings.get(name) != before
 
     def _addresses(self, name: str) -> list[Address]:
         file, state = self._file, self._file.evaluation.state
@@ -91,7 +91,7 @@ class EqualRows:
                 usual = counts.most_common(1)[0]
                 other = next(address for address in rows if keys[address] == usual[0])
                 slip = slip_between(keys[alone[0]], usual[0]) or "not"
-                self._found[name] = self._finding(alone[0], other, usual[1], slip)
+                self._findings[name] = self._finding(alone[0], other, usual[1], slip)
 
     def _look_at(self, name: str) -> None:
         keys, addresses = self._file.evaluation.keys, self._addresses(name)
@@ -105,12 +105,12 @@ class EqualRows:
         for usual in (key for key in counts if key != alone and key not in _NO_FIGURES):
             if slip := slip_between(alone, usual):
                 address, other = (next(a for a in addresses if keys[a] == key) for key in (alone, usual))
-                self._found[name] = self._finding(address, other, counts[usual], slip)
+                self._findings[name] = self._finding(address, other, counts[usual], slip)
                 return
 
     def findings(self) -> Iterator[Finding]:
         """Yield what was found."""
-        yield from self._found.values()
+        yield from self._findings.values()
 
     def _finding(self, address: Address, other: Address, count: int, slip: str) -> Finding:
         schema, parameter = self._file.schema, self._file.schema.parameters[address[0]]

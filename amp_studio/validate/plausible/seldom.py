@@ -17,11 +17,11 @@ class SeldomChanged:
 
     def __init__(self, file: ParameterFile) -> None:
         self._file, self._names = file, frozenset(file.schema.plausible.seldom)
-        self._found: dict[Address, Finding] = {}
+        self._findings: dict[Address, Finding] = {}
 
     def look_at_all(self) -> None:
         """Look at every value."""
-        self._found.clear()
+        self._findings.clear()
         for address in [a for a in self._file.values if a[0] in self._names]:
             self.look_again(address)
 
@@ -29,15 +29,15 @@ class SeldomChanged:
         """Look at one value again; returns whether anything is otherwise."""
         if address[0] not in self._names:
             return False
-        before, file = self._found.pop(address, None), self._file
+        before, file = self._findings.pop(address, None), self._file
         is_changed = address in file.values and not file.is_default(address)
         if is_changed and file.evaluation.state(address).is_active:
-            self._found[address] = self._finding(address)
-        return self._found.get(address) != before
+            self._findings[address] = self._finding(address)
+        return self._findings.get(address) != before
 
     def findings(self) -> Iterator[Finding]:
         """Yield what was found."""
-        yield from self._found.values()
+        yield from self._findings.values()
 
     def _finding(self, address: Address) -> Finding:
         schema, parameter = self._file.schema, self._file.schema.parameters[address[0]]

@@ -122,11 +122,11 @@ class TextCurves:
 
     def __init__(self, file: ParameterFile) -> None:
         self._file, self._signs = file, file.schema.plausible.curves
-        self._found: dict[Address, tuple[Finding, ...]] = {}
+        self._findings: dict[Address, tuple[Finding, ...]] = {}
 
     def look_at_all(self) -> None:
         """Look at every text."""
-        self._found.clear()
+        self._findings.clear()
         for address in [a for a in self._file.values if a[0] in self._signs]:
             self.look_again(address)
 
@@ -134,17 +134,17 @@ class TextCurves:
         """Look at one text again; returns whether anything is otherwise."""
         if address[0] not in self._signs:
             return False
-        before = self._found.pop(address, ())
+        before = self._findings.pop(address, ())
         value = self._file.values.get(address)
         if value is not None and self._file.evaluation.state(address).is_active:
             found = tuple(self._jumps(address, str(value.value)))
             if found:
-                self._found[address] = found
-        return self._found.get(address, ()) != before
+                self._findings[address] = found
+        return self._findings.get(address, ()) != before
 
     def findings(self) -> Iterator[Finding]:
         """Yield each point that jumps out of its table."""
-        for found in self._found.values():
+        for found in self._findings.values():
             yield from found
 
     def _jumps(self, address: Address, text: str) -> Iterator[Finding]:

@@ -107,11 +107,11 @@ class UsualValues:
     def __init__(self, file: ParameterFile) -> None:
         self._file = file
         self._facts = _facts(file.schema)
-        self._found: dict[Address, Finding] = {}
+        self._findings: dict[Address, Finding] = {}
 
     def look_at_all(self) -> None:
         """Look at every value."""
-        self._found.clear()
+        self._findings.clear()
         facts, state = self._facts, self._file.evaluation.state
         for address, value in self._file.values.items():
             known = facts.get(address[0])
@@ -121,24 +121,24 @@ class UsualValues:
             if not what:
                 known.fine[value.value, value.unit] = True
             if what and state(address).is_active:
-                self._found[address] = self._finding(known, address, value, what)
+                self._findings[address] = self._finding(known, address, value, what)
 
     def look_again(self, address: Address) -> bool:
         """Look at one value again; returns whether anything is otherwise."""
         facts = self._facts.get(address[0])
         if facts is None:
             return False
-        before = self._found.pop(address, None)
+        before = self._findings.pop(address, None)
         value = self._file.values.get(address)
         if value is not None:
             what = _doubt(facts, value)
             if what and self._file.evaluation.state(address).is_active:
-                self._found[address] = self._finding(facts, address, value, what)
-        return self._found.get(address) != before
+                self._findings[address] = self._finding(facts, address, value, what)
+        return self._findings.get(address) != before
 
     def findings(self) -> Iterator[Finding]:
         """Yield what was found."""
-        yield from self._found.values()
+        yield from self._findings.values()
 
     def _finding(self, facts: _Known, address: Address, value: Value, what: str) -> Finding:
         label = self._file.schema.on(self._file.machine).label(address)

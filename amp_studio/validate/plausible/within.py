@@ -26,11 +26,11 @@ class WithinTravel:
         for travel in file.schema.plausible.within:
             for name in (travel.low, travel.high, *travel.inside):
                 self._of.setdefault(name, []).append(travel)
-        self._found: dict[Address, Finding] = {}
+        self._findings: dict[Address, Finding] = {}
 
     def look_at_all(self) -> None:
         """Look at every position."""
-        self._found.clear()
+        self._findings.clear()
         if self._of:
             for address in self._file.values:
                 if address[0] in self._of:
@@ -42,14 +42,14 @@ class WithinTravel:
         """
         travels, instance = self._of.get(address[0], ()), address[1]
         positions = {(name, instance) for travel in travels for name in travel.inside}
-        before = {a: self._found.pop(a, None) for a in positions}
+        before = {a: self._findings.pop(a, None) for a in positions}
         for position in positions:
             self._look_at(position)
-        return any(self._found.get(a) != found for a, found in before.items())
+        return any(self._findings.get(a) != found for a, found in before.items())
 
     def findings(self) -> Iterator[Finding]:
         """Yield what was found."""
-        yield from self._found.values()
+        yield from self._findings.values()
 
     def _look_at(self, address: Address) -> None:
         for travel in self._of[address[0]]:
@@ -61,7 +61,7 @@ class WithinTravel:
                 continue
             slack = travel.beyond * (high - low)
             if not low - slack <= at <= high + slack:
-                self._found[address] = self._finding(address, ends)
+                self._findings[address] = self._finding(address, ends)
 
     def _position(self, address: Address) -> float | None:
         """Return an active position in the canonical unit of a length or an angle; None for none."""

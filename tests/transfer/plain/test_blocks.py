@@ -143,7 +143,7 @@ def test_a_receiver_that_gives_up_ends_the_sending_at_once() -> None:
     sender.await_start()
     with pytest.raises(PlainFileError, match="given the transfer up"):
         sender.send(b"data")
-    assert sender.taken == 0
+    assert sender.accepted_bytes == 0
 
 
 @pytest.mark.parametrize(

@@ -68,8 +68,8 @@ def test_new_errors_are_shown_before_the_file_gets_them(
     displayed.use(B, MergeSource("other.amp", "", other))
     show(displayed, EXCESS)
     press(displayed, "b")
-    qtbot.waitUntil(displayed.outcome.found.isEnabled, timeout=WAIT_MS)
-    assert "1 new error" in displayed.outcome.found.text()
+    qtbot.waitUntil(displayed.outcome.findings_button.isEnabled, timeout=WAIT_MS)
+    assert "1 new error" in displayed.outcome.findings_button.text()
     displayed.outcome.merge.click()
     assert displayed.findings.isVisible()
     assert window.workspace.file.get(EXCESS) == Value(11.0, "mm"), "nothing has been changed yet"

@@ -208,7 +208,7 @@ def test_a_screen_reader_is_reported_whose_value_it_is_and_whether_the_result_ta
 
 def test_every_part_of_the_window_has_a_name(three: MergeWindow) -> None:
     show(three, EXCESS)
-    three.outcome.found.setChecked(True)
+    three.outcome.findings_button.setChecked(True)
     assert nameless(three) == []
 
 

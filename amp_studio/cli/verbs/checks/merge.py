@@ -176,7 +176,7 @@ def _print(merge: Merge, options: Options) -> None:
     from amp_studio.report import counted
 
     for row in merge.conflicts:
-        took = f"{_taken(merge.choice(row))} is {'taken' if row not in merge.open_conflicts else 'kept'}"
+        took = f"{_side_name(merge.choice(row))} is {'taken' if row not in merge.open_conflicts else 'kept'}"
         if row.id.part == "entry":  # it may be a secret of another schema
             print(f"conflict at {row.id.key}: {took}")
         elif row.id.part == "header":
@@ -191,7 +191,7 @@ def _print(merge: Merge, options: Options) -> None:
     print(f"{where}: {counted(len(merge.open_conflicts), 'conflict')}")
 
 
-def _taken(choice: MergeChoice | None) -> str:
+def _side_name(choice: MergeChoice | None) -> str:
     """Return what a person calls a choice; where nothing was chosen ours is kept."""
     from amp_studio.files import Typed
 
@@ -218,7 +218,7 @@ def _row(merge: Merge, row: Row, result: ParameterFile, secrets: bool) -> dict[s
     from amp_studio.cli.checks.comparing import difference_json, row_json
     from amp_studio.files import Difference
 
-    settled = {"taken": _taken(merge.choice(row)) if merge.choice(row) else None}
+    settled = {"taken": _side_name(merge.choice(row)) if merge.choice(row) else None}
     if row.id.part == "entry":
         return {"param": row.id.key} | settled
     if row.id.part == "header":

@@ -113,7 +113,7 @@ def run(options: Options) -> int:
             )
         axis = resolve_axis(file.evaluation, _instances(file, offered), options.axis)
         try:
-            found = _wanted(options, file, offered, axis, by_hand)
+            found = _correction(options, file, offered, axis, by_hand)
             changes = file.set_checked(found.settings)
         except (CalibrationError, RangeError, InvalidValueError) as error:
             raise UsageError(f"{error}; nothing was changed") from None
@@ -159,8 +159,8 @@ def _instances(file: ParameterFile, offered: Compensation) -> tuple[str, ...]:
     return instances
 
 
-class _Found:
-    """What the options come to: values to set, and what was measured where it was."""
+class _Correction:
+    """What the options set: the values, with the measurement and the proposal that they come from."""
 
     def __init__(self, settings: dict[Address, Value | None]) -> None:
         self.settings = settings
@@ -168,13 +168,15 @@ class _Found:
         self.proposal: Proposal | None = None
 
 
-def _wanted(options: Options, file: ParameterFile, offered: Compensation, axis: str, by_hand: bool) -> _Found:
+def _correction(
+    options: Options, file: ParameterFile, offered: Compensation, axis: str, by_hand: bool
+) -> _Correction:
     from amp_studio.calibration import MeasurementAnswers, Wish, base_unit, propose, read_measured_file
 
     if by_hand:
-        return _Found(_edited(options, file, offered, axis))
+        return _Correction(_edited(options, file, offered, axis))
     if not options.measured:
-        return _Found({})
+        return _Correction({})
     answers = MeasurementAnswers(
         *(getattr(options, name) or "" for name in ("unit", "error_unit", "sign", "decimal"))
     )
@@ -189,9 +191,9 @@ def _wanted(options: Options, file: ParameterFile, offered: Compensation, axis: 
         circle=options.circle or "",
     )
     proposal = propose(file, axis, measurement, wish)
-    found = _Found(dict(proposal.settings))
-    found.measurement, found.proposal = measurement, proposal
-    return found
+    correction = _Correction(dict(proposal.settings))
+    correction.measurement, correction.proposal = measurement, proposal
+    return correction
 
 
 def _demand_answers(measurement: Measurement | None) -> None:
@@ -276,7 +278,7 @@ def _lines(
     file: ParameterFile,
     offered: Compensation,
     axis: str,
-    found: _Found,
+    found: _Correction,
     changes: list[Change],
 ) -> Iterator[str]:
     from amp_studio.calibration import present_table
@@ -377,7 +379,7 @@ def _json(
     file: ParameterFile,
     offered: Compensation,
     axis: str,
-    found: _Found,
+    found: _Correction,
     changes: list[Change],
 ) -> dict[str, Any]:
     from amp_studio.calibration import base_unit, present_table, shown_unit

@@ -26,8 +26,8 @@ from amp_studio.formats import (
     TextRead,
     default_system,
     file_of,
-    keep,
-    kept,
+    keep_lines,
+    lines_kept,
     mark,
     marked,
     neighbours,
@@ -157,7 +157,7 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
         found.notes.append(
             f"{count} of the program set nothing here, kept in their place: {', '.join(first)}"
         )
-    keep(found, _KIND, [_layout(line) for line in lines], always=not _is_ours(text, found, schema))
+    keep_lines(found, _KIND, [_layout(line) for line in lines], always=not _is_ours(text, found, schema))
     script = found.extra.get(f"{_KIND}_script")
     if isinstance(script, dict) and "\r" not in text:
         script["newline"] = "lf"
@@ -348,7 +348,7 @@ def _write(file: ParameterFile) -> str:
     system = system_of(file)
     rows = {s.addresses[0]: row for s in _settings(file) if (row := _row(file, s, system))}
     units = [f"REM units {system}"] if file.schema.family.unit_parameter else []
-    layout = kept(file, _KIND)
+    layout = lines_kept(file, _KIND)
     if layout is None:
         name = " ".join(
             f"{_HEAD} of {file.header.name or 'a machine'}".encode(_CODE_PAGE, "replace")

@@ -313,7 +313,7 @@ class TerminalDriver(AcrContent, LineDriver):
 
     def _set(self, sending: _Sending, name: str) -> None:
         """Send the command of one setting until it is read back; raises ImageRejectedError with its line."""
-        wanted, fault = sending.wanted[name], ""
+        wanted, fault = sending.figures[name], ""
         for _ in range(SET_TRIES):
             with self._terminal.seen_through():
                 fault = self._command(sending, name)
@@ -350,8 +350,8 @@ class TerminalDriver(AcrContent, LineDriver):
         for name in sending.names:
             if name in sending.content.ballscrew:
                 continue
-            present = self._figures(name, len(sending.wanted[name]))
-            if present is None or not same_figures(present, sending.wanted[name]):
+            present = self._figures(name, len(sending.figures[name]))
+            if present is None or not same_figures(present, sending.figures[name]):
                 self._set(sending, name)
         self._prove_tables(sending)
 
@@ -389,7 +389,7 @@ class _Sending:
         self.content = CardContent.read(replacement.content)
         self.lines = self.content.lines()
         self.numbers = {name: number for number, name in enumerate(self.lines, 3)}
-        self.wanted = self.content.names()
+        self.figures = self.content.names()
         self.names = differing_settings(replacement.content, replacement.current)
         self.sent = sent
         sent.total = len(self.names)

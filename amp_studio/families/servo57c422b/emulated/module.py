@@ -214,7 +214,7 @@ class Module:
         motion, target = self._motion[axis], float(double(self.words, axis + POSITION))
         motion.bind(self.words)
         if self.words[axis + MODE] & INCREMENTAL:
-            target += motion.simulated.command if motion.simulated else motion.wanted
+            target += motion.simulated.command if motion.simulated else motion.commanded
         if not motion.limit(self.words):
             self._set(axis + FAULT, ILLEGAL)
             return

@@ -24,7 +24,7 @@ class ModuleMotion:
         self._first = 0 if axis == "X" else AXIS_Y
         self._words: tuple[int, ...] = ()
         self.simulated: SimulatedAxis | None = None
-        self.wanted = 0.0
+        self.commanded = 0.0
         """Commanded position while nothing can follow it."""
 
     @property
@@ -35,7 +35,7 @@ class ModuleMotion:
     @property
     def following_error(self) -> int:
         """Commanded less feedback position in counts."""
-        return round(self.simulated.following_error if self.simulated else self.wanted)
+        return round(self.simulated.following_error if self.simulated else self.commanded)
 
     @property
     def is_stopped(self) -> bool:
@@ -86,7 +86,7 @@ class ModuleMotion:
 
     def move(self, target: float, words: Sequence[int]) -> None:
         """Move to a position."""
-        self.wanted = target
+        self.commanded = target
         if self.simulated:
             self.simulated.move(target, max(self.speed(words), 1e-3), self.ramp(words))
 

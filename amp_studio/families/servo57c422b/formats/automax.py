@@ -17,8 +17,8 @@ from amp_studio.formats import (
     ReadOptions,
     TextFormat,
     TextRead,
-    keep,
-    kept,
+    keep_lines,
+    lines_kept,
     mark,
     marked,
     neighbours,
@@ -186,7 +186,7 @@ def _write_task(file: ParameterFile) -> str:
     registers, variables = registers_of(file.schema, file.machine), Variables(file.schema)
     settings = [one for one in contents_of(file, registers) if len(one.words) <= 2]
     statements = {one.register: _assignment(registers, variables, one) for one in settings}
-    layout = kept(file, _KIND)
+    layout = lines_kept(file, _KIND)
     if layout is not None:
         return _filled(layout, [(one.register, len(one.words)) for one in settings], statements)
     # Stable: all else keeps the order of the manual, and what starts to act finds its setups there.
@@ -273,7 +273,7 @@ def _read_task(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     meaning.settle()
     settings = {key: one for key, one in settings.items() if one not in meaning.leftover}
     found = TextRead(meaning.values, machine=machine)
-    keep(found, _KIND, [_row(line, settings) for line in lines])
+    keep_lines(found, _KIND, [_row(line, settings) for line in lines])
     return found
 
 

@@ -51,14 +51,14 @@ class RegisterLine:
         self._waiting = waiting
         self._link: Link | None = None
         self._number = 0
-        self._rest = b""
+        self._buffer = b""
 
     def close(self) -> None:
         """Hang up."""
         if self._link is not None:
             self._link.close()
             self._link = None
-        self._rest = b""
+        self._buffer = b""
 
     def name(self) -> str:
         """Return what the rack calls itself."""
@@ -117,9 +117,9 @@ class RegisterLine:
         link.write(framed(self._number, request))
         end = self._waiting.now() + ANSWER_WAIT
         while (left := end - self._waiting.now()) > 0:
-            *lines, self._rest = (self._rest + self._waiting.read(link, left)).split(b"\r\n")
+            *lines, self._buffer = (self._buffer + self._waiting.read(link, left)).split(b"\r\n")
             # Noise without a line end must not fill the memory.
-            self._rest = self._rest[-LONGEST:]
+            self._buffer = self._buffer[-LONGEST:]
             for line in lines:
                 found = unframed(line)
                 # The answer to an earlier try, which came too late, has another number and must not be
