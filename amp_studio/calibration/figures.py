@@ -137,6 +137,8 @@ def _repeatability(target: TargetFigures) -> float | None:
     up, down, reversal = target.spread_rising, target.spread_falling, target.reversal
     if up is None or down is None or reversal is None:
         return None
+    # R of both directions is never below that of one: where the spreads differ much and nothing is lost, 4 s
+    # of the worse direction is the larger figure.
     return max(2 * up + 2 * down + abs(reversal), 4 * up, 4 * down)
 
 

@@ -328,6 +328,8 @@ def _reversal_of(
             f"lost motion differs over the travel: the least is {float(low):.5f}"
             f" {base_unit(file, offered, axis)}, and the manuals warn of a value above it"
         )
+    # In fractions up to here: what is shown as the remaining error is computed with the figure that the
+    # control gets, to its last digit.
     value, made = rounded(file, address, total)
     present = file.get(address)
     if not offered.is_signed and present is not None and not isinstance(present.value, (str, bool)):
@@ -355,6 +357,7 @@ def rounded(file: ParameterFile, address: Address, amount: Fraction) -> tuple[Va
     if decimals is None:
         decimals = (parameter.storage.decimals if parameter.storage else None) or _USUAL_DECIMALS
     step = Fraction(1) if parameter.type == "integer" else Fraction(1, 10**decimals)
+    # Manuals warn of more compensation than motion is lost, not of less.
     steps = int(amount / factor / step)  # towards zero
     number = steps * step
     whole = parameter.type == "integer"

@@ -101,6 +101,7 @@ class Labels:
 def labels_of(frame: Placement, width: float, height: float, measure: Measure, line: float) -> Labels:
     """Return where the texts of a scene are on a sheet of a width and a height, in lines of a height."""
     placing = _Placing(frame, width, height, measure, line)
+    # Whatever comes later keeps clear of what is there: the order is that of what must not be missing.
     placing.scales()
     placing.levels()
     placing.marks()
@@ -217,6 +218,7 @@ class _Placing:
             y, name = frame.at((0.0, mark.at))[1], mark.name
             if not name or not frame.top <= y <= frame.top + frame.height:
                 continue
+            # From the bottom up: one that is less than a line above the one before shares its text.
             if found and found[-1][0] - y < self._line:
                 y, name = found[-1][0], f"{found.pop()[1]}, {name}"
             found.append((y, name))
@@ -248,6 +250,7 @@ class _Placing:
         scene = self._frame.scene
         rows = scene.y.rows
         is_dense = len(rows) > 1 and self._frame.height / len(rows) < _LEAST_ROW
+        # A text with a value names a parameter; a bare figure can be read off the scale where it has no room.
         for text in sorted(scene.texts, key=lambda each: not each.value):
             point = self._frame.at(text.at)
             is_first = not is_dense or (text.at[1] == rows[0][0] and text.anchor == "above")
@@ -263,8 +266,8 @@ class _Placing:
         The name of a line goes far away rather than without its value, that of an area stays near.
         """
         if not text.value and not any(letter.isalpha() for letter in text.text):
-            found = self._found(text, point, "", 0, symbols=False)  # a figure belongs to its point
-            return self._label(text, point, found, "")
+            box = self._free_box(text, point, "", 0, symbols=False)  # a figure belongs to its point
+            return self._label(text, point, box, "")
         is_area = text.anchor in ("above", "inside", "corner")
         tries = [(text.value, _NEAR, True), ("", _NEAR, True), (text.value, _FAR, True)]
         for value, far, symbols in (
@@ -272,9 +275,9 @@ class _Placing:
             (text.value, _FAR, False),
             ("", _FAR, False),
         ):
-            found = self._found(text, point, value, far, symbols=symbols)
-            if found is not None:
-                return self._label(text, point, found, value)
+            box = self._free_box(text, point, value, far, symbols=symbols)
+            if box is not None:
+                return self._label(text, point, box, value)
         return None
 
     def _label(self, text: Text, point: Point, box: Box | None, value: str) -> Label | None:
@@ -285,7 +288,7 @@ class _Placing:
         leader = (point, end) if far > _LED else None
         return Label(box, text.text, value, bool(text.value), text.sort, text.address, leader)
 
-    def _found(self, text: Text, point: Point, value: str, far: int, *, symbols: bool) -> Box | None:
+    def _free_box(self, text: Text, point: Point, value: str, far: int, *, symbols: bool) -> Box | None:
         """Return the first free place of a text within so many lines; where it belongs at all, first."""
         around = self._around(text, point, value, far)
         first = self._kept_inside(next(around))
@@ -294,6 +297,8 @@ class _Placing:
         ):  # most are free where they belong: no other place is asked for
             return first
         places = [(box, self._kept_inside(box)) for box in around]
+        # A place that had to be pushed back onto the sheet is no longer where it belongs to its point: those
+        # are tried last.
         for box in (*(box for box, kept in places if kept == box), *(kept for _, kept in places)):
             if self._is_free(box, symbols=symbols):
                 return box

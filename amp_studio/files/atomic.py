@@ -106,12 +106,18 @@ def write_atomic(
         if keep_backup and previous is not None:
             kept = backup_path(real)
             kept_temporary = stack.enter_context(_staged(kept, previous, real, []))
+        # Once more, as late as can be: between this look and the rename another program has some microseconds
+        # left. No system call compares and renames in one.
         if looks and _digest(_content_of(real)) != _digest(previous):
             raise ChangedOnDiskError(f"{path.name} has been changed by another program while it was saved")
         if kept is not None:
+            # The backup first: a program that is killed between the two renames leaves the old content twice,
+            # never the file without a backup.
             stack.enter_context(_put_back_unless_saved(kept, temporary))
             os.replace(kept_temporary, kept)
         _replace(temporary, real, path, is_new=expected is None)
+    # The rename is on the disk only when its folder is: a power cut before that brings the old file back,
+    # whole.
     with contextlib.suppress(OSError):  # the file is the new one already: a fault here is not one of the save
         sync_folder(real.parent)
     for message in notes:
@@ -189,6 +195,8 @@ def _staged(path: Path, content: bytes, like: Path | None, notes: list[str]) -> 
             write_all(handle, content)
             if like is not None:
                 notes += keep_attributes(like, handle)
+            # Before the rename: else the name could reach the disk before the content, and a power cut would
+            # leave an empty file.
             os.fsync(handle)
         finally:
             os.close(handle)

@@ -184,6 +184,7 @@ class Document:
         self.digest = save_file(self.file, self.path, self.digest, self.notes.append)
         self.saved = dict(self.file.values)
         self._saved_rest = _rest_of(self.file)
+        # History and journal after the file: whatever ends the program here, the values are saved.
         self._remember(changes, how)
         self._drop_journal()
 
@@ -288,6 +289,7 @@ class Document:
         ]
         left = {"when": now(), "who": user(), "digest": self.digest, "changes": entries, "header": header}
         content = json.dumps(left)
+        # No backup: of a journal only the newest state is of use.
         write_atomic(self.journal_path, content.encode(), keep_backup=False, companion_of=self.path)
         self._journal_is_ours = True
 

@@ -79,6 +79,8 @@ class LineDriver(ABC):
         try:
             return self._send(replacement, sent)
         except CancelledError as error:
+            # What was sent before the stop stays at the control. Where reading it back would make the user
+            # wait for minutes, the answers to what was sent are all that is known.
             if self.is_read_when_stopped and sent.has_begun:
                 self._waiting.begin(QUIET)
                 self._after_break(error, sent, replacement)

@@ -101,6 +101,8 @@ def _hook(window: QWidget):  # type: ignore[no-untyped-def]  # the type of sys.e
             f"AMP Studio has an internal error: {kind.__name__}: {error}\n\n"
             "Your work is still open. Save it under a new name."
         )
+        # Later: this is called from within what Qt was doing, perhaps a paint, where a dialog with an event
+        # loop inside may not be opened.
         QTimer.singleShot(0, window, lambda: show_message(window, "Internal error", text))
 
     return show_internal_error

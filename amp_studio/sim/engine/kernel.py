@@ -213,6 +213,8 @@ def run(
         io[MOTOR] = counted(m, motor_position, MOTOR_COUNT, MOTOR_COUNTS)
         passed_by = seen(timing, io[COMMAND], io[POSITION], load_position)
         if passed_by > 0 or sample >= timing[LAST_SAMPLE] or (piece == last and timing[TO_END] != 0.0):
+            # The sample is not run: what is put away is the state before it, so that the same call goes on
+            # there.
             x[PLANT], x[PLANT + 1], x[PLANT + 2] = motor_position, motor, load_position
             x[PLANT + 3], x[PLANT + 4], x[PLANT + 5], x[PLANT + 6] = load, torque, error_sum, against
             x[SAMPLE], x[RESTLESS], x[PIECE], x[MOMENT] = float(sample), float(restless), float(piece), begun
@@ -251,6 +253,8 @@ def run(
                 velocity_sample(p, s, io)
             output = io[OUTPUT]
             for j in range(substeps):
+                # The row of an alarm is written whatever the stride: it is the last that is shown of the
+                # driven axis.
                 if since == stride or (io[STOP] != 0.0 and coasting == 0.0):
                     if row >= most:
                         return row
@@ -319,6 +323,7 @@ def run(
                     applied,
                     span,
                 )
+        # Not ``>=``: a position that is no number any more is caught by this form alone.
         if not abs(motor_position) < BOUNDLESS:
             io[STOP] = DIVERGED
         sample += 1

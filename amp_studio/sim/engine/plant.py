@@ -126,6 +126,8 @@ def stretch(gap: float, twist: float, half: float) -> float:
     The mean of the whole way, not the stretch in its middle: so contact takes up and gives back the same
     energy, wherever in a step it begins.
     """
+    # In contact for the whole step, then never, then for a part of it: there the mean is the area under the
+    # line of the stretch.
     if abs(twist) - abs(half) >= gap:
         return twist - math.copysign(gap, twist)
     if abs(twist) + abs(half) <= gap:
@@ -145,6 +147,7 @@ def coupling_torque(
         return 0.0
     coupling = m[STIFFNESS] * stretched + (m[DAMPING] * difference - m[FROM_WEIGHT] * weight)
     coupling += m[FROM_TORQUE] * torque
+    # A spring with a gap pushes only: damping alone must not make it pull while it lets go.
     if m[HALF_GAP] > 0.0 and coupling * stretched < 0.0:
         return 0.0
     return coupling
@@ -171,6 +174,8 @@ def advance(
         mean = target + (torque - target) * m[LAG_MEAN]
         target += (torque - target) * m[LAG]
     torque = target
+    # Half the drift before the kick and half after it: positions and speeds are known at the same moments,
+    # and the scheme stays of second order.
     motor_position += 0.5 * h * motor
     if m[TWO_MASSES] == 0.0:
         push = mean - m[GRAVITY] - m[SPRING] * motor_position

@@ -77,6 +77,8 @@ def _extent(plan: ProgramPlan, path: ToolPath) -> tuple[PathRows, PathRows]:
         center, radius, sweep = path.center[row], float(geometry.radius[n]), float(path.sweep[row])
         begun = math.atan2(geometry.begins[n, b] - center[1], geometry.begins[n, a] - center[0])
         low, high = min(begun, begun + sweep), max(begun, begun + sweep)
+        # An arc is farthest out at one of its ends or where it is parallel to an axis: at the multiples of
+        # 90° that it passes.
         for quarter in range(math.ceil(low / (0.5 * math.pi)), math.floor(high / (0.5 * math.pi)) + 1):
             angle = quarter * 0.5 * math.pi
             for axis, place in (
@@ -182,6 +184,9 @@ def _entered(
     sides: dict[int, tuple[float, float]], begins: PathRows, ends: PathRows, *, keeps_in: bool
 ) -> PathRows:
     """Return at which share of each piece it breaks a box, above 1 where it does not."""
+    # The slabs of a box, side by side: a piece is in it from where it has entered the last slab to where it
+    # leaves the first. Out of reach is 2.0 for a share that is never met and -1.0 for one that is always
+    # over; an axis that rests is in its slab for the whole piece, or never.
     low_share, high_share = np.zeros(len(begins)), np.ones(len(begins))
     left = np.full(len(begins), math.inf)
     for n, (low, high) in sides.items():

@@ -34,8 +34,9 @@ from .geometry import geometry_of
 AS_PROGRAMMED = PathLimit(math.inf, None, "feed as programmed")
 DWELLS = PathLimit(0.0, None, "dwell")
 EVERY = 16384
-"""PathRows from one look at whether to stop to the next."""
+"""Rows between two reports of progress, each of which may cancel the planning."""
 SAME = 1e-12
+"""Share of the way below which an axis does not move in a row: what is left of it is rounding."""
 
 
 class CauseTable:
@@ -130,6 +131,8 @@ def plan_program(
     table = CauseTable()
     kind = path.kind[geometry.row]
     is_rapid = kind == RAPID
+    # What a row allows by itself comes first, then the corner behind it. Each step only lowers values and
+    # writes down by what, so that the cause that is left is the one that bounds.
     wanted, top, top_by = _tops(path, geometry, rules, table, is_rapid)
     acceleration, ramp_by = _accelerations(path, geometry, rules, table, is_rapid, rules.axis_acceleration)
     slower = rules.axis_acceleration if rules.axis_deceleration is None else rules.axis_deceleration
@@ -151,6 +154,8 @@ def plan_program(
     entry, entry_by = _look_ahead(geometry, rules, table, is_rapid, slopes, joint, joint_by, progress)
     leave = np.append(entry[1:], 0.0)
     leave_by = np.append(entry_by[1:], -1)
+    # The look-ahead bounds the speed at an end of a row. The ramp towards that end is run because of it, and
+    # its time counts for it, not for the acceleration.
     peak, times = _ramps(geometry, rules, is_rapid, entry, leave, top, slopes)
     ahead = table.number(rules.look_ahead) if rules.look_ahead else -1
     rest, rest_by = _rests(path, geometry, rules, table, leave, waits)
@@ -203,6 +208,7 @@ def _shape(
         values[0][lower], values[1][lower] = bounds.value[lower], numbers[bounds.by[lower]]
 
     lower(speed, shaped.speed)
+    # A joint is never faster than the rows on its sides, and those have just become slower.
     if len(joint[0]):
         joint[0][:-1] = np.minimum(joint[0][:-1], np.minimum(speed[0][:-1], speed[0][1:]))
     lower(joint, shaped.joint)
@@ -234,6 +240,7 @@ def _of_axes(
         limit = limits.get(axis)
         if limit is None:
             continue
+        # An axis with the share s of the way moves at s times the speed along the path.
         share = geometry.share[:, n]
         bound = np.full(len(share), math.inf)
         np.divide(limit.value, share, out=bound, where=share > SAME)
@@ -254,6 +261,8 @@ def _tops(
     rapid = rules.axis_speed if rules.axis_rapid is None else rules.axis_rapid
     _of_axes(top, by, geometry, path, rules.axis_speed, table, ~is_rapid)
     _of_axes(top, by, geometry, path, rapid, table, is_rapid)
+    # Where a parameter bounds rapid along the path, the override has scaled that already; here only the axes
+    # bound it.
     if rules.rapid_override < 1.0 and not rules.rapid:
         top[is_rapid] *= rules.rapid_override
     if rules.arc is not None and geometry.is_arc.any():
@@ -313,6 +322,7 @@ def _joints(
     stops = (corner[:-1] == EXACT) & ~inside
     _lowered(joint[:-1], by[:-1], np.zeros(count - 1), table.number(rules.stop), stops)
     rests = (kind == DWELL) | ((kind == RAPID) & rules.rapid_rests)
+    # Both ends of a rest: the axes do not move while it lasts.
     joint[:-1][rests[:-1] | rests[1:]] = 0.0
     joint[-1] = 0.0
     return joint, by
@@ -346,10 +356,14 @@ def _look_ahead(
     faster, slower = (each.tolist() for each in slopes)
     speeds = most.tolist()
     after = 0.0
+    # Backward: from the end of the program, where the axes rest, no row may begin faster than it can brake to
+    # what the next one begins with.
     for n in range(count - 1, -1, -1):
         after = speeds[n] = min(speeds[n], step(after, length[n], slower[n], rapid[n]))
         if n % EVERY == 0:
             progress(0.3 + 0.3 * (count - n) / count)
+    # Forward: of that, a row reaches only what it can accelerate to. What is lowered here is never below the
+    # beginning of its row, so that no row has to brake for it.
     for n in range(count - 1):
         can = step(speeds[n], length[n], faster[n], rapid[n])
         speeds[n + 1] = min(speeds[n + 1], can)
@@ -388,6 +402,8 @@ def _ramps(
             continue
         v, w, way = entry[rows], leave[rows], geometry.length[rows]
         a, d = slopes[0][rows], slopes[1][rows]
+        # Both passes keep the ends reachable to a rounding error. A peak that is lower than an end by such an
+        # error would give a negative way at even speed, hence the bounds here and below.
         most = np.maximum(np.maximum(top[rows], v), w)
         high = np.maximum(peaks(ramp, v, w, way, most, a, d), np.maximum(v, w))
         even = np.maximum(way - change_way(ramp, v, high, a) - change_way(ramp, high, w, d), 0.0)

@@ -16,7 +16,7 @@ from .geometry import places_of
 from .planner import ProgramPlan
 
 MOST_ROWS = 50_000
-"""PathRows of a path that the servo loops are run on."""
+"""Rows of a path that the servo loops are run on."""
 
 
 def axis_profiles(plan: ProgramPlan) -> list[list[float]]:
@@ -71,6 +71,8 @@ def _row(
     geometry = plan.geometry
     if geometry.is_arc[n] and axis in (places := places_of(plan.path, int(geometry.row[n]))):
         if piece.kind != POLYNOMIAL or piece.jerk != 0.0:
+            # The angle of a sine piece is of second degree in time. A ramp whose acceleration changes would
+            # need the third.
             raise SimulationError("Arcs with curved ramps are not run on the servo loops")
         row = int(geometry.row[n])
         first, second = places
@@ -118,6 +120,8 @@ def path_points(plan: ProgramPlan, within: float) -> tuple[PathRows, Indices]:
             row = int(geometry.row[n])
             a, b = places_of(plan.path, row)
             sweep, center = float(plan.path.sweep[row]), plan.path.center[row]
+            # A chord over the angle a is r (1 - cos(a/2)) off, about r a²/8: solved for a, that is how often
+            # it goes into the sweep.
             parts = max(2, math.ceil(abs(sweep) * math.sqrt(float(geometry.radius[n]) / (8.0 * within))))
             share = np.arange(1, parts + 1) / parts
             x, y = geometry.begins[n, a] - center[0], geometry.begins[n, b] - center[1]

@@ -86,6 +86,8 @@ def plant_of(machine: Machine) -> Plant:
     push = {motor_speed: acceleration * (1.0 + ratio), load_speed: acceleration * (1.0 + ratio) / ratio}
     a[motor, motor_speed] = a[load, load_speed] = 1.0
     if machine.two_masses:
+        # Motor and load against each other are one oscillator, with the sum of what a torque does to each:
+        # its square rate is stiffness times that sum, its damping term twice damping ratio times rate.
         both, rate = sum(push.values()), 2.0 * math.pi * frequency
         stiffness, damping = rate**2 / both, 2.0 * ratio_of_damping * rate / both
         own = {motor_speed: machine.motor_friction, load_speed: 1.0 - machine.motor_friction}
@@ -101,6 +103,8 @@ def plant_of(machine: Machine) -> Plant:
         a[motor_speed, motor] = -acceleration * machine.spring
         a[motor_speed, motor_speed] = -acceleration * machine.viscous_friction
         driven = acceleration
+    # A drive with a velocity loop asks for a torque by speed and integral (a row over the states) and by
+    # output (a factor); any other drive for the output itself.
     wanted, scale = np.zeros(6), 1.0
     if machine.velocity_per_output > 0.0:
         gain = 2.0 * math.pi * machine.velocity_bandwidth / acceleration
@@ -139,6 +143,8 @@ def sampled(
     loops = max(1, round(period / velocity_period)) if velocity is not None else 1
     step = period / loops
     whole, rest = divmod(plant.delay / step, 1.0)
+    # Division can leave 0.999999… of a sample for a whole one: then there would be one state more, with the
+    # effect of none.
     if 1.0 - rest < 1e-9:
         whole, rest = whole + 1.0, 0.0
     waiting = int(whole) + (1 if rest > 1e-9 else 0)
@@ -155,6 +161,8 @@ def sampled(
     taken = [signal[name] for name in ("position", "command", "command_velocity", "command_acceleration")]
     # A row for each state and signal: what it is made of, the states before the period and the inputs.
     rows = np.hstack([np.eye(size), np.zeros((size, len(taken) + 1))])  # the last one is the push on the load
+    # What is measured and commanded is no state of the loop but an input of this period: its rows are cut off
+    # from the states before and tied to the columns of the inputs.
     rows[taken] = 0.0
     rows[taken, range(size, size + len(taken))] = 1.0
     rows[signal["motor"]] = plant.motor[0] @ rows[:x]
@@ -256,6 +264,8 @@ class _Move:
 
 def _reduced(model: SampledLoop) -> SampledLoop:
     """Leave out the states that no input reaches or no position shows: signals that the law does not use."""
+    # By which entries are zero at all, not by size: a state that is left out has no influence, not a small
+    # one.
     links = (model.closed != 0.0) | (model.open != 0.0)
     inputs = (model.measured != 0.0)[:, 0] | (model.command != 0.0).any(axis=1)
     outputs = ((model.sensed != 0.0) | (model.position != 0.0))[0]

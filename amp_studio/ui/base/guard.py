@@ -73,6 +73,9 @@ def guarded(method: FunctionType) -> Callable[..., object]:
     name, code = method.__name__, method.__code__
     at_error = _AT_ERROR.get(name, lambda: None)
     call: Callable[..., object]
+    # PySide6 counts the parameters of a slot to decide how many arguments of a signal it passes: a wrapper
+    # with ``*arguments`` would get all of them. The three usual counts are written out, also for speed:
+    # ``data`` is called for every cell that is painted.
     is_exact = not (method.__defaults__ or method.__kwdefaults__ or code.co_flags & 0x0C)
     if is_exact and code.co_argcount == 1:
 

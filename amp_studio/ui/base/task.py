@@ -52,6 +52,7 @@ class Task(QThread):
 
     def begin(self) -> None:
         """Start the thread."""
+        # Qt ends the process where a QThread is collected while it runs: the set keeps it until its end.
         Task.running.add(self)
         collect_by_timer()
         sys.setswitchinterval(TURN_S)

@@ -257,6 +257,7 @@ class Workspace(QObject):
         try:
             run(lambda: self.document.save("studio"))
         except BaseException:
+            # What could not be saved is unsaved work as before.
             self._journal.start(JOURNAL_MS)
             raise
         finally:

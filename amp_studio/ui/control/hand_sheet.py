@@ -177,6 +177,8 @@ class HandSheet(QWidget):
             align.AlignCenter if self.sheet is None else align.AlignLeft | align.AlignVCenter
         )
         self.details.setVisible(self.sheet is not None)
+        # Qt emits itemChanged for what the program writes too: it would be taken for a tick or a value read
+        # back.
         self.list.blockSignals(True)
         self.list.clear()
         if self.sheet is None:

@@ -113,6 +113,7 @@ class SeveralControls(QWidget):
     def show_controls(self, listed: Sequence[ListedControl]) -> None:
         """List the known controls; ticks and results stay."""
         there = {item.text(_ADDRESS): item for item in self._items()}
+        # Qt emits itemChanged for what the program writes too; only ticks of the user are to be followed.
         self.table.blockSignals(True)
         for each in listed:
             item = there.get(each.address) or self._add(each.address)

@@ -79,6 +79,8 @@ class FindingsModel(QAbstractItemModel):
     def index(self, row: int, column: int, parent: ModelIndex = QModelIndex()) -> QModelIndex:  # noqa: B008  # Qt's own signature
         if not self.hasIndex(row, column, parent):
             return QModelIndex()
+        # An index carries no parent: the number that Qt keeps with it is the row of the rule, from 1, and 0
+        # for a rule itself. A number, for an object that Python has collected would be a wild pointer there.
         return self.createIndex(row, column, parent.row() + 1 if parent.isValid() else _NO_PARENT)
 
     def parent(self, index: ModelIndex = QModelIndex()) -> QModelIndex:  # type: ignore[override]  # noqa: B008  # Qt's own signature; the parent of an object too

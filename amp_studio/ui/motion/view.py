@@ -294,6 +294,7 @@ class MotionView(PageOfFile):
         rows = self.against.model()
         assert isinstance(rows, QStandardItemModel)
         rows.item(self.against.findData("kept")).setEnabled(is_kept)
+        # The scenario is run after this anyway: the choice that is taken back must not run it as well.
         self.against.blockSignals(True)
         if not is_kept and self.against.currentData() == "kept":
             self.against.setCurrentIndex(self.against.findData("saved"))

@@ -76,6 +76,8 @@ class WhatIfPanel(QWidget):
 
     def add(self, change: str, values: Values | None, found: Mapping[str, Any], *, is_ticked: bool) -> None:
         """Add a change with its effect; one without values, an earlier version, is not ticked."""
+        # Qt emits itemChanged for each cell that is filled: the first ones come before the row has its
+        # values.
         self.table.blockSignals(True)
         fill(self.table, [(change, *effect(found, self._length))], add=True)
         self._values.append(values)
