@@ -60,7 +60,7 @@ class LeftOut:
 class Sheet:
     """All of a sheet.
 
-    ``present``, ``values_of``  whose values they are: what the control contains now, and the file
+    ``present``, ``wanted``  whose values they are: what the control contains now, and the file
     ``warnings``  what a person has to know before he begins: errors that are there afterwards
     ``same``     how many values are equal already
     """
@@ -69,7 +69,7 @@ class Sheet:
     family: str
     machine: str
     present: str
-    values_of: str
+    wanted: str
     entries: tuple[SheetEntry, ...]
     left_out: tuple[LeftOut, ...]
     stages: tuple[Stage, ...]

@@ -86,7 +86,7 @@ def _decode(case: tuple[random.Random, set[bytes], bytes]) -> None:
     while at < len(stream):
         size = chance.choice((1, 7, 300, 10_000))
         found += decoder.feed(stream[at : at + size])
-        assert len(decoder._rest) <= MAX_ENCODED, f"{len(decoder._rest)} bytes are kept"
+        assert len(decoder._buffer) <= MAX_ENCODED, f"{len(decoder._buffer)} bytes are kept"
         at += size
     for frame in found:
         assert len(frame.payload) <= MAX_PAYLOAD
@@ -179,7 +179,7 @@ def fuzz_plain_files(seed: int, count: int) -> list[str]:
                 read_tape(line, Tape(percent=wild.chance.random() < 0.5), 1.0)
         finally:
             assert wild.now < 2_000, f"it took {wild.now:.0f} s"
-            assert len(line._rest) <= 70_000
+            assert len(line._buffer) <= 70_000
 
     with (
         mock.patch("amp_studio.transfer.plain.receiver.LARGEST", 5_000),

@@ -126,7 +126,7 @@ def test_findings_of_a_file_that_has_changed_are_counted_again(open_window, qtbo
     os.utime(path, (1, 1))
     window.welcome.show_recent(window.files.recent.paths())
     assert rows(window.welcome.list)[0].second == "…"
-    window.welcome._rest.start(0)
+    window.welcome._pause.start(0)
     qtbot.waitUntil(lambda: bool(rows(window.welcome.list)[0].counts), timeout=WAIT_MS)
     assert rows(window.welcome.list)[0].counts["error"] >= 1
 

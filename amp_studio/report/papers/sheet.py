@@ -125,7 +125,7 @@ def text_lines(printed: PrintedSheet) -> Iterator[str]:
     facts = (
         ("Machine", sheet.machine),
         ("Control", sheet.family),
-        ("Values of", sheet.values_of),
+        ("Values of", sheet.wanted),
         ("Compared with", sheet.present),
     )
     for name, text in facts:

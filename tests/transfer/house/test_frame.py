@@ -114,7 +114,7 @@ def test_a_stream_without_an_end_is_not_kept() -> None:
     decoder = FrameDecoder()
     for _ in range(1_000):
         assert decoder.feed(b"\x55" * 100) == []
-    assert len(decoder._rest) <= MAX_ENCODED
+    assert len(decoder._buffer) <= MAX_ENCODED
     assert decoder.feed(b"\x00") == []
     assert decoder.bad_frames == 1
     frame = Frame(1, 2, b"\xff" * MAX_PAYLOAD)
