@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Set as AbstractSet
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -347,6 +348,37 @@ class ParameterFile:
         self.values.update(values)
         self.revision += 1
         self.evaluation.forget()
+
+    def differing(self, other: ParameterFile) -> AbstractSet[Address]:
+        """Return the addresses of which another file of the same schema and machine type has another value or
+        mark.
+
+        Values are compared by identity: equal ones that were written otherwise (1 and 1.0) count as
+        different, and most values of files that were read are one object.
+        """
+        old, new = self.values, other.values
+        found = {address for address, value in new.items() if old.get(address) is not value}
+        if len(old.keys() & new.keys()) != len(old):
+            found |= old.keys() - new.keys()
+        if self.forced or other.forced:
+            both = {*self.forced, *other.forced}
+            found |= {a for a in both if self.forced.get(a) != other.forced.get(a)}
+        return found
+
+    def take_over(self, other: ParameterFile, differing: Iterable[Address]) -> None:
+        """Take the content of another file of the same schema and machine type, and forget what followed from
+        what is ``differing``. Nobody is notified.
+        """
+        self.values.clear()
+        self.values.update(other.values)
+        self.forced.clear()
+        self.forced.update(other.forced)
+        self.unknown.clear()
+        self.unknown.update(other.unknown)
+        self.header = other.header
+        self.revision += 1
+        for address in differing:
+            self.evaluation.forget_dependents(address)
 
     def set_machine(self, machine: str) -> None:
         """Set the machine type in the header, for a family that has no parameter for it."""

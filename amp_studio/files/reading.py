@@ -235,10 +235,13 @@ class _FileReader:
         file = self.file
         values: dict[Address, Value] = {}
         machine = file.schema.family.machine_parameter
-        ordered = sorted(entries, key=lambda k: k != machine)  # the machine type decides what the others are
+        ordered = list(entries)
+        if machine in entries:  # it decides what the others are
+            ordered.remove(machine)
+            ordered.insert(0, machine)
         places = file.machine_schema.places
         for key in ordered:
-            address, text = read_address(key), entries[key]
+            address, text = _address(key), entries[key]
             if not isinstance(text, str):
                 raise self._fault(f"{short(key)} has no single value", "values", key)
             if address in values or key in file.unknown:  # "x" and "x@"
@@ -291,6 +294,12 @@ def _read_once(schema: Schema, parameter_id: str, text: str) -> Value:
 
 
 @lru_cache(maxsize=16_384)
+def _address(key: str) -> Address:
+    """Return the address that a key of a file means; one object for all files."""
+    return read_address(key)
+
+
+@lru_cache(maxsize=65_536)
 def _stored(schema: Schema, parameter_id: str, text: str) -> Value:
     """Return what a text in a file means; the files of a shop have most of them in common."""
     return read_stored(schema, schema.parameters[parameter_id], text)

@@ -135,9 +135,8 @@ def field_at(parameter: Parameter, bit: int) -> Bit:
     width = parameter.word_width
     if width is not None and bit >= width:
         raise InvalidValueError(f"{parameter.name} has the bits 0 to {width - 1}, not {bit}")
-    return next(
-        (b for b in parameter.bits or () if b.bit == bit), Bit(bit=bit, label=f"bit {bit}", unknown=True)
-    )
+    found = next((b for b in parameter.bits or () if b.bit == bit), None)
+    return found if found is not None else Bit(bit=bit, label=f"bit {bit}", unknown=True)
 
 
 def field_value(field: Bit, word: int) -> int:

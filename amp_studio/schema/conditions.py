@@ -106,6 +106,9 @@ class Conditions:
         self.plan_of: dict[Address, StatePlan] = {}
         """What ``state_plan`` has returned so far."""
         self._plans: dict[tuple[object, ...], StatePlan] = {}
+        self._plans_of: dict[Address, StatePlan] = {}
+        """The same plans, by parameter and how much of an instance its conditions look at."""
+        self._reaches_of: dict[str, Reach] = {}
         self._references: dict[Asked, Reference] = {}
         self._names: dict[tuple[str, str | None], tuple[str, str, dict[str, int], bool]] = {}
         self._questions: dict[Asked, Question] = {}
@@ -133,8 +136,22 @@ class Conditions:
         """Return how the state of an address is found."""
         found = self.plan_of.get(address)
         if found is None:
-            found = self.plan_of[address] = self._planned(address)
+            name, instance = address
+            reach = self._reaches_of.get(name)
+            if reach is None:
+                reach = self._reaches_of[name] = self._reach_of_states(name)
+            alike = (name, "" if reach == "all" else whole_of(instance) if reach == "whole" else instance)
+            found = self._plans_of.get(alike)
+            if found is None:
+                found = self._plans_of[alike] = self._planned(address)
+            self.plan_of[address] = found
         return found
+
+    def _reach_of_states(self, name: str) -> Reach:
+        """Return for which instances of a parameter the state is found in one way."""
+        rules = self._schema.parameters[name].states
+        reaches = {self.reaches.get(rule.when or rule.unless or "", "each") for rule in rules}
+        return "each" if "each" in reaches else "whole" if "whole" in reaches else "all"
 
     def _planned(self, address: Address) -> StatePlan:
         parameter = self._schema.parameters[address[0]]

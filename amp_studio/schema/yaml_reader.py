@@ -14,6 +14,7 @@ import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import accumulate
 from typing import Any, NamedTuple
 
@@ -114,6 +115,8 @@ _WORD = r"[A-Za-z0-9_.+/%()°²³µ·^*@,;<>=$&~-]"
 _PLAIN = rf"(?:[A-Za-z0-9_.+$]|-[0-9.]){_WORD}*(?: {_WORD}+)*"
 _LINE = re.compile(rf"(  )?([A-Za-z0-9_][A-Za-z0-9_.@-]*):(?: +(?:'([^']*)'|({_PLAIN})))?(?: +#.*)? *")
 """A line that can mean but one thing in YAML: indent, key, quoted value, plain value."""
+_REMEMBERED = 200
+"""Characters of the longest line whose parts are remembered."""
 
 
 def _plain_lines(text: str, scalar: Callable[[str], Any]) -> YamlDocument | None:
@@ -124,16 +127,16 @@ def _plain_lines(text: str, scalar: Callable[[str], Any]) -> YamlDocument | None
     data: dict[Any, Any] = {}
     section: dict[Any, Any] | None = None
     lines = iter(text.split("\n"))
-    is_closed, match = False, _LINE.fullmatch
+    is_closed = False
     for line in lines:
-        found = match(line)
+        found = _remembered_entry(line) if len(line) <= _REMEMBERED else _entry(line)
         if found is None:
             if is_closed := line == "...":
                 break
             if not _is_remark(line):
                 return None
             continue
-        indent, key, quoted_text, plain = found.groups()
+        indent, key, quoted_text, plain = found
         target = data if indent is None else section
         if target is None or key in target:
             return None
@@ -149,6 +152,16 @@ def _plain_lines(text: str, scalar: Callable[[str], Any]) -> YamlDocument | None
         return None
     empty = {key: scalar("") for key, value in data.items() if value == {}}
     return YamlDocument(text, {**data, **empty}, is_closed)
+
+
+def _entry(line: str) -> tuple[str | None, str, str | None, str | None] | None:
+    """Return indent, key, quoted value and plain value of a line."""
+    found = _LINE.fullmatch(line)
+    return None if found is None else (found[1], found[2], found[3], found[4])
+
+
+_remembered_entry = lru_cache(maxsize=32_768)(_entry)
+"""The same: the files of a shop have most lines in common."""
 
 
 def _is_remark(line: str) -> bool:

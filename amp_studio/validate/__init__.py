@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from .fixes import Fixed, apply_all_safe, apply_fixes
     from .functions import formulas, rule_functions
     from .interim import Interim, NewValue
+    from .kept_validators import KeptValidators
     from .plausible.earlier import Earlier
     from .result_check import ResultCheck
     from .rule_file import GENERAL_RULES, read_builder_rules, suppress

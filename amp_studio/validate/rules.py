@@ -18,10 +18,12 @@ from amp_studio.schema import (
     Context,
     Evaluation,
     Expression,
+    InvalidValueError,
     Key,
     Value,
     angular,
     canonical_unit,
+    checked,
     context_of,
     convert,
     key_of,
@@ -126,10 +128,10 @@ class RuleChecks:
 
     def findings_of(self, group: CheckGroup) -> Iterator[tuple[RuleCheck, Finding]]:
         """Yield the same of a group; one look at its values is enough where they were found sound before."""
-        keys = tuple(map(self._seen.__getitem__, group.reads))
-        if group.first is None and None in keys:  # some may count though they are inactive
+        keys: tuple[Key, ...] = tuple(map(self._seen.__getitem__, group.reads))
+        if group.first is None and None in keys:  # some may count though they are inactive, others do not
             own = zip(keys, group.reads, strict=True)
-            keys = tuple([self._inactive(address) if key is None else key for key, address in own])
+            keys += tuple([self._inactive(address) for key, address in own if key is None])
         values = (self._file.header.application, keys)
         if values not in group.sound:
             found = tuple(self.findings(group.together))
@@ -353,11 +355,14 @@ class RuleChecks:
 
     def _value(self, address: Address, found: Any) -> Value | None:
         """Return what was worked out as the parameter stores it, in the unit of the present value;
-        None where there is none.
+        None where there is none: a name that another parameter offers may be none of its choices.
         """
         parameter = self._file.schema.parameters[address[0]]
         if isinstance(found, (bool, str)):
-            return Value(found)
+            try:
+                return checked(parameter, Value(found))
+            except InvalidValueError:
+                return None
         if not isinstance(found, (int, float)) or not math.isfinite(found):
             return None
         old = self._file.values.get(address)

@@ -132,8 +132,23 @@ class Validator:
     def compare_with(self, earlier: Sequence[Earlier]) -> None:
         """Compare with other earlier values from now on, as after a save."""
         self.earlier = earlier
-        self._experience = Experience(self.file, earlier)
-        self._experience.look_at_all()
+        self._experience.compare_with(earlier)
+
+    def take_over(
+        self, file: ParameterFile, differing: Collection[Address], earlier: Sequence[Earlier] = ()
+    ) -> None:
+        """Check another file of the same schema, machine type, model and units in place of the present one,
+        of which all ``differing`` values are another: only what reads them is checked. The findings are those
+        of a full ``run``.
+
+        The present file takes the content of the other one; nobody may listen to it.
+        """
+        self.file.take_over(file, differing)
+        if differing:
+            self.recheck(differing)
+        self._revision = self.file.revision
+        if earlier or self.earlier:
+            self.compare_with(earlier)
 
     def prepare_edits(self) -> None:
         """Work out now what the first update would wait for; another thread may do so."""
@@ -143,9 +158,14 @@ class Validator:
         header = self.file.header
         return self.file.machine, header.application, header.units
 
+    @property
+    def has_run(self) -> bool:
+        """Whether the present content of the file has been checked."""
+        return self._revision == self.file.revision and self._circumstances == self._present_circumstances()
+
     def findings(self) -> tuple[Finding, ...]:
         """Return the present findings, errors first, in the manual's order."""
-        if self._revision != self.file.revision or self._circumstances != self._present_circumstances():
+        if not self.has_run:
             self._file_all()
         found = sorted((*self._offered(), *self._general()), key=lambda filed: filed[0])
         stay, self.suppressed, unused = sort_out(

@@ -23,7 +23,7 @@ PAST_THE_DOOR = {
         "program.py": "ui",
         "stopping.py": "transfer",
         "checks/cache.py": "files validate",
-        "verbs/checks/validate.py": "files guide sim",
+        "verbs/checks/validate.py": "files guide sim validate",
         "verbs/documents/report.py": "files validate",
         "verbs/facts/find.py": "files find",
     },

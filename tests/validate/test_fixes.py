@@ -323,3 +323,13 @@ def test_a_fix_that_is_made_has_few_others_tried_again(mill, monkeypatch) -> Non
     done = apply_fixes(validator, lambda _: True)
     assert len(done) > 40
     assert len(tried) < 3 * len(done), "a trial for each, and some of those that are not good"
+
+
+def test_a_fix_that_would_set_a_name_which_its_parameter_does_not_offer_is_left_out(machine) -> None:
+    """An axis may be called $C, and no axis of that name lies along the center line (28-9)."""
+    lathe = machine("lathe")
+    lathe.set(("axis.name", "2"), Value("dollar-c"))
+    lathe.set(("virtual_c.center_line_axis", ""), Value("none"))
+    lathe.set(("virtual_c.rotary_axis", ""), Value("c"))
+    (missing,) = (f for f in Validator(lathe).run() if f.rule == "9pc.virtual-c.center-line-missing")
+    assert missing.fix == ()

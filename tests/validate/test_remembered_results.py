@@ -98,3 +98,17 @@ def test_two_builders_rules_of_one_name_are_two_rules(mill) -> None:
             for own in (strict, lenient, other)
         ]
         assert messages == [{"12000 mm/min"}, set(), {"other 12000 mm/min"}]
+
+
+def test_values_that_were_sound_while_one_of_them_was_inactive_are_checked_where_all_count(mill) -> None:
+    """The gains count in any state, the motor type does not (7-6, 7-14)."""
+    forget_all()
+    mill.set(("servo.standard_motor_values", ""), Value(True))
+    mill.set(("servo.motor_type", "1"), Value("b430g"))
+    detached, attached = mill.copy(), mill.copy()
+    detached.set(("servo.position_loop_type", "1"), Value("detached"))
+    rules = [
+        {finding.rule for finding in Validator(file).run() if finding.instance == "1"}
+        for file in (detached, attached)
+    ]
+    assert ["9pc.servo.standard-motor-gains" in found for found in rules] == [False, True]

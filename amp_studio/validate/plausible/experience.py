@@ -63,6 +63,13 @@ class Experience:
         self._findings: tuple[Finding, ...] | None = None
         self._is_stale = True
 
+    def compare_with(self, earlier: Sequence[Earlier]) -> None:
+        """Compare with other earlier values from now on; all else stays as it is."""
+        self._earlier = EarlierValues(self._file, earlier)
+        self._found = None
+        if not self._is_stale:
+            self._earlier.look_at_all()
+
     def look_at_all(self) -> None:
         """Look at the whole file, once the findings are asked for: between them there may be many edits."""
         self._findings, self._is_stale = None, True
