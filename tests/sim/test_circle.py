@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from amp_studio.sim import SimulationError, Trace
+from amp_studio.files import open_file
+from amp_studio.schema import Value
+from amp_studio.sim import SimulationError, Trace, simulate
 from amp_studio.sim.scenarios import SCENARIOS
 from tests.sim.tiny import changed, tiny
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
 SETTINGS = {"move.radius": 20.0, "move.feedrate": 3000.0}
 
 
@@ -79,6 +83,13 @@ def test_an_unstable_axis_is_called_so_and_gets_no_radius_error() -> None:
     assert [alarm.code for alarm in trace.alarms] == ["UNSTABLE"]
     assert trace.result["radius_error"][0] is None
     assert trace.result["predicted_radius_error"][0] is None
+
+
+def test_an_open_position_loop_closes_no_circle_and_is_not_called_unstable() -> None:
+    mill = open_file(EXAMPLES / "mill-1394" / "MILL_1394.amp").file
+    mill.set(("servo.position_loop_type", "1"), Value("open"))
+    with pytest.raises(SimulationError, match="position loop of axis 1 is open: it closes no circle"):
+        simulate(mill, "circle", "1")
 
 
 @pytest.mark.parametrize(

@@ -242,8 +242,12 @@ def _spike(radius: float, angle: Series, deviation: Series) -> tuple[float | Non
 
 
 def _unstable(axis: AxisLaw, other: AxisLaw, models: tuple[LinearModel, LinearModel]) -> tuple[Alarm, ...]:
-    """Return the alarm of the first axis whose position loop is not stable."""
+    """Return the alarm of the first axis whose position loop is not stable; raises SimulationError for an
+    open one.
+    """
     for each, model in zip((axis, other), models, strict=True):
+        if model.drifts():
+            raise SimulationError(f"The position loop of axis {each.axis} is open: it closes no circle")
         if not model.is_stable():
             gain = model.margins().gain
             by = f": the gain is {value_text(-gain, 'dB', 3)} too high" if gain and gain < 0.0 else ""

@@ -81,8 +81,7 @@ def run_frequency(axis: AxisLaw, settings: Settings) -> Trace:
     refuse_unknown(settings, SETTINGS)
     models = axis_model(axis)
     model, cut = models.whole, models.cut
-    # Nothing measures the position: the pole at 1 is the open integrator, no instability.
-    if not np.any(model.measured) and not model.is_stable() and model.is_stable(drift=True):
+    if model.drifts():
         raise SimulationError(f"The position loop of axis {axis.axis} is open. Use the scenario velocity")
     margins = cut.margins()
     damping = models.damping(margins.phase_frequency)

@@ -98,6 +98,12 @@ class LinearModel(SampledLoop):
         """
         return bool(np.all(np.abs(self.poles()) < (1.0 + 1e-7 if drift else 1.0 - 1e-9)))
 
+    def drifts(self) -> bool:
+        """Return whether nothing measures the position: the pole at 1 is the open integrator,
+        no instability.
+        """
+        return not np.any(self.measured) and not self.is_stable() and self.is_stable(drift=True)
+
     def loop(self, frequencies: Matrix) -> Response:
         """Return the open position loop at frequencies in Hz: from position error to position."""
         z = self._z(frequencies)

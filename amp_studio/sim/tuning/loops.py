@@ -93,10 +93,7 @@ class Loops:
     def closed(self) -> bool:
         """Whether anything controls the position."""
         whole = self.models.whole
-        # An axis whose law measures nothing, and that is unstable only because its position drifts, is open:
-        # it has no margins.
-        drifts = not np.any(whole.measured) and not whole.is_stable() and whole.is_stable(drift=True)
-        return bool(np.any(self.models.cut.measured)) and not drifts
+        return bool(np.any(self.models.cut.measured)) and not whole.drifts()
 
     @cached_property
     def stable(self) -> bool:
