@@ -5,9 +5,9 @@ drawn.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, TypeGuard
 
 from amp_studio.drawing import LEAST, MOST, Drag, Handle, PictureNote, Point, multiple, round_step
 from amp_studio.files import ParameterFile
@@ -50,6 +50,11 @@ class DrawnValue:
     inactive: bool = False
 
 
+def number_of(figure: DrawnValue | None) -> float | None:
+    """Return the number of a figure; None where there is none to draw."""
+    return figure.number if figure else None
+
+
 class ValueReader:
     """Reads one file for one picture and remembers what it read."""
 
@@ -80,13 +85,14 @@ class ValueReader:
         return size.unit if size else entry
 
     def figure(
-        self, parameter: ParameterId, instance: str, unit: str = "", *, quiet: bool = False
+        self, parameter: ParameterId | None, instance: str, unit: str = "", *, quiet: bool = False
     ) -> DrawnValue | None:
-        """Return a value in a unit, its own by default; None where the machine does not have the parameter.
+        """Return a value in a unit, its own by default; None where the machine does not have the parameter,
+        or the family none for it.
 
         What cannot be drawn, and what is out of range, becomes a note, unless it is ``quiet``.
         """
-        address = self.address(parameter, instance)
+        address = self.address(parameter, instance) if parameter else None
         if address is None or self.evaluation.state(address).state == "hidden":
             return None
         self.read[address] = None
@@ -165,9 +171,13 @@ class ValueReader:
         """Say something about the picture, once."""
         self.notes.setdefault(text, PictureNote(text, address, wrong, is_remark))
 
-    def is_on_decades(self, each: DrawnValue) -> bool:
+    def figures(self, parameters: Iterable[ParameterId], instance: str) -> list[DrawnValue]:
+        """Return the values that the machine has, as `figure` does."""
+        return [each for parameter in parameters if (each := self.figure(parameter, instance))]
+
+    def is_on_decades(self, each: DrawnValue | None) -> TypeGuard[DrawnValue]:
         """Return whether a figure has a place on a scale of powers of ten; 0 and less are noted."""
-        if each.number is None:
+        if each is None or each.number is None:
             return False
         if each.number <= 0.0:
             self.add_note(

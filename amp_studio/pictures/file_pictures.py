@@ -3,13 +3,23 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 
 from amp_studio.drawing import PictureNote, Scene
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, CamRoles, LoopRoles, ParameterId, RampRoles, axis_name
+from amp_studio.schema import (
+    Address,
+    CamRoles,
+    JogRoles,
+    LoopRoles,
+    ParameterId,
+    RampRoles,
+    TravelRoles,
+    axis_name,
+)
 
 from .gain import draw_gain
 from .gears import draw_gears, spindles
@@ -57,19 +67,24 @@ class FilePicture:
         part, _, share = part.partition("@") if self.has_speed else (part, "", "")
         if share:
             return f"{self.key(part)}@{_percent(share):g}"
-        wanted = part.replace("+", " ").replace(",", " ").upper().split()
-        if not wanted:
+        wanted = re.split(r"[+,\s]+", part.upper().strip("+, "))
+        if wanted == [""]:
             return self.parts[0][0]
         for key, name in self.parts:
             if wanted in (key.upper().split("+"), name.upper().split()):
                 return key
-        letters = {name.upper(): axis for axis, name in _named(self.file, every_axis(self.file))}
-        own = [letters.get(each, each) for each in wanted]
-        if self.axes == len(own) == len(set(own)) and set(own) <= set(letters.values()):
+        if own := self._axes_of(wanted):
             return "+".join(own)
         raise KeyError(
             f"There is no part '{part}': {', '.join(name or 'one alone' for _, name in self.parts)}"
         )
+
+    def _axes_of(self, names: list[str]) -> list[str]:
+        """Return the axes of these names; empty where they make no part."""
+        letters = {name.upper(): axis for axis, name in _named(self.file, every_axis(self.file))}
+        own = [letters.get(each, each) for each in names]
+        is_part = self.axes == len(own) == len(set(own)) and set(own) <= set(letters.values())
+        return own if is_part else []
 
 
 def pictures_of(file: ParameterFile) -> tuple[FilePicture, ...]:
@@ -81,44 +96,48 @@ def _pictures(file: ParameterFile) -> Iterator[FilePicture]:
     """Yield the pictures that the facts of the family draw, those without a part to draw too."""
     roles = file.schema.pictures
     if travel := roles.travel:
-        ends = [p for span in (*travel.spans, *travel.zones) for p in (span.low, span.high)]
-        found = pairs(file, [*ends, *([travel.reach.length] if travel.reach else [])])
-        parts = tuple(("+".join(axes), " ".join(name for _, name in _named(file, axes))) for axes in found)
-        yield FilePicture(file, "travel", "Travel", parts, partial(_travel, file), 2)
+        yield FilePicture(file, "travel", "Travel", _pairs(file, travel), partial(_travel, file), 2)
     if ramps := roles.ramps:
-        yield FilePicture(
-            file, "ramps", "Ramps", _own(file, _of_ramps(ramps)), partial(_ramps, file, ramps), 1
-        )
+        own = _own(file, _of_ramps(ramps))
+        yield FilePicture(file, "ramps", "Ramps", own, partial(_ramps, file, ramps), 1)
     if gears := roles.gears:
         own = tuple((each, each) for each in spindles(file, gears))
         yield FilePicture(file, "gears", "Gears", own, partial(draw_gears, file, gears))
     if jog := roles.jog:
-        alone = (("", ""),)
-        yield FilePicture(file, "jog", "Jog", alone, lambda _, like: draw_jog(file, jog, "jog", like))
-        if jog.increments:
-            yield FilePicture(
-                file,
-                "increments",
-                "Increments",
-                alone,
-                lambda _, like: draw_jog(file, jog, "increments", like),
-            )
+        yield from _ladders(file, jog)
     if error := roles.error:
         own = _own(file, (error.gain, *error.limits))
         yield FilePicture(file, "error", "Error limits", own, partial(draw_gain, file, error), 1)
     if loop := roles.loop:
-        axes = _own(file, [param for block in loop.blocks for param in block.params])
-        yield FilePicture(file, "loop", "Loops", axes, partial(_loop, file, loop), has_speed=True)
+        own = _own(file, _of_loop(loop))
+        yield FilePicture(file, "loop", "Loops", own, partial(_loop, file, loop), has_speed=True)
     if cam := roles.cam:
-        own = tuple(
-            name for name in _own(file, (cam.points,)) if file.evaluation.canonical((cam.points, name[0]))
-        )
-        views = {"": "", "@speed": " speed", "@acceleration": " acceleration"}
-        parts = tuple((f"{axis}{key}", f"{name}{view}") for axis, name in own for key, view in views.items())
-        yield FilePicture(file, "cam", "Cam", parts, partial(_cam, file, cam))
+        yield FilePicture(file, "cam", "Cam", _cam_views(file, cam), partial(_cam, file, cam))
     for table in roles.tables:
         own = _own(file, (table.param,))
         yield FilePicture(file, "calibration", "Calibration", own, partial(draw_table, file, table), 1)
+
+
+def _pairs(file: ParameterFile, travel: TravelRoles) -> PartNames:
+    ends = [p for span in (*travel.spans, *travel.zones) for p in (span.low, span.high)]
+    found = pairs(file, [*ends, *([travel.reach.length] if travel.reach else [])])
+    return tuple(("+".join(axes), " ".join(name for _, name in _named(file, axes))) for axes in found)
+
+
+def _ladders(file: ParameterFile, roles: JogRoles) -> Iterator[FilePicture]:
+    alone = (("", ""),)
+    yield FilePicture(file, "jog", "Jog", alone, lambda _, like: draw_jog(file, roles, "jog", like))
+    if roles.increments:
+        yield FilePicture(
+            file, "increments", "Increments", alone, lambda _, like: draw_jog(file, roles, "increments", like)
+        )
+
+
+def _cam_views(file: ParameterFile, cam: CamRoles) -> PartNames:
+    """Return the cam of each axis that has points, its speed and its acceleration."""
+    own = [name for name in _own(file, (cam.points,)) if file.evaluation.canonical((cam.points, name[0]))]
+    views = {"": "", "@speed": " speed", "@acceleration": " acceleration"}
+    return tuple((f"{axis}{key}", f"{name}{view}") for axis, name in own for key, view in views.items())
 
 
 def _travel(file: ParameterFile, part: str, like: Scene | None) -> Scene:
@@ -158,6 +177,10 @@ def _percent(text: str) -> float:
 def _of_ramps(roles: RampRoles) -> list[ParameterId]:
     kinds = [p for kind in roles.kinds for p in (kind.acceleration, *kind.rise) if p]
     return [roles.feedrate, *kinds]
+
+
+def _of_loop(roles: LoopRoles) -> list[ParameterId]:
+    return [p for block in roles.blocks for p in block.params]
 
 
 def _own(file: ParameterFile, parameters: Iterable[ParameterId]) -> PartNames:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal
 
 from amp_studio.drawing import Polyline, Scale, Scene, ShapeSort, Text
 from amp_studio.files import ParameterFile
 from amp_studio.schema import ErrorRoles
 
-from .figures import DrawnValue, ValueReader
+from .figures import DrawnValue, ValueReader, number_of
 from .shapes import SceneShapes
 
 
@@ -17,17 +18,10 @@ def draw_gain(file: ParameterFile, roles: ErrorRoles, axis: str, like: Scene | N
     ratio.
     """
     figures = ValueReader(file)
-    gain = figures.figure(roles.gain, axis)
-    ratio = figures.figure(roles.ratio, axis) if roles.ratio else None
-    found = [each for p in roles.limits if (each := figures.figure(p, axis))]
-    at = figures.figure(roles.break_at, axis) if roles.break_at else None
-    drawn = [each for each in (at, *found) if each is not None and figures.is_on_decades(each)]
-    places = [each.number or 1.0 for each in drawn]
-    unit = next((each.unit for each in (*drawn, *found)), "")
-    low, high = min(places, default=1.0) / 3.0, max(places, default=3.0) * 3.0
-    x = like.x if like else Scale("following error", unit, low, high, log=True)
-    top = gain.number if gain and gain.number else 1.0
-    y = like.y if like else Scale("gain", gain.unit if gain else "", 0.0, 1.3 * top)
+    gain, ratio = figures.figure(roles.gain, axis), figures.figure(roles.ratio, axis)
+    found, at = figures.figures(roles.limits, axis), figures.figure(roles.break_at, axis)
+    drawn = [*filter(figures.is_on_decades, (at, *found))]
+    x, y = (like.x, like.y) if like else _scales(gain, drawn, found)
     shapes = SceneShapes(figures)
     if gain is not None and gain.number is not None:
         _draw_gain(shapes, gain, at if at in drawn else None, ratio, (x, y))
@@ -39,6 +33,16 @@ def draw_gain(file: ParameterFile, roles: ErrorRoles, axis: str, like: Scene | N
         _note_order(figures, at, drawn)
     subtitle = f"{figures.axis(axis)}, gain over following error"
     return shapes.scene("error", axis, "Error limits", subtitle, x, y)
+
+
+def _scales(
+    gain: DrawnValue | None, drawn: Sequence[DrawnValue], found: Sequence[DrawnValue]
+) -> tuple[Scale, Scale]:
+    places = [each.number or 1.0 for each in drawn]
+    unit = next((each.unit for each in (*drawn, *found)), "")
+    low, high = min(places, default=1.0) / 3.0, max(places, default=3.0) * 3.0
+    x = Scale("following error", unit, low, high, log=True)
+    return x, Scale("gain", gain.unit if gain else "", 0.0, 1.3 * (number_of(gain) or 1.0))
 
 
 def _draw_limit(shapes: SceneShapes, each: DrawnValue, n: int, scales: tuple[Scale, Scale]) -> None:
@@ -63,8 +67,7 @@ def _draw_gain(
     """Draw the gain up to the break, and the reduced gain beyond it."""
     x, y = scales
     figures = shapes.figures
-    level, place = gain.number or 0.0, (at.number if at else None)
-    share = ratio.number if ratio and ratio.number is not None else None
+    level, place, share = gain.number or 0.0, number_of(at), number_of(ratio)
     sort: ShapeSort = "error" if any(each is not None and each.wrong for each in (gain, at, ratio)) else "now"
     if at is None or place is None or share is None:
         shapes.lines.append(Polyline(((x.low, level), (x.high, level)), sort))

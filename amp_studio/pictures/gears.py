@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from amp_studio.drawing import FilledArea, Handle, Polyline, Scale, Scene, ShapeSort, Text
 from amp_studio.files import ParameterFile
 from amp_studio.schema import GearRoles
 
-from .figures import DrawnValue, ValueReader
+from .figures import DrawnValue, ValueReader, number_of
 from .shapes import SceneShapes
 
 
@@ -29,17 +29,8 @@ def _has_gear(file: ParameterFile, parameter: str, instance: str) -> bool:
 def draw_gears(file: ParameterFile, roles: GearRoles, spindle: str, like: Scene | None = None) -> Scene:
     """Return the picture of one spindle's gears."""
     figures = ValueReader(file)
-    drawn = (
-        [_scaled(figures, roles)]
-        if roles.scaling
-        else [_gear(figures, roles, i) for i in _gears(figures, roles, spindle)]
-    )
-    found = [gear for gear in drawn if gear is not None]
-    speeds = [gear.high for gear in found]
-    outputs = [gear.output for gear in found]
-    x = like.x if like else Scale("", "rpm", 0.0, 1.12 * max(speeds, default=1000.0))
-    low, high = min([0.0, *outputs]), max([0.0, *outputs]) or (0.0 if outputs else 10.0)
-    y = like.y if like else Scale("", roles.unit, 1.2 * low, 1.2 * high or 1.0)
+    found = _gears_of(figures, roles, spindle)
+    x, y = (like.x, like.y) if like else _scales(found, roles.unit)
     shapes = SceneShapes(figures)
     for a, b in pairwise(found):
         if b.low < a.high:
@@ -53,6 +44,20 @@ def draw_gears(file: ParameterFile, roles: GearRoles, spindle: str, like: Scene 
     unit = "volts" if roles.unit == "V" else roles.unit
     subtitle = f"{f'spindle {spindle}, ' if spindle else ''}{unit} over speed"
     return shapes.scene("gears", spindle, "Spindle gears", subtitle, x, y)
+
+
+def _gears_of(figures: ValueReader, roles: GearRoles, spindle: str) -> list[_Gear]:
+    """Return the gears that can be drawn."""
+    if roles.scaling:
+        return [*filter(None, [_scaled(figures, roles)])]
+    return [gear for i in _gears(figures, roles, spindle) if (gear := _gear(figures, roles, i))]
+
+
+def _scales(gears: Sequence[_Gear], unit: str) -> tuple[Scale, Scale]:
+    outputs = [gear.output for gear in gears]
+    low, high = min([0.0, *outputs]), max([0.0, *outputs]) or (0.0 if outputs else 10.0)
+    x = Scale("", "rpm", 0.0, 1.12 * max((gear.high for gear in gears), default=1000.0))
+    return x, Scale("", unit, 1.2 * low, 1.2 * high or 1.0)
 
 
 def _draw_gear(shapes: SceneShapes, gear: _Gear, *, is_first: bool) -> None:
@@ -77,10 +82,7 @@ def _gears(figures: ValueReader, roles: GearRoles, spindle: str) -> list[str]:
     ]
     if roles.count is None:
         return [i for i in every if len(every) == 1 or _has_gear(file, roles.high, i)] or every[:1]
-    count = figures.figure(roles.count, spindle)
-    if count is None or count.number is None:
-        return []
-    return every[: int(count.number)]
+    return every[: int(number_of(figures.figure(roles.count, spindle)) or 0)]
 
 
 class _Gear:
@@ -102,37 +104,27 @@ class _Gear:
 
 
 def _gear(figures: ValueReader, roles: GearRoles, instance: str) -> _Gear | None:
-    def number(parameter: str | None, at: str = instance) -> DrawnValue | None:
-        return figures.figure(parameter, at) if parameter else None
-
-    low, high, output, output_low = (
-        number(roles.low),
-        number(roles.high),
-        number(roles.output),
-        number(roles.output_low),
-    )
-    limit = figures.figure(roles.limit, _beside(figures, roles, instance)) if roles.limit else None
-    if high is None or high.number is None or (roles.output and (output is None or output.number is None)):
+    """Return a gear; None where a figure is missing that it needs."""
+    own = (roles.low, roles.high, roles.output, roles.output_low)
+    low, high, output, output_low = (figures.figure(parameter, instance) for parameter in own)
+    limit = figures.figure(roles.limit, _beside(figures, roles, instance))
+    lowest, highest, top = number_of(low), number_of(high), number_of(output)
+    if not roles.output:
+        top = roles.full
+    if highest is None or lowest is None or top is None:
         return None
-    lowest = low.number if low and low.number is not None else None
-    if lowest is None:
-        return None
-    top = output.number if output and output.number is not None else roles.full
-    if top is None:
-        return None
-    share = lowest / high.number if high.number else 0.0
-    bottom = output_low.number if output_low and output_low.number is not None else top * share
+    bottom = number_of(output_low)
+    if bottom is None:
+        bottom = top * (lowest / highest if highest else 0.0)
     name = f"gear {instance.partition('.')[2]}" if "." in instance else "spindle"
     at_standstill = bottom if roles.output_low else 0.0
-    return _Gear(
-        name, lowest, high.number, top, bottom, (low, high, output, output_low, limit), at_standstill
-    )
+    return _Gear(name, lowest, highest, top, bottom, (low, high, output, output_low, limit), at_standstill)
 
 
 def _beside(figures: ValueReader, roles: GearRoles, instance: str) -> str:
     """Return the instance of the limit of the same gear: the one at the same place in the list."""
-    assert roles.high is not None
-    assert roles.limit is not None
+    if roles.high is None or roles.limit is None:
+        return instance
     parameters, machine = figures.file.schema.parameters, figures.file.machine_schema
     own, others = machine.instances(parameters[roles.high]), machine.instances(parameters[roles.limit])
     return others[own.index(instance)] if len(others) == len(own) else instance
@@ -154,13 +146,9 @@ def _scaled(figures: ValueReader, roles: GearRoles) -> _Gear | None:
 
 def _handles(figures: ValueReader, roles: GearRoles, gear: _Gear, across: float, top: float) -> list[Handle]:
     low, high, output, output_low, limit = gear.figures
-    found: list[Handle] = []
     if roles.scaling and high is not None:
-        full = roles.full or 10.0
-        drag = figures.drag(
-            high, "x", 2.0 * (high.number or 1.0), lambda at: full / at if at > 0.0 else None, rises=False
-        )
-        return [figures.handle(high, (gear.high, gear.output), drag)]
+        return [_scaling_handle(figures, high, gear, roles.full or 10.0)]
+    found: list[Handle] = []
     if high is not None:
         found.append(figures.handle(high, (gear.high, gear.output), figures.drag(high, "x", across)))
     if limit is not None and limit.number:  # 0 is the highest speed
@@ -171,6 +159,14 @@ def _handles(figures: ValueReader, roles: GearRoles, gear: _Gear, across: float,
     if output is not None:
         found += _output_handles(figures, gear, output, output_low, top)
     return found
+
+
+def _scaling_handle(figures: ValueReader, scaling: DrawnValue, gear: _Gear, full: float) -> Handle:
+    def scaling_at(speed: float) -> float | None:
+        return full / speed if speed > 0.0 else None
+
+    drag = figures.drag(scaling, "x", 2.0 * (scaling.number or 1.0), scaling_at, rises=False)
+    return figures.handle(scaling, (gear.high, gear.output), drag)
 
 
 def _output_handles(

@@ -11,7 +11,7 @@ from amp_studio.drawing import Dot, Handle, Point, Polyline, Text
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, HomePlace, TravelRoles
 
-from .figures import DrawnValue, ValueReader
+from .figures import DrawnValue, ValueReader, number_of
 from .shapes import SceneShapes
 
 MARGIN = 0.08
@@ -41,7 +41,12 @@ class Home:
     @property
     def switch_place(self) -> float | None:
         """Where the switch is, if a value of the file places it."""
-        return self.switch.number if self.switch else None
+        return number_of(self.switch)
+
+    @property
+    def places(self) -> list[float]:
+        """What is known of home position, marker and switch."""
+        return [place for place in (self.place, self.marker, self.switch_place) if place is not None]
 
 
 def read_home(figures: ValueReader, roles: TravelRoles, axis: str, file: ParameterFile) -> Home:
@@ -49,21 +54,22 @@ def read_home(figures: ValueReader, roles: TravelRoles, axis: str, file: Paramet
     role = roles.home
     if role is None:
         return Home()
-
-    def number(parameter: str | None) -> DrawnValue | None:
-        return figures.figure(parameter, axis) if parameter else None
-
-    position, calibration, switch = number(role.position), number(role.marker), number(role.switch)
-    place = position.number if position else None
-    marker = None
-    if role.marker and place is not None and calibration and calibration.number is not None:
-        marker = place - calibration.number
+    own = (role.position, role.marker, role.switch)
+    position, calibration, switch = (figures.figure(parameter, axis) for parameter in own)
+    place, before = number_of(position), number_of(calibration)
+    marker = None if place is None or before is None else place - before
     towards, off = _directions(figures, role, axis, file)
-    pull_off = number(role.pull_off)
-    if roles.reach and pull_off and pull_off.number is not None and towards:
-        place = -towards * pull_off.number
-    speed = figures.figure(role.speed, axis) if role.speed else None
-    way = off or (towards and -towards)
+    pull_off = figures.figure(role.pull_off, axis)
+    back = number_of(pull_off)
+    if roles.reach and back is not None and towards:
+        place = -towards * back
+    speed = figures.figure(role.speed, axis)
+    _note_way_off(figures, axis, off or -towards, speed)
+    return Home(position, marker, calibration, switch, place, -off or towards, off, speed, pull_off)
+
+
+def _note_way_off(figures: ValueReader, axis: str, way: float, speed: DrawnValue | None) -> None:
+    """Note in which direction and how fast an axis leaves its switch; ``way`` 0 is not known."""
     if way and speed is not None and speed.number is not None:
         sign = "plus" if way > 0.0 else "minus"
         figures.add_note(
@@ -71,7 +77,6 @@ def read_home(figures: ValueReader, roles: TravelRoles, axis: str, file: Paramet
             speed.address,
             is_remark=True,
         )
-    return Home(position, marker, calibration, switch, place, -off or towards, off, speed, pull_off)
 
 
 def letters(file: ParameterFile) -> tuple[str, ...]:
@@ -139,22 +144,25 @@ def draw_rail(
         drawing.dots.append(Dot(rail.at(home.marker), "marker"))
         rail.name(home.marker, "marker", "", home.calibration.address)
         rail.handle(home.calibration, home.marker, lambda place: (home.place or 0.0) - place, rises=False)
-    beyond = SWITCH * rail.length
+    _draw_switch(rail, home, (low, high))
+
+
+def _draw_switch(rail: _Rail, home: Home, ends: tuple[float, float]) -> None:
+    """Draw the home switch where it is, or where it is assumed: beyond what it is nearest to."""
+    dots, beyond, (low, high) = rail.shapes.dots, SWITCH * rail.length, ends
     if home.switch is not None and home.switch_place is not None:
-        drawing.dots.append(Dot(rail.at(home.switch_place), "switch"))
+        dots.append(Dot(rail.at(home.switch_place), "switch"))
         rail.name(home.switch_place, "switch", home.switch.text, home.switch.address)
         rail.handle(home.switch, home.switch_place)
         rail.arrow(home.switch_place - 2.0 * home.side * beyond, home.side)
     elif home.pull_off is not None and home.side:
-        drawing.dots.append(Dot(rail.at(0.0), "switch"))
+        dots.append(Dot(rail.at(0.0), "switch"))
         if home.place is not None:
             rail.handle(home.pull_off, home.place, lambda place: -home.side * place, rises=home.side < 0.0)
         rail.arrow(-2.0 * home.side * beyond, home.side)
     elif home.side:
-        near = next(
-            (place for place in (home.marker, home.place) if place is not None),
-            high if home.side > 0 else low,
-        )
+        places = (place for place in (home.marker, home.place) if place is not None)
+        near = next(places, high if home.side > 0 else low)
         _assumed_switch(rail, near + home.side * beyond)
         rail.arrow(near - home.side * 2.0 * beyond, home.off)
 
@@ -172,26 +180,21 @@ def _assumed_switch(rail: _Rail, place: float) -> None:
 def draw_home(
     figures: ValueReader, drawing: SceneShapes, homes: list[Home], views: list[tuple[float, float]]
 ) -> None:
-    """Draw the home position of both axes as one cross."""
-    if len(homes) != 2 or any(home.place is None for home in homes):
+    """Draw the home position of two axes as one cross."""
+    x, y = (home.place for home in homes)
+    if x is None or y is None:
         return
-    x, y = (home.place or 0.0 for home in homes)
     drawing.dots.append(Dot((x, y), "home"))
     named = [home.position or home.pull_off for home in homes]
-    drawing.texts.append(
-        Text(
-            (x, y),
-            "Home",
-            ", ".join(f.text for f in named if f),
-            "corner" if x > 0.5 * sum(views[0]) else "inside",
-            named[0].address if named[0] else None,
-        )
-    )
-    if all(home.position is not None for home in homes):
+    text = ", ".join(f.text for f in named if f)
+    side: Literal["corner", "inside"] = "corner" if x > 0.5 * sum(views[0]) else "inside"
+    about = named[0].address if named[0] else None
+    drawing.texts.append(Text((x, y), "Home", text, side, about))
+    along_x, along_y = (home.position for home in homes)
+    if along_x and along_y:
         drags = tuple(
-            figures.drag(home.position, along, view[1] - view[0])
-            for home, along, view in zip(homes, ALONG, views, strict=True)
-            if home.position is not None
+            figures.drag(position, along, view[1] - view[0])
+            for position, along, view in zip((along_x, along_y), ALONG, views, strict=True)
         )
-        label = ", ".join(home.position.label for home in homes if home.position)
-        drawing.handles.append(Handle((x, y), drags, label, drawing.texts[-1].value, second=True))
+        label = f"{along_x.label}, {along_y.label}"
+        drawing.handles.append(Handle((x, y), drags, label, text, second=True))

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
+import operator
+from collections.abc import Iterable
+from itertools import chain
 from typing import Literal
 
 from amp_studio.drawing import Dot, Polyline, Scale, Scene, ShapeSort, Text
 from amp_studio.files import ParameterFile
-from amp_studio.schema import JogRoles, ParameterId, unit_text
+from amp_studio.schema import JogRoles, unit_text
 
 from .figures import DrawnValue, ValueReader
 from .parts import axes_with
@@ -20,17 +24,15 @@ def draw_jog(
 ) -> Scene:
     """Return the ladder of the speeds, or of the increments, of all axes, over a scale of powers of ten."""
     figures = ValueReader(file)
-    own: tuple[ParameterId, ...] = roles.speeds if name == "jog" else roles.increments
-    bounds = roles.limits if name == "jog" else ()
+    own, bounds = (roles.speeds, roles.limits) if name == "jog" else (roles.increments, ())
     axes = axes_with(file, (*own, *bounds))
-    rows = [[each for p in own if (each := figures.figure(p, axis))] for axis in axes]
-    limits = [[each for p in bounds if (each := figures.figure(p, axis))] for axis in axes]
-    every = [[*row, *bound] for row, bound in zip(rows, limits, strict=True)]
-    numbers = (each.number for row in every for each in row)
-    x = like.x if like else _decades([number for number in numbers if number is not None and number > 0.0])
+    rows = [figures.figures(own, axis) for axis in axes]
+    limits = [figures.figures(bounds, axis) for axis in axes]
+    every = [*map(operator.add, rows, limits)]
+    x = like.x if like else _decades(chain.from_iterable(every))
     heads = tuple(
-        (-float(n), figures.axis(axis), next((each.unit for each in every[n]), ""))
-        for n, axis in enumerate(axes)
+        (-float(n), figures.axis(axis), row[0].unit if row else "")
+        for n, (axis, row) in enumerate(zip(axes, every, strict=True))
     )
     shapes = SceneShapes(figures)
     for n, (row, bound) in enumerate(zip(rows, limits, strict=True)):
@@ -42,32 +44,32 @@ def draw_jog(
 
 def _draw_row(shapes: SceneShapes, row: list[DrawnValue], bounds: list[DrawnValue], level: float) -> None:
     """Draw the speeds of one axis as steps on a rail that reaches to its limits."""
-    figures = shapes.figures
-    found = [each for each in row if figures.is_on_decades(each)]
-    ends = [each.number or 0.0 for each in (*found, *filter(figures.is_on_decades, bounds))]
+    found = [*filter(shapes.figures.is_on_decades, row)]
+    ends = [each.number or 0.0 for each in (*found, *filter(shapes.figures.is_on_decades, bounds))]
     if ends:
         shapes.lines.append(Polyline(((min(ends), level), (max(ends), level)), "rail"))
-    highest = max((b.number for b in bounds if b.number), default=None)
     for each in found:
-        number = each.number or 0.0
-        beyond = highest is not None and number > highest
-        if beyond:
-            figures.add_note(
-                f"{each.label}: {each.text} is above {bounds[0].label}, {bounds[0].text}",
-                each.address,
-                wrong=True,
-            )
-        sort: ShapeSort = "error" if each.wrong or beyond else "dim"
-        shapes.texts.append(Text((number, level), _plain(each), "", "above", each.address, sort))
-        if any(handle.drags[0].address == each.address for handle in shapes.handles):
-            shapes.dots.append(Dot((number, level)))  # one value of all axes has its handle on the first
-        else:
-            drag = figures.drag(each, "x", 10.0 * number)
-            shapes.handles.append(figures.handle(each, (number, level), drag, second=True))
+        _draw_speed(shapes, each, level, bounds)
     for each in bounds:
         if each.number is not None and each.number > 0.0:
             shapes.dots.append(Dot((each.number, level), "end"))
             shapes.texts.append(Text((each.number, level), _plain(each), "", "below", each.address, "dim"))
+
+
+def _draw_speed(shapes: SceneShapes, each: DrawnValue, level: float, bounds: list[DrawnValue]) -> None:
+    """Draw one step; above the greatest of the bounds it is an error."""
+    figures, number = shapes.figures, each.number or 0.0
+    beyond = number > max((b.number for b in bounds if b.number), default=math.inf)
+    if beyond:
+        text = f"{each.label}: {each.text} is above {bounds[0].label}, {bounds[0].text}"
+        figures.add_note(text, each.address, wrong=True)
+    sort: ShapeSort = "error" if each.wrong or beyond else "dim"
+    shapes.texts.append(Text((number, level), _plain(each), "", "above", each.address, sort))
+    if any(handle.drags[0].address == each.address for handle in shapes.handles):
+        shapes.dots.append(Dot((number, level)))  # one value of all axes has its handle on the first
+    else:
+        drag = figures.drag(each, "x", 10.0 * number)
+        shapes.handles.append(figures.handle(each, (number, level), drag, second=True))
 
 
 def _plain(each: DrawnValue) -> str:
@@ -75,8 +77,9 @@ def _plain(each: DrawnValue) -> str:
     return each.text.removesuffix(unit_text(each.unit)).strip() if each.unit else each.text
 
 
-def _decades(numbers: list[float]) -> Scale:
-    """Return a scale of powers of ten around numbers."""
+def _decades(figures: Iterable[DrawnValue]) -> Scale:
+    """Return a scale of powers of ten around the numbers above 0."""
+    numbers = [each.number for each in figures if each.number is not None and each.number > 0.0]
     if not numbers:
         return Scale("", "", 1.0, 10.0, log=True)
     return Scale("", "", min(numbers) / 2.0, max(numbers) * 2.0, log=True)

@@ -48,6 +48,10 @@ def draw_loop(file: ParameterFile, roles: LoopRoles, part: str, like: Scene | No
     return diagram.shapes.scene("loop", part, "Loops", title, x, y, look="rings")
 
 
+def _placed(rows: list[LoopBlock], place: str) -> list[LoopBlock]:
+    return [block for block in rows if block.place == place]
+
+
 def _signals(figures: ValueReader, axis: str, share: float) -> Mapping[str, Signal]:
     """Return the steady signals at a share of the rapid feedrate; that there are none is a note."""
     file = figures.file
@@ -128,11 +132,9 @@ class LoopDiagram:
 
     def _join(self, rows: list[LoopBlock]) -> None:
         """Draw the lines between the boxes, in the direction of the signals."""
-        chain = [block for block in rows if block.place == "chain"]
-        command = next(block for block in rows if block.place == "command")
-        has_ahead = any(block.place == "ahead" for block in rows)
+        (command, *_), chain, ahead = (_placed(rows, place) for place in ("command", "chain", "ahead"))
         for before, after in zip((command, *chain), chain, strict=False):
-            if before is command and has_ahead:  # past the rows of what is added ahead
+            if before is command and ahead:  # past the rows of what is added ahead
                 self._along(PAST, command, after, RIGHT)
             else:
                 self._down(before, after)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from amp_studio.drawing import Handle, Point, Polyline, Scale, Scene, ShapeSort, Text, figure_text, round_step
@@ -11,7 +11,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import RampKind, RampRoles, TimeOf, UnitError, convert, unit_text
 from amp_studio.sim import Piece, Ramp, SimulationError, change, exponential_pieces, leg, length
 
-from .figures import DrawnValue, ValueReader
+from .figures import DrawnValue, ValueReader, number_of
 from .shapes import SceneShapes
 
 RAMP_MULTIPLE = 1.8
@@ -56,8 +56,38 @@ def draw_ramps(file: ParameterFile, roles: RampRoles, axis: str, like: Scene | N
         return shapes.scene("ramps", axis, "Ramps", figures.axis(axis), x, y)
     base = feed.unit.split("/")[0]
     kinds = [found for role in roles.kinds if (found := _drawn(figures, role, axis, speed, base))]
+    distance = like.fixed if like and like.fixed else _distance(kinds, speed)
+    end = _draw_moves(shapes, roles, kinds, axis, (feed.number, speed, distance))
+    bounds = [feed, *_bounds(figures, roles, feed, axis)]
+    x = like.x if like else Scale("", "s", 0.0, 1.08 * (end or distance / speed))
+    y = like.y if like else Scale("", feed.unit, 0.0, 1.18 * max(map(_number_or_0, bounds)))
+    for bound in bounds:
+        ends = ((x.low, _number_or_0(bound)), (x.high, _number_or_0(bound)))
+        shapes.limit(ends, bound)
+        shapes.texts.append(Text(ends[1], bound.label, bound.text, "right", bound.address, "dim"))
+    drag = figures.drag(feed, "y", y.high)
+    shapes.handles.append(figures.handle(feed, (0.97 * x.high, feed.number), drag, second=True))
+    subtitle = f"{figures.axis(axis)}, speed over time, {figure_text(distance)} {base}"
+    return shapes.scene("ramps", axis, "Ramps", subtitle, x, y, fixed=distance)
+
+
+def _distance(kinds: Sequence[_Drawn], speed: float) -> float:
+    """Return a round distance on which each kind of ramp reaches the speed."""
     ways = [way for each in kinds if (way := _way(each.ramp, speed)) > 0.0]
-    distance = like.fixed if like and like.fixed else round_step(RAMP_MULTIPLE * max(ways, default=speed))
+    return round_step(RAMP_MULTIPLE * max(ways, default=speed))
+
+
+def _draw_moves(
+    shapes: SceneShapes,
+    roles: RampRoles,
+    kinds: Sequence[_Drawn],
+    axis: str,
+    move: tuple[float, float, float],
+) -> float:
+    """Draw the move with each kind of ramp; ``move`` is its feedrate as entered and in units a second,
+    and its distance. Returns the s at which the last one ends.
+    """
+    figures, (feedrate, speed, distance) = shapes.figures, move
     used = _mode(figures, roles, axis)
     longest = 0.0
     for n, each in enumerate(kinds):
@@ -67,20 +97,10 @@ def draw_ramps(file: ParameterFile, roles: RampRoles, axis: str, like: Scene | N
             figures.add_note(f"{each.role.name}: {error}", wrong=True)
             continue
         is_used = used in each.role.modes if roles.mode else not shapes.lines
-        end = _draw_move(shapes, each, pieces, feed.number, feed.number / speed, n, is_used=is_used)
-        shapes.handles += _handles(figures, each, speed, feed.number / speed, distance, pieces)
+        end = _draw_move(shapes, each, pieces, feedrate, feedrate / speed, n, is_used=is_used)
+        shapes.handles += _handles(figures, each, speed, feedrate / speed, distance, pieces)
         longest = max(longest, end)
-    x = like.x if like else Scale("", "s", 0.0, 1.08 * (longest or distance / speed))
-    bounds = [feed, *_bounds(figures, roles, feed, axis)]
-    y = like.y if like else Scale("", feed.unit, 0.0, 1.18 * max(each.number or 0.0 for each in bounds))
-    for bound in bounds:
-        ends = ((x.low, bound.number or 0.0), (x.high, bound.number or 0.0))
-        shapes.limit(ends, bound)
-        shapes.texts.append(Text(ends[1], bound.label, bound.text, "right", bound.address, "dim"))
-    drag = figures.drag(feed, "y", y.high)
-    shapes.handles.append(figures.handle(feed, (0.97 * x.high, feed.number), drag, second=True))
-    subtitle = f"{figures.axis(axis)}, speed over time, {figure_text(distance)} {base}"
-    return shapes.scene("ramps", axis, "Ramps", subtitle, x, y, fixed=distance)
+    return longest
 
 
 def _draw_move(
@@ -164,28 +184,16 @@ def _by_slopes(
     figures: ValueReader, role: RampKind, axis: str, base: str, drawn: _Drawn, least: float
 ) -> _Drawn | None:
     """Return a ramp that is given by its accelerations and its jerk; ``least`` s it takes at least."""
-
-    def number(parameter: str | None, unit: str) -> DrawnValue | None:
-        return figures.figure(parameter, axis, unit) if parameter else None
-
-    step = _number_of(number(role.step, f"{base}/s"))
-    up, down = number(role.acceleration, f"{base}/s2"), number(role.deceleration, f"{base}/s2")
-    jerk = number(role.jerk, f"{base}/s3")
-    if up is None or up.number is None or (role.jerk and not _number_of(jerk)):
+    step = _number_or_0(figures.figure(role.step, axis, f"{base}/s"))
+    up = figures.figure(role.acceleration, axis, f"{base}/s2")
+    down = figures.figure(role.deceleration, axis, f"{base}/s2")
+    jerk = figures.figure(role.jerk, axis, f"{base}/s3")
+    given, slower = _number_or_0(jerk), _number_or_0(down)
+    if up is None or up.number is None or (role.jerk and not given):
         return None
-    if up.number <= 0.0:
-        figures.add_note(f"{up.label}: {up.text} is no ramp", up.address, wrong=up.wrong)
+    if _is_impossible(figures, up, jerk) or slower < 0.0:
         return None
-    given = _number_of(jerk)
-    if jerk is not None and given < 0.0:
-        figures.add_note(f"{jerk.label}: {jerk.text} is no ramp", jerk.address, wrong=True)
-        return None
-    slower = _number_of(down)
-    if slower < 0.0:
-        return None
-    used = given
-    if role.jerk_scans and jerk and given:
-        used = _within_scans(figures, role, axis, up.number, jerk, given)
+    used = _within_scans(figures, role, axis, up.number, jerk, given)
     return replace(
         drawn,
         ramp=Ramp(role.kind, up.number, slower or up.number, used, least, step),
@@ -195,23 +203,33 @@ def _by_slopes(
     )
 
 
-def _number_of(figure: DrawnValue | None) -> float:
-    """Return the number of a figure; 0 where it is not set."""
-    return figure.number if figure and figure.number else 0.0
+def _is_impossible(figures: ValueReader, up: DrawnValue, jerk: DrawnValue | None) -> bool:
+    """Return whether no ramp has this acceleration or jerk, which is noted."""
+    if _number_or_0(up) <= 0.0:
+        figures.add_note(f"{up.label}: {up.text} is no ramp", up.address, wrong=up.wrong)
+        return True
+    if jerk is not None and _number_or_0(jerk) < 0.0:
+        figures.add_note(f"{jerk.label}: {jerk.text} is no ramp", jerk.address, wrong=True)
+        return True
+    return False
+
+
+def _number_or_0(figure: DrawnValue | None) -> float:
+    return number_of(figure) or 0.0
 
 
 def _by_rise(figures: ValueReader, role: RampKind, axis: str, speed: float) -> _Drawn | None:
     """Return a ramp that is given by the time in ms in which it reaches the feedrate."""
     own = [figures.figure(parameter, axis, quiet=True) for parameter in role.rise]
-    found = next((each for each in own if each is not None and each.number is not None), None)
-    time = (found and found.number) or 0.0
-    if found is None or time <= 0.0:
-        if named := found or own[0]:
-            text = named.problem or f"{named.text} is no time"
-            figures.add_note(f"{named.label}: {text}", named.address, wrong=found is not None)
-        return None
-    slope = speed / (time / 1000.0)
-    return _Drawn(role, Ramp(role.kind, slope, slope), rise=found, factor=0.001)
+    found = next((each for each in own if number_of(each) is not None), None)
+    time = number_of(found) or 0.0
+    if time > 0.0:
+        slope = speed / (time / 1000.0)
+        return _Drawn(role, Ramp(role.kind, slope, slope), rise=found, factor=0.001)
+    if named := found or own[0]:
+        text = named.problem or f"{named.text} is no time"
+        figures.add_note(f"{named.label}: {text}", named.address, wrong=found is not None)
+    return None
 
 
 def _time(figures: ValueReader, role: TimeOf | None, axis: str) -> tuple[DrawnValue | None, float]:
@@ -219,19 +237,19 @@ def _time(figures: ValueReader, role: TimeOf | None, axis: str) -> tuple[DrawnVa
     if role is None:
         return None, 1.0
     found = [(p, figures.figure(p, axis, quiet=p not in role.needed)) for p in role.params]
-    if any(p in role.needed and (each is None or each.number is None) for p, each in found):
+    if any(p in role.needed and number_of(each) is None for p, each in found):
         return None, 1.0
+    numbers = (number_of(each) for _, each in found[1:])
     factor = 0.001 if role.unit == "ms" else 1.0
-    for _, each in found[1:]:
-        factor *= each.number if each is not None and each.number is not None else 1.0
-    return found[0][1], factor
+    return found[0][1], math.prod((number for number in numbers if number is not None), start=factor)
 
 
 def _within_scans(
-    figures: ValueReader, role: RampKind, axis: str, up: float, jerk: DrawnValue, given: float
+    figures: ValueReader, role: RampKind, axis: str, up: float, jerk: DrawnValue | None, given: float
 ) -> float:
     """Return the jerk that the control uses: a ramp of acceleration has its bounds in scans."""
-    assert role.jerk_scans is not None
+    if role.jerk_scans is None or jerk is None or not given:
+        return given
     first, factor = _time(figures, role.jerk_scans.scan, axis)
     if first is None or not first.number:
         return given
@@ -303,15 +321,13 @@ def _rise_time(each: _Drawn, pieces: Sequence[Piece]) -> float:
 
 def _handles(
     figures: ValueReader, each: _Drawn, speed: float, scale: float, distance: float, pieces: Sequence[Piece]
-) -> list[Handle]:
-    """Return the handles of a ramp: each lies where its figure shows, and follows the pointer in time."""
+) -> Iterator[Handle]:
+    """Yield the handles of a ramp: each lies where its figure shows, and follows the pointer in time."""
     ramp = each.ramp
     top = max((piece.end for piece in pieces), default=0.0)
     risen, end = _rise_time(each, pieces), math.fsum(piece.duration for piece in pieces)
-    short = top < speed * (1.0 - 1e-9)
-    found: list[Handle] = []
 
-    def put(
+    def handle(
         figure: DrawnValue,
         at: Point,
         inverse: Callable[[float], float | None],
@@ -319,50 +335,36 @@ def _handles(
         *,
         rises: bool = False,
         second: bool = False,
-    ) -> None:
+    ) -> Handle:
         drag = figures.drag(figure, "x", span, inverse, rises=rises)
-        found.append(figures.handle(figure, (at[0], at[1] * scale), drag, second=second))
+        return figures.handle(figure, (at[0], at[1] * scale), drag, second=second)
+
+    def time_at(t: float) -> float:
+        return t / each.factor
 
     if each.time is not None and each.time.number and ramp.kind == "exponential":
-        put(
-            each.time,
-            (ramp.time, speed * -math.expm1(-1.0)),
-            lambda t: t / each.factor,
-            end / each.factor,
-            rises=True,
-            second=True,
-        )
-        return found
-    if each.rise is not None:
-        put(each.rise, (risen, top), lambda t: t / each.factor, end / each.factor, rises=True)
-        return found
-    if each.acceleration is None or ramp.acceleration <= 0.0:
-        return found
-    put(
-        each.acceleration,
-        (risen, top),
-        _acceleration_at(ramp, top),
-        2.0 * ramp.acceleration,
-        second=ramp.kind == "s-curve",
-    )
-    if each.deceleration is not None and ramp.kind == "linear" and not short:
-        rest = distance / speed + 0.5 * risen
-        put(
-            each.deceleration,
-            (end, 0.0),
-            lambda t: speed / (2.0 * (t - rest)) if t > rest else None,
-            2.0 * ramp.deceleration,
-        )
-    if each.jerk is not None and ramp.kind == "s-curve":
-        slope = min(ramp.acceleration / ramp.jerk, math.sqrt(top / ramp.jerk))
-        put(
-            each.jerk,
-            (slope, 0.5 * ramp.jerk * slope**2),
-            lambda t: ramp.acceleration / t if t > 0.0 else None,
-            2.0 * ramp.jerk,
-            second=True,
-        )
-    return found
+        at = (ramp.time, speed * -math.expm1(-1.0))
+        yield handle(each.time, at, time_at, end / each.factor, rises=True, second=True)
+    elif each.rise is not None:
+        yield handle(each.rise, (risen, top), time_at, end / each.factor, rises=True)
+    elif each.acceleration is not None and ramp.acceleration > 0.0:
+        is_s_curve, span = ramp.kind == "s-curve", 2.0 * ramp.acceleration
+        yield handle(each.acceleration, (risen, top), _acceleration_at(ramp, top), span, second=is_s_curve)
+        if each.deceleration and ramp.kind == "linear" and top >= speed * (1.0 - 1e-9):
+            inverse = _deceleration_at(speed, distance / speed + 0.5 * risen)
+            yield handle(each.deceleration, (end, 0.0), inverse, 2.0 * ramp.deceleration)
+        if each.jerk and is_s_curve:
+            slope = min(ramp.acceleration / ramp.jerk, math.sqrt(top / ramp.jerk))
+            at, inverse = (slope, 0.5 * ramp.jerk * slope**2), _jerk_at(ramp)
+            yield handle(each.jerk, at, inverse, 2.0 * ramp.jerk, second=True)
+
+
+def _deceleration_at(speed: float, rest: float) -> Callable[[float], float | None]:
+    return lambda t: speed / (2.0 * (t - rest)) if t > rest else None
+
+
+def _jerk_at(ramp: Ramp) -> Callable[[float], float | None]:
+    return lambda t: ramp.acceleration / t if t > 0.0 else None
 
 
 def _acceleration_at(ramp: Ramp, top: float) -> Callable[[float], float | None]:

@@ -52,28 +52,18 @@ def draw_table(file: ParameterFile, roles: TableRoles, axis: str, like: Scene | 
     figures.read[address] = None
     value, letter, label = file.get(address), figures.axis(axis), figures.label(address)
     unit_at = figures.address(roles.unit_from, axis)
-    unit = figures.unit(unit_at) if unit_at else ""
     state = figures.evaluation.state(address)
     if not state.is_active:
         figures.add_note(f"{label}: inactive, {state.why}", address)
-    points: list[Point] = []
-    if value is None or form is None:
-        figures.add_note(f"{label}: not set", address)
-    else:
-        try:
-            points = form.read(letter, str(value.value))
-            unit = form.unit(str(value.value)) or unit
-        except ValueError as error:
-            figures.add_note(f"{label}: {error}", address, wrong=True)
+    text = str(value.value) if value else ""
+    points, own_unit = _points(figures, form, address, text if value else None)
+    unit = own_unit or (figures.unit(unit_at) if unit_at else "")
     x, y = (like.x, like.y) if like else _scales(points, unit)
-    handles = (
-        [_handle(form, (address, letter, label, str(value.value)), points, n, y) for n in range(len(points))]
-        if form and value
-        else []
-    )
-    shapes = SceneShapes(figures, handles=handles)
+    shapes = SceneShapes(figures)
     shapes.lines.append(Polyline(((x.low, 0.0), (x.high, 0.0)), "dim", dashed=True))
-    if points:
+    if points and form:
+        known = (address, letter, label, text)
+        shapes.handles += [_handle(form, known, points, n, y) for n in range(len(points))]
         shapes.lines.append(Polyline(tuple(points), "now"))
     shapes.texts.append(Text((x.low, y.high), label, "", "left", address, "dim"))
 
@@ -81,10 +71,27 @@ def draw_table(file: ParameterFile, roles: TableRoles, axis: str, like: Scene | 
         if form is None or (value is not None and not points):
             return None
         more = form.put_in(points, (at[0], multiple(at[1], form.grain)))
-        return address, Value(form.write(letter, more, str(value.value) if value else "", unit))
+        return address, Value(form.write(letter, more, text, unit))
 
     subtitle = f"{letter}, {len(points)} points"
     return shapes.scene("calibration", axis, roles.name, subtitle, x, y, with_point=with_point)
+
+
+def _points(
+    figures: ValueReader, form: CurveText | None, address: Address, text: str | None
+) -> tuple[list[Point], str]:
+    """Return the points of a table and the unit that it names; none, with a note, where it has none to
+    read.
+    """
+    label = figures.label(address)
+    if text is None or form is None:
+        figures.add_note(f"{label}: not set", address)
+        return [], ""
+    try:
+        return form.read(figures.axis(address[1]), text), form.unit(text)
+    except ValueError as error:
+        figures.add_note(f"{label}: {error}", address, wrong=True)
+        return [], ""
 
 
 def _scales(points: Sequence[Point], unit: str) -> tuple[Scale, Scale]:

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 from itertools import product
 from typing import Literal
 
-from amp_studio.drawing import Drag, FilledArea, Handle, Polyline, Scale, Scene, ShapeSort, Text
+from amp_studio.drawing import Drag, FilledArea, Handle, Point, Polyline, Scale, Scene, ShapeSort, Text
 from amp_studio.files import ParameterFile
-from amp_studio.schema import ReachRole, SpanRole, TravelRoles, ZoneRole
+from amp_studio.schema import SpanRole, TravelRoles, ZoneRole
 
 from .figures import DrawnValue, ValueReader
 from .homing import MARGIN, Home, draw_home, draw_rail, letters, read_home
@@ -40,6 +40,10 @@ class _Ends:
     def wrong(self) -> bool:
         return any(each is not None and each.wrong for each in self.figures)
 
+    @property
+    def is_finite(self) -> bool:
+        return math.isfinite(self.low) and math.isfinite(self.high)
+
 
 def draw_travel(
     file: ParameterFile, roles: TravelRoles, axes: tuple[str, ...], like: Scene | None = None
@@ -63,35 +67,56 @@ def _drawn(file: ParameterFile, roles: TravelRoles, axes: tuple[str, ...], like:
     """Return the picture of axes in this order; ``like`` gives the scales that stay."""
     figures = ValueReader(file)
     drawing = SceneShapes(figures)
-    travels = [[_span(figures, span, axis) for axis in axes] for span in roles.spans]
-    if roles.reach:
-        travels.append([_reach(figures, roles, axis, file) for axis in axes])
-    travel = [_inner([row[n] for row in travels]) for n in range(len(axes))]
+    named = _travels(figures, roles, axes, file)
+    travel = [_inner([row[n] for _, row in named]) for n in range(len(axes))]
     zones = [(zone, box) for zone in roles.zones for box in _boxes(figures, zone, axes, travel)]
     homes = [read_home(figures, roles, axis, file) for axis in axes]
     units = [_unit(figures, roles, axis) for axis in axes]
-    scales = [
-        _scale(figures, axis, units[n], [*travels, *(box for _, box in zones)], homes[n], n)
-        for n, axis in enumerate(axes)
-    ]
-    scales += [Scale("", "", -1.0, 1.0, rows=((0.0, "", ""),))] * (2 - len(axes))
     if like is not None:
         scales = [like.x, like.y]
-    equal = len(axes) == 2 and units[0] == units[1] and _are_alike(scales)
+    else:
+        scales = _scales(figures, axes, units, [row for _, row in (*named, *zones)], homes)
     views = [(scale.low, scale.high) for scale in scales]
     for zone, box in zones:
         _draw_zone(figures, drawing, zone, box, views, len(axes))
-    names: list[SpanRole | ReachRole] = [*roles.spans, *([roles.reach] if roles.reach else [])]
-    for role, row in zip(names, travels, strict=True):
+    for name, row in named:
         _draw_box(figures, drawing, row, views, "travel")
-        _name_travel(figures, drawing, role.name, row, axes, views)
+        _name_travel(figures, drawing, name, row, axes, views)
+    _draw_homes(figures, drawing, travel, homes, views)
+    subtitle = f"{part_name(figures, axes)}, drawn from {len(figures.read)} parameters"
+    x, y = scales
+    equal = len(axes) == 2 and len(set(units)) == 1 and _are_alike(scales)
+    return drawing.scene("travel", "+".join(axes), "Travel and zones", subtitle, x, y, equal=equal)
+
+
+def _scales(
+    figures: ValueReader, axes: tuple[str, ...], units: list[str], rows: list[list[_Ends]], homes: list[Home]
+) -> list[Scale]:
+    scales = [_scale(figures, axis, units[n], rows, homes[n], n) for n, axis in enumerate(axes)]
+    return scales + [Scale("", "", -1.0, 1.0, rows=((0.0, "", ""),))] * (2 - len(axes))
+
+
+def _draw_homes(
+    figures: ValueReader,
+    drawing: SceneShapes,
+    travel: list[tuple[float, float]],
+    homes: list[Home],
+    views: list[tuple[float, float]],
+) -> None:
     for n, home in enumerate(homes):
         draw_rail(drawing, n, travel[n], home, views)
-    draw_home(figures, drawing, homes, views)
-    subtitle = f"{part_name(figures, axes)}, drawn from {len(figures.read)} parameters"
-    return drawing.scene(
-        "travel", "+".join(axes), "Travel and zones", subtitle, scales[0], scales[1], equal=equal
-    )
+    if len(homes) == 2:
+        draw_home(figures, drawing, homes, views)
+
+
+def _travels(
+    figures: ValueReader, roles: TravelRoles, axes: tuple[str, ...], file: ParameterFile
+) -> list[tuple[str, list[_Ends]]]:
+    """Return name and ends on each axis of the travels that the family has."""
+    found = [(span.name, [_span(figures, span, axis) for axis in axes]) for span in roles.spans]
+    if roles.reach:
+        found.append((roles.reach.name, [_reach(figures, roles, axis, file) for axis in axes]))
+    return found
 
 
 def _are_alike(scales: list[Scale]) -> bool:
@@ -160,8 +185,7 @@ def _boxes(
             _span(figures, zone, axis) if axis in members else _Ends(*travel[n])
             for n, axis in enumerate(axes)
         ]
-        drawn = [ends for ends, axis in zip(box, axes, strict=True) if axis in members]
-        if all(math.isfinite(edge) for ends in drawn for edge in (ends.low, ends.high)):
+        if all(ends.is_finite for ends, axis in zip(box, axes, strict=True) if axis in members):
             boxes.append(box)
     return boxes
 
@@ -189,14 +213,10 @@ def _is_not_set(figures: ValueReader, zone: ZoneRole, axis: str) -> bool:
 def _scale(figures: ValueReader, axis: str, unit: str, rows: list[list[_Ends]], home: Home, n: int) -> Scale:
     """Return the scale of an axis over all that is drawn on it."""
     numbers = [edge for row in rows for edge in (row[n].low, row[n].high) if math.isfinite(edge)]
-    numbers += [
-        each
-        for each in (home.place, home.marker, home.switch.number if home.switch else None)
-        if each is not None
-    ]
-    if roles_reach := any(row[n].turned for row in rows):
+    numbers += home.places
+    if has_reach := any(row[n].turned for row in rows):
         numbers.append(0.0)
-    if not numbers or (max(numbers) == min(numbers) == 0.0 and not roles_reach):
+    if not has_reach and not any(numbers):
         return Scale(figures.axis(axis), unit, -1.0, 1.0, rows=((0.0, figures.axis(axis), ""),))
     low, high = min(numbers), max(numbers)
     margin = MARGIN * (high - low) or abs(high) * MARGIN or 1.0
@@ -220,31 +240,41 @@ def _draw_box(
     """Draw the finite edges of a box, and the handles on them and at its corners."""
     full = [*row, *(_Ends(-math.inf, math.inf) for _ in range(2 - len(row)))]
     sides = [_shown_edges(ends, view) for ends, view in zip(full, views, strict=True)]
-    middles = [0.5 * (low + high) for low, high in sides]
-    paint: ShapeSort = "error" if any(ends.wrong for ends in row) else "ink" if sort == "travel" else "second"
-    drags: dict[tuple[int, int], tuple[float, Drag]] = {}
+    paint = _paint(row, sort)
+    handles: dict[tuple[int, int], Handle] = {}
     for n, ends in enumerate(row):
+        low, high = sides[1 - n]
         for k, edge in enumerate((ends.low, ends.high)):
             if not math.isfinite(edge):
                 continue
-            across = sides[1 - n]
-            line = (
-                ((edge, across[0]), (edge, across[1])) if n == 0 else ((across[0], edge), (across[1], edge))
-            )
-            drawing.lines.append(Polyline(line, paint))
-            figure = ends.figures[k]
-            if figure is None:
-                continue
-            drag = _edge_drag(figures, figure, ends, n, views[n])
-            drags[n, k] = edge, drag
-            at = (edge, middles[1]) if n == 0 else (middles[0], edge)
-            drawing.handles.append(figures.handle(figure, at, drag))
+            start, middle, end = (_point(n, edge, across) for across in (low, 0.5 * (low + high), high))
+            drawing.lines.append(Polyline((start, end), paint))
+            if (figure := ends.figures[k]) is not None:
+                drag = _edge_drag(figures, figure, ends, n, views[n])
+                handles[n, k] = figures.handle(figure, middle, drag)
+    drawing.handles += handles.values()
     for k, m in product((0, 1), repeat=2):
-        if (0, k) in drags and (1, m) in drags:
-            (x, along_x), (y, along_y) = drags[0, k], drags[1, m]
-            pair = [figure for figure in (row[0].figures[k], row[1].figures[m]) if figure]
-            label, value_text = ", ".join(f.label for f in pair), ", ".join(f.text for f in pair)
-            drawing.handles.append(Handle((x, y), (along_x, along_y), label, value_text, second=True))
+        if (0, k) in handles and (1, m) in handles:
+            drawing.handles.append(_corner(handles[0, k], handles[1, m]))
+
+
+def _paint(row: list[_Ends], sort: ShapeSort) -> ShapeSort:
+    if any(ends.wrong for ends in row):
+        return "error"
+    return "ink" if sort == "travel" else "second"
+
+
+def _point(n: int, along: float, across: float) -> Point:
+    """Return the point at a place of the ``n``-th axis."""
+    return (along, across) if n == 0 else (across, along)
+
+
+def _corner(along_x: Handle, along_y: Handle) -> Handle:
+    """Return the handle that moves two edges at once."""
+    pair = (along_x, along_y)
+    at, drags = (along_x.at[0], along_y.at[1]), (*along_x.drags, *along_y.drags)
+    label, text = ", ".join(each.label for each in pair), ", ".join(each.value for each in pair)
+    return Handle(at, drags, label, text, second=True)
 
 
 def _edge_drag(
