@@ -323,9 +323,7 @@ def _axis(
     rows: Sequence[ReportRow],
     findings: Sequence[Finding],
 ) -> tuple[str, ...]:
-    own = [r for r in rows if r.instance == axis and scope_of(file, (r.id, axis)) == "axis"]
-    touching = [f for f in findings if any(a[1] == axis and scope_of(file, a) == "axis" for a in f.addresses)]
-    severities = [counted(n, s) for s in ("error", "warning") if (n := _severity(touching, s))]
+    own = [row for row in rows if _is_of_axis(file, (row.id, row.instance), axis)]
     settings = [_setting(file, (p, axis)) for p in asked] or [axis_kind(file, axis) or "–"]
     return (
         axis,
@@ -333,8 +331,18 @@ def _axis(
         *settings,
         str(len(own)),
         str(sum(r.is_changed for r in own)),
-        ", ".join(severities) or "–",
+        _findings_of_axis(file, axis, findings),
     )
+
+
+def _findings_of_axis(file: ParameterFile, axis: str, findings: Sequence[Finding]) -> str:
+    touching = [f for f in findings if any(_is_of_axis(file, address, axis) for address in f.addresses)]
+    severities = [counted(n, s) for s in ("error", "warning") if (n := _severity(touching, s))]
+    return ", ".join(severities) or "–"
+
+
+def _is_of_axis(file: ParameterFile, address: Address, axis: str) -> bool:
+    return address[1] == axis and scope_of(file, address) == "axis"
 
 
 def _setting(file: ParameterFile, address: Address) -> str:

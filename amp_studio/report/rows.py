@@ -90,40 +90,33 @@ def row_of(
     Secrets are masked. The row of a secret has no default:
     together with the mark of a change it would reveal the value.
     """
-    schema, here, evaluation = file.schema, file.machine_schema, file.evaluation
+    schema, here = file.schema, file.machine_schema
     parameter = schema.parameters[address[0]]
-    value, default, state = file.get(address), file.default(address), evaluation.state(address)
-    known = value or default
-    own_system = file.header.units
-    unit = known.unit if known else "" if parameter.choices else evaluation.unit(address, own_system)
-    system = units if units in ("metric", "inch") else own_system
-    printed_unit = _unit_for(file, address, unit, system)
-    figure = _figure(parameter, value, printed_unit)
-    also = ""
-    if units == "both" and value is not None:
-        other = _unit_for(file, address, unit, "inch" if system == "metric" else "metric")
-        also = "" if other == printed_unit else _with_unit(_figure(parameter, value, other), other)
-    is_rounded = figure.startswith("≈")
+    value, default, state = file.get(address), file.default(address), file.evaluation.state(address)
+    unit = _unit_of_entry(file, address)
+    figure, printed_unit, also = _printed(file, address, unit, units)
+    plain, data = _bare(parameter, value), data_of(parameter, value)
     if parameter.secret:
-        figure, also, is_rounded, default = MASKED if value is not None else "", "", False, None
-    number = "" if here.is_disputed(address[0]) else here.number(address) or ""
+        plain = figure = MASKED if value is not None else ""
+        also, default, data = "", None, None
+    is_number = parameter.type in ("real", "integer")
     is_changed = value is not None and not file.is_default(address)
     has_default = file.default(address) is not None
     return ReportRow(
         id=address[0],
         instance=address[1],
-        number=number,
+        number="" if here.is_disputed(address[0]) else here.number(address) or "",
         name=parameter.name,
         group=schema.group_of[address[0]].name,
         place=place_of(file, address) if place is None else place,
         is_set=value is not None,
-        is_number=parameter.type in ("real", "integer"),
-        value=MASKED if parameter.secret and value is not None else _bare(parameter, value),
+        is_number=is_number,
+        value=plain,
         unit=unit,
-        figure=language.number(figure) if parameter.type in ("real", "integer") else figure,
+        figure=language.number(figure) if is_number else figure,
         shown_unit=language.unit(unit_text(printed_unit)),
         also=language.quantity(also),
-        entered=language.quantity(_with_unit(_bare(parameter, value), unit)) if is_rounded else "",
+        entered=language.quantity(_with_unit(plain, unit)) if figure.startswith("≈") else "",
         detail=_bits(parameter, value, language),
         default=_printed_default(parameter, default, printed_unit, language),
         plain_default=_bare(parameter, _converted(default, unit)),
@@ -134,9 +127,29 @@ def row_of(
         state_mark=state_mark,
         forced=with_local_times(file.forced.get(address, "")),
         note=" ".join(value_note(file, address).split()),
-        data=None if parameter.secret else data_of(parameter, value),
+        data=data,
         default_data=data_of(parameter, _converted(default, unit)),
     )
+
+
+def _unit_of_entry(file: ParameterFile, address: Address) -> str:
+    known = file.get(address) or file.default(address)
+    if known:
+        return known.unit
+    has_choices = file.schema.parameters[address[0]].choices
+    return "" if has_choices else file.evaluation.unit(address, file.header.units)
+
+
+def _printed(file: ParameterFile, address: Address, unit: str, units: UnitChoice) -> tuple[str, str, str]:
+    """Return a value as printed, its unit, and the value in the other unit system where both are wanted."""
+    parameter, value = file.schema.parameters[address[0]], file.get(address)
+    system = units if units in ("metric", "inch") else file.header.units
+    printed_unit = _unit_for(file, address, unit, system)
+    figure = _figure(parameter, value, printed_unit)
+    other = _unit_for(file, address, unit, "inch" if system == "metric" else "metric")
+    if units != "both" or value is None or other == printed_unit:
+        return figure, printed_unit, ""
+    return figure, printed_unit, _with_unit(_figure(parameter, value, other), other)
 
 
 def _bare(parameter: Parameter, value: Value | None) -> str:
@@ -200,11 +213,14 @@ def _bits(parameter: Parameter, value: Value | None, language: Language) -> str:
     # A field has its value, a bit its label; bits of one lost figure have theirs together.
     by_label: dict[tuple[str, int | None], list[Bit]] = {}
     for bit in parameter.bits:
-        is_field = bool(bit.choices) or bit.width > 1
-        if is_field or field_value(bit, word):
-            together = bit.unknown and not is_field
-            by_label.setdefault((bit.label, None if together else bit.bit), []).append(bit)
+        if _is_field(bit) or field_value(bit, word):
+            place = bit.bit if _is_field(bit) or not bit.unknown else None
+            by_label.setdefault((bit.label, place), []).append(bit)
     return "; ".join(_bits_text(bits, word, language) for bits in by_label.values())
+
+
+def _is_field(bit: Bit) -> bool:
+    return bool(bit.choices) or bit.width > 1
 
 
 def _bits_text(bits: Sequence[Bit], word: int, language: Language) -> str:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from itertools import groupby
+from itertools import chain, groupby
+from typing import TypeVar
 
 from amp_studio.files import ParameterFile, axis_letter
 from amp_studio.report.axes import axis_label, scope_of
@@ -17,6 +18,7 @@ from amp_studio.validate import AddressedValue, Finding, Suppressed
 from .lines import finding_text
 from .printed_finding import PrintedFinding
 
+_T = TypeVar("_T")
 _NAMED = 6
 """Number of values that one lists; a finding about more names only the first ones in its message."""
 
@@ -43,16 +45,17 @@ def same_finding_text(file: ParameterFile, same: Sequence[Finding]) -> str:
     if len(same) == 1:
         return finding_text(file, same[0])
     finding = _printed(file, same, set())
-    axes = [axis_letter(file, axis) or axis for axis in _axes(file, same)]
-    place = f"{'axes' if len(axes) > 1 else 'axis'} {', '.join(axes)}: " if axes else ""
     every = (a for f in same for a in (f.addresses if len(f.addresses) <= _NAMED else f.causes[:_NAMED]))
     names = ", ".join(label for _, label in _links(file, list(dict.fromkeys(every)), set()))
-    first = f"{place}{names}{': ' if names else ''}{finding.message}"
+    first = ": ".join(filter(None, (_axes_text(file, same), names, finding.message)))
     cited = f" ({same[0].cited})" if same[0].cited else ""
-    lines = [f"{severity_name(finding.severity):8} {first}{cited}"]
-    if finding.fix:
-        lines.append(f"         suggested fix: {finding.fix}")
-    return "\n".join(lines)
+    fix = f"\n         suggested fix: {finding.fix}" if finding.fix else ""
+    return f"{severity_name(finding.severity):8} {first}{cited}{fix}"
+
+
+def _axes_text(file: ParameterFile, same: Sequence[Finding]) -> str:
+    axes = [axis_letter(file, axis) or axis for axis in _axes(file, same)]
+    return f"{'axes' if len(axes) > 1 else 'axis'} {', '.join(axes)}" if axes else ""
 
 
 def _axes(file: ParameterFile, findings: Iterable[Finding]) -> list[str]:
@@ -79,25 +82,33 @@ def printed_suppressed(
 def _printed(
     file: ParameterFile, same: Sequence[Finding], printed: set[str], language: Language = ENGLISH
 ) -> PrintedFinding:
-    addresses = list(dict.fromkeys(a for f in same if len(f.addresses) <= _NAMED for a in f.addresses))
-    fix = list(dict.fromkeys(r for f in same for r in f.fix))
-    brings = next((f.brings for f in same if f.brings), None)
+    first, few = same[0], [finding.addresses for finding in same if len(finding.addresses) <= _NAMED]
+    addresses, fix = _once(few), _once(finding.fix for finding in same)
+    brings = next(filter(None, (finding.brings for finding in same)), None)
     brought = f" ({language.text('it brings a warning:')} {language.finding(brings)})" if brings else ""
-    used = "; ".join(_settings(file, list(dict.fromkeys(s for f in same for s in f.effective)), language))
-    effective = f" {language.text('Effective value in the control:')} {used}." if used else ""
     return PrintedFinding(
-        severity=same[0].severity,
+        severity=first.severity,
         count=len(same),
         place=_places(file, addresses),
         about=tuple(_links(file, addresses, printed, language)),
-        message=language.finding(same[0]) + effective,
+        message=language.finding(first) + _effective(file, same, language),
         fix="; ".join(_settings(file, fix, language)) + brought,
-        page=same[0].page or language.title(same[0].reason),
-        rule=same[0].rule,
-        addresses=tuple(dict.fromkeys(a for f in same for a in f.addresses)),
+        page=first.page or language.title(first.reason),
+        rule=first.rule,
+        addresses=tuple(_once(finding.addresses for finding in same)),
         changes=tuple((s.address, _new_value(file, s), s.value.unit) for s in fix),
-        is_own=same[0].is_own or bool(same[0].reason),
+        is_own=first.is_own or bool(first.reason),
     )
+
+
+def _effective(file: ParameterFile, same: Sequence[Finding], language: Language) -> str:
+    used = "; ".join(_settings(file, _once(finding.effective for finding in same), language))
+    return f" {language.text('Effective value in the control:')} {used}." if used else ""
+
+
+def _once(lists: Iterable[Iterable[_T]]) -> list[_T]:
+    """Return what is in several lists, each once."""
+    return list(dict.fromkeys(chain.from_iterable(lists)))
 
 
 def _new_value(file: ParameterFile, setting: AddressedValue) -> float | bool | str | None:

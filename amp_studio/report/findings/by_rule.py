@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 from amp_studio.files import ParameterFile, axis_letter
 from amp_studio.report.axes import scope_of
@@ -78,19 +79,23 @@ def fix_text(file: ParameterFile, findings: Sequence[Finding]) -> str:
     """Return what the fixes of findings do, as a button has it: ``Set Excess Error to 13.2 mm``;
     empty without one.
     """
-    settings = list(dict.fromkeys(setting for finding in findings for setting in finding.fix))
-    parameters = {setting.address[0] for setting in settings}
+    settings = list(dict.fromkeys(chain.from_iterable(finding.fix for finding in findings)))
     if not settings:
         return ""
-    several = f"Set {len(settings)} Values"
-    if len(parameters) > 1:
-        return several
     name = file.schema.parameters[settings[0].address[0]].name
-    values = {_value_text(file, setting) for setting in settings}
+    values = {(s.address[0], _value_text(file, s)) for s in settings}
     if len(values) == 1:
-        return f"Set {name} to {values.pop()}"
-    axes = [axis_letter(file, s.address[1]) for s in settings if scope_of(file, s.address) == "axis"]
-    return f"Set {name} on {', '.join(axes)}" if axes and all(axes) else several
+        return f"Set {name} to {values.pop()[1]}"
+    is_one = len({parameter for parameter, _ in values}) == 1
+    if is_one and (axes := _letters(file, settings)):
+        return f"Set {name} on {', '.join(axes)}"
+    return f"Set {len(settings)} Values"
+
+
+def _letters(file: ParameterFile, settings: Iterable[AddressedValue]) -> list[str]:
+    """Return the letters of the axes that are set; empty where one has none."""
+    letters = [axis_letter(file, s.address[1]) for s in settings if scope_of(file, s.address) == "axis"]
+    return letters if all(letters) else []
 
 
 def fix_lines(file: ParameterFile, finding: Finding) -> tuple[str, ...]:

@@ -12,7 +12,7 @@ from dataclasses import asdict
 from typing import Any
 
 from amp_studio.report.findings.printed_finding import PrintedFinding
-from amp_studio.report.model import Report, ReportRow
+from amp_studio.report.model import CheckedMotion, Danger, ExchangeLine, ProgramState, Report, ReportRow
 
 FORMAT = 1
 _FACTS = {
@@ -48,11 +48,7 @@ def report_data(report: Report) -> dict[str, Any]:
         "language": contents.language,
         "title": report.title,
         "family": {"id": report.family_id, "name": report.family},
-        "machine": {
-            _FACTS[title]: None if body == _NOTHING else body
-            for title, body in report.machine
-            if title in _FACTS
-        },
+        "machine": {_FACTS[title]: _or_none(body) for title, body in report.machine if title in _FACTS},
         "file": {"name": report.file_name or None, **report.file_data},
         "contents": {
             "order": contents.sort,
@@ -66,21 +62,31 @@ def report_data(report: Report) -> dict[str, Any]:
             "others": [{"about": about, "text": text} for about, text in report.remarked],
         },
         "axes": [
-            {"axis": line[0], "letter": None if line[1] == _NOTHING else line[1], "values": int(line[-3])}
-            for line in report.axes
+            {"axis": axis, "letter": _or_none(letter), "values": int(values)}
+            for axis, letter, *_, values, _, _ in report.axes
         ],
-        "values": [_value(row) for row in rows],
-        "findings": [_finding(finding) for finding in report.notes],
+        "values": [*map(_value, rows)],
+        "findings": [*map(_finding, report.notes)],
         "not_set": [{"number": n or None, "name": name, "place": place} for n, name, place in report.not_set],
-        "dangers": [
-            {"text": danger.says, "page": danger.page, "about": [_address(a) for a, _ in danger.about]}
-            for danger in report.dangers
-        ],
-        "power_up": [{name: getattr(each, name) for name in each.__slots__} for each in report.power_up],
-        "checks": [{name: getattr(each, name) for name in each.__slots__} for each in report.checks],
-        "part_programs": [asdict(each) for each in report.programs],
-        "exchanges": [{name: getattr(each, name) for name in each.__slots__} for each in report.exchanges],
+        "dangers": [*map(_danger, report.dangers)],
+        "power_up": [*map(_fields, report.power_up)],
+        "checks": [*map(_fields, report.checks)],
+        "part_programs": [*map(asdict, report.programs)],
+        "exchanges": [*map(_fields, report.exchanges)],
     }
+
+
+def _or_none(text: str) -> str | None:
+    return None if text == _NOTHING else text
+
+
+def _fields(record: ProgramState | CheckedMotion | ExchangeLine) -> dict[str, Any]:
+    return {name: getattr(record, name) for name in record.__slots__}
+
+
+def _danger(danger: Danger) -> dict[str, Any]:
+    about = [_address(anchor) for anchor, _ in danger.about]
+    return {"text": danger.says, "page": danger.page, "about": about}
 
 
 def _address(anchor: str) -> dict[str, str]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+
 from amp_studio.report.model import CheckedMotion, ExchangeLine, ProgramState, Report, ReportRow
 from amp_studio.schema import write_figure
 
@@ -13,6 +15,38 @@ def render_workbook(report: Report) -> bytes:
     """Return the report as XLSX: values, findings, what is not set, exchanges, notes, axes, machine.
     Numbers are numbers.
     """
+    values, *others = _sheets(report)
+    every = [values, *(sheet for sheet in others if sheet.rows)]
+    return workbook(every, f"{report.title} – {report.subject}", report.program, report.contents.paper)
+
+
+def _sheets(report: Report) -> Iterator[WorkbookSheet]:
+    """Yield every sheet that there can be, the values first."""
+    yield _values(report)
+    findings = [
+        (n.severity, n.count, n.place, ", ".join(x for _, x in n.about), n.message, n.fix, n.page)
+        for n in report.notes
+    ]
+    heads = ("severity", "count", "place", "about", "message", "fix", "page")
+    yield WorkbookSheet("Findings", heads, findings)
+    yield WorkbookSheet("Not set", ("number", "parameter", "belongs to"), report.not_set)
+    yield _records("Power-up", report.power_up)
+    yield _records("Check in motion", report.checks)
+    yield _records("Exchanges", report.exchanges)
+    limits = [
+        (each.name, limit.letter, limit.name, limit.param, limit.time_s, limit.share)
+        for each in report.programs
+        for limit in each.limits
+    ]
+    yield WorkbookSheet("Part programs", ("program", "letter", "limit", "parameter", "s", "share"), limits)
+    noted = [("Machine", report.remarks), *report.remarked] if report.remarks else report.remarked
+    yield WorkbookSheet("Notes", ("about", "note"), noted)
+    yield WorkbookSheet("Axes", report.axis_heads, report.axes)
+    about = (("", report.title), ("Printed", report.when), *report.machine, *report.facts, *report.counts)
+    yield WorkbookSheet("Machine", ("", ""), about)
+
+
+def _values(report: Report) -> WorkbookSheet:
     heads = [head.replace("_", " ") for head in HEADS]
     place = HEADS.index("instance") + 1
     heads.insert(place, "belongs to")
@@ -22,45 +56,13 @@ def render_workbook(report: Report) -> bytes:
         line = [_number(text, row) if n in number_columns else text for n, text in enumerate(line_of(row))]
         line.insert(place, row.place)
         values.append(tuple(line))
-    sheets = [WorkbookSheet("Values", tuple(heads), values)]
-    findings = [
-        (n.severity, n.count, n.place, ", ".join(x for _, x in n.about), n.message, n.fix, n.page)
-        for n in report.notes
-    ]
-    if findings:
-        sheets.append(
-            WorkbookSheet(
-                "Findings", ("severity", "count", "place", "about", "message", "fix", "page"), findings
-            )
-        )
-    if report.not_set:
-        sheets.append(WorkbookSheet("Not set", ("number", "parameter", "belongs to"), report.not_set))
-    records: tuple[ProgramState | CheckedMotion | ExchangeLine, ...]
-    for title, records in (
-        ("Power-up", report.power_up),
-        ("Check in motion", report.checks),
-        ("Exchanges", report.exchanges),
-    ):
-        if records:
-            names = tuple(records[0].__slots__)
-            lines = [tuple(getattr(each, name) for name in names) for each in records]
-            sheets.append(WorkbookSheet(title, names, lines))
-    limits = [
-        (each.name, limit.letter, limit.name, limit.param, limit.time_s, limit.share)
-        for each in report.programs
-        for limit in each.limits
-    ]
-    if limits:
-        heads_of_limits = ("program", "letter", "limit", "parameter", "s", "share")
-        sheets.append(WorkbookSheet("Part programs", heads_of_limits, limits))
-    noted = [("Machine", report.remarks), *report.remarked] if report.remarks else report.remarked
-    if noted:
-        sheets.append(WorkbookSheet("Notes", ("about", "note"), noted))
-    if report.axes:
-        sheets.append(WorkbookSheet("Axes", report.axis_heads, report.axes))
-    about = (("", report.title), ("Printed", report.when), *report.machine, *report.facts, *report.counts)
-    every = [*sheets, WorkbookSheet("Machine", ("", ""), about)]
-    return workbook(every, f"{report.title} – {report.subject}", report.program, report.contents.paper)
+    return WorkbookSheet("Values", tuple(heads), values)
+
+
+def _records(title: str, records: Sequence[ProgramState | CheckedMotion | ExchangeLine]) -> WorkbookSheet:
+    """Return records of one kind, a column for each of their fields."""
+    names = tuple(records[0].__slots__) if records else ()
+    return WorkbookSheet(title, names, [tuple(getattr(each, name) for name in names) for each in records])
 
 
 def _number(text: str, row: ReportRow) -> WorkbookCell:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from amp_studio.report.findings.printed_finding import PrintedFinding
 from amp_studio.report.language import Language, language_of
-from amp_studio.report.model import MARKS, Listing, Report, ReportRow, printable
+from amp_studio.report.model import MARKS, Grid, Listing, Report, ReportRow, printable
 
 WIDTH = 100
 
@@ -28,21 +28,11 @@ def _lines(report: Report, words: Language) -> Iterator[str]:
     yield from _values(report.forced, words)
     yield from _not_set(report, words)
     yield from _dangers(report, words)
+    title = words.title if report.contents.sort == "steps" else words.text
     for section in report.sections:
-        title = words.title if report.contents.sort == "steps" else words.text
         yield from _heading(title(section.title).upper())
         for part in section.parts:
-            if part.title:
-                yield from _wrapped(part.title, "")
-                yield "-" * min(len(part.title), WIDTH)
-            yield from _table(part.rows, not isinstance(part, Listing) or part.by_place, words)
-            for word in part.words:
-                for place, value, meaning in word.values:
-                    head = " ".join(filter(None, (word.number, word.name, words.text(place), value)))
-                    yield from _wrapped(f"{head}: {meaning}", "  ")
-            for mark, why in part.reasons:
-                yield from _wrapped(why, f"  {mark} ")
-            yield ""
+            yield from _part(part, words)
     yield from _power_up(report, words)
     yield from _checks(report, words)
     yield from _programs(report, words)
@@ -52,6 +42,20 @@ def _lines(report: Report, words: Language) -> Iterator[str]:
         for label in ("Set up by", "Checked by", "Released by", "Taken over by"):
             yield ""
             yield f"{words.text(label) + ' ':_<60}  {words.text('Date') + ' ':_<38}"
+
+
+def _part(part: Listing | Grid, words: Language) -> Iterator[str]:
+    if part.title:
+        yield from _wrapped(part.title, "")
+        yield "-" * min(len(part.title), WIDTH)
+    yield from _table(part.rows, not isinstance(part, Listing) or part.by_place, words)
+    for word in part.words:
+        for place, value, meaning in word.values:
+            head = " ".join(filter(None, (word.number, word.name, words.text(place), value)))
+            yield from _wrapped(f"{head}: {meaning}", "  ")
+    for mark, why in part.reasons:
+        yield from _wrapped(why, f"  {mark} ")
+    yield ""
 
 
 def _power_up(report: Report, words: Language) -> Iterator[str]:

@@ -55,7 +55,6 @@ def workbook(
     page number at the foot.
     """
     from openpyxl import Workbook
-    from openpyxl.styles import Alignment, Font
 
     book = Workbook()
     book.remove(book.active)
@@ -63,36 +62,48 @@ def workbook(
     names: set[str] = set()
     for sheet in sheets:
         page = book.create_sheet(_name(sheet.title, names))
-        has_heads = any(sheet.heads)
-        decimals = [max(map(_decimals, column), default=0) for column in zip(*sheet.rows, strict=True)]
-        for at, row in enumerate((sheet.heads, *sheet.rows) if has_heads else sheet.rows, 1):
-            for column, content in enumerate(row, 1):
-                if content is None or content == "":
-                    continue
-                cell = page.cell(at, column)
-                if isinstance(content, str) or not math.isfinite(content):
-                    cell.value = _text(str(content))
-                    cell.data_type = "s"  # also of a text that begins with "=": it is no formula
-                else:
-                    cell.value = content
-                    if (places := decimals[column - 1]) > 0 and (own := _decimals(content)) >= 0:
-                        cell.number_format = _aligned(own, places)
-                if has_heads and at == 1:
-                    cell.font = Font(bold=True)
-                else:
-                    is_long = isinstance(content, str) and len(content) > _WIDEST - _ROOM
-                    cell.alignment = Alignment(wrap_text=is_long, vertical="top")
-            if (lines := max(map(_lines, row), default=1)) > 1:
-                page.row_dimensions[at].height = _LINE * lines
+        _fill(page, sheet)
         for column, width in _widths(sheet).items():
             page.column_dimensions[page.cell(1, column).column_letter].width = width
-        if has_heads:
+        if any(sheet.heads):
             page.freeze_panes = "A2"
             page.auto_filter.ref = page.dimensions
-        _set_up_print(page, title, paper, has_heads=has_heads)
+        _set_up_print(page, title, paper, has_heads=any(sheet.heads))
     stream = io.BytesIO()
     book.save(stream)
     return _without_times(stream)
+
+
+def _fill(page: Any, sheet: WorkbookSheet) -> None:
+    """Write heads and rows."""
+    from openpyxl.styles import Alignment, Font
+
+    rows = [sheet.heads, *sheet.rows] if any(sheet.heads) else sheet.rows
+    decimals = [max(map(_decimals, column), default=0) for column in zip(*sheet.rows, strict=True)]
+    for at, row in enumerate(rows, 1):
+        for column, content in enumerate(row, 1):
+            if content in (None, ""):
+                continue
+            cell = page.cell(at, column)
+            _put(cell, content, decimals[column - 1] if decimals else 0)
+            if row is sheet.heads:
+                cell.font = Font(bold=True)
+            else:
+                is_long = isinstance(content, str) and len(content) > _WIDEST - _ROOM
+                cell.alignment = Alignment(wrap_text=is_long, vertical="top")
+        if (lines := max(map(_lines, row), default=1)) > 1:
+            page.row_dimensions[at].height = _LINE * lines
+
+
+def _put(cell: Any, content: str | float, places: int) -> None:
+    """Write a number with its decimals below those of its column, or a text."""
+    if isinstance(content, str) or not math.isfinite(content):
+        cell.value = _text(str(content))
+        cell.data_type = "s"  # also of a text that begins with "=": it is no formula
+        return
+    cell.value = content
+    if places > 0 and (own := _decimals(content)) >= 0:
+        cell.number_format = _aligned(own, places)
 
 
 def _lines(content: WorkbookCell) -> int:

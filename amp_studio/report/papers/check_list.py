@@ -136,17 +136,19 @@ def build_check_list(
 
 def _listed(file: ParameterFile, each: StepProgress, words: Language) -> ListedStep:
     defaults = each.active - each.own - len(each.open)
-    parts = [
-        *([f"{len(each.open)} not set"] if each.open else []),
-        *([f"{each.own} set"] if each.own else []),
-        *([f"{defaults} at {'its' if defaults == 1 else 'their'} default: check"] if defaults else []),
-        *(counted(n, severity) for severity in SEVERITIES if (n := each.count(severity))),
-        *([f"ticked {with_local_times(each.ticked)}"] if each.ticked else []),
-    ]
+    parts = {
+        f"{len(each.open)} not set": each.open,
+        f"{each.own} set": each.own,
+        f"{defaults} at {'its' if defaults == 1 else 'their'} default: check": defaults,
+        **{counted(each.count(severity), severity): each.count(severity) for severity in SEVERITIES},
+        f"ticked {with_local_times(each.ticked)}": each.ticked,
+    }
     errors = tuple(dict.fromkeys(words.finding(f) for f in each.findings if f.severity == "error"))
     values = tuple(open_value(file, address, words) for address in each.open)
     title, what = words.title(each.step.title), words.sentence(each.step.what)
-    return ListedStep(each, title, what, values, ", ".join(parts), errors)
+    return ListedStep(
+        each, title, what, values, ", ".join(text for text, is_so in parts.items() if is_so), errors
+    )
 
 
 def open_value(file: ParameterFile, address: Address, words: Language = ENGLISH) -> OpenValue:

@@ -53,15 +53,16 @@ def differences_paper(
 
     ``more`` are the other side and what only its schema has; ``language`` is a code of ``language_codes``.
     """
+    other, only_there = more or (None, ())
     tables = list(_by_group(file, found.differences, language))
-    if more:
-        tables += _by_group(*more, language)
-    count = len(found.differences) + (len(more[1]) if more else 0)
+    if other:
+        tables += _by_group(other, only_there, language)
+    count = len(found.differences) + len(only_there)
     words = language_of(language, file.schema.family.family)
     if dangers := dangers_of_change(file, found.differences, words):
         tables.insert(0, _danger_table(dangers, words))
     known = {title for title, _ in facts}
-    sides = zip("AB", names, (file, more[0] if more else None), strict=True)
+    sides = zip("AB", names, (file, other), strict=True)
     own = [fact for side in sides for fact in _side(*side, words) if fact[0] not in known]
     counts = [
         *own,

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from datetime import datetime
+from itertools import product
 
 from amp_studio.files import ParameterFile
 from amp_studio.report.axes import place_of, printed_axes, scope_of
@@ -91,20 +92,25 @@ def _matrix(
     parts = [places[at : at + _ACROSS] for at in range(0, len(places), _ACROSS)]
     is_ladder = len(places) > _MOST_PLACES
     width = len(parts[0])
-    heads = [_labels(file, parameters[0], part, language) for part in parts]
+    heads = [_filled(_labels(file, parameters[0], part, language), width) for part in parts]
+    columns, in_cells = ([""] * width, language) if is_ladder else (heads[0], None)
     for n, part in enumerate(parts):
         if n and not is_ladder:
-            strong |= {(len(rows), column) for column in range(2, width + 2)}
-            rows.append(("", "", *_filled(heads[n], width)))
+            strong |= set(product([len(rows)], range(2, width + 2)))
+            rows.append(("", "", *heads[n]))
         for parameter in parameters:
-            about = (
-                ("", "") if n and is_ladder else (parameter.name, _allowed(file, parameter, language, not n))
-            )
-            cells = [_cell(file, (parameter.id, place), language if is_ladder else None) for place in part]
+            is_named = n == 0 or not is_ladder
+            about = (parameter.name, _allowed(file, parameter, language, not n)) if is_named else ("", "")
+            cells = _cells(file, parameter, part, in_cells)
             rows.append((*about, *_filled(cells, width)))
-    columns = [""] * width if is_ladder else _filled(heads[0], width)
     shares = (3.4, 4.2, *[2.1] * width)
     return PaperTable(title, (*_HEADS[1:3], *columns), tuple(rows), shares, frozenset(strong), values_from=1)
+
+
+def _cells(
+    file: ParameterFile, parameter: Parameter, places: Sequence[str], language: Language | None
+) -> list[str]:
+    return [_cell(file, (parameter.id, place), language) for place in places]
 
 
 def _filled(cells: list[str], width: int) -> list[str]:

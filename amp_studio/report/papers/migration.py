@@ -51,26 +51,26 @@ def migration_paper(migration: Migration, date: datetime | None = None) -> Paper
     """Return the paper; HAL is a template on it, and nothing is claimed of the wiring."""
     written = migration.written
     tables = [
-        PaperTable("Less safe than before", ("",), tuple((text,) for text in less_safe(migration))),
+        PaperTable("Less safe than before", ("",), tuple(zip(less_safe(migration)))),
         PaperTable(
             "Open questions: their keys are left out",
             ("Question", ""),
             tuple((q.id, q.question) for q in written.open),
             (1.0, 4.0),
         ),
-        PaperTable("To be measured at the machine", ("",), tuple((text,) for text in written.measure)),
+        PaperTable("To be measured at the machine", ("",), tuple(zip(written.measure))),
     ]
     for outcome, (title, heads, keys) in _HEADS.items():
         rows = tuple((e.param, *(str(e.facts.get(key) or "") for key in keys)) for e in migration.of(outcome))
         tables.append(PaperTable(title, heads, rows))
+    counts = [
+        (heads[0], counted(len(migration.of(outcome)), "parameter")) for outcome, heads in _HEADS.items()
+    ]
     facts = (
         ("From", migration.machine.family),
         ("To", migration.target),
         ("Active parameters", str(len(migration.entries))),
-        *(
-            (title, counted(len(migration.of(outcome)), "parameter"))
-            for outcome, (title, _, _) in _HEADS.items()
-        ),
+        *counts,
         ("HAL", "a template: it moves nothing, and nothing of the old wiring is in it"),
     )
     return Paper(

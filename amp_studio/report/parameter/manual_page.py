@@ -167,16 +167,16 @@ def formula_lines(schema: Schema, parameter: Parameter) -> list[str]:
 def facts(schema: Schema, parameter: Parameter, machine: str | None = None) -> list[tuple[str, str]]:
     """Return the short facts of a parameter as (title, text), for one machine type or for all of them."""
     group = schema.group_of[parameter.id]
-    found = [("Number", text) for text in number_lines(schema, parameter, machine)]
+    found = _titled("Number", number_lines(schema, parameter, machine))
     found += [("Id", parameter.id), ("Group", group.whole_name)]
-    found += [("Instances", text) for text in instances_without_number(schema, parameter, machine)]
-    found += [("Range", text) for text in _ranges(schema, parameter)]
+    found += _titled("Instances", instances_without_number(schema, parameter, machine))
+    found += _titled("Range", _ranges(schema, parameter))
     found += [("Unit", parameter.bare)] if parameter.bare else []
     found += [("Choice", _choice(choice, parameter.patchable)) for choice in parameter.choices or ()]
-    found += [("Bits", text) for text in _bits(parameter)]
+    found += _titled("Bits", _bits(parameter))
     found.append(("Default", _default(parameter)))
-    found += [("At the control", text) for text in _at_the_control(parameter)]
-    found += [("Command", text) for text in _command(schema, parameter)]
+    found += _titled("At the control", _at_the_control(parameter))
+    found += _titled("Command", _command(schema, parameter))
     if parameter.access == "read":
         found.append(("Access", "read-only"))
     else:
@@ -186,6 +186,10 @@ def facts(schema: Schema, parameter: Parameter, machine: str | None = None) -> l
     pages = " and ".join(dict.fromkeys((parameter.page, *parameter.pages.values())))
     found.append(("Source", f"{schema.family.title}, page {pages}"))
     return found
+
+
+def _titled(title: str, texts: Iterable[str]) -> list[tuple[str, str]]:
+    return [(title, text) for text in texts]
 
 
 _TAKES_EFFECT = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import groupby, pairwise
 
-from amp_studio.schema import Parameter, Schema
+from amp_studio.schema import MachineSchema, Parameter, Schema
 
 
 def number_lines(schema: Schema, parameter: Parameter, machine: str | None) -> Iterator[str]:
@@ -22,16 +22,16 @@ def instances_without_number(schema: Schema, parameter: Parameter, machine: str 
     """Yield ``fov.position@1 to fov.position@16 (Pos 1 to Pos 16)`` for instances that no number
     addresses.
     """
-    texts: dict[str, None] = {}
-    for key in [m.key for m in schema.family.machines if machine in (None, m.key)]:
-        here = schema.on(key)
-        numbers = {} if here.is_disputed(parameter.id) else here.numbers(parameter)
-        bare = [i for i in here.instances(parameter) if i and i not in numbers]
-        if bare:
-            ends = list(dict.fromkeys((bare[0], bare[-1])))
-            named = " to ".join(here.instance_label((parameter.id, i)) for i in ends)
-            texts[" to ".join(f"{parameter.id}@{i}" for i in ends) + f" ({named})"] = None
-    yield from texts
+    keys = [machine] if machine else [m.key for m in schema.family.machines]
+    yield from dict.fromkeys(filter(None, (_without_number(schema.on(key), parameter) for key in keys)))
+
+
+def _without_number(here: MachineSchema, parameter: Parameter) -> str:
+    numbers = {} if here.is_disputed(parameter.id) else here.numbers(parameter)
+    bare = [i for i in here.instances(parameter) if i and i not in numbers]
+    ends = list(dict.fromkeys((*bare[:1], *bare[-1:])))
+    named = " to ".join(here.instance_label((parameter.id, i)) for i in ends)
+    return " to ".join(f"{parameter.id}@{i}" for i in ends) + f" ({named})" if ends else ""
 
 
 def sharing_numbers(schema: Schema, parameter: Parameter) -> list[str]:
