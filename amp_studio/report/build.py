@@ -152,13 +152,12 @@ def _in_words(figure: PrintedFigure, language: Language) -> PrintedFigure:
 
 def _machine(file: ParameterFile, of_project: ProjectInfo | None) -> list[tuple[str, str]]:
     family, header, project = file.schema.family, file.header, of_project or ProjectInfo("", "")
-    machine = next((m.name for m in family.machines if m.key == file.machine), file.machine)
     facts = [
         ("Machine", header.name or project.name),
         ("Builder", project.builder),
         ("Serial number", project.serial_number),
         ("Built", project.built),
-        ("Machine type", machine),
+        ("Machine type", family.machine_name(file.machine)),
         ("Application", header.application or project.application),
         ("Control family", family.name),
         ("Control", project.control_name),

@@ -40,19 +40,18 @@ class AllowedByRules:
         """
         if not self._rules:
             return low, high
-        steps = [low + (high - low) * n / _SAMPLES for n in range(_SAMPLES + 1)]
+        steps = (low + (high - low) * n / _SAMPLES for n in range(_SAMPLES + 1))
         wanted = [x for x in near if low <= x <= high]
         try:
             points = sorted({self._value(x) for x in (*steps, *wanted)})
-            hopeless = frozenset.intersection(*(self._broken(x) for x in points))
+            hopeless = frozenset.intersection(*map(self._broken, points))
         except ValueError:  # a number that this parameter cannot have
             return None
         good = {x for x in points if not self._broken(x) - hopeless}
         if not good or not self._checks.fit:
             return None
-        seeds = [self._value(x) for x in wanted]
-        first = seeds[0] if seeds else points[0]
-        start = first if first in good else min(good, key=lambda x: abs(x - first))
+        first = next(map(self._value, wanted), points[0])
+        start = min(good, key=lambda x: abs(x - first))
         place = points.index(start)
         return (
             self._end(list(reversed(points[:place])), start, good, hopeless),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -52,20 +52,23 @@ def sort_out(
     stay: list[Finding] = []
     left: list[Suppressed] = []
     for finding in findings:
-        by = next(
-            (
-                s
-                for s, every in by_rule.get(finding.rule, ())
-                if not any(named.isdisjoint(finding.addresses) for named in every)
-            ),
-            None,
-        )
+        by = _suppression_of(finding, by_rule.get(finding.rule, ()))
         if by is None:
             stay.append(finding)
         else:
             left.append(Suppressed(finding, by))
     used = {id(suppressed.suppression) for suppressed in left}
     return tuple(stay), tuple(left), tuple(s for s in suppressions if id(s) not in used)
+
+
+def _suppression_of(
+    finding: Finding, suppressions: Iterable[tuple[Suppression, list[set[Address]]]]
+) -> Suppression | None:
+    """Return the first suppression each of whose parameters the finding is about."""
+    for suppression, every in suppressions:
+        if not any(named.isdisjoint(finding.addresses) for named in every):
+            return suppression
+    return None
 
 
 def _addresses_of(evaluation: Evaluation, text: str) -> set[Address]:

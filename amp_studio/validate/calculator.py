@@ -7,7 +7,7 @@ from __future__ import annotations
 import inspect
 import json
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from types import UnionType
@@ -110,20 +110,25 @@ def calculate(family: str, name: str, texts: Mapping[str, str]) -> Any:
     arguments = [argument.name for argument in calculator.arguments]
     if unknown := [text for text in texts if text not in arguments]:
         raise ValueError(". ".join(unknown_name(f"argument of {name}", text, arguments) for text in unknown))
-    values = {}
-    for argument in calculator.arguments:
-        text = texts.get(argument.name, "").strip()
-        if text:
-            values[argument.name] = _read(argument, text)
-        elif argument.default is None:
-            raise ValueError(f"{name} needs {argument.name}")
     try:
-        return formulas(family)[name](**values)
+        return formulas(family)[name](**_values(calculator.arguments, name, texts))
     except ArithmeticError:
         raise ValueError(f"{name} cannot be calculated: a number is too large or too small") from None
     except ValueError as error:  # it may repeat a text of any length
         message = visible(str(error))
         raise ValueError(message if len(message) <= _LONGEST else f"{message[: _LONGEST - 1]}…") from None
+
+
+def _values(arguments: Iterable[Argument], name: str, texts: Mapping[str, str]) -> dict[str, Any]:
+    """Return the value of each argument that is given; raises ValueError for one that is missing."""
+    values = {}
+    for argument in arguments:
+        text = texts.get(argument.name, "").strip()
+        if text:
+            values[argument.name] = _read(argument, text)
+        elif argument.default is None:
+            raise ValueError(f"{name} needs {argument.name}")
+    return values
 
 
 def _read(argument: Argument, text: str) -> Any:

@@ -285,9 +285,8 @@ class _Reader:
             return axis
         try:
             if instance or name.casefold() not in self._file.schema.parameters:
-                return resolve_address(
-                    self._file.evaluation, f"{name}@{instance}" if instance else name
-                ).address
+                text_of_address = "@".join(filter(None, (name, instance)))
+                return resolve_address(self._file.evaluation, text_of_address).address
         except UnknownParameterError as error:
             if name.casefold() in self._file.schema.parameters:
                 raise InvalidValueError(str(error)) from None
@@ -364,7 +363,7 @@ class _Reader:
             case "negative":
                 return _Quantity(-parts[0].number, parts[0].unit)
             case "+" | "-":
-                return _sum(parts[0], parts[1], 1 if node.kind == "+" else -1)
+                return _sum(parts[0], parts[1], {"+": 1, "-": -1}[node.kind])
             case "*":
                 return _product(*parts)
             case "/":
@@ -418,7 +417,7 @@ def _called(name: str, parts: list[_Quantity]) -> _Quantity:
         raise InvalidValueError(f"{quoted(name)} is no function: {', '.join(_FUNCTIONS)}")
     wanted = _FUNCTIONS[name]
     if not parts or (wanted and len(parts) != wanted):
-        raise InvalidValueError(f"{name}(…) takes {wanted or 'one or more'} value{'s' if not wanted else ''}")
+        raise InvalidValueError(f"{name}(…) takes {f'{wanted} value' if wanted else 'one or more values'}")
     first = parts[0]
     match name:
         case "abs":
@@ -429,7 +428,7 @@ def _called(name: str, parts: list[_Quantity]) -> _Quantity:
             return _Quantity(Fraction(int(first.number + half)), first.unit)
         case "figure":
             return _Quantity(first.number)
-    return reduce(partial(_better, -1 if name == "min" else 1), parts)
+    return reduce(partial(_better, {"min": -1, "max": 1}[name]), parts)
 
 
 def _better(sign: int, one: _Quantity, other: _Quantity) -> _Quantity:

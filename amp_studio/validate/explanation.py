@@ -74,8 +74,7 @@ def explain(validator: Validator, finding: Finding) -> Explanation:
     if check is None:
         return _of_a_value(validator, finding)
     context, rule = validator.context_of(check), check.rule
-    named = [(s.name, s.address) for s in check.singles]
-    named += [(name, address) for name, listed in check.lists for address in listed.addresses]
+    named = _named(check)
     seen = tuple(
         _seen(validator, address, name) for name, address in named if not _is_hidden(validator, address)
     )
@@ -89,6 +88,12 @@ def explain(validator: Validator, finding: Finding) -> Explanation:
         _errata(validator, {address[0] for _, address in named}),
         _source(validator, finding),
     )
+
+
+def _named(check: RuleCheck) -> list[tuple[str, Address]]:
+    """Return name and address of each value that a check reads."""
+    named = [(single.name, single.address) for single in check.singles]
+    return named + [(name, address) for name, listed in check.lists for address in listed.addresses]
 
 
 def rule_title(validator: Validator, finding: Finding) -> str:

@@ -24,6 +24,7 @@ from .expression_worth import (
     YES_NO,
     KnownChoices,
     Signature,
+    ValueKind,
     Worth,
     any_of,
     list_worth,
@@ -152,12 +153,7 @@ class ExpressionCheck:
         if not signature.fewest <= len(given) <= signature.most:
             self._slip(f"{name} takes {_how_many(signature)}, not {len(given)}")
             return signature.gives, cost
-        for place in sorted(signature.numbers):
-            if place < len(given) and given[place].kind in ("text", "list", "table", "yes/no"):
-                self._slip(
-                    f"{name} takes a number, not {quoted(node.parts[place].text)},"
-                    f" {_CALLED[given[place].kind]}"
-                )
+        self._demand_numbers(node, given, signature)
         if name == "matches":
             cost += self._pattern(node.parts[1], given)
             self._matched_choice(node, given[0])
@@ -166,6 +162,14 @@ class ExpressionCheck:
         if name == "string" and given[0].choices:
             return given[0], cost
         return _given_back(signature.gives, given), cost
+
+    def _demand_numbers(self, node: Node, given: list[Worth], signature: Signature) -> None:
+        for place in sorted(signature.numbers):
+            if place < len(given) and given[place].kind in ("text", "list", "table", "yes/no"):
+                self._slip(
+                    f"{node.value} takes a number, not {quoted(node.parts[place].text)},"
+                    f" {_CALLED[given[place].kind]}"
+                )
 
     def _piece(self, node: Node, given: list[Worth]) -> None:
         """See that a text that is looked for in a choice is in one of its keys."""
@@ -206,18 +210,18 @@ class ExpressionCheck:
         macro, name = str(node.value), node.bound
         if of.kind not in ("list", "any"):
             self._slip(f"'{macro}' goes over a list, and {quoted(node.parts[0].text)} is {_CALLED[of.kind]}")
-        hidden, self._names[name] = self._names.get(name), of.item or ANY
+        item = of.item or ANY
+        outside, self._names = self._names, {**self._names, name: item}
         bodies = [self._worth(part) for part in node.parts[1:]]
-        if hidden is None:
-            del self._names[name]
-        else:
-            self._names[name] = hidden
+        self._names = outside
         tests = bodies[:-1] if macro == "map" else bodies
         for part, (worth, _) in zip(node.parts[1:], tests, strict=False):
             self._demand_yes_no(part, worth)
         given: Worth = YES_NO
-        if macro in ("map", "filter"):
-            given = list_worth(of.length, bodies[-1][0] if macro == "map" else of.item or ANY)
+        if macro == "map":
+            given = list_worth(of.length, bodies[-1][0])
+        elif macro == "filter":
+            given = list_worth(of.length, item)
         # What map and filter have so far is copied for each item.
         each = sum(c for _, c in bodies) + 3 * _STEP + (given.size // 2 if given.kind == "list" else 0)
         return given, cost + of.size + of.length * each
@@ -230,21 +234,17 @@ class ExpressionCheck:
 
     def _arithmetic(self, node: Node, parts: list[Worth]) -> Worth:
         every = {part.kind for part in parts}
-        kinds, numbers = every - {"any", "null"}, {"decimal", "whole"}
+        kinds = every - {"any", "null"}
         operator = "-" if node.kind == "negative" else node.kind
         if operator == "+" and kinds == {"list"}:
             return _joined(parts)
         if operator == "+" and kinds == {"text"}:
             return text_worth(sum(p.length for p in parts))
-        if kinds == numbers:
-            self._slip(f"{quoted(node.text)} {_mixed(node, parts)}")
-        elif operator == "%" and "decimal" in kinds:
-            self._slip(f"'%' takes whole numbers only: write mod({', '.join(p.text for p in node.parts)})")
-        elif not (kinds <= {"decimal"} or kinds <= {"whole"}):
-            self._slip(_unusable(node, parts, operator))
-        if kinds == {"whole"}:
-            return WHOLE
-        return DECIMAL if kinds <= numbers and "any" not in every else replace(_joined(parts), kind="any")
+        if slip := _misuse(node, parts, operator, kinds):
+            self._slip(slip)
+        if every <= {*_NUMBERS, "null"}:
+            return WHOLE if kinds == {"whole"} else DECIMAL
+        return WHOLE if kinds == {"whole"} else replace(_joined(parts), kind="any")
 
     def _compare(self, node: Node, left: Worth, right: Worth) -> None:
         one, other = node.parts
@@ -269,10 +269,10 @@ class ExpressionCheck:
         one, other = node.parts
         how = "never equals" if node.kind in ("==", "!=", "in") else "cannot be compared with"
         there = "what is in " if node.kind == "in" else ""
-        hint = ": compare it with true or false" if "yes/no" in kinds and "text" in kinds else ""
-        choice = next((worth.choices for worth in (left, right) if worth.choices), None)
-        if choice and hint:
-            hint = f": {nearest_choice(one.text if left.kind == 'yes/no' else other.text, choice)}"
+        hint = ""
+        if kinds >= {"yes/no", "text"}:
+            choice, text = left.choices or right.choices, one if left.kind == "yes/no" else other
+            hint = f": {nearest_choice(text.text, choice) if choice else 'compare it with true or false'}"
         self._slip(
             f"{quoted(one.text)} is {_CALLED[left.kind]} and {how} {there}{quoted(other.text)},"
             f" {_CALLED[right.kind]}{hint}"
@@ -374,3 +374,12 @@ def _mixed(node: Node, parts: list[Worth]) -> str:
         f"{whole.text}.0" if whole.kind == "value" and whole.text.isdecimal() else f"double({whole.text})"
     )
     return f"mixes a whole number with a decimal one: write {better}"
+
+
+def _misuse(node: Node, parts: list[Worth], operator: str, kinds: set[ValueKind]) -> str:
+    """Return what is wrong with arithmetic on these kinds; "" for nothing."""
+    if kinds == {*_NUMBERS}:
+        return f"{quoted(node.text)} {_mixed(node, parts)}"
+    if operator == "%" and "decimal" in kinds:
+        return f"'%' takes whole numbers only: write mod({', '.join(p.text for p in node.parts)})"
+    return "" if len(kinds) < 2 and kinds <= {*_NUMBERS} else _unusable(node, parts, operator)

@@ -7,6 +7,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import reduce
 from typing import Any, Literal
 
 from amp_studio.schema import Parameter
@@ -125,22 +126,25 @@ LANGUAGE: dict[str, Signature] = {
 def any_of(worths: list[Worth]) -> Worth:
     """Return what is one of several: as large as the largest."""
     known = [worth for worth in worths if worth.kind != "null"]
-    if not known:
-        return worths[0] if worths else ANY
-    first = known[0]
-    if all(worth == first for worth in known):
-        return first
-    kinds = {worth.kind for worth in known}
-    items = [worth.item for worth in known if worth.item]
-    keys: dict[str, str] = {}
-    for worth in known:
-        keys |= worth.choices.keys if worth.choices else {}
+    return reduce(_either, known) if known else next(iter(worths), ANY)
+
+
+def _either(one: Worth, other: Worth) -> Worth:
+    if one == other:
+        return one
+    items = [worth.item for worth in (one, other) if worth.item]
     return Worth(
-        kinds.pop() if len(kinds) == 1 else "any",
-        max(worth.length for worth in known),
+        one.kind if one.kind == other.kind else "any",
+        max(one.length, other.length),
         any_of(items) if items else None,
-        KnownChoices(keys, any(w.choices.open for w in known if w.choices)) if keys else None,
-        tuple(dict.fromkeys(text for worth in known for text in worth.literals)),
-        all(worth.is_closed for worth in known),
-        max(worth.size for worth in known),
+        _joined_choices(one.choices, other.choices),
+        tuple(dict.fromkeys((*one.literals, *other.literals))),
+        one.is_closed and other.is_closed,
+        max(one.size, other.size),
     )
+
+
+def _joined_choices(one: KnownChoices | None, other: KnownChoices | None) -> KnownChoices | None:
+    if one is None or other is None:
+        return one or other
+    return KnownChoices({**one.keys, **other.keys}, one.open or other.open)

@@ -224,8 +224,8 @@ def _about(rule: Rule, spoken_of: set[str], asked_of: set[str]) -> tuple[dict[st
     """
     replaced = {used.set: f"({used.value}\n) != it" for used in rule.effective}
     blames = rule.blames or replaced or dict.fromkeys(list(rule.reads)[:1], "true")
-    singles = [name for name, text in rule.reads.items() if not is_list(text)]
-    others = [name for name in singles if name not in blames and name not in rule.compares]
+    own = {*blames, *rule.compares}
+    others = [name for name, text in rule.reads.items() if name not in own and not is_list(text)]
     named = [name for of in (spoken_of, asked_of) for name in others if name in of]
     return blames, {**rule.compares, **dict.fromkeys(named, "true")}
 
@@ -278,12 +278,16 @@ def _check_names(rule: Rule) -> set[str]:
     for assignment in (*rule.fix, *rule.effective):
         if assignment.set not in rule.reads or assignment.set in lists:
             raise RuleError(rule.id, f"it sets {quoted(assignment.set)}, which is no single value it reads")
+    _check_units(rule)
+    return _names_in_message(rule)
+
+
+def _check_units(rule: Rule) -> None:
     for name, unit in rule.units.items():
         if name not in rule.values:
             raise RuleError(rule.id, f"units names {quoted(name)}, which is not one of its values")
         if unit not in UNITS:
             raise RuleError(rule.id, f"{quoted(unit)} is no unit")
-    return _names_in_message(rule)
 
 
 def _names_in_message(rule: Rule) -> set[str]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
-from itertools import count
+from itertools import chain, count
 from typing import NamedTuple
 
 from amp_studio.schema import (
@@ -270,8 +270,7 @@ def checks_of(evaluation: Evaluation, rules: tuple[Rule, ...], late: int = 0) ->
         seen.add(rule.id)
         finding = None if n < late else check_rule(rule, functions)
         expressions, is_own = Expressions(rule, functions, finding), isinstance(rule, BuilderRule)
-        lists = [name for name, text in rule.reads.items() if is_list(text)]
-        singles = [name for name in rule.reads if name not in lists]
+        singles, lists = _singles_and_lists(rule)
         names = (*singles, *lists)
         is_lenient = not {*rule.optional, *rule.any_state}.isdisjoint(singles)
         for instance, references in _resolved(evaluation, rule, names):
@@ -282,6 +281,15 @@ def checks_of(evaluation: Evaluation, rules: tuple[Rule, ...], late: int = 0) ->
                 RuleCheck(next(places), rule, instance, expressions, names, reads, named, is_own, is_lenient)
             )
     return tuple(checks)
+
+
+def _singles_and_lists(rule: Rule) -> tuple[list[str], list[str]]:
+    """Return the names that a rule reads one value as, and those that are lists."""
+    singles: list[str] = []
+    lists: list[str] = []
+    for name, text in rule.reads.items():
+        (lists if is_list(text) else singles).append(name)
+    return singles, lists
 
 
 def _resolved(
@@ -322,21 +330,29 @@ def _runs_for(evaluation: Evaluation, rule: Rule) -> tuple[str | None, tuple[str
     rest can be read: a rule over axes takes of a parameter of processes the
     entry of a control with a single process. Raises RuleError if there is none.
     """
+    own = _read_of_its_own(rule)
+    instances = {p: evaluation.machine_schema.instances(evaluation.schema.parameters[p]) for p in own}
+    if not all(instances.values()):
+        return None, ()
+    several = {p: evaluation.scope((p, "")) for p in own if instances[p] != ("",)}
+    for scope in dict.fromkeys(several.values()):
+        here = [p for p in several if several[p] == scope]
+        if not any(own[p] and "" not in instances[p] for p in several if p not in here):
+            return scope, tuple(dict.fromkeys(chain.from_iterable(instances[p] for p in here)))
+    if several:
+        raise RuleError(rule.id, f"reads {' and '.join(several)}, whose instances do not go together")
+    return None, ("",)
+
+
+def _read_of_its_own(rule: Rule) -> dict[str, bool]:
+    """Return the parameters that are read of the instance or its neighbours -> whether of itself.
+
+    Only what is read of the instance itself has to exist there; a neighbour (<, >) may be missing at the
+    end.
+    """
     own: dict[str, bool] = {}
     for text in rule.reads.values():
         parameter_id, which = read_address(text)
         if which in ("", "<", ">"):
-            # Only what is read of the instance itself has to exist there; a neighbour (<, >) may be
-            # missing at the end.
             own[parameter_id] = own.get(parameter_id, False) or which == ""
-    instances = {p: evaluation.machine_schema.instances(evaluation.schema.parameters[p]) for p in own}
-    scopes = {p: evaluation.scope((p, "")) for p in own}
-    if not all(instances.values()):
-        return None, ()
-    several = [p for p in own if instances[p] != ("",)]
-    for scope in dict.fromkeys(scopes[p] for p in several):
-        if all(scopes[p] == scope or "" in instances[p] or not alone for p, alone in own.items()):
-            return scope, tuple(dict.fromkeys(i for p in several if scopes[p] == scope for i in instances[p]))
-    if several:
-        raise RuleError(rule.id, f"reads {' and '.join(several)}, whose instances do not go together")
-    return None, ("",)
+    return own

@@ -7,6 +7,7 @@ from collections.abc import Hashable
 from dataclasses import dataclass, field
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from functools import lru_cache
+from itertools import chain
 
 from amp_studio.files import ParameterFile, with_local_times
 from amp_studio.schema import (
@@ -16,6 +17,7 @@ from amp_studio.schema import (
     Parameter,
     Remembered,
     Schema,
+    Scope,
     Value,
     bounding,
     clip,
@@ -57,22 +59,31 @@ def _facts(schema: Schema, machine: str) -> dict[str, _Facts]:
     found = {}
     for parameter in schema.parameters.values():
         layout = schema.on(machine).layout(parameter)
-        if layout is None:
-            continue
-        systems = tuple(schema.family.units) or ("",)
-        measures, turning = (
-            frozenset(dimension(schema.unit(parameter, system, turns)) for system in systems)
-            for turns in (False, True)
-        )
-        bounds = [bound for pair in (parameter.ranges or {}).values() for bound in pair]
-        found[parameter.id] = _Facts(
-            parameter,
-            frozenset(choice.key for choice in parameter.choices or ()),
-            measures,
-            turning if (layout.scope == "axis" or parameter.angular_when) and turning != measures else None,
-            not parameter.range_variants and not any(isinstance(bound, BoundRef) for bound in bounds),
-        )
+        if layout is not None:
+            found[parameter.id] = _facts_of(schema, parameter, layout.scope)
     return found
+
+
+def _facts_of(schema: Schema, parameter: Parameter, scope: Scope) -> _Facts:
+    systems = tuple(schema.family.units) or ("",)
+    measures, turning = (
+        frozenset(dimension(schema.unit(parameter, system, turns)) for system in systems)
+        for turns in (False, True)
+    )
+    may_turn = scope == "axis" or parameter.angular_when
+    return _Facts(
+        parameter,
+        frozenset(choice.key for choice in parameter.choices or ()),
+        measures,
+        turning if may_turn and turning != measures else None,
+        not parameter.range_variants and not _has_other_bounds(parameter),
+    )
+
+
+def _has_other_bounds(parameter: Parameter) -> bool:
+    """Return whether another parameter sets a bound."""
+    bounds = chain.from_iterable((parameter.ranges or {}).values())
+    return any(isinstance(bound, BoundRef) for bound in bounds)
 
 
 class ValueChecks:

@@ -4,7 +4,7 @@ and what is wrong with their keys and texts in plain words.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sized
+from collections.abc import Iterable, Mapping, Sized
 from typing import Any, TypeVar
 
 from amp_studio.schema import Model, ModelError, Slip
@@ -48,15 +48,20 @@ def entry_model(data: Any, model: type[T]) -> tuple[T | None, list[Slip]]:
         for key, most in MOST.items()
         if isinstance(data.get(key), Sized) and len(data[key]) > most
     ]
-    long = {place[0] for place, _ in found}
+    long = _heads(found)
     data = {key: value for key, value in data.items() if key not in long}
     from amp_studio.schema import read_model  # most files have no rules beside them, and need no pydantic
 
     try:
         return read_model(model, data), found
     except ModelError as error:
-        found += [slip for slip in error.slips if not slip[0] or slip[0][0] not in long]
-        return _left(data, {place[0] for place, _ in error.slips if place}, model), found
+        found += [slip for slip in error.slips if long.isdisjoint(slip[0][:1])]
+        return _left(data, _heads(error.slips), model), found
+
+
+def _heads(slips: Iterable[Slip]) -> set[str | int]:
+    """Return the keys of the entry in which something is wrong."""
+    return {place[0] for place, _ in slips if place}
 
 
 def _left(data: Mapping[Any, Any], wrong: set[Any], model: type[T]) -> T | None:

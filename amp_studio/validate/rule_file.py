@@ -21,6 +21,8 @@ from amp_studio.schema import (
     Evaluation,
     FactEntry,
     KeyPath,
+    MachineSchema,
+    Parameter,
     Schema,
     Slip,
     Suppression,
@@ -131,15 +133,21 @@ class _RuleFileReader:
         if rule and entry.data.get("id") == rule.id:
             slips += self._same_id(entry, rule)
         if rule and family in ("", self._schema.family.family):
-            found = review(rule, self._schema, any_family=not family)
-            slips += _further(found.slips, slips)
-            if not slips and found.is_ours:
-                slips += self._try(rule, found.cost)
-            if not slips and found.is_ours:
-                self._rules[rule.id], self._costs[rule.id] = rule, found.once
-                self._places[rule.id] = f"{self._path.name}, line {entry.line(())}"
+            slips += self._reviewed(entry, rule, slips)
         for place, what in slips:
             self._fault(entry, place, what)
+
+    def _reviewed(self, entry: FactEntry, rule: BuilderRule, slips: list[Slip]) -> list[Slip]:
+        """Return what else is wrong with a rule; one with nothing wrong that is of this family is kept."""
+        found = review(rule, self._schema, any_family=not rule.family)
+        more = _further(found.slips, slips)
+        if slips or more or not found.is_ours:
+            return more
+        more = self._try(rule, found.cost)
+        if not more:
+            self._rules[rule.id], self._costs[rule.id] = rule, found.once
+            self._places[rule.id] = f"{self._path.name}, line {entry.line(())}"
+        return more
 
     def _by_number(self, data: Any) -> Any:
         """Return an entry whose ``reads`` have the axes of the schema in place of their letters in this
@@ -247,12 +255,13 @@ def _is_known(text: str, schema: Schema) -> bool:
         return any(on.addressed_by(text) or on.words(text) or on.addressed_by(word) for on in machines)
     if not which:
         return True
+    return any(_has_instance(on, parameter, which) for on in machines)
+
+
+def _has_instance(on: MachineSchema, parameter: Parameter, which: str) -> bool:
     # An axis may be named by a letter that the file gives it.
-    return any(
-        (which.isalpha() and on.kin(on.scopes[parameter.id], "axis"))
-        or which in map(str.casefold, on.instances(parameter))
-        for on in machines
-    )
+    is_letter = which.isalpha() and on.kin(on.scopes[parameter.id], "axis")
+    return is_letter or which in map(str.casefold, on.instances(parameter))
 
 
 @lru_cache(maxsize=4096)
@@ -301,9 +310,10 @@ def _with_suppression(path: Path, previous: bytes, item: dict[str, Any]) -> byte
     try:
         document = read_yaml(previous.decode("utf-8"), spans=True)
         data = {} if document.data is None else document.data
-        if not isinstance(data, dict) or not isinstance(data.get(_SUPPRESSIONS) or [], list):
+        there = data.get(_SUPPRESSIONS) or [] if isinstance(data, dict) else None
+        if not isinstance(there, list):
             raise ValueError(f"{path.name} has no list of suppressions.")
-        wanted = data | {_SUPPRESSIONS: [*(data.get(_SUPPRESSIONS) or []), item]}
+        wanted = data | {_SUPPRESSIONS: [*there, item]}
         text = with_item(document, _SUPPRESSIONS, item)
     except (UnicodeDecodeError, YamlError) as error:
         raise ValueError(f"{path.name} cannot be read: {error}") from None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from string import Formatter
@@ -134,13 +134,7 @@ def _instances(schema: Schema, parameter: Parameter) -> list[str]:
 
 
 def _name_slips(rule: Rule) -> Iterator[tuple[KeyPath, str]]:
-    named: list[tuple[KeyPath, str]] = [
-        *((("optional", n), name) for n, name in enumerate(rule.optional)),
-        *((("any_state", n), name) for n, name in enumerate(rule.any_state)),
-        *((("blames", name), name) for name in rule.blames),
-        *((("compares", name), name) for name in rule.compares),
-    ]
-    for place, name in named:
+    for place, name in _names_of_reads(rule):
         if name not in rule.reads:
             yield place, f"{quoted(name)} is not read{did_you_mean(name, rule.reads)}"
     yield from _assignment_slips(rule)
@@ -152,6 +146,14 @@ def _name_slips(rule: Rule) -> Iterator[tuple[KeyPath, str]]:
             yield ("units", name), f"{quoted(name)} is not one of its values{did_you_mean(name, rule.values)}"
         if unit not in UNITS:
             yield ("units", name), f"{quoted(unit)} is no unit{did_you_mean(unit, UNITS)}"
+
+
+def _names_of_reads(rule: Rule) -> Iterator[tuple[KeyPath, str]]:
+    """Yield place and name of what must be among ``reads``."""
+    for key in ("optional", "any_state"):
+        yield from (((key, n), name) for n, name in enumerate(getattr(rule, key)))
+    for key in ("blames", "compares"):
+        yield from (((key, name), name) for name in getattr(rule, key))
 
 
 def _assignment_slips(rule: Rule) -> Iterator[tuple[KeyPath, str]]:
@@ -187,17 +189,13 @@ def _message_slips(rule: Rule) -> Iterator[tuple[KeyPath, str]]:
 def _expressions(rule: Rule, schema: Schema, found: Review) -> int:
     """Check every expression; returns what the rule costs once at most."""
     names, functions = _names(rule, schema), _functions(schema.family.family)
-    once = (
-        _EACH_RUN
-        + len(rule.reads)
-        + sum(4 * worth.length for worth in names.values() if worth.kind == "list")
-    )
+    once = _cost_of_names(rule, names)
     for place, text, wanted in _texts(rule, schema):
         times = 1
         if place[0] in ("blames", "compares"):
             value = names.get(str(place[1]), ANY)
-            times = value.length if value.kind == "list" else 1
-            names |= {"it": (value.item or ANY) if value.kind == "list" else value, "at": WHOLE}
+            times, item = (value.length, value.item or ANY) if value.kind == "list" else (1, value)
+            names |= {"it": item, "at": WHOLE}
         check = ExpressionCheck(names, functions)
         try:
             worth = check.worth(read_expression(text))
@@ -208,11 +206,15 @@ def _expressions(rule: Rule, schema: Schema, found: Review) -> int:
         if slip := _unfit(worth, wanted):
             found.slips.append((place, slip))
         once += times * check.cost
-    for name in {name for _, name, _, _ in _fields(rule.message) if name in names}:
-        once += (
-            _SHOWN * max(1, names[name].length if names[name].kind == "list" else 1) * rule.message.count("{")
-        )
     return once
+
+
+def _cost_of_names(rule: Rule, names: Mapping[str, Worth]) -> int:
+    """Return what reading the values and writing those of the message costs."""
+    lengths = {name: worth.length for name, worth in names.items() if worth.kind == "list"}
+    written = {name for _, name, _, _ in _fields(rule.message) if name in names}
+    items = sum(max(1, lengths.get(name or "", 1)) for name in written)
+    return _EACH_RUN + len(rule.reads) + 4 * sum(lengths.values()) + _SHOWN * items * rule.message.count("{")
 
 
 def _fields(message: str) -> list[tuple[str, str | None, str | None, str | None]]:
@@ -252,11 +254,14 @@ def _unfit(worth: Worth, wanted: Parameter | bool | None) -> str:
     if worth.kind != kind and not (kind == "decimal" and worth.kind == "whole"):
         whose = "" if isinstance(wanted, bool) else f" for {wanted.name}"
         return f"it does not give {_IN_WORDS[kind]}{whose}"
-    if not isinstance(wanted, bool) and wanted.type == "choice":
-        choices = choice_worth(wanted).choices
-        for text in worth.literals:
-            if choices and not choices.contains(text):
-                return f"{wanted.name} is never {quoted(text)}: {nearest_choice(text, choices)}"
+    return "" if isinstance(wanted, bool) or wanted.type != "choice" else _unfit_choice(worth, wanted)
+
+
+def _unfit_choice(worth: Worth, wanted: Parameter) -> str:
+    choices = choice_worth(wanted).choices
+    for text in worth.literals:
+        if choices and not choices.contains(text):
+            return f"{wanted.name} is never {quoted(text)}: {nearest_choice(text, choices)}"
     return ""
 
 

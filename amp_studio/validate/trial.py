@@ -13,7 +13,7 @@ that is a sixtieth.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -152,17 +152,24 @@ class Trials:
         if self._is_found_again(place):
             return _Tried(False, self._bad_by(finding, (), asked))
         brings = None
-        for other in asked:
-            if not self._is_found_again(other):
-                continue
-            found = self._finding(other)
-            # A check that found something before, but now about more values, has found something new.
-            is_new = other not in filed or not set(filed[other][1].causes).issuperset(found.causes)
-            if is_new and not self._are_lesser((found,), finding):
+        for other, found in self._new(asked, filed):
+            if not self._are_lesser((found,), finding):
                 return _Tried(False, self._bad_by(finding, (other,), asked))
-            if is_new and found.severity == "warning" and brings is None:
+            if found.severity == "warning" and brings is None:
                 brings = found
         return _Tried(True, asked, brings)
+
+    def _new(
+        self, asked: Iterable[FindingPlace], filed: Mapping[FindingPlace, tuple[object, Finding]]
+    ) -> Iterator[tuple[FindingPlace, Finding]]:
+        """Yield what is found now and was not before; of a check that found something before, what is about
+        more values.
+        """
+        for place in asked:
+            if self._is_found_again(place):
+                found = self._finding(place)
+                if place not in filed or not set(filed[place][1].causes).issuperset(found.causes):
+                    yield place, found
 
     def _bad_by(
         self, mended: Finding, places: Iterable[FindingPlace], asked: frozenset[FindingPlace]

@@ -115,9 +115,7 @@ class Validator:
             if finding.fix and place not in too_many and wanted(finding)
         ]
         fixable.sort(key=lambda filed: filed[0])
-        suppressions, evaluation = self.own.suppressions, self.file.evaluation
-        suppressed = sort_out(tuple(finding for _, _, finding in fixable), suppressions, evaluation)[1]
-        left_alone = {id(one.finding) for one in suppressed}
+        left_alone = self._left_alone([finding for _, _, finding in fixable])
         last = None
         for _, place, finding in fixable:
             offered = self._trials.offered(place, finding, self._filed)
@@ -128,6 +126,11 @@ class Validator:
                 return finding
             last = last or finding
         return last
+
+    def _left_alone(self, findings: Iterable[Finding]) -> set[int]:
+        """Return the ``id`` of findings that are suppressed."""
+        suppressed = sort_out(tuple(findings), self.own.suppressions, self.file.evaluation)[1]
+        return {id(one.finding) for one in suppressed}
 
     def compare_with(self, earlier: Sequence[Earlier]) -> None:
         """Compare with other earlier values from now on, as after a save."""

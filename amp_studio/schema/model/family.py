@@ -254,6 +254,10 @@ class Family(Model):
         sheets = (each.what for each in self.ways if each.way == "sheet")
         return "" if self.has_line else next(sheets, f"No way to a {self.name} but its own screens is known")
 
+    def machine_name(self, key: str) -> str:
+        """Return the name of a machine type; the key itself where the family has none of that key."""
+        return next((machine.name for machine in self.machines if machine.key == key), key)
+
     @property
     def fits_axes(self) -> bool:
         """Whether a file declares which of the axes are there."""

@@ -83,10 +83,7 @@ class StatusLine(QObject):
         self.changes.setText(self.tr("%n unsaved changes", "", count) if count else "")
         self.changes.setVisible(bool(count))
         units = self.tr("as entered") if workspace.as_entered else worded(file.header.units)
-        parts = [
-            file.schema.family.name,
-            next(m.name for m in file.schema.family.machines if m.key == file.machine),
-        ]
+        parts = [file.schema.family.name, file.schema.family.machine_name(file.machine)]
         if file.schema.family.axes is not None:
             parts.append(self.tr("%n axes", "", len(fitted_axes(file))))
         state = self.tr("not saved") if workspace.is_dirty else self.tr("saved")

@@ -8,14 +8,14 @@ Facts of the family name what differs among like axes without any slip.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Iterable, Iterator
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 from fnmatch import filter as matching
 from functools import lru_cache
 from itertools import combinations
 from typing import NamedTuple
 
 from amp_studio.files import ParameterFile, are_alike, axis_letter
-from amp_studio.schema import ACTIVE, Address, Parameter, Schema, Value, dimension, show_value
+from amp_studio.schema import ACTIVE, Address, Parameter, Schema, StateInfo, Value, dimension, show_value
 from amp_studio.validate.finding import Finding
 
 from .slip import slip_as_written, slip_between
@@ -45,6 +45,14 @@ class _Pair(NamedTuple):
     compared: list[int]
     """A single number."""
     differing: set[str]
+
+    def note(self, name: str, change: int, *, is_same: bool) -> None:
+        """Note that so many values more can be compared, and whether this one is the same."""
+        self.compared[0] += change
+        if is_same:
+            self.differing.discard(name)
+        else:
+            self.differing.add(name)
 
 
 class _Odd(NamedTuple):
@@ -115,16 +123,9 @@ class Alike:
     def look_at_all(self) -> None:
         """Compare everything."""
         self._rows.clear()
-        evaluation, values = self._file.evaluation, self._file.values
-        keys, known = evaluation.keys, evaluation.known_states()
+        known = self._file.evaluation.known_states()
         for (scope, instance), addresses in _places(self._file.schema, self._file.machine).items():
-            row = {
-                address[0]: self._seen(address[0], keys[address], value)
-                for address in addresses
-                if (value := values.get(address)) is not None
-                and (known.get(address) or evaluation.state(address)) is ACTIVE
-            }
-            if row:
+            if row := self._row(addresses, known):
                 self._rows.setdefault(scope, {})[instance] = row
         self._pairs = {
             (scope, a, b): _compare(rows[a], rows[b])
@@ -134,6 +135,17 @@ class Alike:
         self._odd.clear()
         for scope, name in {(key[0], name) for key, pair in self._pairs.items() for name in pair.differing}:
             self._look_at_column(scope, name)
+
+    def _row(self, addresses: Iterable[Address], known: Mapping[Address, StateInfo]) -> dict[str, _Seen]:
+        """Return the active values among addresses of one instance, by parameter."""
+        evaluation, values = self._file.evaluation, self._file.values
+        keys = evaluation.keys
+        return {
+            address[0]: self._seen(address[0], keys[address], value)
+            for address in addresses
+            if (value := values.get(address)) is not None
+            and (known.get(address) or evaluation.state(address)) is ACTIVE
+        }
 
     def look_again(self, address: Address) -> bool:
         """Compare one value again; returns whether anything is otherwise."""
@@ -149,18 +161,14 @@ class Alike:
         old, new = row.get(name), self._key(address)
         if old == new:
             return False
-        if new is None:
-            del row[name]
-        else:
+        row.pop(name, None)
+        if new is not None:
             row[name] = new
-        others = (each for each in rows if each != instance and name in rows[each])
-        for other in others:
-            pair = self._pairs.get((scope, instance, other)) or self._pairs[scope, other, instance]
-            pair.compared[0] += (new is not None) - (old is not None)
-            if new in (None, rows[other][name]):
-                pair.differing.discard(name)
-            else:
-                pair.differing.add(name)
+        change = (new is not None) - (old is not None)
+        for other in rows.keys() - {instance}:
+            if name in rows[other]:
+                pair = self._pairs.get((scope, instance, other)) or self._pairs[scope, other, instance]
+                pair.note(name, change, is_same=new in (None, rows[other][name]))
         self._look_at_column(scope, name)
         return True
 
@@ -172,8 +180,8 @@ class Alike:
         if len(counts) != 2 or min(counts.values()) != 1:
             return
         usual = max(counts, key=lambda seen: counts[seen])
-        odd = next(instance for instance, seen in column.items() if seen != usual)
-        like = next(instance for instance, seen in column.items() if seen == usual)
+        odd = min(column, key=lambda instance: counts[column[instance]])
+        like = next(instance for instance in column if instance != odd)
         words = self._slip(scope, name, odd, like) if column[odd].measures == usual.measures else ""
         if words and (scope != "axis" or all(are_alike(self._file, odd, i) for i in column)):
             self._odd[scope, name] = _Odd(odd, words)
@@ -195,6 +203,19 @@ class Alike:
     def findings(self) -> Iterator[Finding]:
         """Yield what differs between instances that are otherwise alike, a finding a parameter and scope."""
         asked: dict[tuple[str, str], list[tuple[str, str, int]]] = {}
+        for scope, a, b, name, agreeing in self._odd_pairs():
+            asked.setdefault((scope, name), []).append((a, b, agreeing))
+        for (scope, name), pairs in asked.items():
+            yield self._finding(scope, name, pairs)
+        several = Counter((scope, *odd) for (scope, _), odd in self._odd.items())
+        for (scope, name), odd in self._odd.items():
+            if several[scope, *odd] == 1 and (scope, name) not in asked:
+                yield from self._alone(scope, name, odd.instance)
+
+    def _odd_pairs(self) -> Iterator[tuple[str, str, str, str, int]]:
+        """Yield scope and both instances of each pair that differs in little, the parameter in which it
+        does, and the number of those in which it agrees.
+        """
         for (scope, a, b), pair in self._pairs.items():
             compared, count = pair.compared[0], len(pair.differing)
             if not count or compared < _LEAST or count > max(1, compared // 8):
@@ -202,13 +223,7 @@ class Alike:
             is_sure = count == 1 and compared >= _SURE
             for name in pair.differing:
                 if (is_sure and self._comparable[name]) or self._is_slip(scope, name, a, b):
-                    asked.setdefault((scope, name), []).append((a, b, compared - count))
-        for (scope, name), pairs in asked.items():
-            yield self._finding(scope, name, pairs)
-        several = Counter((scope, *odd) for (scope, _), odd in self._odd.items())
-        for (scope, name), odd in self._odd.items():
-            if several[scope, *odd] == 1 and (scope, name) not in asked:
-                yield from self._alone(scope, name, odd.instance)
+                    yield scope, a, b, name, compared - count
 
     def _alone(self, scope: str, name: str, odd: str) -> Iterator[Finding]:
         """Yield what a slip explains on one axis where all others have one value, however unlike they are.
@@ -235,15 +250,8 @@ class Alike:
 
     def _finding(self, scope: str, name: str, pairs: list[tuple[str, str, int]]) -> Finding:
         """Return the finding about a parameter: the one that differs from the rest, or both of two."""
-        rows = self._rows[scope]
         instances = list(dict.fromkeys(i for a, b, _ in pairs for i in (a, b)))
-        counts: dict[Hashable, list[str]] = {}
-        for instance in instances:
-            counts.setdefault(rows[instance][name], []).append(instance)
-        usual = max(counts.values(), key=len)
-        sure = all(len(same) < len(usual) for same in counts.values() if same is not usual)
-        odd = [i for i in instances if i not in usual] if sure else instances
-        others = [i for i in instances if i not in odd]
+        odd, others = self._odd_and_others(scope, name, instances)
         parameter = self._file.schema.parameters[name]
         texts = [
             f"{show_value(parameter, self._file.values[name, i])} on {self._label(name, i)}"
@@ -259,6 +267,18 @@ class Alike:
             compared=tuple((name, i) for i in others),
             reason=REASON,
         )
+
+    def _odd_and_others(self, scope: str, name: str, instances: list[str]) -> tuple[list[str], list[str]]:
+        """Return the instances that differ from the most frequent value, and the rest; without one most
+        frequent value all are odd.
+        """
+        by_value: dict[Hashable, list[str]] = {}
+        for instance in instances:
+            by_value.setdefault(self._rows[scope][instance][name], []).append(instance)
+        *_, second, usual = ([], *sorted(by_value.values(), key=len))
+        if len(second) == len(usual):
+            return instances, []
+        return [i for i in instances if i not in usual], usual
 
     def _words(self, scope: str, name: str, a: str, b: str) -> str:
         words = self._slip(scope, name, a, b)

@@ -79,58 +79,74 @@ class AxisRelations:
             yield (*pair.part_of, *pair.as_of), partial(self._proportion, pair)
 
     def _among(self, fact: AmongAxes) -> list[Finding]:
+        numbers = [*self._sizes(fact)]
+        if fact.is_zero_odd and (found := self._zero_among(fact, [one for _, one in numbers])):
+            return found
+        odd = []
+        for number, one in numbers:
+            like = [pair for pair in numbers if self._is_like(pair[1], one)]
+            if like and all(_apart(number, other) > fact.within * (1 + 1e-9) for other, _ in like):
+                odd.append((one, min(like, key=lambda pair: _apart(number, pair[0]))[1]))
+        if len(numbers) > 2 and len(odd) > 1:
+            return []  # each of several is far from all others: nothing is known of what is usual
+        return [self._finding(AMONG, AMONG_REASON, one, other) for one, other in odd[:1]]
+
+    def _zero_among(self, fact: AmongAxes, others: Sequence[ActiveValue]) -> list[Finding]:
+        """Find the one value that is 0 beside ``others`` that are not."""
+        every = self._values[fact.of]
+        if not others or len(others) != len(every) - 1:
+            return []
+        zero = next(one for one in every.values() if not one.number)
+        is_odd = are_alike(self._file, zero.address[1], others[0].address[1])
+        return [self._finding(AMONG, AMONG_REASON, zero, others[0])] if is_odd else []
+
+    def _sizes(self, fact: AmongAxes) -> Iterator[tuple[float, ActiveValue]]:
+        """Yield each value with its size, or with its quotient where another parameter divides it."""
         over = self._values[fact.over] if fact.over else {}
-        numbers: list[tuple[float, ActiveValue]] = []
         for instance, one in self._values[fact.of].items():
             under = over[instance].number if instance in over else None if fact.over else 1.0
             if isinstance(one.number, float) and one.number and isinstance(under, float) and under:
-                numbers.append((abs(one.number / under), one))
-        if fact.is_zero_odd and len(numbers) == len(self._values[fact.of]) - 1 and numbers:
-            zero = next(one for one in self._values[fact.of].values() if not one.number)
-            if are_alike(self._file, zero.address[1], numbers[0][1].address[1]):
-                return [self._finding(AMONG, AMONG_REASON, zero, numbers[0][1])]
-        found = []
-        for number, one in numbers:
-            like = [
-                (other, seen)
-                for other, seen in numbers
-                if seen is not one
-                and seen.measures == one.measures
-                and are_alike(self._file, seen.address[1], one.address[1])
-            ]
-            if like and all(_apart(number, other) > fact.within * (1 + 1e-9) for other, _ in like):
-                found.append((one, min(like, key=lambda pair: _apart(number, pair[0]))[1]))
-        if len(numbers) > 2 and len(found) > 1:
-            return []  # each of several is far from all others: nothing is known of what is usual
-        return [self._finding(AMONG, AMONG_REASON, one, other) for one, other in found[:1]]
+                yield abs(one.number / under), one
+
+    def _is_like(self, other: ActiveValue, one: ActiveValue) -> bool:
+        return (
+            other is not one
+            and other.measures == one.measures
+            and are_alike(self._file, other.address[1], one.address[1])
+        )
 
     def _travels(self, fact: TravelEnds) -> list[Finding]:
-        lows = self._values[fact.low] if fact.low else {}
-        ends, one_sided = [], []
-        for instance, high in self._values[fact.high].items():
-            low = lows.get(instance)
-            if fact.unlimited and low is not None:
-                one_sided += self._one_sided(fact.unlimited, low, high)
-            if not isinstance(high.number, float) or (fact.low and low is None) or self._is_unlimited(high):
-                continue
-            if low is None:
-                ends.append((high, high))
-            elif isinstance(low.number, float) and low.measures == high.measures:
-                near, far = sorted((low, high), key=lambda end: abs(float(end.number)))
-                ends.append((near, far))
+        ends = [*self._ends(fact)]
         found = [] if fact.is_zone else self._table(ends)
         if fact.low and len(ends) > 2:
             found += [f for n in range(len(ends)) for f in self._near(ends[n], ends[:n] + ends[n + 1 :])]
-        return found + one_sided
+        return [*found, *self._one_sided(fact)]
 
-    def _one_sided(self, unlimited: float, low: ActiveValue, high: ActiveValue) -> list[Finding]:
-        """Find an axis that has one end only, or both without a limit on one side."""
-        stored = [self._file.values[one.address].value for one in (low, high)]
-        none = [isinstance(number, int | float) and abs(number) >= unlimited for number in stored]
-        if none == [True, True] and _side(low) < 0 < _side(high):
-            return []
-        odd, other = (high, low) if none[0] else (low, high)
-        return [self._finding(TRAVEL, TRAVEL_REASON, odd, other)] if any(none) else []
+    def _ends(self, fact: TravelEnds) -> Iterator[Ends]:
+        """Yield the ends of each travel, the nearer one first; one end twice where it is all there is."""
+        lows = self._values[fact.low] if fact.low else {}
+        for instance, high in self._values[fact.high].items():
+            low = lows.get(instance)
+            if not isinstance(high.number, float) or (fact.low and low is None) or self._is_unlimited(high):
+                continue
+            if low is None:
+                yield high, high
+            elif isinstance(low.number, float) and low.measures == high.measures:
+                near, far = sorted((low, high), key=_size)
+                yield near, far
+
+    def _one_sided(self, fact: TravelEnds) -> Iterator[Finding]:
+        """Yield an axis that has one end only, or both without a limit on one side."""
+        unlimited = fact.unlimited
+        if not fact.low or not unlimited:
+            return
+        lows, highs = self._values[fact.low], self._values[fact.high]
+        for low, high in ((lows[i], highs[i]) for i in highs if i in lows):
+            stored = [self._file.values[one.address].value for one in (low, high)]
+            none = [isinstance(number, int | float) and abs(number) >= unlimited for number in stored]
+            if any(none) and not (all(none) and _side(low) < 0 < _side(high)):
+                odd, other = (high, low) if none[0] else (low, high)
+                yield self._finding(TRAVEL, TRAVEL_REASON, odd, other)
 
     def _is_unlimited(self, end: ActiveValue) -> bool:
         """Return whether an end is the printed default: no limit, as a rule."""
@@ -139,27 +155,13 @@ class AxisRelations:
 
     def _near(self, own: Ends, others: Sequence[Ends]) -> list[Finding]:
         """Compare the end at the reference point with those of the other axes."""
-        near, far = own
+        near = own[0]
         like = [pair for pair in others if are_alike(self._file, pair[0].address[1], near.address[1])]
         if len(like) < 2 or any(pair[0].measures != near.measures for pair in like):
             return []
-        is_inside = _side(near) * _side(far) <= 0
-        if not is_inside and all(_side(a) * _side(b) < 0 for a, b in like):
+        if _is_on_one_side(own, like) or _is_far_out(own, like):
             return [self._finding(TRAVEL, TRAVEL_REASON, near, like[0][0])]
-        sizes = [(_size(a), _size(a) / _size(b)) for a, b in like if _size(b)]
-        least, most = (
-            min((size for size, _ in sizes), default=0.0),
-            max((size for size, _ in sizes), default=0.0),
-        )
-        if not least or most > 3 * least:  # or the other axes have no travel: limits that nobody has set
-            return []
-        size, share = _size(near), _size(near) / _size(far) if _size(far) else 0.0
-        if size == 0 and least == most:
-            return [self._finding(TRAVEL, TRAVEL_REASON, near, like[0][0])]
-        is_odd = size and all(
-            _apart(size, other) >= _NEAR and _apart(share, part) >= _SHARE for other, part in sizes
-        )
-        return [self._finding(TRAVEL, TRAVEL_REASON, near, like[0][0])] if is_odd else []
+        return []
 
     def _table(self, ends: Sequence[Ends]) -> list[Finding]:
         """Compare the lengths of the travels of X and Y."""
@@ -180,17 +182,9 @@ class AxisRelations:
 
     def _same_on_table(self, names: Mapping[str, float]) -> list[Finding]:
         """Compare X and Y of a table: the motors, screws and ramps of both are of one kind."""
-        differing, compared = [], 0
-        for name in names:
-            seen = self._values[name]
-            named = {axis_letter(self._file, instance): one for instance, one in seen.items()}
-            x, y = named.get("X"), named.get("Y")
-            if x is None or y is None or x.measures != y.measures:
-                continue
-            compared += 1
-            if x.number != y.number:
-                differing.append((x, y))
-        if compared < 3 or len(differing) != 1:
+        compared = [pair for name in names if (pair := self._x_and_y(name))]
+        differing = [(x, y) for x, y in compared if x.number != y.number]
+        if len(compared) < 3 or len(differing) != 1:
             return []
         x, y = differing[0]
         is_slip = slip_between(x.number, y.number) or slip_between(y.number, x.number)
@@ -224,6 +218,12 @@ class AxisRelations:
                 found.append(self._finding(TOWARDS, TOWARDS_REASON, speed, place))
         return found
 
+    def _x_and_y(self, name: str) -> Ends | None:
+        """Return the values of X and Y, where both can be compared."""
+        named = {axis_letter(self._file, instance): one for instance, one in self._values[name].items()}
+        x, y = named.get("X"), named.get("Y")
+        return None if x is None or y is None or x.measures != y.measures else (x, y)
+
     def _gears(self, fact: Gears) -> list[Finding]:
         lows, highs = self._values[fact.low], self._values[fact.high]
         spindles: dict[str, list[tuple[ActiveValue, ActiveValue]]] = {}
@@ -233,18 +233,21 @@ class AxisRelations:
         return [finding for gears in spindles.values() for finding in self._of_spindle(gears)]
 
     def _of_spindle(self, gears: Sequence[Ends]) -> Iterator[Finding]:
-        there = [(low, high) for low, high in gears if _size(high)]
         used = [n for n, (_, high) in enumerate(gears) if _size(high)]
         for n, before in zip(used, (-1, *used), strict=False):
-            low, high = gears[n]
+            high = gears[n][1]
             # The numbering may begin at the second one; a gap is a line that was missed.
             if n > before + 1 + (before < 0) or (before >= 0 and _size(high) <= _size(gears[before][1])):
                 yield self._finding(GEAR, GEAR_REASON, high, gears[max(before, 0)][1])
-        for n, (low, high) in enumerate(there):
-            others = [_size(b) / _size(a) for m, (a, b) in enumerate(there) if m != n and _size(a)]
+        yield from self._unequal_gears([gears[n] for n in used])
+
+    def _unequal_gears(self, gears: Sequence[Ends]) -> Iterator[Finding]:
+        """Yield gears whose speeds are spread otherwise than those of all others."""
+        for n, (low, high) in enumerate(gears):
+            others = [_size(b) / _size(a) for a, b in (*gears[:n], *gears[n + 1 :]) if _size(a)]
             if not _size(low):
-                if n and len(others) == len(there) - 1 and len(there) > 2:
-                    yield self._finding(GEAR, GEAR_REASON, low, there[0][0])
+                if n and len(others) == len(gears) - 1 > 1:
+                    yield self._finding(GEAR, GEAR_REASON, low, gears[0][0])
             elif len(others) > 1 and all(_apart(_size(high) / _size(low), s) >= _SPREAD for s in others):
                 yield self._finding(GEAR, GEAR_REASON, low, high)
 
@@ -284,6 +287,26 @@ _WORDS = {
     GEAR: "the ranges of the gears do not follow each other",
     PROPORTION: "speed and output do not begin on one straight line",
 }
+
+
+def _is_on_one_side(own: Ends, like: Sequence[Ends]) -> bool:
+    """Return whether both ends are on one side of the reference point, and those of all others are not."""
+    return _side(own[0]) * _side(own[1]) > 0 and all(_side(a) * _side(b) < 0 for a, b in like)
+
+
+def _is_far_out(own: Ends, like: Sequence[Ends]) -> bool:
+    """Return whether the end at the reference point is far from those of all others, which are near to each
+    other.
+    """
+    sizes = [(_size(a), _size(a) / _size(b)) for a, b in like if _size(b)]
+    least, most = min(sizes, default=(0.0,))[0], max(sizes, default=(0.0,))[0]
+    if not least or most > 3 * least:  # or the other axes have no travel: limits that nobody has set
+        return False
+    size = _size(own[0])
+    if size == 0:
+        return least == most
+    share = size / _size(own[1]) if _size(own[1]) else 0.0
+    return all(_apart(size, other) >= _NEAR and _apart(share, part) >= _SHARE for other, part in sizes)
 
 
 def _apart(a: float, b: float) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
@@ -91,15 +92,17 @@ class Relations:
                 yield row
 
     def _same(self, names: Sequence[str]) -> list[Finding]:
-        found = []
-        for row in self._rows(names):
-            counts = [sum(other.number == one.number for other in row) for one in row]
-            alone = [one for one, count in zip(row, counts, strict=True) if count == 1]
-            if len(row) > 2 and len(alone) == 1 and max(counts) == len(row) - 1:
-                found.append(self._unequal(alone, next(one for one in row if one is not alone[0])))
-            elif len(row) == 2 and _is_slip(row[0].number, row[1].number):
-                found.append(self._unequal(row, None))
-        return found
+        return [finding for row in self._rows(names) if (finding := self._odd_of_row(row))]
+
+    def _odd_of_row(self, row: Sequence[ActiveValue]) -> Finding | None:
+        """Return the finding about the one value that differs from all others, or about two by a slip."""
+        counts = Counter(one.number for one in row)
+        if len(row) > 2 and sorted(counts.values()) == [1, len(row) - 1]:
+            alone = next(one for one in row if counts[one.number] == 1)
+            return self._unequal([alone], next(one for one in row if one is not alone))
+        if len(row) == 2 and _is_slip(row[0].number, row[1].number):
+            return self._unequal(row, None)
+        return None
 
     def _twins(self, pair: tuple[str, str]) -> list[Finding]:
         where = self._file.schema.plausible.twins_where
@@ -145,19 +148,16 @@ class Relations:
         found, others = [], self._values[fact.over]
         low, high = fact.between
         for instance, one in self._values[fact.of].items():
-            own = [others[instance]] if instance in others else list(others.values())
-            numbers = [
-                (abs(other.number), other)
-                for other in own
-                if isinstance(other.number, float)
-                and other.number
-                and other.measures.startswith("angular") == one.measures.startswith("angular")
-            ]
-            if not numbers or not isinstance(one.number, float) or not one.number:
+            own = [others[instance]] if instance in others else others.values()
+            divisors = [other for other in own if _divides(other, one)]
+            if not divisors or not isinstance(one.number, float) or not one.number:
                 continue
-            if not any(low * number <= abs(one.number) <= high * number for number, _ in numbers):
-                number, other = max(numbers, key=lambda pair: pair[0])
-                found.append(self._out_of_proportion(one, other, (low * number, high * number)))
+            other = max(divisors, key=_magnitude)
+            if not any(
+                low * _magnitude(each) <= abs(one.number) <= high * _magnitude(each) for each in divisors
+            ):
+                bounds = (low * _magnitude(other), high * _magnitude(other))
+                found.append(self._out_of_proportion(one, other, bounds))
         return found
 
     def _needs(self, pair: tuple[str, str]) -> list[Finding]:
@@ -246,6 +246,16 @@ def _is_slip(a: float | str | bool, b: float | str | bool) -> bool:
     return bool(slip_between(a, b) or slip_between(b, a))
 
 
+def _divides(other: ActiveValue, one: ActiveValue) -> bool:
+    """Return whether a value is a number above 0, linear or angular as the one that it divides."""
+    is_angular = [each.measures.startswith("angular") for each in (other, one)]
+    return isinstance(other.number, float) and bool(other.number) and is_angular[0] == is_angular[1]
+
+
+def _magnitude(one: ActiveValue) -> float:
+    return abs(float(one.number))
+
+
 def misfit(numbers: Sequence[float]) -> int | None:
     """Return the place of the one value that does not rise by the factor of the others.
 
@@ -254,16 +264,22 @@ def misfit(numbers: Sequence[float]) -> int | None:
     """
     last = len(numbers) - 1
     for n in range(len(numbers)):
-        steps = [numbers[m + 1] / numbers[m] for m in range(last) if n not in (m, m + 1)]
-        if len(steps) < 2 or max(steps) > _AGREE * min(steps) or min(steps) <= 1:
+        usual = _factor_without(n, numbers)
+        if usual is None:
             continue
-        usual = (max(steps) * min(steps)) ** 0.5
-        if 0 < n < last:
-            across = numbers[n + 1] / numbers[n - 1]
-            if not usual**2 / _AGREE <= across <= usual**2 * _AGREE:
-                continue
         wanted = numbers[n - 1] * usual if n else numbers[1] / usual
         ratio = numbers[n] / wanted
         if ratio >= _OFF or (ratio <= 1 / _OFF and 0 < n < last):
             return n
     return None
+
+
+def _factor_without(n: int, numbers: Sequence[float]) -> float | None:
+    """Return the factor by which numbers rise without the ``n``-th; None where they do not by one."""
+    last = len(numbers) - 1
+    steps = [numbers[m + 1] / numbers[m] for m in range(last) if n not in (m, m + 1)]
+    if len(steps) < 2 or max(steps) > _AGREE * min(steps) or min(steps) <= 1:
+        return None
+    usual = (max(steps) * min(steps)) ** 0.5
+    across = numbers[n + 1] / numbers[n - 1] if 0 < n < last else usual**2
+    return usual if usual**2 / _AGREE <= across <= usual**2 * _AGREE else None

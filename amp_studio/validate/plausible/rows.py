@@ -85,26 +85,29 @@ class EqualRows:
         addresses = self._addresses(name)
         for first in range(every):
             rows = addresses[first::every]
-            counts = Counter(keys[address] for address in rows)
-            alone = [address for address in rows if counts[keys[address]] == 1]
+            figures = [keys[address] for address in rows]
+            counts = Counter(figures)
+            alone = [n for n, key in enumerate(figures) if counts[key] == 1]
             if len(alone) == 1 and len(rows) >= _LEAST and sorted(counts.values())[1] >= _OFTEN:
-                usual = counts.most_common(1)[0]
-                other = next(address for address in rows if keys[address] == usual[0])
-                slip = slip_between(keys[alone[0]], usual[0]) or "not"
-                self._findings[name] = self._finding(alone[0], other, usual[1], slip)
+                usual, times = counts.most_common(1)[0]
+                slip = slip_between(figures[alone[0]], usual) or "not"
+                self._findings[name] = self._finding(rows[alone[0]], rows[figures.index(usual)], times, slip)
 
     def _look_at(self, name: str) -> None:
         keys, addresses = self._file.evaluation.keys, self._addresses(name)
-        counts = Counter(keys[address] for address in addresses)
+        figures = [keys[address] for address in addresses]
+        counts = Counter(figures)
         by_count = sorted(counts.values())
         if len(addresses) < _LEAST or by_count[0] != 1 or by_count[1] < _OFTEN:
             return
-        alone = next(key for key, count in counts.items() if count == 1)
+        alone = counts.most_common()[-1][0]
         if not alone:
             return
-        for usual in (key for key in counts if key != alone and key not in _NO_FIGURES):
+        for usual in counts:
+            if usual in (alone, *_NO_FIGURES):
+                continue
             if slip := slip_between(alone, usual):
-                address, other = (next(a for a in addresses if keys[a] == key) for key in (alone, usual))
+                address, other = addresses[figures.index(alone)], addresses[figures.index(usual)]
                 self._findings[name] = self._finding(address, other, counts[usual], slip)
                 return
 

@@ -4,7 +4,7 @@ and a sign that makes no sense.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 
@@ -73,32 +73,50 @@ class _Known:
 
 @lru_cache(maxsize=32)
 def _facts(schema: Schema) -> dict[str, _Known]:
-    found = {}
-    for parameter in schema.parameters.values():
-        usual = schema.plausible.usual.get(parameter.id)
-        is_choice = usual is not None and bool(usual.choices or usual.bits)
-        if parameter.type not in ("integer", "real") and not is_choice:
-            continue
-        if parameter.secret or parameter.access == "read":
-            continue
-        spans = {
-            dimension(unit): (canonical(low, unit), canonical(high, unit))
-            for unit, (low, high) in (usual.between if usual else {}).items()
-        }
-        default = parameter.default.value if parameter.default else 0
-        negative = isinstance(default, (int, float)) and default < 0
-        printed = any(low is not None for low, _ in (parameter.ranges or {}).values())
-        both = any(low < 0 for low, _ in (usual.between if usual else {}).values())
-        signed = printed or bool(parameter.range_variants) or negative or both
-        number, digits = 0.0, 0
-        if parameter.default and isinstance(default, (int, float)) and not parameter.default.instances:
-            number, digits = canonical(default, parameter.default.unit), significant_digits(default)
-        if usual or not signed or digits >= 2:
-            measures = dimension(parameter.default.unit) if parameter.default else ""
-            found[parameter.id] = _Known(
-                parameter, usual, spans, signed, number if digits >= 2 else None, measures, digits
-            )
-    return found
+    usual = schema.plausible.usual
+    return {
+        parameter.id: known
+        for parameter in schema.parameters.values()
+        if _is_entered(parameter, usual.get(parameter.id))
+        if (known := _known(parameter, usual.get(parameter.id)))
+    }
+
+
+def _is_entered(parameter: Parameter, usual: Usual | None) -> bool:
+    """Return whether a parameter is a number, or a choice of which some are usual, and can be entered."""
+    is_looked_at = parameter.type in ("integer", "real") or (usual is not None and bool(usual.choices or usual.bits))
+    return is_looked_at and not parameter.secret and parameter.access != "read"
+
+
+def _known(parameter: Parameter, usual: Usual | None) -> _Known | None:
+    """Return what is usual of a parameter; None where nothing is."""
+    between = usual.between if usual else {}
+    spans = {dimension(unit): (canonical(a, unit), canonical(b, unit)) for unit, (a, b) in between.items()}
+    signed = _is_signed(parameter, between)
+    measures, number, digits = _printed_default(parameter)
+    if usual or not signed or digits >= 2:
+        return _Known(parameter, usual, spans, signed, number if digits >= 2 else None, measures, digits)
+    return None
+
+
+def _is_signed(parameter: Parameter, usual: Mapping[str, tuple[float, float]]) -> bool:
+    """Return whether the manual prints a least value or a negative default, or one is usual."""
+    default = parameter.default.value if parameter.default else 0
+    if parameter.range_variants or (isinstance(default, (int, float)) and default < 0):
+        return True
+    printed = any(low is not None for low, _ in (parameter.ranges or {}).values())
+    return printed or any(low < 0 for low, _ in usual.values())
+
+
+def _printed_default(parameter: Parameter) -> tuple[str, float, int]:
+    """Return dimension, number and significant digits of the one default; no digits without one."""
+    default = parameter.default
+    if default is None:
+        return "", 0.0, 0
+    measures = dimension(default.unit)
+    if default.instances or not isinstance(default.value, (int, float)):
+        return measures, 0.0, 0
+    return measures, canonical(default.value, default.unit), significant_digits(default.value)
 
 
 class UsualValues:
@@ -148,6 +166,8 @@ class UsualValues:
 
 def _not_usual(facts: _Known, usual: Usual, number: float, unit: str) -> str:
     """Return what is usual instead of a number; "" where it is one of the usual."""
+    if number in usual.also:
+        return ""
     if usual.among:
         return "" if number in usual.among else f"usual are {', '.join(map(write_figure, usual.among))}"
     measures = dimension(unit)
@@ -167,19 +187,10 @@ def _doubt(facts: _Known, value: Value) -> str:
         return _doubt_of_bits(usual, int(value.value))
     number = float(value.value)
     measures = dimension(value.unit)
-    if (
-        usual is not None
-        and number not in usual.also
-        and (words := _not_usual(facts, usual, number, value.unit))
-    ):
+    if usual is not None and (words := _not_usual(facts, usual, number, value.unit)):
         return words
-    unit = value.unit
-    if measures != facts.default_measures and facts.default_digits >= ODD:
-        unit = unit.replace("deg", "mm")  # the manual prints one number for linear and rotary axes
-    if facts.default is not None and dimension(unit) == facts.default_measures:
-        words = slip_of_default(canonical(number, unit), facts.default, facts.default_digits)
-        if words and not ("25.4" in words and _is_as_round(facts, number, value.unit)):
-            return f"that is {words} the printed default"
+    if facts.default is not None and (words := _slip_of_default(facts, facts.default, number, value.unit)):
+        return f"that is {words} the printed default"
     if number < 0 and not facts.signed and measures in _NEVER_NEGATIVE:
         return f"a negative {measures} has no meaning"
     return ""
@@ -200,6 +211,16 @@ def _doubt_of_bits(usual: Usual, word: int) -> str:
         return ""
     are = "bits {} have" if len(unknown) > 1 else "bit {} has"
     return f"{are.format(', '.join(unknown))} no meaning that is printed or known"
+
+def _slip_of_default(facts: _Known, default: float, number: float, entered: str) -> str:
+    """Return by what slip a number in a unit would be the printed default; "" for none."""
+    unit = entered
+    if dimension(unit) != facts.default_measures and facts.default_digits >= ODD:
+        unit = unit.replace("deg", "mm")  # the manual prints one number for linear and rotary axes
+    if dimension(unit) != facts.default_measures:
+        return ""
+    words = slip_of_default(canonical(number, unit), default, facts.default_digits)
+    return "" if "25.4" in words and _is_as_round(facts, number, entered) else words
 
 
 def _doubt_of_choice(parameter: Parameter, usual: Usual, value: bool | str) -> str:

@@ -128,7 +128,7 @@ def _notes(ini: IniText, schema: Schema, machine: str, options: ReadOptions) -> 
     if ini.missing:
         yield f"included and not found beside the file: {', '.join(ini.missing)}"
     if not options.machine:
-        name = next(m.name for m in schema.family.machines if m.key == machine)
+        name = schema.family.machine_name(machine)
         others = ", ".join(m.key for m in schema.family.machines)
         yield f"read as {name}; --machine chooses another version: {others}"
 
