@@ -84,7 +84,9 @@ def _facts(schema: Schema) -> dict[str, _Known]:
 
 def _is_entered(parameter: Parameter, usual: Usual | None) -> bool:
     """Return whether a parameter is a number, or a choice of which some are usual, and can be entered."""
-    is_looked_at = parameter.type in ("integer", "real") or (usual is not None and bool(usual.choices or usual.bits))
+    is_looked_at = parameter.type in ("integer", "real") or (
+        usual is not None and bool(usual.choices or usual.bits)
+    )
     return is_looked_at and not parameter.secret and parameter.access != "read"
 
 
@@ -211,6 +213,7 @@ def _doubt_of_bits(usual: Usual, word: int) -> str:
         return ""
     are = "bits {} have" if len(unknown) > 1 else "bit {} has"
     return f"{are.format(', '.join(unknown))} no meaning that is printed or known"
+
 
 def _slip_of_default(facts: _Known, default: float, number: float, entered: str) -> str:
     """Return by what slip a number in a unit would be the printed default; "" for none."""
