@@ -156,7 +156,7 @@ def machine_tests_of(file: ParameterFile, axis: str | None = None) -> Iterator[P
     """
     from amp_studio.sim import SimulationError, machine_tests, simulated_axes
 
-    shown: set[tuple[str, tuple[str, ...]]] = set()
+    listed: set[tuple[str, tuple[str, ...]]] = set()
     for each in (axis,) if axis else simulated_axes(file):
         try:
             tests = machine_tests(file, each)
@@ -164,9 +164,9 @@ def machine_tests_of(file: ParameterFile, axis: str | None = None) -> Iterator[P
             continue
         letter = axis_letter(file, each) or each
         for test in tests:
-            if test.lines and (test.title, test.lines) in shown:  # of the whole machine
+            if test.lines and (test.title, test.lines) in listed:  # of the whole machine
                 continue
-            shown.add((test.title, test.lines))
+            listed.add((test.title, test.lines))
             name = tick_of_test(test.name, each)
             yield PrintedTest(
                 name,

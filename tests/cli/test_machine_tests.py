@@ -127,7 +127,7 @@ def test_a_program_is_written_as_the_control_reads_it(
 def test_steps_at_the_machine_are_ticked_and_on_the_check_list(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Each has a box of its own, and the guide shows who ticked a test."""
+    """Each has its box, and the guide shows who ticked a test."""
     from amp_studio.cli import run
 
     mill = tmp_path / "mill.amp"

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import Notify, ParameterFile, check_output
 from amp_studio.guide import GuideProgress
+from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.base.workspace import Workspace
@@ -49,6 +50,7 @@ def _write(
     file: ParameterFile, progress: GuideProgress, name: Path, language: str, path: Path, notify: Notify
 ) -> None:
     """Write the list with the tests at the machine, which the simulator makes."""
+    load("amp_studio.dossier")
     from amp_studio.dossier import machine_tests_of
     from amp_studio.report import build_check_list, write_check_list
 
