@@ -8,16 +8,18 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from types import ModuleType
-from typing import Any, TextIO
+from typing import Any, NoReturn, TextIO
 
 from amp_studio import cli
+from amp_studio.cli import program
 from amp_studio.files import new_file
 from amp_studio.schema.registration import load_part
 from amp_studio.transfer.emulated.family_control import emulators_of
@@ -111,17 +113,56 @@ def start_program(*words: object, script: ModuleType | None = None) -> Program:
         if words[0] == "emulate":
             _work_out(arguments[1])
         return Forked(cli.run if script is None else lambda words: script.main(*words), arguments)
-    program = ["-m", "amp_studio.cli"] if script is None else [str(script.__file__)]
-    command = [sys.executable, *program, *arguments]
+    main = ["-m", "amp_studio.cli"] if script is None else [str(script.__file__)]
+    command = [sys.executable, *main, *arguments]
     return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+
+def ended(*words: object, closed: Collection[int] = (), **streams: int) -> tuple[int, str]:
+    """Run the program to its end, as ``start`` does; returns its exit code and what it has printed on
+    standard error, where that is none of the given ``stdout`` and ``stderr``. Handles in ``closed`` are those
+    that a shell has closed.
+    """
+    arguments = [str(word) for word in words]
+    with tempfile.TemporaryFile() as printed, Path(os.devnull).open("r+b") as nothing:
+        handles = (
+            nothing.fileno(),
+            streams.get("stdout", nothing.fileno()),
+            streams.get("stderr", printed.fileno()),
+        )
+        pid = os.fork()
+        if pid == 0:
+            _be_started(arguments, handles, closed)
+        code = os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
+        printed.seek(0)
+        return code, printed.read().decode()
+
+
+def _be_started(words: list[str], handles: Sequence[int], closed: Collection[int]) -> NoReturn:
+    """Become the program on these handles, with the streams that Python makes of them at its start."""
+    code: object = 70
+    try:
+        for number, handle in enumerate([os.dup(handle) for handle in handles]):
+            os.dup2(handle, number)
+        for number in closed:
+            os.close(number)
+        sys.stdin, sys.stdout, sys.stderr = (
+            None if number in closed else os.fdopen(number, mode, encoding="utf-8")
+            for number, mode in enumerate("rww")
+        )
+        program.start(words)
+    except SystemExit as end:
+        code = end.code
+    finally:
+        os._exit(code if isinstance(code, int) else 70)
 
 
 @contextmanager
 def emulated(family: str, state: Path, *options: str) -> Iterator[tuple[Program, str]]:
     """Start an emulated control on a free port; gives it and where it listens, and ends it."""
-    program = start_program("emulate", family, "--listen", "tcp://127.0.0.1:0", "--state", state, *options)
+    control = start_program("emulate", family, "--listen", "tcp://127.0.0.1:0", "--state", state, *options)
     try:
-        yield program, program.stdout.readline().removeprefix("listening on ").strip()
+        yield control, control.stdout.readline().removeprefix("listening on ").strip()
     finally:
-        program.kill()
-        program.communicate()
+        control.kill()
+        control.communicate()

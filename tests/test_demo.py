@@ -6,9 +6,14 @@ import pytest
 
 from amp_studio.demo import run_demo
 
+from .docs.stage import leave_out_what_takes_long
 
-def test_the_demonstration_in_the_terminal_succeeds(capsys: pytest.CaptureFixture[str]) -> None:
+
+def test_the_demonstration_in_the_terminal_succeeds(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     """Open, validate, print, download, verify, upload, compare: exit code 0."""
+    leave_out_what_takes_long(monkeypatch)
     assert run_demo(terminal=True) == 0
 
     message = capsys.readouterr().out

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import subprocess
 from datetime import UTC, datetime
+from itertools import islice
 from pathlib import Path
 
 import pytest
@@ -27,7 +28,8 @@ def test_each_axis_has_its_responses_and_what_they_assume_is_shown_once(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr("amp_studio.sim.scenarios.frequency.POINTS", 2)
-    figures = tuple(motion_figures(open_file(MILL).file))
+    lathe = EXAMPLES / "lathe-ls176" / "LATHE_LS176.amp"  # it has the fewest axes
+    figures = tuple(motion_figures(open_file(lathe).file))
     assert [f.title for f in figures[:2]] == ["Step, axis 1 (X)", "Frequency, axis 1 (X)"]
     assert figures[-1].title == "What was assumed"
     assert len(set(figures[-1].notes)) == len(figures[-1].notes) > 0
@@ -64,10 +66,16 @@ def test_exchanges_are_in_every_kind_of_document(mill: Path, tmp_path: Path) -> 
 def test_the_contents_have_the_page_of_each_chapter(
     mill: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("amp_studio.dossier.motion_apart", lambda file: tuple(motion_figures(file)))
     monkeypatch.setattr("amp_studio.dossier._SCENARIOS", ("step",))
-    out = tmp_path / "r.pdf"
-    write_report(open_file(mill).file, out, source=mill, date=datetime(2026, 7, 1, tzinfo=UTC))
+    out, contents = tmp_path / "r.pdf", Contents(changed_only=True)
+    write_report(
+        open_file(mill).file,
+        out,
+        contents,
+        source=mill,
+        date=datetime(2026, 7, 1, tzinfo=UTC),
+        motion=lambda file: islice(motion_figures(file), 1),
+    )
     done = subprocess.run(["pdftotext", "-layout", out, "-"], capture_output=True, text=True, check=True)
     pages = done.stdout.split("\f")
     first = next(n for n, page in enumerate(pages) if "Marks" in page)

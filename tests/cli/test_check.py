@@ -34,8 +34,9 @@ def test_every_scenario_of_every_axis_has_a_verdict_in_validate_too(
 
 
 def test_a_machine_that_does_not_home_is_bad_and_exits_with_1(
-    router: Path, capsys: pytest.CaptureFixture[str]
+    router: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    monkeypatch.setattr("amp_studio.sim.motion_check.CHECKED", ("home",))
     mill = Path(shutil.copy(EXAMPLES / "syntec-mill" / "SYNTEC_MILL.amp", router.parent))
     assert run(["set", str(mill), "Pr901=1"]) == 0
     capsys.readouterr()

@@ -12,11 +12,13 @@ from typing import Any
 
 import pytest
 
+from amp_studio import cli
 from amp_studio.cli.checks import cache as check_cache
 from amp_studio.cli.checks.formats import CHECK_FORMATS
 from amp_studio.cli.verbs.checks import validate
 from amp_studio.files import Document
 from amp_studio.validate import companions_of
+from tests.campaigns import some
 
 
 @pytest.fixture
@@ -29,14 +31,22 @@ def cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPa
     return folder / "amp-studio"
 
 
+@pytest.fixture(scope="module")
+def small(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    """Return a machine of a family with few values, of which a check is soon done."""
+    path = tmp_path_factory.mktemp("small") / "small.amp"
+    assert cli.run(["new", "grblhal", str(path), "--axes", "X,Y,Z"]) == 0
+    return path.read_bytes()
+
+
 @pytest.fixture
-def machines(amp, tmp_path: Path, mill: Path) -> Path:
+def machines(amp, tmp_path: Path, small: bytes) -> Path:
     """Return a folder with three machines, one of them with an error that the others do not have."""
     folder = tmp_path / "machines"
     folder.mkdir()
     for n in range(3):
-        (folder / f"{n}.amp").write_bytes(mill.read_bytes())
-    amp("set", folder / "1.amp", "1300=1e6", "--force")
+        (folder / f"{n}.amp").write_bytes(small)
+    amp("set", folder / "1.amp", "$1=70000", "--force")
     return folder
 
 
@@ -54,7 +64,7 @@ def checked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return names
 
 
-@pytest.mark.parametrize("form", CHECK_FORMATS)
+@pytest.mark.parametrize("form", some(CHECK_FORMATS, 2))
 def test_a_second_run_prints_the_same_and_checks_nothing(
     amp, cache: Path, machines: Path, checked: list[str], form: str
 ) -> None:
@@ -71,12 +81,12 @@ def test_only_a_file_that_has_changed_is_checked_again(
     amp, cache: Path, machines: Path, checked: list[str]
 ) -> None:
     amp("validate", machines)
-    amp("set", machines / "2.amp", "1300=2e6", "--force")
+    amp("set", machines / "2.amp", "$1=80000", "--force")
     checked.clear()
     again = amp("validate", machines)
     assert checked == ["2.amp"]
     assert again.out == amp("validate", machines, "--no-cache").out
-    amp("set", machines / "2.amp", "1300=0")
+    amp("set", machines / "2.amp", "$1=25")
     (machines / "2.amp").write_bytes((machines / "0.amp").read_bytes())
     checked.clear()
     assert amp("validate", machines).out == amp("validate", machines, "--no-cache").out
@@ -192,7 +202,7 @@ BREAKS: dict[str, Callable[[Path], object]] = {
 """What is wrong with a cache -> what makes it so."""
 
 
-@pytest.mark.parametrize("wrong", BREAKS)
+@pytest.mark.parametrize("wrong", some(BREAKS, 2))
 def test_a_cache_that_cannot_be_used_changes_no_result(amp, cache: Path, machines: Path, wrong: str) -> None:
     first = amp("validate", machines)
     (kept,) = cache.glob("checks-*")
@@ -229,8 +239,6 @@ def test_a_file_that_is_changed_while_it_is_checked_is_checked_again(
 
 
 def test_a_file_that_cannot_be_read_is_read_again(amp, cache: Path, machines: Path, capsys: Any) -> None:
-    from amp_studio import cli
-
     whole = (machines / "0.amp").read_bytes()
     (machines / "0.amp").write_bytes(whole[:-10])
     for _ in range(2):
@@ -261,7 +269,7 @@ def test_a_cache_that_has_become_large_keeps_the_files_of_this_run(
     amp, cache: Path, machines: Path, checked: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     amp("validate", machines)
-    amp("set", machines / "2.amp", "1300=2e6", "--force")
+    amp("set", machines / "2.amp", "$1=80000", "--force")
     monkeypatch.setattr(check_cache, "_MOST_BYTES", 0)
     amp("validate", machines)
     (kept,) = cache.glob("checks-*")
@@ -303,7 +311,7 @@ def test_a_check_reads_nothing_that_is_not_in_its_key(amp, machines: Path, opene
     change_the_rules(machines)
     (machines / "project.yaml").write_text("machines: [0.amp, 1.amp]\n", encoding="utf-8")
     with Document.open(machines / "0.amp") as document:
-        document.file.set(document.file.find("1300"), document.file.read(document.file.find("1300"), "1"))
+        document.file.set(document.file.find("$1"), document.file.read(document.file.find("$1"), "1"))
         document.save()
         opened_files.clear()
         amp("validate", machines / "0.amp", machines / "1.amp", "--no-cache", "--why")

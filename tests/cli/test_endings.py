@@ -8,7 +8,6 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -17,21 +16,10 @@ from amp_studio import cli
 from amp_studio.cli import stopping
 from tests.campaigns import CAMPAIGN
 from tests.cli.stopped import set_while_stopped
+from tests.forked import ended
 
-PROGRAM = [sys.executable, "-m", "amp_studio.cli"]
 NOT_READ = "amp-studio: nobody reads the results any more"
-
-
-def start(*arguments: object, before: Callable[[], object] | None = None, **streams: int) -> tuple[int, str]:
-    """Run the program on given streams; return its exit code and what it prints on standard error."""
-    ended = subprocess.run(
-        [*PROGRAM, *map(str, arguments)],
-        **({"stdout": subprocess.PIPE, "stderr": subprocess.PIPE} | streams),
-        stdin=subprocess.DEVNULL,
-        preexec_fn=before,
-        check=False,
-    )
-    return ended.returncode, (ended.stderr or b"").decode()
+pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="the program is a copy of this process")
 
 
 @pytest.fixture
@@ -53,7 +41,7 @@ def unread():
 def test_a_value_that_is_in_the_file_is_no_refusal_where_the_result_cannot_be_printed(
     mill: Path, full: int
 ) -> None:
-    code, message = start("set", mill, "1300=1.5", stdout=full)
+    code, message = ended("set", mill, "1300=1.5", stdout=full)
     assert (code, b"home.calibration@1: 1.5 mm" in mill.read_bytes()) == (3, True)
     assert (
         message
@@ -65,13 +53,13 @@ def test_a_value_that_is_in_the_file_is_no_refusal_where_the_result_cannot_be_pr
 def test_a_value_that_is_in_the_file_is_no_refusal_where_the_result_is_not_read(
     mill: Path, unread: int
 ) -> None:
-    code, message = start("set", mill, "1300=1.5", stdout=unread)
+    code, message = ended("set", mill, "1300=1.5", stdout=unread)
     assert (code, b"home.calibration@1: 1.5 mm" in mill.read_bytes()) == (3, True)
     assert message.startswith(f"{NOT_READ}; {mill} has been changed")
 
 
 def test_a_new_file_is_shown_to_be_there(mill: Path, tmp_path: Path, full: int) -> None:
-    code, message = start("report", mill, "-o", tmp_path / "mill.txt", stdout=full)
+    code, message = ended("report", mill, "-o", tmp_path / "mill.txt", stdout=full)
     assert code == 3
     assert f"{tmp_path / 'mill.txt'} has been written and is complete" in message
 
@@ -82,36 +70,31 @@ def test_a_new_file_is_shown_to_be_there(mill: Path, tmp_path: Path, full: int) 
 def test_results_that_cannot_be_printed_are_a_refusal_where_nothing_was_changed(
     mill: Path, full: int, arguments: tuple[str, ...]
 ) -> None:
-    code, message = start(*(text.format(mill=mill) for text in arguments), stdout=full)
+    code, message = ended(*(text.format(mill=mill) for text in arguments), stdout=full)
     assert (code, message) == (2, "amp-studio: the results cannot be written: No space left on device\n")
 
 
 def test_a_reader_that_has_enough_gets_no_error(mill: Path, unread: int) -> None:
-    assert start("get", mill, stdout=unread) == (2, "")
+    assert ended("get", mill, stdout=unread) == (2, "")
 
 
 def test_notes_that_cannot_be_read_stop_nothing(mill: Path, full: int, unread: int) -> None:
     for stream in (full, unread):  # 1300=0 mm is so already, which is a note
-        assert start("set", mill, "1300=0", stderr=stream)[0] == 0
-        assert start("set", mill, "1300=1e9", stderr=stream)[0] == 2
+        assert ended("set", mill, "1300=0", stderr=stream)[0] == 0
+        assert ended("set", mill, "1300=1e9", stderr=stream)[0] == 2
 
 
 @pytest.mark.parametrize("closed", [(1,), (2,), (0, 1, 2)])
 def test_streams_that_the_shell_has_closed_stop_nothing_and_spoil_no_file(
     mill: Path, closed: tuple[int, ...]
 ) -> None:
-    def close() -> None:
-        for handle in closed:
-            os.close(handle)
-
-    assert start("set", mill, "1300=2.5", before=close)[0] == 0
-    assert start("get", mill, "--all", before=close)[0] == 0
+    assert ended("set", mill, "1300=2.5", closed=closed)[0] == 0
+    assert ended("get", mill, "--all", closed=closed)[0] == 0
     assert cli.run(["get", str(mill), "1300"]) == 0
     assert b"home.calibration@1: 2.5 mm" in mill.read_bytes()
-    assert start("get", mill, "99999", before=close)[0] == 2
+    assert ended("get", mill, "99999", closed=closed)[0] == 2
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="a signal cannot be sent to a process there")
 def test_it_can_be_stopped_at_any_moment_and_shows_the_state(mill: Path) -> None:
     assert set_while_stopped(mill, seed=1, rounds=12 if CAMPAIGN else 2) == []
 
@@ -191,7 +174,6 @@ def test_what_is_unforeseen_is_one_line_with_the_place_of_the_details(amp, mill:
     assert 'raise KeyError("never")' in place.read_text(encoding="utf-8")
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="a signal cannot be sent to a process there")
 def test_an_interrupt_inside_a_text_given_to_exec_does_not_cost_the_exit_code(tmp_path: Path) -> None:
     """CPython would end itself by the signal; a dataclass is made by such a text."""
     (tmp_path / "interrupted.py").write_text(
@@ -203,5 +185,5 @@ def test_an_interrupt_inside_a_text_given_to_exec_does_not_cost_the_exit_code(tm
         encoding="utf-8",
     )
     command = [sys.executable, "-m", "interrupted"]
-    ended = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
-    assert (ended.returncode, ended.stderr) == (2, "amp-studio: stopped\n")
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (2, "amp-studio: stopped\n")

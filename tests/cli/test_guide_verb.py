@@ -4,14 +4,22 @@ from pathlib import Path
 
 import pytest
 
+from amp_studio import cli
 from amp_studio.files import open_file
 
 
+@pytest.fixture(scope="module")
+def new_file(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    path = tmp_path_factory.mktemp("new") / "mill.amp"
+    assert cli.run(["new", "9pc", str(path), "--machine", "mill", "--axes", "X,Y,Z"]) == 0
+    return path.read_bytes()
+
+
 @pytest.fixture
-def fresh(amp, tmp_path: Path) -> Path:
+def fresh(new_file: bytes, tmp_path: Path) -> Path:
     """Return the path of a new mill with the axes X, Y and Z."""
     path = tmp_path / "mill.amp"
-    assert amp("new", "9pc", path, "--machine", "mill", "--axes", "X,Y,Z").code == 0
+    path.write_bytes(new_file)
     return path
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio import __version__
+from tests.campaigns import some
 
 
 def start(*arguments: object, **env: str) -> subprocess.CompletedProcess[bytes]:
@@ -22,13 +23,8 @@ def start(*arguments: object, **env: str) -> subprocess.CompletedProcess[bytes]:
 
 
 def test_exit_codes_and_streams_are_those_of_the_contract(mill: Path) -> None:
-    assert start("set", mill, "1310=1 mm").returncode == 0  # a file that is as delivered has no errors yet
-    right, wrong, refused = (
-        start("get", mill, "1300", "--json"),
-        start("validate", mill),
-        start("get", mill, "99999"),
-    )
-    assert [right.returncode, wrong.returncode, refused.returncode] == [0, 1, 2]
+    right, refused = start("get", mill, "1300", "--json"), start("get", mill, "99999")
+    assert [right.returncode, refused.returncode] == [0, 2]
     assert (json.loads(right.stdout)["values"][0]["value"], right.stderr) == (0.0, b"")
     assert refused.stdout == b""
     assert refused.stderr.startswith(b"amp-studio: Unknown parameter '99999'. Did you mean: ")
@@ -42,7 +38,7 @@ def test_the_version_and_the_help_are_reported() -> None:
     assert (reported.returncode, b"PARAM=VALUE" in reported.stdout) == (0, True)
 
 
-@pytest.mark.parametrize(("encoding", "degrees"), [("ascii", r"0\xb0"), ("cp1252", "0°")])
+@pytest.mark.parametrize(("encoding", "degrees"), some([("ascii", r"0\xb0"), ("cp1252", "0°")]))
 def test_a_terminal_that_lacks_signs_still_shows_everything(mill: Path, encoding: str, degrees: str) -> None:
     displayed = start("get", mill, "3300", "3207", PYTHONIOENCODING=encoding)
     assert (displayed.returncode, displayed.stderr) == (0, b"")
@@ -50,13 +46,13 @@ def test_a_terminal_that_lacks_signs_still_shows_everything(mill: Path, encoding
 
 
 def test_a_document_for_another_program_is_json_in_any_encoding(mill: Path) -> None:
-    displayed = start("schema", "9pc", "--json", PYTHONIOENCODING="ascii")
+    displayed = start("schema", "grblhal", "--json", PYTHONIOENCODING="ascii")
     assert (displayed.returncode, displayed.stderr) == (0, b"")
-    assert json.loads(displayed.stdout)["parameters"][0]["name"] == "Control Type"
+    assert json.loads(displayed.stdout)["parameters"][0]["name"] == "Axes"
 
 
 def test_a_reader_that_has_enough_is_no_fault_to_be_shown() -> None:
-    command = [sys.executable, "-m", "amp_studio.cli", "schema", "9pc", "--json"]
+    command = [sys.executable, "-m", "amp_studio.cli", "schema", "grblhal", "--json"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as program:
         assert program.stdout.read(1)
         program.stdout.close()

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio import cli
+from tests.campaigns import some
 
 from .conftest import Outcome
 
@@ -122,17 +123,20 @@ def few(tmp_path: Path) -> Path:
 
 @pytest.mark.parametrize(
     "verb",
-    [
-        ("validate", "FEW"),
-        ("get", "FEW", "$110"),
-        ("report", "FEW", "-o", "report.txt"),
-        ("export", "FEW", "-o", "table.csv"),
-        ("diff", "FEW", "FEW"),
-        ("compare", "FEW", "FEW"),
-        ("merge", "FEW", "FEW", "FEW", "-o", "merged.amp"),
-        ("verify", "FEW", "--with", "tcp://127.0.0.1:1"),
-        ("download", "FEW", "--to", "tcp://127.0.0.1:1"),
-    ],
+    some(
+        [
+            ("validate", "FEW"),
+            ("get", "FEW", "$110"),
+            ("report", "FEW", "-o", "report.txt"),
+            ("export", "FEW", "-o", "table.csv"),
+            ("diff", "FEW", "FEW"),
+            ("compare", "FEW", "FEW"),
+            ("merge", "FEW", "FEW", "FEW", "-o", "merged.amp"),
+            ("verify", "FEW", "--with", "tcp://127.0.0.1:1"),
+            ("download", "FEW", "--to", "tcp://127.0.0.1:1"),
+        ],
+        2,
+    ),
 )
 def test_every_verb_takes_the_machine_type_of_a_text(
     few: Path, verb: tuple[str, ...], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

@@ -132,9 +132,9 @@ def test_every_verb_reads_a_text(
     monkeypatch.chdir(tmp_path)
     Path("end.nc").write_text("M30\n", "utf-8")
     family = texts[key].name.partition(".")[0]
-    # Each verb reads a third of the formats, and each format is read by a third of the verbs.
-    turn = 0 if CAMPAIGN else 1 + [each.key for each in all_formats()].index(key) % 3
-    for verb, words in (item for n, item in enumerate(READS.items()) if not turn or n % 3 == turn - 1):
+    # Each verb reads a fifth of the formats, and each format is read by a fifth of the verbs.
+    turn = 0 if CAMPAIGN else 1 + [each.key for each in all_formats()].index(key) % 5
+    for verb, words in (item for n, item in enumerate(READS.items()) if not turn or n % 5 == turn - 1):
         named = words.replace("RAW", str(texts[key])).replace("FAMILY", family)
         code = cli.run([verb, *named.split()])
         error = capsys.readouterr().err

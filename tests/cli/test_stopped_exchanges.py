@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio import cli
+from tests.forked import ended
 
 from . import stopped_exchanges as campaign
 
@@ -71,10 +72,8 @@ def test_an_emulated_control_whose_output_is_not_read_serves_on_and_ends_well(
         control.stdout.close()
         control.stdin.write("estop off\nestop on\n" * 20)
         control.stdin.flush()
-        done = subprocess.run(
-            campaign._command("verify", mill, "--with", address), capture_output=True, text=True, check=False
-        )
-        assert done.returncode == 1, done.stderr
+        code, message = ended("verify", mill, "--with", address)
+        assert code == 1, message
         control.send_signal(signal.SIGINT)
         assert control.wait(120) == 0
 
@@ -84,10 +83,9 @@ def test_the_result_of_a_download_that_cannot_be_printed_is_reported_and_is_no_f
 ) -> None:
     assert cli.run(["set", str(mill), "1300=2.5"]) == 0
     with campaign.emulated(tmp_path / "control") as (_, address), Path("/dev/full").open("w") as full:
-        command = campaign._command("download", mill, "--to", address, "--accept-errors")
-        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
-    assert done.returncode == 3
-    assert "the result cannot be printed; Download complete and read back equal" in done.stderr
+        code, message = ended("download", mill, "--to", address, "--accept-errors", stdout=full.fileno())
+    assert code == 3
+    assert "the result cannot be printed; Download complete and read back equal" in message
 
 
 def test_a_restore_is_complete_where_its_result_is_not_read(mill: Path, tmp_path: Path) -> None:
@@ -100,8 +98,7 @@ def test_a_restore_is_complete_where_its_result_is_not_read(mill: Path, tmp_path
         assert cli.run(["upload", "--from", address, "-o", str(image)]) == 0
         assert cli.run(["set", str(mill), "1300=2.5"]) == 0
         assert cli.run(download) == 0
-        restore = campaign._command("restore", image, "--to", address)
-        assert subprocess.run(restore, stdout=writing, stderr=writing, check=False).returncode == 0
+        assert ended("restore", image, "--to", address, stdout=writing, stderr=writing)[0] == 0
         again = tmp_path / "again.img"
         assert cli.run(["upload", "--from", address, "-o", str(again)]) == 0
     os.close(writing)

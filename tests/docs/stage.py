@@ -17,6 +17,7 @@ from amp_studio import cli
 from amp_studio.schema import load_schema
 from amp_studio.schema.load import load_compiled
 from amp_studio.schema.registration import Registration, register, unregister
+from amp_studio.sim.tuning.solver import Search
 from tests.campaigns import CAMPAIGN
 from tests.forked import Program, start_program
 
@@ -24,8 +25,8 @@ from .pages import PROGRAMS, ROOT
 
 
 def leave_out_what_takes_long(patch: pytest.MonkeyPatch) -> None:
-    """Outside of a campaign set no PDF, draw no picture and no frequency response in a report, let a scenario recommend
-    no other gains, check one move alone, sweep few frequencies and few gains, and compute no contour error:
+    """Outside of a campaign set no PDF, print changed values alone, without pictures and motion, let nothing search
+    for other gains, check one move alone, sweep few frequencies and few gains, and compute no contour error:
     tests/report, tests/test_dossier.py, tests/cli/test_check.py, tests/cli/test_program_verb.py and
     tests/sim do so.
     """
@@ -34,12 +35,20 @@ def leave_out_what_takes_long(patch: pytest.MonkeyPatch) -> None:
 
         patch.setattr("amp_studio.sim.motion_check.SCENARIOS", {"step": SCENARIOS["step"]})
         patch.setattr("amp_studio.sim.scenarios.frequency.POINTS", 2)
-        patch.setattr("amp_studio.sim.variations.scenario.SIDE", 3)
+        patch.setattr("amp_studio.sim.variations.scenario.SIDE", 2)
         patch.setattr("amp_studio.sim.path.program._contour", lambda plan, axes: (None, "not computed here"))
         patch.setattr("amp_studio.report.output.pdf.set_pdf", lambda source, options: (b"%PDF-1.7", ""))
         patch.setattr("amp_studio.report.build.drawings", lambda file, language: ())
-        patch.setattr("amp_studio.dossier._SCENARIOS", ("step",))
+        patch.setattr(
+            "amp_studio.report.build._is_wanted", lambda row, contents: row.is_changed or row.forced
+        )
+        patch.setattr("amp_studio.dossier._SCENARIOS", ())
+        patch.setattr("amp_studio.sim.tuning.solver.Search.best", present_gains)
         patch.setattr("amp_studio.sim.run.recommendations", lambda trial, scenario, own: (tuple(own), ()))
+
+
+def present_gains(search: Search, levels: object, level: int) -> tuple[float, ...]:
+    return tuple(abs(gain.present) for gain in search.gains)
 
 
 OF_A_PLANT = "192.168.0.5"

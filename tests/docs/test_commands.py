@@ -32,7 +32,7 @@ from amp_studio.transfer.plain.sender import BlockSender
 from amp_studio.transfer.plain.ymodem import PlainFile, send_batch
 
 from .pages import PROGRAMS, ROOT, documents, is_form, lines_of, text_of, verbs
-from .stage import Stage, leave_out_what_takes_long
+from .stage import Stage, present_gains
 
 EXAMPLES = ROOT / "examples"
 MILL = EXAMPLES / "mill-1394/MILL_1394.amp"
@@ -174,7 +174,8 @@ def stage(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Stage]:
 
 def prepare(page: str, stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
     """Put there what a document begins with."""
-    leave_out_what_takes_long(monkeypatch)
+    monkeypatch.setattr("amp_studio.sim.motion_check.CHECKED", ("step",))
+    monkeypatch.setattr("amp_studio.sim.tuning.solver.Search.best", present_gains)
     for name, source in COPIES.get(page, {}).items():
         shutil.copy(source, name)
     for text, words in CONTROLS.get(page, {}).items():
@@ -333,6 +334,7 @@ def test_the_page_of_commands_has_the_keys_of_every_json_document(
     stage: Stage, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("amp_studio.sim.motion_check.SCENARIOS", {"step": SCENARIOS["step"]})
+    monkeypatch.setattr("amp_studio.sim.tuning.solver.Search.best", present_gains)
     for name, source in {**PROGRAM, **PRESS, "mill.amp": MILL, "second.amp": MILL}.items():
         shutil.copy(source, name)
     Path("plate.nc").write_text("G20 G90 G61\nG1 X-0.2 F100\nM2\n", encoding="utf-8")

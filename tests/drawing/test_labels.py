@@ -15,7 +15,7 @@ from amp_studio.drawing.scene import Scale, Scene, Text
 from amp_studio.drawing.svg import LINE, measured
 from amp_studio.files import open_file
 from amp_studio.pictures import pictures_of
-from tests.campaigns import CAMPAIGN
+from tests.campaigns import CAMPAIGN, some
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*/*.amp"))
 SIZES = ((240.0, 110.0), (424.0, 190.0), (720.0, 480.0))
@@ -25,7 +25,7 @@ def overlapping(found):
     return [(a.text, b.text) for a, b in combinations(found.placed, 2) if a.box.overlaps(b.box)]
 
 
-@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("example", some(EXAMPLES), ids=lambda path: path.stem)
 def test_no_two_texts_of_a_picture_overlap_in_any_size_and_none_is_lost(example: Path) -> None:
     for picture in pictures_of(open_file(example).file):
         for part, _ in picture.parts:

@@ -182,7 +182,7 @@ def test_marks_of_force_are_kept_through_a_save(small: Path) -> None:
 texts = st.text(st.characters(exclude_categories=["Cs"]), max_size=40)
 
 
-@settings(max_examples=examples(40))
+@settings(max_examples=examples(12))
 @given(name=texts, notes=texts, key=st.from_regex(r"[a-z]{3,8}_[0-9]", fullmatch=True), extra=texts)
 def test_any_text_of_the_header_is_kept(name: str, notes: str, key: str, extra: str) -> None:
     file = ParameterFile(load_schema("9pc"))

@@ -16,6 +16,7 @@ from amp_studio.report.build import build_report
 from amp_studio.report.contents import Sort
 from amp_studio.report.output.table_csv import HEADS
 from amp_studio.schema import Value, family_ids, read_value
+from tests.campaigns import some
 
 
 def table_of(path: Path) -> list[dict[str, str]]:
@@ -28,7 +29,8 @@ def read_back(file: ParameterFile, line: dict[str, str]) -> Value | None:
 
 
 @pytest.mark.parametrize(
-    ("family", "sort"), [(family, tuple(SORTS)[n % len(SORTS)]) for n, family in enumerate(family_ids())]
+    ("family", "sort"),
+    some([(family, tuple(SORTS)[n % len(SORTS)]) for n, family in enumerate(family_ids())]),
 )
 def test_the_values_of_a_new_file_read_back(tmp_path: Path, family: str, sort: Sort) -> None:
     file = new_file(family)
@@ -38,7 +40,7 @@ def test_the_values_of_a_new_file_read_back(tmp_path: Path, family: str, sort: S
     assert [file.get((n["id"], n["instance"])) for n in lines] == [read_back(file, n) for n in lines]
 
 
-@pytest.mark.parametrize("number", [0.1, 1 / 3, -1e-7, 123456789.125, 1e300, 5e-324, 2.0, math.pi])
+@pytest.mark.parametrize("number", some([0.1, 1 / 3, -1e-7, 123456789.125, 1e300, 5e-324, 2.0, math.pi], 2))
 def test_a_number_reads_back_to_the_last_digit(tmp_path: Path, mill: ParameterFile, number: float) -> None:
     mill.set(("home.calibration", "3"), Value(number, "mm"))
     print_report(mill, tmp_path / "r.csv")
@@ -84,7 +86,7 @@ def test_the_file_is_what_rfc_4180_and_excel_expect(tmp_path: Path, mill: Parame
     assert all(len(line) == len(HEADS) for line in table_of(tmp_path / "r.csv"))
 
 
-@pytest.mark.parametrize("sort", SORTS)
+@pytest.mark.parametrize("sort", some(SORTS))
 def test_every_order_has_the_same_lines(mill: ParameterFile, date: datetime, sort: Sort) -> None:
     by_group = build_report(mill, date=date)
     ordered = build_report(mill, Contents(sort), date=date)

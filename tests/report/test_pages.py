@@ -22,6 +22,7 @@ from amp_studio.report.output.pdf import render_pdf
 from amp_studio.report.rows import rows_of
 from amp_studio.report.sections import numbers_of
 
+from .conftest import IN_EVERY_ORDER
 from .test_pdf import output_of, poppler, texts_of
 
 HEIGHT_OF_TYPE = 1.14
@@ -63,7 +64,7 @@ def small_words(path: Path) -> set[str]:
 
 
 @poppler
-@pytest.mark.parametrize(("which", "sort"), [("eight axes", "group"), ("mill", "axis")])
+@IN_EVERY_ORDER
 def test_no_type_is_smaller_than_eight_and_a_half_points(
     printed: Callable[..., Path], which: str, sort: Sort
 ) -> None:

@@ -25,7 +25,7 @@ from amp_studio.report.papers.differences import differences_paper, machine_rows
 from amp_studio.report.papers.form import form_paper
 from amp_studio.report.papers.paper import PAPER_FORMATS, Paper, PaperTable, check_paper_ending, write_paper
 from amp_studio.schema import MASKED, Value
-from tests.campaigns import CAMPAIGN
+from tests.campaigns import CAMPAIGN, some
 
 DATE = datetime(2026, 7, 1, 14, 5, tzinfo=UTC)
 NASTY = '=HYPERLINK("http://x","y")'
@@ -87,10 +87,10 @@ def test_many_machines_are_grouped_by_those_that_agree(
 ) -> None:
     third = other.copy()
     third.set(("home.calibration", "3"), mill.get(("home.calibration", "3")))
-    files = [mill, other, third, *[mill.copy() for _ in range(300)]]
-    paper = machines_paper(files, [f"M{n}" for n in range(303)], date=DATE)
+    files = [mill, other, third, *[mill.copy() for _ in range(30)]]
+    paper = machines_paper(files, [f"M{n}" for n in range(33)], date=DATE)
     groups, values = paper.tables
-    assert [row[:2] for row in groups.rows] == [("1", "301"), ("2", "1"), ("3", "1")]
+    assert [row[:2] for row in groups.rows] == [("1", "31"), ("2", "1"), ("3", "1")]
     assert [row[2] for row in groups.rows[1:]] == ["M1", "M2"]
     assert groups.rows[0][2].startswith("M0, M3, M4, ")
     assert values.rows == (
@@ -174,7 +174,7 @@ def test_a_table_too_wide_for_paper_is_refused_there_alone(tmp_path: Path) -> No
         check_paper_ending(tmp_path / "p.doc")
 
 
-@pytest.mark.parametrize("family", ["9pc", "num", "57c422b", "acromill", "syntec", "grblhal"])
+@pytest.mark.parametrize("family", some(["9pc", "num", "57c422b", "acromill", "syntec", "grblhal"]))
 def test_a_form_has_a_blank_for_each_number(family: str) -> None:
     file = new_file(family)
     paper = form_paper(file, everything=True, date=DATE)

@@ -17,6 +17,11 @@ SHORT = Contents(changed_only=True, without=frozenset({"pictures", "motion", "ex
 
 
 @pytest.fixture
+def mill(small_mill: ParameterFile) -> ParameterFile:
+    return small_mill.copy()
+
+
+@pytest.fixture
 def machine(tmp_path: Path, mill: ParameterFile) -> Path:
     save_file(mill, tmp_path / "mill.amp")
     return tmp_path / "mill.amp"
@@ -26,7 +31,7 @@ def test_every_printed_value_has_its_place_on_a_page(machine: Path, mill: Parame
     found = set_report(mill, SHORT, 24, source=machine)
     places = found.places()
     printed = [(row.id, row.instance) for row in build_report(mill, SHORT).rows()]
-    assert len(printed) > 10
+    assert len(printed) > 4
     assert set(places) == set(printed)
     pages = [places[address].page for address in printed]
     assert pages == sorted(pages)

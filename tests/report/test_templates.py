@@ -28,6 +28,11 @@ EXTENDS_PDF = '{% extends "standard/report.typ.j2" %}\n'
 
 
 @pytest.fixture
+def mill(small_mill: ParameterFile) -> ParameterFile:
+    return small_mill.copy()
+
+
+@pytest.fixture
 def machine(tmp_path: Path, mill: ParameterFile) -> Path:
     save_file(mill, tmp_path / "mill.amp")
     (tmp_path / "templates").mkdir()

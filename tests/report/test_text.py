@@ -18,7 +18,7 @@ from amp_studio.report.findings.printed_finding import PrintedFinding
 from amp_studio.report.model import Listing, Report, ReportRow, Section
 from amp_studio.report.output.pdf import typst_literal, typst_source
 from amp_studio.report.output.text import render_text
-from tests.campaigns import CAMPAIGN
+from tests.campaigns import CAMPAIGN, some
 
 pytestmark = pytest.mark.usefixtures("without_pictures")
 
@@ -141,7 +141,7 @@ def test_a_small_report_to_the_letter() -> None:
     assert any(re.fullmatch(r"Released by _+  Date _+", line) for line in said)
 
 
-@pytest.mark.parametrize("sort", list(SORTS)[:: 1 if CAMPAIGN else 2])
+@pytest.mark.parametrize("sort", some(list(SORTS)[:: 1 if CAMPAIGN else 2], 2))
 def test_no_line_is_wider_than_the_paper_and_every_value_is_there(
     tmp_path: Path, eight_axes: ParameterFile, sort: Sort
 ) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from amp_studio.sheet import ReadBackError, compare_screen, make_sheet, read_screen_readings
+from tests.campaigns import some
 
 
 @pytest.fixture
@@ -30,7 +31,7 @@ def test_the_same_number_in_other_digits_is_the_same(wanted, present) -> None:
 
 
 @pytest.mark.parametrize(
-    "screen_text", ["40.00001", "39.99999", "400", "-40", "4 0", "4e1", "40 mm", "0x28", "nan", "٤٠"]
+    "screen_text", some(["40.00001", "39.99999", "400", "-40", "4 0", "4e1", "40 mm", "0x28", "nan", "٤٠"], 2)
 )
 def test_whatever_else_the_screen_shows_is_another_value(wanted, present, screen_text) -> None:
     assert states(f"1750 {screen_text}", wanted, present)["1750"] == "other"

@@ -7,6 +7,7 @@ import pytest
 from amp_studio.files import new_file
 from amp_studio.schema import Value, load_schema
 from amp_studio.sheet import SheetError, make_sheet
+from tests.campaigns import some
 
 
 def entry_of(wanted, present, **how):
@@ -22,14 +23,17 @@ def test_nothing_is_on_the_sheet_of_a_control_that_contains_the_file_already(pre
 
 @pytest.mark.parametrize(
     ("number", "given", "keyed", "unit"),
-    [
-        ("1350", "400 ipm", "169.3333", "mm/s"),  # page 37-3: all values are in millimetres or degrees
-        ("1750", "7 in", "177.8", "mm"),
-        ("399", "a", "0", ""),
-        ("83", "2 mm", "0.07874", "in"),  # the one value that the table prints in inches
-        ("70", "100 ms", "100", "ms"),
-        ("1350", "1e-4 mm/s", "0.0001", "mm/s"),
-    ],
+    some(
+        [
+            ("1350", "400 ipm", "169.3333", "mm/s"),  # page 37-3: all values are in millimetres or degrees
+            ("1750", "7 in", "177.8", "mm"),
+            ("399", "a", "0", ""),
+            ("83", "2 mm", "0.07874", "in"),  # the one value that the table prints in inches
+            ("70", "100 ms", "100", "ms"),
+            ("1350", "1e-4 mm/s", "0.0001", "mm/s"),
+        ],
+        2,
+    ),
 )
 def test_a_value_is_keyed_in_as_patch_amp_takes_it(lathe, changed, number, given, keyed, unit) -> None:
     other = {"83": "1 mm", "70": "50 ms", "399": "b"}.get(number, "1 mm/s" if number == "1350" else "9 mm")

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.sheet import Ticks, TicksError, make_sheet, ticks_path
+from tests.campaigns import some
 
 
 @pytest.fixture
@@ -46,7 +47,7 @@ def test_what_the_control_contains_by_now_is_off_the_sheet_without_a_word(
 
 
 @pytest.mark.parametrize(
-    "content", ["", "[]", '{"ticks": 3}', '{"ticks": [{"number": 1}]}', "[" * 100_000, "\x00"]
+    "content", some(["", "[]", '{"ticks": 3}', '{"ticks": [{"number": 1}]}', "[" * 100_000, "\x00"], 2)
 )
 def test_a_damaged_file_of_ticks_is_refused_and_left_alone(tmp_path: Path, sheet, content: str) -> None:
     path = tmp_path / "mill.amp.ticks.json"

@@ -19,6 +19,7 @@ from amp_studio.sim.command.ramps import move
 from amp_studio.sim.engine.machine import DELAY_SHARE, machine_array
 from amp_studio.sim.scenarios import SCENARIOS
 from amp_studio.sim.tuning.linear import linear_model
+from tests.campaigns import some
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 FAMILIES = {
@@ -53,14 +54,17 @@ def example(family: str, part: float | None, gain: float | None = None) -> AxisL
 # The laws of Syntec and 57C422B round to whole units: a sine of many, within the limit of the output.
 @pytest.mark.parametrize(
     ("family", "part", "settings"),
-    [
-        ("9pc", 2.37, {"move.lowest": 3.0}),
-        ("num", 2.37, {}),
-        ("syntec", 2.37, {"move.amplitude": 0.2, "move.lowest": 2.0, "move.highest": 20.0}),
-        ("57c422b", 2.37, {"move.amplitude": 100.0, "move.lowest": 5.0, "move.highest": 22.0}),
-        ("acromill", None, {}),
-        ("acromill", 0.5, {}),
-    ],
+    some(
+        [
+            ("9pc", 2.37, {"move.lowest": 3.0}),
+            ("num", 2.37, {}),
+            ("syntec", 2.37, {"move.amplitude": 0.2, "move.lowest": 2.0, "move.highest": 20.0}),
+            ("57c422b", 2.37, {"move.amplitude": 100.0, "move.lowest": 5.0, "move.highest": 22.0}),
+            ("acromill", None, {}),
+            ("acromill", 0.5, {}),
+        ],
+        3,
+    ),
 )
 def test_an_example_swept_is_its_linear_model(
     family: str, part: float | None, settings: dict[str, float]

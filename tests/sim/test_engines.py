@@ -39,8 +39,8 @@ ROUGH = {
 
 WHOLE = [path for path in EXAMPLES if CAMPAIGN or path.stem == "MILL_1394"]
 """One with a velocity loop of the law."""
-ALONE = [path for path in EXAMPLES if CAMPAIGN or path.stem not in ("MILL_1394", "LATHE_LS176")]
-"""The samples of the 9/PC are compiled within its whole move."""
+ALONE = [path for path in EXAMPLES if CAMPAIGN or path.stem in ("MILL_1060", "ROUTER", "SYNTEC_MILL")]
+"""The samples of the 9/PC are compiled within its whole move; those of three other laws have all that a law does."""
 
 
 def axis_of(path: Path) -> AxisLaw:

@@ -55,7 +55,7 @@ def hidden_plant(seed: int) -> tuple[dict[str, float], np.ndarray, str]:
     return figures, response / (1j * omega) if quantity == "position" else response, quantity
 
 
-@pytest.mark.parametrize("seed", range(4 if CAMPAIGN else 2))
+@pytest.mark.parametrize("seed", range(4 if CAMPAIGN else 1))
 def test_a_hidden_plant_is_found_within_three_percent(seed: int) -> None:
     figures, response, quantity = hidden_plant(seed)
     # One mass fits either quantity nearly as well, which takes the longest to find out.
@@ -115,8 +115,8 @@ def test_a_chirp_is_answered_by_h1_within_three_percent(tmp_path: Path) -> None:
     from scipy import signal
 
     period, size, ratio, resonance = 0.5e-3, 90.0, 1.5, 70.0
-    time = np.arange(0.0, 20.0, period)
-    torque = 20.0 * signal.chirp(time, 2.0, 20.0, 300.0, method="logarithmic")
+    time = np.arange(0.0, 10.0, period)
+    torque = 20.0 * signal.chirp(time, 2.0, 10.0, 300.0, method="logarithmic")
     motor, load = size * (1.0 + ratio), size * (1.0 + ratio) / ratio
     stiffness = (2.0 * math.pi * resonance) ** 2 / (motor + load)
     slip = 0.06 * 2.0 * math.pi * resonance / (motor + load)

@@ -21,6 +21,7 @@ from amp_studio.sim.variations.composed import ComposedAxes, agrees
 from amp_studio.sim.variations.job import Axes, SweepJob
 from amp_studio.sim.variations.plan import points_of, read_varied
 from amp_studio.sim.write import trace_summary, trace_text
+from tests.campaigns import some
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MOVE = {"move.distance": 2.0, "move.duration": 0.2}
@@ -40,7 +41,7 @@ def file_of(example: str) -> ParameterFile:
     return open_file(EXAMPLES / example).file
 
 
-@pytest.mark.parametrize(("example", "axis"), AXES)
+@pytest.mark.parametrize(("example", "axis"), some(AXES, 3))
 def test_a_variation_has_the_figures_of_its_own_run(example: str, axis: str) -> None:
     file = file_of(example)
     over = {
@@ -74,7 +75,7 @@ def test_parameters_are_varied_as_the_control_can_have_them() -> None:
 def test_the_map_without_a_word_shows_two_gains_their_safe_region_and_the_present_point(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("amp_studio.sim.variations.scenario.SIDE", 5)
+    monkeypatch.setattr("amp_studio.sim.variations.scenario.SIDE", 4)
     trace = sweep(file_of(MILL), "1", {}, way=ALONE)
     assert trace.over == ("servo.initial_gain", "servo.velocity_proportional_gain")
     safe = trace.columns["safe"] == 1.0

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 EVERY_MUTANT = os.environ.get("AMP_STUDIO_FULL") == "1"
 """Without it only comparisons, logic and negations are changed, and `EACH` of those is tried."""
-EACH = 1 if EVERY_MUTANT else 16
+EACH = 1 if EVERY_MUTANT else 32
 """Every how many mutants of a rule are tried."""
 
 OFTEN = {

@@ -11,6 +11,7 @@ import pytest
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value
 from amp_studio.validate import Finding, Validator, rules_beside
+from tests.campaigns import some
 
 RAPID = ("feedrate.rapid", "1")
 
@@ -33,13 +34,16 @@ def reported(findings: tuple[Finding, ...]) -> list[str]:
 
 @pytest.mark.parametrize(
     "check",
-    [
-        "int(rapid * 1e300) > 5",
-        "int(1e300) > int(rapid)",
-        "1 / (int(rapid) - int(rapid)) > 5",
-        "int(rapid) * 9223372036854775807 > 5",
-        "int(string(rapid) + 'x') > 5",
-    ],
+    some(
+        [
+            "int(rapid * 1e300) > 5",
+            "int(1e300) > int(rapid)",
+            "1 / (int(rapid) - int(rapid)) > 5",
+            "int(rapid) * 9223372036854775807 > 5",
+            "int(string(rapid) + 'x') > 5",
+        ],
+        2,
+    ),
 )
 def test_a_check_that_fails_with_the_values_is_an_error_with_its_line(
     mill: ParameterFile, tmp_path: Path, check: str

@@ -14,7 +14,7 @@ from amp_studio.schema import Value, conditions
 from amp_studio.schema.expression import MOST_REMEMBERED, Circumstances, Decision, Remembered, key_of, program
 from amp_studio.schema.model import BuilderRule
 from amp_studio.validate import BuilderRules, Validator, plan, ranges
-from tests.campaigns import CAMPAIGN
+from tests.campaigns import CAMPAIGN, some
 
 HERE = Circumstances("mill", "", "1")
 
@@ -62,7 +62,7 @@ def test_machine_model_and_instance_are_distinguished() -> None:
                     assert decision.is_true((), (), here) is expected
 
 
-@pytest.mark.parametrize("family", FAMILIES if CAMPAIGN else FAMILIES[::2])
+@pytest.mark.parametrize("family", some(FAMILIES if CAMPAIGN else FAMILIES[::2], 2))
 def test_a_file_that_comes_after_others_has_the_findings_of_one_that_comes_first(family: str) -> None:
     breaking = [case for case in cases(family) if case.breaks]
     if len({case.rule for case in breaking}) < 2:

@@ -17,6 +17,7 @@ from amp_studio.validate import Finding, Validator, explain, read_builder_rules,
 from amp_studio.validate.functions import GENERAL
 from amp_studio.validate.plan import make_plan
 from amp_studio.validate.rule_file import MOST_FAULTS
+from tests.campaigns import some
 
 
 @pytest.fixture
@@ -50,18 +51,21 @@ def findings(path: Path, text: str, file: ParameterFile) -> list[Finding]:
 
 @pytest.mark.parametrize(
     "check",
-    [
-        " + ".join(["1.0"] * 20_000) + " > rapid",
-        "(" * 100_000 + "true" + ")" * 100_000,
-        "size([1, 2]" + ".map(x, [x, x])" * 30 + ") > 0",
-        "size([name]" + ".map(x, x + x)" * 40 + "[0]) > 0",
-        "rapids.all(a, " * 9 + "true" + ")" * 9,
-        r"name.matches('((\w{100}){100}){100}')",
-        "rapid < 1e400",
-        "a" + ".a" * 500,
-        "true ? " * 300 + "true" + " : false" * 300,
-    ],
-    ids=range(9),
+    some(
+        [
+            " + ".join(["1.0"] * 20_000) + " > rapid",
+            "(" * 100_000 + "true" + ")" * 100_000,
+            "size([1, 2]" + ".map(x, [x, x])" * 30 + ") > 0",
+            "size([name]" + ".map(x, x + x)" * 40 + "[0]) > 0",
+            "rapids.all(a, " * 9 + "true" + ")" * 9,
+            r"name.matches('((\w{100}){100}){100}')",
+            "rapid < 1e400",
+            "a" + ".a" * 500,
+            "true ? " * 300 + "true" + " : false" * 300,
+        ],
+        2,
+    ),
+    ids=lambda check: check[:12],
 )
 def test_a_rule_beyond_its_budget_is_one_finding_and_the_others_run(mill, path: Path, check: str) -> None:
     found = findings(path, rule(1, check) + rule(2), mill)

@@ -12,6 +12,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.report import finding_json, finding_text, why_text
 from amp_studio.schema import MASKED, Rule, Value
 from amp_studio.validate import BuilderRules, Validator, explain
+from tests.campaigns import some
 
 PASSWORD = ("password.character", "1")
 
@@ -62,15 +63,18 @@ def test_no_password_that_was_not_chosen_is_offered(mill) -> None:
 
 @pytest.mark.parametrize(
     "words",
-    [
-        {"message": "{code}"},
-        {"message": "{twice}", "values": {"twice": "code * 2.0"}},
-        {"message": "{digits}", "values": {"digits": "string(int(code))"}},
-        {"fix": [{"set": "other", "value": "code"}], "check": "other == code"},
-        {"effective": [{"set": "other", "value": "code"}]},
-        {"check": "code * 1.0 < other + 0.0"},
-        {"reads": {"all": "password.character@*"}, "message": "{all}", "check": "all[0] < 1.0"},
-    ],
+    some(
+        [
+            {"message": "{code}"},
+            {"message": "{twice}", "values": {"twice": "code * 2.0"}},
+            {"message": "{digits}", "values": {"digits": "string(int(code))"}},
+            {"fix": [{"set": "other", "value": "code"}], "check": "other == code"},
+            {"effective": [{"set": "other", "value": "code"}]},
+            {"check": "code * 1.0 < other + 0.0"},
+            {"reads": {"all": "password.character@*"}, "message": "{all}", "check": "all[0] < 1.0"},
+        ],
+        2,
+    ),
 )
 def test_a_rule_that_reads_a_password_does_not_report_it(mill, words: dict[str, object]) -> None:
     message = reported(mill, "own.rule", rule(**words))

@@ -15,6 +15,7 @@ from amp_studio.files import Change
 from amp_studio.formats import export_file, import_file
 from amp_studio.schema.yaml_reader import read_yaml
 from amp_studio.validate import Validator
+from tests.campaigns import some
 
 from .firmware import MAY_BE_ZERO, NO_LIMIT, OF_GRBLHAL, machine_of, refusals
 
@@ -60,6 +61,7 @@ def same(text: str, back: str) -> str:
         return back
 
 
+@pytest.mark.parametrize("listing", some(LISTINGS, 8), indirect=True, ids=some(NAMES, 8))
 def test_the_verb_takes_it_without_a_question(listing: tuple[dict[str, Any], Path], tmp_path: Path) -> None:
     _, path = listing
     assert run(["import", str(path), "-o", str(tmp_path / "made.amp")]) == 0

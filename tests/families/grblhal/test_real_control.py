@@ -40,6 +40,7 @@ def control(tmp_path: Path) -> Iterator[RealControl]:
         yield made
 
 
+@pytest.mark.skipif(not CAMPAIGN, reason="make faults; test_real_description.py has a part of it")
 def test_the_recorded_conversation_is_the_real_one(control: RealControl) -> None:
     place = parse_endpoint(control.address)
     with closing(GrblLine(lambda look: connect(place, look=look), Waiting())) as line:

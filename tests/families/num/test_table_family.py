@@ -15,6 +15,7 @@ from amp_studio.files.example_files import examples_folder
 from amp_studio.formats import export_file, import_file
 from amp_studio.schema import Schema, Value, load_schema
 from amp_studio.validate import Validator
+from tests.campaigns import some
 from tests.families.num.small_num import SAMPLE, measured, taken
 
 UNTYPED = 115
@@ -64,7 +65,7 @@ def test_the_table_of_the_example_machine_comes_back(tmp_path: Path) -> None:
     assert not [f for f in Validator(back).run() if f.severity in ("error", "warning")]
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", some(range(4), 2))
 def test_all_words_of_the_real_control_come_back(real: Schema, seed: int) -> None:
     some = random.Random(seed)
     spelled = {

@@ -11,6 +11,7 @@ from amp_studio.files import new_file, open_file
 from amp_studio.files.range_decisions import out_of_range
 from amp_studio.schema import Value
 from amp_studio.transfer.image import decode_image
+from tests.campaigns import some
 from tests.forked import Program
 from tests.transfer.conftest import StartControl
 
@@ -23,7 +24,7 @@ def panel(process: Program, command: str) -> str:
     return next(line.strip() for line in process.stdout if line.startswith(verb))
 
 
-@pytest.mark.parametrize("line", ["tcp://127.0.0.1:0", "pty:"])
+@pytest.mark.parametrize("line", some(["tcp://127.0.0.1:0", "pty:"], 2))
 def test_download_verify_upload_and_nothing_differs(
     line: str, mill: Path, start_control: StartControl, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -14,6 +14,7 @@ from amp_studio.transfer.client.kept import keep_image
 from amp_studio.transfer.client.previous_download import NoDownloadError, last_download
 from amp_studio.transfer.client.record import add_exchange, changes_of, exchange_now
 from amp_studio.transfer.image import encode_image
+from tests.campaigns import some
 
 CALIBRATION = ("home.calibration", "1")
 
@@ -89,21 +90,23 @@ def test_without_a_record_or_without_the_kept_copy_it_shows_it(path: Path) -> No
 
 @pytest.mark.parametrize(
     "line",
-    [
-        {"kept": "/dev/zero"},
-        {"kept": "\0"},
-        {"kept": "\ud800.img"},
-        {"kept": ""},
-        {"kept": ".."},
-        {
-            "changes": [
-                ["home.calibration@99", "", "1 mm"],
-                ["no.such", "", "1"],
-                ["home.calibration@1", "", "much"],
-            ]
-        },
-        {"after": "0" * 64},
-    ],
+    some(
+        [
+            {"kept": "/dev/zero"},
+            {"kept": "\0"},
+            {"kept": "\ud800.img"},
+            {"kept": ""},
+            {"kept": ".."},
+            {
+                "changes": [
+                    ["home.calibration@99", "", "1 mm"],
+                    ["no.such", "", "1"],
+                    ["home.calibration@1", "", "much"],
+                ]
+            },
+            {"after": "0" * 64},
+        ]
+    ),
 )
 def test_a_damaged_record_counts_as_no_download(path: Path, line: dict[str, object]) -> None:
     record(path, mill(0.0), mill(1.0))

@@ -15,7 +15,7 @@ import pytest
 from amp_studio.cli import run
 from amp_studio.files import Document, new_file, open_file
 from amp_studio.transfer.image import encode_image
-from tests.campaigns import CAMPAIGN
+from tests.campaigns import CAMPAIGN, some
 from tests.transfer.conftest import StartControl
 
 GARBAGE = b"\x00\xff no image\r\n"
@@ -71,7 +71,7 @@ def bench(
     return make
 
 
-@pytest.mark.parametrize("what", HOSTILE if CAMPAIGN else ("garbage", "another schema", "errors"))
+@pytest.mark.parametrize("what", some(HOSTILE if CAMPAIGN else ("garbage", "another schema", "errors"), 2))
 def test_whatever_a_control_contains_is_kept_replaced_and_put_back(
     what: str, bench: Callable[[bytes], Bench], mill: Path
 ) -> None:
@@ -113,7 +113,9 @@ def test_a_control_takes_back_what_it_kept_two_downloads_ago(
     assert control.active.read_bytes() == GARBAGE
 
 
-@pytest.mark.parametrize("image", [GARBAGE, HOSTILE["another family"], HOSTILE["a value without its unit"]])
+@pytest.mark.parametrize(
+    "image", some([GARBAGE, HOSTILE["another family"], HOSTILE["a value without its unit"]], 2)
+)
 def test_what_a_control_never_kept_and_cannot_read_it_refuses(
     image: bytes, bench: Callable[[bytes], Bench], tmp_path: Path
 ) -> None:

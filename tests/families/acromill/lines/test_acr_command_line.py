@@ -13,14 +13,18 @@ from amp_studio.cli import run
 from amp_studio.families.acromill.emulated.card import AcrCard
 from amp_studio.transfer.emulated.line_device import DeviceSetup
 from amp_studio.transfer.emulated.memory import Memory
+from tests.campaigns import some
 from tests.transfer.device_line import served
 
 
 @pytest.fixture(
-    params=[
-        "tcp://127.0.0.1:0",
-        pytest.param("pty:", marks=pytest.mark.skipif(os.name != "posix", reason="no pty")),
-    ]
+    params=some(
+        [
+            "tcp://127.0.0.1:0",
+            pytest.param("pty:", marks=pytest.mark.skipif(os.name != "posix", reason="no pty")),
+        ],
+        2,
+    )
 )
 def card(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[tuple[str, AcrCard]]:
     device = AcrCard(DeviceSetup("acromill", Memory(tmp_path / "card"), print))

@@ -36,6 +36,7 @@ from amp_studio.transfer.exchange import Exchange, Replacement
 from amp_studio.transfer.image import ImageError
 from amp_studio.transfer.links.endpoint import parse_endpoint
 from amp_studio.transfer.links.link import Link
+from tests.campaigns import some
 
 from .bench import NumBench
 
@@ -71,7 +72,7 @@ def send(
     )
 
 
-@pytest.mark.parametrize("parity", ["none", "even", "odd"])
+@pytest.mark.parametrize("parity", some(["none", "even", "odd"], 2))
 def test_a_download_is_an_unload_a_load_and_an_unload(tmp_path: Path, parity: str) -> None:
     bench = NumBench(tmp_path, parity=parity, is_checked=True)
     before, kept = upload(bench.driver, Exchange(bench.progress)), list[bytes]()
@@ -226,7 +227,9 @@ def test_ctrl_c_before_the_last_unload_does_not_claim_that_the_control_has_taken
     assert caught.value.at_control == "unknown"
 
 
-@pytest.mark.parametrize(("lines", "state"), [(0, "old"), (2, "old"), (3, "unknown"), (200, "unknown")])
+@pytest.mark.parametrize(
+    ("lines", "state"), some([(0, "old"), (2, "old"), (3, "unknown"), (200, "unknown")], 2)
+)
 def test_ctrl_c_leaves_no_half_line_and_shows_what_is_known(bench: NumBench, lines: int, state: str) -> None:
     cancel = threading.Event()
     original = bench.progress
@@ -303,15 +306,18 @@ class Hostile:
 
 @pytest.mark.parametrize(
     ("answer", "kind"),
-    [
-        (lambda _: b"", ControlSilentError),
-        (lambda _: b"\0" * 1_000, ImageDamagedError),
-        (lambda _: b"%" * 1_000, ImageDamagedError),
-        (lambda _: b"\xff" * 1_000, ImageDamagedError),
-        (lambda n: b"%00000000;09\n" if n == 1 else b"\x11" * 10, ImageDamagedError),
-        (lambda n: b"%00000000;09\n" if n == 1 else b"" if n % 100 else b"P", ImageDamagedError),
-        (lambda n: b"x" if n % 150 == 0 else b"", ImageDamagedError),
-    ],
+    some(
+        [
+            (lambda _: b"", ControlSilentError),
+            (lambda _: b"\0" * 1_000, ImageDamagedError),
+            (lambda _: b"%" * 1_000, ImageDamagedError),
+            (lambda _: b"\xff" * 1_000, ImageDamagedError),
+            (lambda n: b"%00000000;09\n" if n == 1 else b"\x11" * 10, ImageDamagedError),
+            (lambda n: b"%00000000;09\n" if n == 1 else b"" if n % 100 else b"P", ImageDamagedError),
+            (lambda n: b"x" if n % 150 == 0 else b"", ImageDamagedError),
+        ],
+        2,
+    ),
 )
 def test_a_hostile_other_end_is_bounded(
     bench: NumBench, answer: Callable[[int], bytes], kind: type[TransferError]
