@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.cli import run
+from amp_studio.sim.scenarios import SCENARIOS
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -36,7 +37,7 @@ def test_every_scenario_of_every_axis_has_a_verdict_in_validate_too(
 def test_a_machine_that_does_not_home_is_bad_and_exits_with_1(
     router: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("amp_studio.sim.motion_check.CHECKED", ("home",))
+    monkeypatch.setattr("amp_studio.sim.motion_check.SCENARIOS", {"home": SCENARIOS["home"]})
     mill = Path(shutil.copy(EXAMPLES / "syntec-mill" / "SYNTEC_MILL.amp", router.parent))
     assert run(["set", str(mill), "Pr901=1"]) == 0
     capsys.readouterr()

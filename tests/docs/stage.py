@@ -17,6 +17,7 @@ from amp_studio import cli
 from amp_studio.schema import load_schema
 from amp_studio.schema.load import load_compiled
 from amp_studio.schema.registration import Registration, register, unregister
+from amp_studio.sim.scenarios import SCENARIOS
 from amp_studio.sim.tuning.solver import Search
 from tests.campaigns import CAMPAIGN
 from tests.forked import Program, start_program
@@ -31,8 +32,6 @@ def leave_out_what_takes_long(patch: pytest.MonkeyPatch) -> None:
     tests/sim do so.
     """
     if not CAMPAIGN:
-        from amp_studio.sim.scenarios import SCENARIOS
-
         patch.setattr("amp_studio.sim.motion_check.SCENARIOS", {"step": SCENARIOS["step"]})
         patch.setattr("amp_studio.sim.scenarios.frequency.POINTS", 2)
         patch.setattr("amp_studio.sim.variations.scenario.SIDE", 2)
@@ -48,7 +47,7 @@ def leave_out_what_takes_long(patch: pytest.MonkeyPatch) -> None:
 
 
 def present_gains(search: Search, levels: object, level: int) -> tuple[float, ...]:
-    return tuple(abs(gain.present) for gain in search.gains)
+    return tuple(gain.present_size for gain in search.gains)
 
 
 OF_A_PLANT = "192.168.0.5"

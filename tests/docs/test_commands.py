@@ -174,7 +174,7 @@ def stage(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Stage]:
 
 def prepare(page: str, stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
     """Put there what a document begins with."""
-    monkeypatch.setattr("amp_studio.sim.motion_check.CHECKED", ("step",))
+    monkeypatch.setattr("amp_studio.sim.motion_check.SCENARIOS", {"step": SCENARIOS["step"]})
     monkeypatch.setattr("amp_studio.sim.tuning.solver.Search.best", present_gains)
     for name, source in COPIES.get(page, {}).items():
         shutil.copy(source, name)
