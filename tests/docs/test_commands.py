@@ -32,7 +32,7 @@ from amp_studio.transfer.plain.sender import BlockSender
 from amp_studio.transfer.plain.ymodem import PlainFile, send_batch
 
 from .pages import PROGRAMS, ROOT, documents, is_form, lines_of, text_of, verbs
-from .stage import Stage, present_gains
+from .stage import Stage, leave_out_what_takes_long, present_gains
 
 EXAMPLES = ROOT / "examples"
 MILL = EXAMPLES / "mill-1394/MILL_1394.amp"
@@ -174,8 +174,7 @@ def stage(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Stage]:
 
 def prepare(page: str, stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
     """Put there what a document begins with."""
-    monkeypatch.setattr("amp_studio.sim.motion_check.SCENARIOS", {"step": SCENARIOS["step"]})
-    monkeypatch.setattr("amp_studio.sim.tuning.solver.Search.best", present_gains)
+    leave_out_what_takes_long(monkeypatch)
     for name, source in COPIES.get(page, {}).items():
         shutil.copy(source, name)
     for text, words in CONTROLS.get(page, {}).items():
