@@ -57,6 +57,10 @@ class _Parser(argparse.ArgumentParser):
             how["type"] = _in_words(how["type"])
         if choices := how.pop("choices", None):
             how |= {"type": self._one_of(argument, choices), "metavar": f"{{{','.join(choices)}}}"}
+        if not argument.is_option:
+            how.setdefault("metavar", argument.label)
+            if how.get("nargs") == "*":
+                how.setdefault("default", [])  # else Python 3.11 calls it missing where another one is
         return how
 
     def _one_of(self, argument: VerbArgument, choices: Sequence[str]) -> Callable[[str], str]:

@@ -53,7 +53,7 @@ class VerbArgument:
     @property
     def label(self) -> str:
         """What the man page calls it: its options, or the name of its place."""
-        return ", ".join(self.names) if self.is_option else str(self.how.get("metavar", self.dest))
+        return ", ".join(self.names) if self.is_option else str(self.how.get("metavar", self.dest.upper()))
 
     def but(self, **changes: Any) -> VerbArgument:
         """Return the same argument with other properties."""

@@ -71,7 +71,7 @@ PAST_THE_DOOR = {
         "verbs/motion/program.py": "drawing files programs sim",
         "verbs/motion/calibrate.py": "calibration drawing files",
         "verbs/motion/cam.py": "drawing files sim",
-        "verbs/motion/machine_tests.py": "files sim",
+        "verbs/motion/machine_tests.py": "files guide sim",
         "verbs/motion/picture.py": "drawing files pictures",
         "verbs/motion/simulate.py": "sim",
     },
@@ -88,6 +88,7 @@ AS_THE_DOOR_DOES = {
     "verbs/controls/restore.py": "open_copy",  # it is shown before it goes back
     "verbs/controls/upload.py": "decode_content",  # of bytes that are kept also where they cannot be read
     "verbs/documents/sheet.py": "open_copy",  # compares a sheet with a copy
+    "verbs/motion/machine_tests.py": "simulated_axes",  # the first one, where none is named
     "verbs/motion/program.py": "Document",  # earlier versions of a file that stays as it is
 }
 """Module -> what it takes from a room although the door calls it too, and why."""

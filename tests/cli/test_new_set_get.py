@@ -44,7 +44,7 @@ def test_a_new_file_does_not_overwrite(amp, mill: Path, folder) -> None:
         (("9pc", "x.amp", "--axes", "X,Y,Z,A,B,C,U,V,W"), "9 axes are too many"),
         (("9pc", "x.amp", "--axes", "X,,Z"), "'' is not a choice of Axis Name"),
         (("9pc", "no/such/folder/x.amp"), "there is no folder no/such/folder"),
-        (("9pc",), "path"),
+        (("9pc",), "PATH"),
     ],
 )
 def test_a_new_file_that_cannot_be_is_not_made(

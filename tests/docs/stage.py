@@ -39,7 +39,7 @@ def leave_out_what_takes_long(patch: pytest.MonkeyPatch) -> None:
         patch.setattr("amp_studio.report.output.pdf.set_pdf", lambda source, options: (b"%PDF-1.7", ""))
         patch.setattr("amp_studio.report.build.drawings", lambda file, language: ())
         patch.setattr(
-            "amp_studio.report.build._is_wanted", lambda row, contents: row.is_changed or row.forced
+            "amp_studio.report.build._is_printed", lambda row, contents: row.is_changed or row.forced
         )
         patch.setattr("amp_studio.dossier._SCENARIOS", ())
         patch.setattr("amp_studio.sim.tuning.solver.Search.best", present_gains)

@@ -17,7 +17,7 @@ from amp_studio.cli.output import check_replaced
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
-    from amp_studio.files import ParameterFile
+    from amp_studio import MachineParameters
     from amp_studio.sim import MachineTest
 
 PAPERS = (".pdf", ".html")
@@ -61,7 +61,7 @@ def run(options: Options) -> int:
     machine = opened(options.path, options)
     file, axis = machine.file, machine.axis(options.axis) if options.axis else None
     if options.output and options.output.suffix.lower() in PAPERS:
-        return _write_list(options, file, axis)
+        return _write_list(options, machine, axis)
     tests = machine_tests(file, axis)
     if options.name:
         tests = _named_test(tests, options.name)
@@ -95,18 +95,18 @@ def _tick(options: Options) -> int:
     return 0
 
 
-def _write_list(options: Options, file: ParameterFile, axis: str | None) -> int:
+def _write_list(options: Options, machine: MachineParameters, axis: str | None) -> int:
     """Write the tests as a list with a box for each step."""
     from amp_studio.dossier import machine_tests_of
     from amp_studio.guide import progress
     from amp_studio.report import build_check_list, write_check_list
-    from amp_studio.validate import Validator
 
+    file = machine.file
     name = f"{options.name}@" if options.name else ""
     tests = [test for test in machine_tests_of(file, axis) if test.id.startswith(name)]
     if not tests:
         raise UsageError(f"{options.path} has no such test. `amp-studio machine-tests` lists them")
-    come = progress(Validator(file), ())
+    come = progress(machine.validator(), ())
     checks = build_check_list(file, replace(come, steps=()), options.path, tests=tests)
     write_check_list(replace(checks, summary="", order=""), options.output, print_remark)
     print(options.output)
