@@ -116,13 +116,13 @@ def motion_figures(file: ParameterFile) -> Iterator[PrintedFigure]:
     assumed: dict[str, None] = {}
     failed: dict[str, None] = {}
     for axis in known.axes:
-        for scenario in (name for name in _SCENARIOS if name in scenarios):
+        for scenario in filter(scenarios.__contains__, _SCENARIOS):
             try:
                 trace = simulate(file, scenario, axis, advise=False)
             except SimulationError as error:
                 failed[str(error)] = None
                 continue
-            named = f"{axis} ({trace.letter})" if trace.letter and trace.letter != axis else axis
+            named = axis if trace.letter in ("", axis) else f"{axis} ({trace.letter})"
             drawn = plot_svg(trace, width=_WIDTH, unit=_UNIT, small_print=False)
             assumed |= dict.fromkeys(trace.assumptions)
             yield PrintedFigure(f"{scenario.capitalize()}, axis {named}", drawn)

@@ -79,7 +79,8 @@ def _parted(verb: Verb, words: Sequence[str]) -> tuple[VerbArgument | None, list
     """Return the option that waits for its value, if one does,
     and the words that are no options or values of some.
     """
-    options = {name: argument for argument in verb.arguments if argument.is_option for name in argument.names}
+    takes_value = [each for each in verb.arguments if each.is_option and not _is_alone(each)]
+    options = {name: argument for argument in takes_value for name in argument.names}
     waiting: VerbArgument | None = None
     values = []
     for word in words:
@@ -87,11 +88,14 @@ def _parted(verb: Verb, words: Sequence[str]) -> tuple[VerbArgument | None, list
             waiting = None
         elif word.startswith("-") and word != "-":
             waiting = options.get(word)
-            if waiting is not None and (waiting.is_flag or "nargs" in waiting.how):
-                waiting = None
         else:
             values.append(word)
     return waiting, values
+
+
+def _is_alone(option: VerbArgument) -> bool:
+    """Return whether an option takes no value, or several."""
+    return option.is_flag or "nargs" in option.how
 
 
 def _values(argument: VerbArgument, values: Sequence[str], current: str) -> Sequence[str]:

@@ -33,6 +33,13 @@ def check_replaced(output: Path, *inputs: Path) -> None:
                 )
 
 
+def check_picture(output: Path, *inputs: Path) -> None:
+    """Refuse what ``check_replaced`` does, and a picture that is no SVG."""
+    check_replaced(output, *inputs)
+    if output.suffix.lower() != ".svg":
+        raise UsageError(f"A picture is drawn as SVG: name the file {output.stem}.svg")
+
+
 def check_new(output: Path, what: str, *inputs: Path) -> None:
     """Refuse an output that is there already, or could not be written; raises UsageError, SaveError."""
     from amp_studio.files import check_output, is_there

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from amp_studio.schema import Address, read_address, whole_of, written
@@ -43,19 +43,22 @@ def matched_by_letter(file: ParameterFile, like: ParameterFile) -> MatchedAxes:
     letter occurs twice in one of the files nobody knows which axis is meant, and all stay where they are.
     """
     mine, theirs = axis_letters(file), axis_letters(like)
-    wanted = {letter: axis for axis, letter in theirs.items()}
+    wanted = dict(zip(theirs.values(), theirs, strict=True))
     if len(set(mine.values())) < len(mine) or len(wanted) < len(theirs):
         return MatchedAxes(file, (), ())
     places = {axis: wanted[letter] for axis, letter in mine.items() if letter in wanted}
-    free = [axis for axis in axis_instances(like) if axis not in theirs]
-    left_out = _placed_where_free([axis for axis in mine if axis not in places], free, places)
+    left_out = _placed_where_free(_without(mine, places), _without(axis_instances(like), theirs), places)
     others = tuple((mine[axis], axis, places[axis]) for axis in mine if places.get(axis, axis) != axis)
     if not others and not left_out:
         return MatchedAxes(file, (), ())
-    rest = [axis for axis in axis_instances(file) if axis not in mine]  # unfitted ones go where there is room
-    room = [axis for axis in axis_instances(file) if axis not in places.values()]
+    rest = _without(axis_instances(file), mine)  # unfitted ones go where there is room
+    room = _without(axis_instances(file), places.values())
     places |= dict(zip(rest, room, strict=False))
     return MatchedAxes(_moved(file, places), others, tuple(mine[axis] for axis in left_out))
+
+
+def _without(axes: Iterable[str], taken: Collection[str]) -> list[str]:
+    return [axis for axis in axes if axis not in taken]
 
 
 def _placed_where_free(axes: Sequence[str], free: list[str], places: dict[str, str]) -> list[str]:

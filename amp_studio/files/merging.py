@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 from typing import Literal, NamedTuple, TypeVar
 
 from amp_studio.schema import Address, Schema, Value, read_address, same_value
@@ -110,16 +111,16 @@ class Merge:
     def _rows(self) -> Iterator[Row]:
         sources = (self.base, self.a, self.b)
         texts = [_header_texts(file) for file in sources]
-        for place in dict.fromkeys(place for text in texts for place in text):
+        for place in dict.fromkeys(chain.from_iterable(texts)):
             yield self._row(RowId("header", place, ".".join(filter(None, place))), texts, place)
         values: list[Mapping[Address, Value]] = [{} if file is None else file.values for file in sources]
-        for address in in_order(self.a.schema, {address for known in values for address in known}):
+        for address in in_order(self.a.schema, set(chain.from_iterable(values))):
             yield self._row(RowId("value", address), values, address)
         entries = [
             {} if file is None else {key: Value(text) for key, text in file.unknown.items()}
             for file in sources
         ]
-        for key in dict.fromkeys(key for known in entries for key in known):
+        for key in dict.fromkeys(chain.from_iterable(entries)):
             yield self._row(RowId("entry", read_address(key), key), entries, key)
 
     def _row(self, row_id: RowId, sources: Sequence[Mapping[K, Value]], key: K) -> Row:

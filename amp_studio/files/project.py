@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import re
 import shutil
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,7 @@ from typing import Any
 from amp_studio.errors import AmpStudioError
 from amp_studio.schema import (
     UnknownFamilyError,
+    YamlDocument,
     YamlError,
     did_you_mean,
     family_ids,
@@ -208,10 +210,7 @@ def _read(path: Path, content: bytes) -> ProjectInfo:
         raise ParameterFileError(path, error.line, error.what) from None
     data = document.data
     _check_version(path, data.get(_VERSION) if isinstance(data, dict) else None)
-    texts = {key: data[key] for key in _TEXTS if data.get(key) is not None}
-    for key, value in texts.items():
-        if not isinstance(value, str):
-            raise ParameterFileError(path, document.line((key,)), f"{key} is no text")
+    texts = _texts(path, document)
     extra = {k: v for k, v in typed.items() if k not in (*_TEXTS, _VERSION)}
     lacking = [key for key in ("name", "family") if key not in texts]
     for key in extra:  # it stays in the file, unless it is one that the project lacks
@@ -241,14 +240,27 @@ def _content(info: ProjectInfo, previous: bytes | None) -> str:
     wanted: dict[str, Any] = {_VERSION: PROJECT_FORMAT, **{key: getattr(info, key) for key in _TEXTS}}
     if previous is not None:
         document = read_yaml(previous.decode("utf-8"), text_scalar, spans=True)
-        known = document.data if isinstance(document.data, dict) else {}
-        own = {k: known[k] for k in known if k not in wanted}
-        kept = {k: known[k] if k in known and not v and not known[k] else v for k, v in wanted.items()}
-        entries = {k: v for k, v in kept.items() if v or k in known} | {_VERSION: str(PROJECT_FORMAT)}
-        text = amended(document, known, entries | own) if known else None
+        text = _amended(document, wanted) if document.data and isinstance(document.data, dict) else None
         if text is not None:
             return text
     return new_text({k: v for k, v in wanted.items() if v} | info.extra)
+
+
+def _amended(document: YamlDocument, wanted: Mapping[str, Any]) -> str | None:
+    """Return the text with the entries of now; None where it cannot be amended."""
+    known = document.data
+    own = {k: known[k] for k in known if k not in wanted}
+    empty = {k: known[k] for k in wanted if k in known and not wanted[k] and not known[k]}
+    entries = {k: v for k, v in {**wanted, **empty}.items() if v or k in known}
+    return amended(document, known, entries | {_VERSION: str(PROJECT_FORMAT)} | own)
+
+
+def _texts(path: Path, document: YamlDocument) -> dict[str, str]:
+    texts = {key: document.data[key] for key in _TEXTS if document.data.get(key) is not None}
+    for key, value in texts.items():
+        if not isinstance(value, str):
+            raise ParameterFileError(path, document.line((key,)), f"{key} is no text")
+    return texts
 
 
 _RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{d}{n}" for d in ("COM", "LPT") for n in "123456789¹²³")}

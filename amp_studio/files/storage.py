@@ -4,6 +4,7 @@ and compared before it replaces anything.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from itertools import chain
 from pathlib import Path
@@ -75,22 +76,26 @@ def _amended(file: ParameterFile, previous: bytes, wanted: dict[str, Any]) -> st
         return None
     known = document.data | extra_entries(text, document.data)
     wanted = wanted | {"values": _as_spelled(file, wanted["values"], known.get("values"))}
-    # A person may have written an address otherwise than the program does; his spelling stays.
-    marked = {written(read_address(key)): key for key in known.get("forced") or ()}
-    wanted |= {"forced": {marked.get(name, name): why for name, why in wanted["forced"].items()}}
+    wanted |= {"forced": _forced_as_spelled(wanted["forced"], known.get("forced") or ())}
     if "units" not in known and wanted.get("units") == Header.units:
         del wanted["units"]  # what goes without saying is not added to what a person wrote
     for key in SECTIONS + HEADER_KEYS:
-        if not wanted.get(key) and not known.get(key):
+        if not wanted.get(key):
             wanted.pop(key, None)
-            if key in known:
+            if not known.get(key, True):
                 wanted[key] = known[key]  # an empty entry stays as it is written
-        elif not wanted.get(key):
-            wanted.pop(key, None)
     from .yaml_text import amended
 
     found = amended(document, known, wanted, SECTIONS)
     return found if found is None or not text.startswith("\ufeff") else "\ufeff" + found
+
+
+def _forced_as_spelled(forced: Mapping[str, str], present: Iterable[str]) -> dict[str, str]:
+    """Return the forced values; a person may have written an address otherwise than the program does, and
+    his spelling stays.
+    """
+    spelled = {written(read_address(key)): key for key in present}
+    return {spelled.get(name, name): why for name, why in forced.items()}
 
 
 def _as_spelled(file: ParameterFile, entries: dict[str, str], known: object) -> dict[str, str]:

@@ -40,10 +40,16 @@ def storage_text(file: ParameterFile, address: Address) -> str:
     if storage is None or storage.words == 1:
         is_number = isinstance(value.value, (int, float)) and not isinstance(value.value, bool)
         return "" if is_number and stored == value.value else text
+    return _words_text(file, address, stored, storage.unit or value.unit)
+
+
+def _words_text(file: ParameterFile, address: Address, stored: float, unit: str) -> str:
+    """Return a stored number with the words that it is in; alone where it is in none."""
+    parameter, value = file.schema.parameters[address[0]], file.values[address]
     try:
-        words = words_of(parameter, value, storage.unit or value.unit)
+        words = words_of(parameter, value, unit)
     except StorageError:
-        return text
+        return write_number(stored)
     number = file.machine_schema.number(address) or ""
     each = ", ".join(f"{_behind(number, n)} = {word} (0x{word:04X})" for n, word in enumerate(words))
     return f"{write_number(round(stored))}: {each}"

@@ -120,11 +120,8 @@ def _message(message: ControlMessage, listed: str) -> Entry:
             (("text", f"{message.name} {' '.join(message.called)}"),),
             f"page {message.page}",
         )
-    codes = [message.code, *(other for other in message.also if any(c.isdigit() for c in other))]
-    if message.span is not None:
-        codes += [str(n) for n in range(message.span[0], message.span[1] + 1)]
     texts: list[tuple[Where, str]] = [
-        ("code", " ".join(codes)),
+        ("code", " ".join(_codes(message))),
         ("text", message.text or message.title),
         ("text", " ".join(message.also)),
         ("group", f"{listed} {_ESTOP if message.reaction == 'e-stop' else ''}"),
@@ -133,6 +130,14 @@ def _message(message: ControlMessage, listed: str) -> Entry:
     return Entry(
         "message", message.name, message.id, tuple(t for t in texts if t[1].strip()), f"page {message.page}"
     )
+
+
+def _codes(message: ControlMessage) -> Iterator[str]:
+    """Yield the code, other ones that the control shows, and those of a whole span."""
+    yield message.code
+    yield from (other for other in message.also if any(c.isdigit() for c in other))
+    if message.span is not None:
+        yield from map(str, range(message.span[0], message.span[1] + 1))
 
 
 def searched_words(where: Where, text: str) -> set[str]:

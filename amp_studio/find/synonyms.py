@@ -60,11 +60,13 @@ def _known(typed: tuple[str, ...], *, is_last: bool) -> tuple[str, ...] | None:
     if not any(len(word) >= _BEGUN for word in typed):
         return None
     same_length = [words for words in _table() if len(words) == len(typed)]
-    if is_last:
-        begun = [w for w in same_length if w[:-1] == typed[:-1] and w[-1].startswith(typed[-1])]
-        if begun and len(typed[-1]) >= _BEGUN:
-            return min(begun, key=lambda words: len(words[-1]))
+    if is_last and len(typed[-1]) >= _BEGUN and (begun := _begun(typed, same_length)):
+        return min(begun, key=lambda words: len(words[-1]))
     return next((w for w in same_length if all(map(_is_like, typed, w))), None)
+
+
+def _begun(typed: tuple[str, ...], known: list[tuple[str, ...]]) -> list[tuple[str, ...]]:
+    return [w for w in known if w[:-1] == typed[:-1] and w[-1].startswith(typed[-1])]
 
 
 def _is_like(typed: str, word: str) -> bool:

@@ -145,6 +145,10 @@ def account_lines(file: ParameterFile, account: Account, named: str = "") -> Ite
             values = (show_value(parameter, value) for value in (one.before, one.after))
             changes.append(f"{here.short(one.address)} {' -> '.join(values)}")
         yield f"{_values(len(changes))} changed by rounding: {', '.join(changes)}"
+    yield from _unknown_line(account, named)
+
+
+def _unknown_line(account: Account, named: str) -> Iterator[str]:
     unknown = [one for one in account.unknown if one.name not in named]
     if unknown:
         entries = "entry" if len(unknown) == 1 else "entries"

@@ -116,9 +116,13 @@ def _read_row(
     except InvalidValueError as error:
         raise FormatError(f"{written(address)}: {error}", line, heads.index("value") + 1) from None
     if note := row.get(_NOTE, "").strip():
-        if problem := note_fault(note):
-            raise FormatError(f"{written(address)}: {problem}", line, heads.index(_NOTE) + 1)
-        found.value_notes[written(address)] = note
+        found.value_notes[written(address)] = _checked_note(note, address, line, heads)
+
+
+def _checked_note(note: str, address: Address, line: int, heads: list[str]) -> str:
+    if problem := note_fault(note):
+        raise FormatError(f"{written(address)}: {problem}", line, heads.index(_NOTE) + 1)
+    return note
 
 
 def _keep_unknown(found: TextRead, name: str, text: str, line: int, column: int) -> None:

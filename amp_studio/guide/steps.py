@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import chain
 
 from amp_studio.schema import Commissioning, Group, Parameter, Schema, unknown_name
 
@@ -46,9 +47,9 @@ def _by_facts(schema: Schema, order: Commissioning) -> Iterator[_Part]:
     named = {name for step in order.steps for name in step.params}
     groups = {group.key: group for group in schema.groups}
     for step in order.steps:
-        ids = [name for name in step.params if name in left]
-        for group in (groups[key] for key in step.groups if key in groups):
-            ids += [p.id for p in group.parameters if p.id in left and p.id not in named]
+        of_groups = chain.from_iterable(groups[key].parameters for key in step.groups if key in groups)
+        wanted = (*step.params, *(p.id for p in of_groups if p.id not in named))
+        ids = [name for name in wanted if name in left]
         again = tuple(schema.parameters[name] for name in step.again if name in schema.parameters)
         yield step.id, step.title, step.what, step.page, tuple(left.pop(name) for name in ids), again
     if left:

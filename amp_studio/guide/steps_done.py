@@ -18,6 +18,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from typing import Literal
 
 from amp_studio.files import ParameterFile
@@ -65,9 +66,10 @@ class StepProgress:
         It is done when nothing is open, nothing about it is an error, and all that somebody had to give is
         given. Where every value has a default nobody had to give any: then it is done when a person ticks it.
         """
-        if not self.active or (self.step.id == REST and not self.total and not self.own):
+        is_needed = self.step.id != REST or self.total or self.own
+        if not self.active or not is_needed:
             return "not needed"
-        if not self.open and not self.errors and (self.total or self.ticked):
+        if not (self.open or self.errors) and (self.total or self.ticked):
             return "done"
         return "begun" if self.own or self.ticked else "not begun"
 
@@ -156,8 +158,8 @@ def progress(validator: Validator, findings: Sequence[Finding] | None = None) ->
     places, steps = step_of(file.schema), steps_of(file.schema)
     counts = _StepCounts(validator, places)
     belongs = [(f, *_belongs_to(file, f)) for f in findings if f.rule != NOT_SET]
-    errors = [number for f, number, _ in belongs if f.severity == "error" and number]
-    reached = min([*counts.open, *errors], default=len(steps) + 1)
+    errors = {number for f, number, _ in belongs if f.severity == "error"} - {0}
+    reached = min({*counts.open} | errors, default=len(steps) + 1)
     come_to = len(steps) if not validator.not_set else 0 if _is_fresh(file) else reached
     found = _StepFindings(belongs, places, come_to)
     each = tuple(
@@ -226,10 +228,11 @@ def next_open(now: GuideProgress, after: Address | None = None) -> Address | Non
 
     Without an address, or one that is in no step, it is the first. None where nothing is open.
     """
-    opened = [address for each in now.steps for address in each.open]
+    opened = [*chain.from_iterable(each.open for each in now.steps)]
     if after is None or not opened:
-        return opened[0] if opened else None
-    place = {p.id: n for n, p in enumerate(p for each in now.steps for p in each.step.parameters)}
+        return next(iter(opened), None)
+    parameters = chain.from_iterable(each.step.parameters for each in now.steps)
+    place = {p.id: n for n, p in enumerate(parameters)}
     here = place.get(after[0], -1)
     at = now.places.get(after, -1)
     own = [a for a in opened if a[0] == after[0] and now.places[a] > at]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from amp_studio.files import ParameterFile
 
-from .description import OF_AXIS, OF_MACHINE, ConceptValue, MachineMeaning
+from .description import OF_AXIS, OF_MACHINE, AxisMeaning, ConceptValue, MachineMeaning
 from .reading import read_meaning
 
 _SAME = 1e-6
@@ -65,12 +65,16 @@ def compare_meanings(files: Sequence[ParameterFile]) -> list[MeaningRow]:
 def _rows_of_axes(machines: Sequence[MachineMeaning]) -> Iterator[MeaningRow]:
     """Yield the concepts of the axes, those of one letter together."""
     for letter in dict.fromkeys(axis.letter for machine in machines for axis in machine.axes):
-        axes = [next((a for a in machine.axes if a.letter == letter), None) for machine in machines]
+        axes = [_axis_of(machine, letter) for machine in machines]
         turns = any(axis is not None and axis.turns for axis in axes)
         for concept in OF_AXIS:
             figures = [axis.figures.get(concept) if axis else None for axis in axes]
             values = tuple(figure.value if figure else None for figure in figures)
             yield MeaningRow(concept, letter, values, _unit(concept, turns=turns))
+
+
+def _axis_of(machine: MachineMeaning, letter: str) -> AxisMeaning | None:
+    return next((axis for axis in machine.axes if axis.letter == letter), None)
 
 
 def _rows_of_machine(machines: Sequence[MachineMeaning]) -> Iterator[MeaningRow]:

@@ -45,7 +45,7 @@ def word_of_labels(parameter: Parameter, text: str) -> int | None:
         else:
             unknown.append(pieces[at].strip())
             at += 1
-    if not pieces or len(unknown) == len(pieces):
+    if len(unknown) == len(pieces):
         return None
     if unknown:
         raise InvalidValueError(no_label(parameter, unknown[0]))

@@ -12,6 +12,8 @@ from functools import lru_cache
 from itertools import chain
 from typing import Literal, NamedTuple
 
+from amp_studio.schema import Parameter
+
 from .address import Address, UnknownParameterError, read_address, whole_of
 from .catalog import Schema
 from .cel_engine import WORD_FUNCTIONS
@@ -199,9 +201,7 @@ class Conditions:
         the unit or the choice of the range of this one.
         """
         parameter, family = self._schema.parameters[address[0]], self._schema.family
-        names = [r.when or r.unless or "" for r in parameter.states]
-        names += [v.when for v in parameter.range_variants]
-        names += filter(None, [self._schema.angular_when(parameter)])
+        names = self._names_asked(parameter)
         asked = [self.asked(name, address[1], self.scopes[address[0]]) for name in names]
         references = chain.from_iterable(self.question(one).references for one in asked)
         found = {a for reference in references if reference for a in reference.addresses}
@@ -209,6 +209,12 @@ class Conditions:
         if by_machine and family.machine_parameter:
             found.add((family.machine_parameter, ""))
         return frozenset(found)
+
+    def _names_asked(self, parameter: Parameter) -> list[str]:
+        """Return the conditions on which state, range and unit of a parameter depend."""
+        names = [r.when or r.unless or "" for r in parameter.states]
+        names += [v.when for v in parameter.range_variants]
+        return [*names, *filter(None, [self._schema.angular_when(parameter)])]
 
     def range_reads(self, address: Address) -> frozenset[Address]:
         """Return every address whose value can change the range of this one,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fnmatch import fnmatchcase
 from itertools import chain
 from pathlib import Path
@@ -87,38 +87,53 @@ def faults_of_experience(plausible: Plausible, groups: tuple[Group, ...]) -> Ite
     """Yield each parameter and choice that the facts of experience name and that does not exist,
     and each pattern without any.
     """
-    known = {p.id: {choice.key for choice in p.choices or ()} for group in groups for p in group.parameters}
+    known = {p.id: _choice_keys(p) for group in groups for p in group.parameters}
+    yield from _without_match(plausible, known)
+    yield from _without_default(plausible, groups)
+    for place, name in _places_of_experience(plausible):
+        if name not in known:
+            yield place, f"there is no parameter {quoted(name)}"
+    for name in plausible.usual:
+        for n, choice in enumerate(plausible.usual[name].choices):
+            if choice not in known.get(name, {choice}):
+                yield ("usual", name, "choices", n), f"{quoted(name)} has no choice {quoted(choice)}"
+
+
+def _choice_keys(parameter: Parameter) -> set[str]:
+    return {choice.key for choice in parameter.choices or ()}
+
+
+def _without_match(plausible: Plausible, known: Mapping[str, object]) -> Iterator[tuple[KeyPath, str]]:
+    """Yield each pattern that no parameter matches."""
     for key, patterns in (("unlike", plausible.unlike), ("may_differ", plausible.may_differ)):
         for n, pattern in enumerate(patterns):
             if not _matches_any(pattern, known):
                 yield (key, n), f"there is no parameter {quoted(pattern)}"
-    printed = {p.id for group in groups for p in group.parameters if p.default is not None}
+
+
+def _without_default(plausible: Plausible, groups: tuple[Group, ...]) -> Iterator[tuple[KeyPath, str]]:
+    """Yield each parameter that seldom has its default, and has none."""
+    without = {p.id for group in groups for p in group.parameters if p.default is None}
     for n, name in enumerate(plausible.seldom):
-        if name in known.keys() - printed:
+        if name in without:
             yield ("seldom", n), f"{quoted(name)} has no printed default"
-    named: list[tuple[KeyPath, str]] = [
-        ((key, n), name)
-        for key, entries in _named_by_experience(plausible).items()
-        for n, names in enumerate(entries)
-        for name in names
-    ]
-    named += [(("usual", name), name) for name in plausible.usual]
-    named += [(("equal_rows", name), name) for name in plausible.equal_rows]
-    for place, name in named:
-        if name not in known:
-            yield place, f"there is no parameter {quoted(name)}"
-    for name, usual in plausible.usual.items():
-        for n, choice in enumerate(usual.choices):
-            if name in known and choice not in known[name]:
-                yield ("usual", name, "choices", n), f"{quoted(name)} has no choice {quoted(choice)}"
+
+
+def _places_of_experience(plausible: Plausible) -> Iterator[tuple[KeyPath, str]]:
+    """Yield place and name of each parameter that the facts of experience name."""
+    for key, entries in _named_by_experience(plausible).items():
+        for n, names in enumerate(entries):
+            yield from (((key, n), name) for name in names)
+    yield from ((("usual", name), name) for name in plausible.usual)
+    yield from ((("equal_rows", name), name) for name in plausible.equal_rows)
 
 
 def _named_by_experience(plausible: Plausible) -> dict[str, tuple[tuple[str, ...], ...]]:
     """Return list of the facts of experience -> the parameters that each of its entries names."""
     return {
-        "smooth": tuple((name,) for name in plausible.smooth),
-        "steps": tuple((name,) for name in plausible.steps),
-        "axis_words": tuple((name,) for name in plausible.axis_words),
+        "smooth": tuple(zip(plausible.smooth)),
+        "steps": tuple(zip(plausible.steps)),
+        "axis_words": tuple(zip(plausible.axis_words)),
         "within": tuple(
             (travel.low, travel.high, *travel.inside, *travel.strokes) for travel in plausible.within
         ),
@@ -128,16 +143,16 @@ def _named_by_experience(plausible: Plausible) -> dict[str, tuple[tuple[str, ...
         "ladders": plausible.ladders,
         "quotients": tuple((one.of, one.over) for one in plausible.quotients),
         "among_axes": tuple((one.of, one.over or one.of) for one in plausible.among_axes),
-        "table": tuple((name,) for name in plausible.table),
-        "upright": tuple((name,) for name in plausible.upright),
-        "uniform": tuple((name,) for name in plausible.uniform),
-        "counted": tuple((name,) for name in plausible.counted),
-        "signed": tuple((name,) for name in plausible.signed),
+        "table": tuple(zip(plausible.table)),
+        "upright": tuple(zip(plausible.upright)),
+        "uniform": tuple(zip(plausible.uniform)),
+        "counted": tuple(zip(plausible.counted)),
+        "signed": tuple(zip(plausible.signed)),
         "towards": tuple((one.speed, one.place, one.low, one.high) for one in plausible.towards),
         "travels": tuple((one.high, one.low or one.high) for one in plausible.travels),
         "gears": tuple((one.low, one.high) for one in plausible.gears),
         "proportions": tuple((*one.part_of, *one.as_of) for one in plausible.proportions),
-        "seldom": tuple((name,) for name in plausible.seldom),
+        "seldom": tuple(zip(plausible.seldom)),
         "needs": tuple(plausible.needs.items()),
         "not_above": tuple((one.limit, *one.are) for one in plausible.not_above),
     }
@@ -313,8 +328,12 @@ def faults_of_order(order: Commissioning, groups: tuple[Group, ...]) -> Iterator
                 elif name in seen.get(key, ()):
                     yield here, f"{quoted(name)} is in an earlier step"
                 seen.get(key, set()).add(name)
-    for at, name in enumerate(order.of_one_machine):
-        if name not in known["params"]:
+    yield from _unknown(order.of_one_machine, params)
+
+
+def _unknown(names: Sequence[str], params: set[str]) -> Iterator[tuple[KeyPath, str]]:
+    for at, name in enumerate(names):
+        if name not in params:
             yield ("of_one_machine", at), f"there is no parameter {quoted(name)}"
 
 

@@ -10,6 +10,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from amp_studio.schema import Bit
+
 from .address import Address
 from .bit_fields import field_value
 from .evaluation import Evaluation
@@ -191,11 +193,15 @@ def _bits_fault(parameter: Parameter, word: int) -> str | None:
     if word < 0 or word >> (width or word.bit_length()):
         return f"{parameter.name} {word} does not fit {f'its {width} bits' if width else 'a word of bits'}"
     for field in parameter.bits or ():
-        # A field of which not every code is printed may contain any.
-        codes = {choice.raw for choice in field.choices or ()} or {None}
-        if not codes & {None, field_value(field, word)}:
+        if not _may_contain(field, field_value(field, word)):
             return f"{field_value(field, word)} is no code of {field.label} in {parameter.name}"
     return None
+
+
+def _may_contain(field: Bit, code: int) -> bool:
+    """Return whether a field has a code; one of which not every code is printed may contain any."""
+    codes = {choice.raw for choice in field.choices or ()}
+    return not codes or not codes.isdisjoint({None, code})
 
 
 def _below(a: float | None, b: float | None, shared: Address | None) -> bool:

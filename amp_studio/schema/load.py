@@ -10,7 +10,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Collection, Iterable
 from functools import cache, partial
-from itertools import count, repeat
+from itertools import chain, count, repeat
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
@@ -147,11 +147,11 @@ def compile_family(folder: Path) -> Compiled:
     if odd := next((key for key in family.groups if len(key) > LONGEST), None):
         raise DatabaseError(folder / "family.yaml", 1, f"{quoted(odd)} is too long for the key of a group")
     groups = tuple(_group(folder / "groups" / f"{key}.yaml", family) for key in family.groups)
-    rules = tuple(rule for path in _of(family, folder / "rules") for rule in _read(path, Rules).rules)
+    rules = _entries(_of(family, folder / "rules"), Rules, "rules")
     further = FurtherFacts(
-        errata=tuple(e for path in _of(family, folder / "errata") for e in _read(path, Errata).errata),
-        tables=tuple(t for path in sorted(folder.glob("tables/*.yaml")) for t in _read(path, Tables).tables),
-        guides=tuple(g for path in sorted(folder.glob("guides/*.yaml")) for g in _read(path, Guides).guides),
+        errata=_entries(_of(family, folder / "errata"), Errata, "errata"),
+        tables=_entries(sorted(folder.glob("tables/*.yaml")), Tables, "tables"),
+        guides=_entries(sorted(folder.glob("guides/*.yaml")), Guides, "guides"),
         messages=_messages(folder, groups, rules),
         commissioning=_optional(folder / "commissioning.yaml", Commissioning, None, faults_of_order, groups),
         pictures=_optional(
@@ -172,6 +172,11 @@ def compile_family(folder: Path) -> Compiled:
         plausible=plausible,
         further=record_text(further),
     )
+
+
+def _entries(paths: Iterable[Path], model: type[Model], key: str) -> tuple[Any, ...]:
+    """Return the entries of the list that files of one kind have under a key."""
+    return tuple(chain.from_iterable(getattr(_read(path, model), key) for path in paths))
 
 
 def _group(path: Path, family: Family) -> Group:

@@ -4,7 +4,7 @@ parameters and choices that there are not.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from .model import Group, MacroCall, Model, MotionFacts, Parameter, PictureRoles, ProgramWords
 from .model.pictures import Direction, ForbiddenSide, RampRoles, ZoneRole, parameters_named
@@ -88,6 +88,12 @@ def faults_of_program(program: ProgramWords, groups: tuple[Group, ...]) -> Itera
     for place, named in _named(program, ()):
         if named not in known:
             yield place, f"there is no parameter {quoted(named)}"
+    yield from _faults_of_choices(program, known)
+
+
+def _faults_of_choices(
+    program: ProgramWords, known: Mapping[str, Parameter]
+) -> Iterator[tuple[KeyPath, str]]:
     for n, group in enumerate(program.groups):
         parameter = known.get(group.power_up or "")
         offered = {None, *(c.key for c in (parameter and parameter.choices) or ())}

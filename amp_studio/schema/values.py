@@ -200,6 +200,11 @@ def _read(parameter: Parameter, text: str, unit: str) -> Value:
         return _read_choice(parameter, text)
     if parameter.type == "format":
         return _read_format(parameter, text)
+    return _read_figure(parameter, text, unit)
+
+
+def _read_figure(parameter: Parameter, text: str, unit: str) -> Value:
+    """Read a number, or the labels of the bits of a word."""
     if len(text) > LONGEST_NUMBER:
         raise InvalidValueError(f"{quoted(text)} is too long for a number")
     text = text.replace(_MINUS, "-")

@@ -144,6 +144,11 @@ def _end(options: Options, rows: list[FleetRow]) -> int:
     print_remark(
         f"amp-studio: {len(rows) - len(wrong)} of {counted(len(rows), 'control')} done; {', '.join(wrong)}"
     )
+    return _one_code(options, rows, codes)
+
+
+def _one_code(options: Options, rows: list[FleetRow], codes: list[int]) -> int:
+    """Return the worst of the codes; one control that was changed makes a failure a change in part."""
     if UNKNOWN in codes:
         return UNKNOWN
     is_partly = options.verb == "download" and "done" in [row.word for row in rows]

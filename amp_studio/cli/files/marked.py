@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from amp_studio.cli.verb import Options
-from amp_studio.schema import ResolvedAddress
+from amp_studio.schema import Address, ResolvedAddress
 
 if TYPE_CHECKING:  # most verbs about files ask for no mark, and start without what finds them
     from amp_studio import MachineParameters
@@ -48,10 +48,8 @@ def with_marks(
         marks.downloaded = last_download(file, path).file.values
     marks.noted = noted(file)
     row_of = {address: row for row in rows_of_file(file) for address in row}
-    alone = [mark for mark in wanted if mark != "axes-differ"]
-    return [
-        resolved
-        for resolved in found
-        if all(marks.has(mark, resolved.address) for mark in alone)
-        and ("axes-differ" not in wanted or marks.differs(row_of.get(resolved.address, ())))
-    ]
+
+    def has(mark: Mark, address: Address) -> bool:
+        return marks.differs(row_of.get(address, ())) if mark == "axes-differ" else marks.has(mark, address)
+
+    return [resolved for resolved in found if all(has(mark, resolved.address) for mark in wanted)]

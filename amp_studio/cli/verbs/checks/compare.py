@@ -64,14 +64,7 @@ def run(options: Options) -> int:
     if options.output:
         _write(options, files, names)
     elif options.json:
-        print_json(
-            {
-                "machines": [str(path) for path in options.paths],
-                "same": same,
-                "groups": [[str(options.paths[n]) for n in group] for group in groups],
-                "rows": [_json_row(files[0], address, values) for address, values in rows],
-            }
-        )
+        print_json(_as_json(options, files[0], rows, same, groups))
     else:
         if len(files) > SIDE_BY_SIDE:
             _print_groups(files[0], names, rows, alike, groups, in_full=options.in_full)
@@ -79,6 +72,21 @@ def run(options: Options) -> int:
             _print(files[0], rows)
         print(f"{len(rows)} listed, {same} are the same on all {len(files)}")
     return int(any(map(any, alike)))
+
+
+def _as_json(
+    options: Options,
+    file: ParameterFile,
+    rows: Sequence[tuple[Address, Sequence[Value | None]]],
+    same: int,
+    groups: Sequence[Sequence[int]],
+) -> dict[str, Any]:
+    return {
+        "machines": [str(path) for path in options.paths],
+        "same": same,
+        "groups": [[str(options.paths[n]) for n in group] for group in groups],
+        "rows": [_json_row(file, address, values) for address, values in rows],
+    }
 
 
 def _write(options: Options, files: list[ParameterFile], names: Sequence[str]) -> None:

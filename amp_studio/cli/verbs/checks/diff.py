@@ -70,17 +70,16 @@ def run(options: Options) -> int:
     found = compare(a.schema, a.values, other.values)
     if options.output:
         _write_paper(options, a, found, name, (a_digest, b_digest), (b, of_b))
-        return 1 if found.differences or of_b else 0
-    if options.json:
+    elif options.json:
         rows = [difference_json(a, d, options.secrets) for d in found.differences]
         rows += [difference_json(b, d, options.secrets) for d in of_b]
-        digests = {"sha256": {"a": a_digest, "b": b_digest}} if a_digest or b_digest else {}
-        print_json({"differences": rows, "same": found.same} | digests)
-        return 1 if rows else 0
-    print_comparison(a, found, options.secrets, (b, of_b))
-    for digest in filter(None, (a_digest, b_digest)):
-        print(f"sha256 {digest}")
-    return 1 if found.differences or of_b else 0
+        digests = {"a": a_digest, "b": b_digest}
+        known = {"sha256": digests} if any(digests.values()) else {}
+        print_json({"differences": rows, "same": found.same} | known)
+    else:
+        print_comparison(a, found, options.secrets, (b, of_b))
+        print("".join(f"sha256 {digest}\n" for digest in (a_digest, b_digest) if digest), end="")
+    return int(bool(found.differences or of_b))
 
 
 def _write_paper(
@@ -164,13 +163,13 @@ def _print_three(options: Options, merge: Merge) -> int:
     same = sum(row.id.part == "value" for row in merge.rows) - len(rows)
     if options.json:
         print_json({"differences": [row_json(merge, row, options.secrets) for row in rows], "same": same})
-        return 1 if rows else 0
+        return int(bool(rows))
     for row in rows:
         base, a, b = (value_text(merge.a, row, value, options.secrets) for value in (row.base, row.a, row.b))
         print(f"{named(merge.a, row):52} base {base}  |  A {a}  |  B {b}  ({WHO[row.kind]})")
     conflicts = sum(row.kind == "conflict" for row in rows)
     print(f"{len(rows)} differ, {same} are the same, {conflicts} changed by both to different values")
-    return 1 if rows else 0
+    return int(bool(rows))
 
 
 WHO = {

@@ -45,8 +45,6 @@ VERB = Verb(
 def run(options: Options) -> int:
     """Receive files and write them once all are there; 2 where that fails, with nothing written."""
     from amp_studio.cli.controls.tape import tape
-    from amp_studio.files import write_atomic
-    from amp_studio.report import counted
     from amp_studio.transfer.plain import Patience, protocol_of, receive_files
 
     endpoint, protocol = protocol_of(options.source, options.protocol, PROTOCOLS)
@@ -74,16 +72,23 @@ def run(options: Options) -> int:
         )
     targets = _in_folder(output, files) if is_folder else [output]
     for file, path in zip(files, targets, strict=True):
-        content = file.content + b"\x1a" * (file.padding if options.keep_padding else 0)
-        write_atomic(path, content, expected=None, keep_backup=False)
-        named = f" (sent as {file.name})" if file.name and file.name != path.name else ""
-        print(f"{path}: {counted(len(content), 'byte')}{named}")
-        if file.padding and not options.keep_padding:
-            print_remark(
-                f"{counted(file.padding, 'byte')} 1Ah at its end were taken for padding (--keep-padding keeps"
-                " them)"
-            )
+        _write(file, path, keep_padding=options.keep_padding)
     return 0
+
+
+def _write(file: PlainFile, path: Path, *, keep_padding: bool) -> None:
+    from amp_studio.files import write_atomic
+    from amp_studio.report import counted
+
+    content = file.content + b"\x1a" * (file.padding if keep_padding else 0)
+    write_atomic(path, content, expected=None, keep_backup=False)
+    named = f" (sent as {file.name})" if file.name not in ("", path.name) else ""
+    print(f"{path}: {counted(len(content), 'byte')}{named}")
+    if file.padding and not keep_padding:
+        print_remark(
+            f"{counted(file.padding, 'byte')} 1Ah at its end were taken for padding (--keep-padding keeps"
+            " them)"
+        )
 
 
 def _counted_bytes(show: Progress) -> Progress:

@@ -85,19 +85,14 @@ def run(options: Options) -> int:
     query = " ".join(words)
     if not query.strip():
         raise UsageError("Nothing to find: give a number, a word, a value or a message of the control")
-    found = [(hit, source) for source in sources for hit in source.finder.find(query, options.limit)]
-    found.sort(key=lambda each: -each[0].score)
-    if len(sources) > 1:  # what one family has exactly is not buried by what five have nearly
-        found = [each for each in found if each[0].score >= found[0][0].score / 3]
-    found = found[: options.limit]
+    found = _best(sources, query, options.limit)
     nearest = "" if found else next(filter(None, (s.finder.nearest(query) for s in sources)), "")
     others = () if found or len(sources) > 1 else _elsewhere(query, sources[0].schema)
     if options.json:
         hits = [_as_json(hit, source) for hit, source in found]
         named = [{"family": s.family.family, "id": hit.key, "title": hit.title} for s, hit in others]
-        print_json(
-            {"query": query, "hits": hits, "nearest": nearest} | ({"elsewhere": named} if named else {})
-        )
+        elsewhere = {"elsewhere": named} if named else {}
+        print_json({"query": query, "hits": hits, "nearest": nearest} | elsewhere)
     elif found:
         _print(found, named=len(sources) > 1)
     else:
@@ -105,6 +100,15 @@ def run(options: Options) -> int:
         for way in _ways_on(others, sources):
             print_remark(way)
     return 0
+
+
+def _best(sources: Sequence[_Source], query: str, most: int) -> list[tuple[Hit, _Source]]:
+    """Return the best matches of all sources, the best first."""
+    found = [(hit, source) for source in sources for hit in source.finder.find(query, most)]
+    found.sort(key=lambda each: -each[0].score)
+    if len(sources) > 1:  # what one family has exactly is not buried by what five have nearly
+        found = [each for each in found if each[0].score >= found[0][0].score / 3]
+    return found[:most]
 
 
 def _elsewhere(query: str, schema: Schema) -> Sequence[tuple[Schema, Hit]]:

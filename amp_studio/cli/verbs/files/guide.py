@@ -91,10 +91,6 @@ def run(options: Options) -> int:
 
     asked_for = options.step or options.at
     if is_family(str(options.path)):
-        if any(getattr(options, key) for key in (*_CHANGING, "next", "output")):
-            raise UsageError(
-                f"{options.path} is a family: only the guide of a file has ticks and open values"
-            )
         return _family(options, family(str(options.path)), asked_for)
     path = options.path
     if options.output:
@@ -112,13 +108,17 @@ def run(options: Options) -> int:
     if options.json:
         print_json(_as_json(file, come, path, step))
     elif is_changing:
-        changed = (*(options.done or ()), *(options.not_done or ()), options.keep_defaults)
-        print("\n".join(_step_line(come.of(_step(file.schema, name)), 0) for name in changed if name))
+        print("\n".join(_changed_lines(options, file, come)))
     elif step is not None:
         print("\n".join(_step_lines(file, come.of(step))))
     else:
         print("\n".join(_overview(file, come, path)))
     return 0
+
+
+def _changed_lines(options: Options, file: ParameterFile, come: GuideProgress) -> Iterator[str]:
+    changed = (*(options.done or ()), *(options.not_done or ()), options.keep_defaults)
+    return (_step_line(come.of(_step(file.schema, name)), 0) for name in changed if name)
 
 
 def _changed(options: Options) -> MachineParameters:
@@ -145,19 +145,24 @@ def _step(schema: Schema, text: str) -> SetupStep:
 def _family(options: Options, schema: Schema, asked_for: str | None) -> int:
     from amp_studio.guide import steps_of
 
+    if any(getattr(options, key) for key in (*_CHANGING, "next", "output")):
+        raise UsageError(f"{options.path} is a family: only the guide of a file has ticks and open values")
     steps = (_step(schema, asked_for),) if asked_for else steps_of(schema)
     if options.json:
         print_json({"family": schema.family.family, **_order(schema), "steps": [_facts(s) for s in steps]})
         return 0
     order = _order(schema)
     if not asked_for and order["order"]:
-        page = f" (page {order['page']})" if order["order"] == "manual" else ""
-        print(f"{order['why']}{page}")
+        print(f"{order['why']}{_cited(order['page'] if order['order'] == 'manual' else None)}")
     for step in steps:
-        print(f"{step.number:>3}  {step.title}" + (f" (page {step.page})" if step.page else ""))
+        print(f"{step.number:>3}  {step.title}{_cited(step.page)}")
         if asked_for:
             print("\n".join(f"     {label}" for label in _parameter_labels(schema, step)))
     return 0
+
+
+def _cited(page: str | None) -> str:
+    return f" (page {page})" if page else ""
 
 
 def _parameter_labels(schema: Schema, step: SetupStep) -> Iterator[str]:

@@ -90,9 +90,17 @@ def _json(file: ParameterFile, blocks: Sequence[ReadBlock]) -> dict[str, Any]:
         "file": str(file.header.name),
         "words": words,
         "errors": [fault for block in blocks for fault in block.faults],
-        "unknown": [word.word for block in blocks for word in block.words if not word.is_known],
-        "assumptions": list(dict.fromkeys(text for block in blocks for text in block.assumptions)),
+        "unknown": _unknown(blocks),
+        "assumptions": _assumptions(blocks),
     }
+
+
+def _unknown(blocks: Sequence[ReadBlock]) -> list[str]:
+    return [word.word for block in blocks for word in block.words if not word.is_known]
+
+
+def _assumptions(blocks: Sequence[ReadBlock]) -> list[str]:
+    return list(dict.fromkeys(text for block in blocks for text in block.assumptions))
 
 
 def _row(file: ParameterFile, word: BlockWord) -> tuple[str, str, str, str]:
@@ -110,10 +118,9 @@ def _print(file: ParameterFile, blocks: Sequence[ReadBlock]) -> None:
         if len(blocks) > 1:
             print("" if n == 0 else "\n", block.text, sep="")
         _print_rows([_row(file, word) for word in block.words])
-    unknown = [word.word for block in blocks for word in block.words if not word.is_known]
-    if unknown:
+    if unknown := _unknown(blocks):
         print(f"Not known here: {', '.join(unknown)}. {file.schema.program.not_printed}.")
-    for assumption in dict.fromkeys(text for block in blocks for text in block.assumptions):
+    for assumption in _assumptions(blocks):
         print(f"ASSUMED {assumption.removeprefix('assumed: ')}")
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import asdict
 from fractions import Fraction
+from itertools import chain, product
 from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli.arguments import AXIS, DRY_RUN, JSON, OUTPUT, PATH, path_of
@@ -220,14 +221,12 @@ def _edited(
     _, size = shown_unit(file, table)
     for text in options.delete or ():
         table = deleted(table, _number(text) * size)
-    for text in options.replace or ():
+    if options.insert and form.is_even:
+        raise UsageError("the positions of this table are fixed: --replace changes a figure")
+    changes = product([replaced], options.replace or ()), product([inserted], options.insert or ())
+    for put, text in chain(*changes):
         at, figure = (number * size for number in _pair(text))
-        table = replaced(table, at, _error(options, form, table, at, figure))
-    for text in options.insert or ():
-        at, figure = (number * size for number in _pair(text))
-        if form.is_even:
-            raise UsageError("the positions of this table are fixed: --replace changes a figure")
-        table = inserted(table, at, _error(options, form, table, at, figure))
+        table = put(table, at, _error(options, form, table, at, figure))
     text = "" if options.clear and not (options.insert or options.replace) else form.write(file, axis, table)
     return {(form.parameter, axis): Value(text) if text else None}
 
@@ -296,7 +295,7 @@ def _lines(
         yield f"{describe(file, change.address)}: {old} -> {new}"
     if found.settings:
         yield f"{options.path}: {len(changes)} value{'' if len(changes) == 1 else 's'} {would}changed"
-    if found.measurement is not None and found.measurement.assumed:
+    if found.measurement is not None:
         used = asdict(found.measurement.answers)
         for name in found.measurement.assumed:
             print_remark(f"assumed, because nothing names it: {_OPTIONS[name]} {used[name]}")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from amp_studio.cli.arguments import AXIS, DRY_RUN, JSON, OUTPUT, PATH, path_of
 from amp_studio.cli.console import print_json, print_remark
 from amp_studio.cli.errors import UsageError
-from amp_studio.cli.output import check_replaced
+from amp_studio.cli.output import check_picture
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
@@ -42,24 +42,19 @@ VERB = Verb(
 def run(options: Options) -> int:
     """Show the cam of one axis, or make one of points; all or nothing."""
     from amp_studio import RangeError, edit
-    from amp_studio.schema import InvalidValueError, load_schema
+    from amp_studio.schema import InvalidValueError
     from amp_studio.sim import SimulationError, law_of, read_cam_points
 
     if options.scans < 0:
         raise UsageError("--scans is 1 or more")
     if options.output:
-        check_replaced(options.output, options.path)
-        if options.points:
-            check_replaced(options.output, options.points)
-        if options.output.suffix.lower() != ".svg":
-            raise UsageError(f"A picture is drawn as SVG: name the file {options.output.stem}.svg")
+        check_picture(options.output, options.path, *filter(None, [options.points]))
     writes = bool(options.points) and not options.dry_run
     with edit(options.path, only_view=not writes) as machine:
         file = machine.file
-        family = file.schema.family.family
-        form = law_of(family).cam
+        form = law_of(file.schema.family.family).cam
         if form is None:
-            raise UsageError(f"{load_schema(family).family.name} has no cams that are printed")
+            raise UsageError(f"{file.schema.family.name} has no cams that are printed")
         axis = machine.axis(options.axis)
         try:
             cam = (

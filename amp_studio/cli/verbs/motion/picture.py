@@ -8,7 +8,7 @@ from amp_studio.cli.arguments import JSON, OUTPUT, PATH, TEXT
 from amp_studio.cli.console import print_json, print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
-from amp_studio.cli.output import check_replaced
+from amp_studio.cli.output import check_picture
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
@@ -44,9 +44,7 @@ def run(options: Options) -> int:
     from amp_studio.pictures import draw
 
     if options.output:
-        check_replaced(options.output, options.path)
-        if options.output.suffix.lower() != ".svg":
-            raise UsageError(f"A picture is drawn as SVG: name the file {options.output.stem}.svg")
+        check_picture(options.output, options.path)
     file = opened(options.path, options).file
     if options.name is None:
         if options.output:

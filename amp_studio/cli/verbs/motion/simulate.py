@@ -190,7 +190,7 @@ def run(options: Options) -> int:
     )
 
     if options.output:
-        beside = (each for each in (options.record, options.machine_file) if each)
+        beside = filter(None, (options.record, options.machine_file))
         check_replaced(options.output, options.path, *beside)
     machine = opened(options.path)
     if options.list:
