@@ -32,6 +32,9 @@ from amp_studio.schema import (
     unknown,
 )
 
+_SHOWN = 40
+"""Instances that a message about an unknown one lists."""
+
 
 class Change(NamedTuple):
     """One value replaced by another; None means not set."""
@@ -238,12 +241,11 @@ class ParameterFile:
             raise UnknownParameterError(*unknown(self.schema, address[0]))
         machines = [self.schema.on(m.key) for m in self.schema.family.machines]
         if not any(address in each.places for each in machines):
-            instances = (
-                ", ".join(repr(i) for i in self.machine_schema.instances(parameter)) or "no instance here"
-            )
-            raise UnknownParameterError(
-                f"{parameter.name} has no instance {address[1]!r}; it has {instances}"
-            )
+            every = [repr(i) for i in self.machine_schema.instances(parameter)]
+            if len(every) > _SHOWN:  # the points of a table
+                every[_SHOWN - 1 : -1] = ["…"]
+            there = ", ".join(every) or "no instance here"
+            raise UnknownParameterError(f"{parameter.name} has no instance {address[1]!r}; it has {there}")
 
     def apply(self, change: Change) -> None:
         """Make a change and notify all listeners."""

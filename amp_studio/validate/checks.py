@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import ACTIVE, Address, Key
@@ -32,10 +32,12 @@ class Checks:
         """Whether the file still describes the machine type and the model that these checks were made for."""
         return (self._file.machine, self._file.header.application) == (self.machine, self.application)
 
-    def look_again(self) -> None:
-        """Forget the values, which may have changed; called before the checks of a round."""
+    def look_again(self, changed: Iterable[Address] | None = None) -> None:
+        """Forget the values, which may have changed, or those that were ``changed`` since the last round;
+        called before the checks of a round.
+        """
         self._values.look_again()
-        self.rules.look_again()
+        self.rules.look_again(changed)
 
     def of_all(self, plan: Plan) -> Iterator[tuple[FindingPlace, Finding]]:
         """Yield all that is wrong, and where it is filed: what a full run finds."""

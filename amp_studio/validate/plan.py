@@ -45,13 +45,18 @@ class Single(NamedTuple):
     any_state: bool
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Listed:
     """Instances that rules read as a list: one object for all that read the same,
     so that it is quick to look up.
     """
 
     addresses: tuple[Address, ...]
+
+    @cached_property
+    def places(self) -> dict[Address, int]:
+        """Address -> its place in the list."""
+        return {address: n for n, address in enumerate(self.addresses)}
 
 
 @lru_cache(maxsize=10_000)

@@ -92,10 +92,22 @@ class RuleChecks:
         self._seen = _Active(file.evaluation)
         self._lists: dict[Listed, tuple[Key, ...]] = {}
 
-    def look_again(self) -> None:
-        """Forget the values, which may have changed; called before the checks of a round."""
-        self._seen.clear()
-        self._lists.clear()
+    def look_again(self, changed: Iterable[Address] | None = None) -> None:
+        """Forget the values, which may have changed; called before the checks of a round.
+
+        Where nothing that decides on states has changed, the ``changed`` ones alone are forgotten: a cam has
+        thousands of others.
+        """
+        edited = None if changed is None else list(changed)
+        if edited is None or any(map(self._file.evaluation.decides_states, edited)):
+            self._seen.clear()
+            self._lists.clear()
+            return
+        for address in edited:
+            self._seen.pop(address, None)
+            for listed in [listed for listed in self._lists if address in listed.places]:
+                keys, at = self._lists[listed], listed.places[address]
+                self._lists[listed] = (*keys[:at], self._seen[address], *keys[at + 1 :])
 
     def look_at(self, read: Mapping[Address, None], seen: Iterable[tuple[Address, Key]]) -> None:
         """Take the keys of values that are active, and None for the others:

@@ -98,7 +98,7 @@ class Validator:
             for check in self._plan.rule_readers.get(address, ()):
                 # By place: several edits of one step read the same checks, and each runs once.
                 checks[check.place] = check
-        self._check(addresses, checks.values())
+        self._check(edited, addresses, checks.values())
         self._experience.look_again(edited)
         self._trials.follow_edits(edited, (*addresses, *checks))
 
@@ -221,8 +221,10 @@ class Validator:
 
     # -- filing ----------------------------------------------------------------
 
-    def _check(self, addresses: Iterable[Address], checks: Collection[RuleCheck]) -> None:
-        self._checks.look_again()
+    def _check(
+        self, edited: Iterable[Address], addresses: Iterable[Address], checks: Collection[RuleCheck]
+    ) -> None:
+        self._checks.look_again(edited)
         self._checks_of = None
         for address in addresses:
             finding = self._check_address(address)
