@@ -66,7 +66,7 @@ class Experience:
     def compare_with(self, earlier: Sequence[Earlier]) -> None:
         """Compare with other earlier values from now on; all else stays as it is."""
         self._earlier = EarlierValues(self._file, earlier)
-        self._found = None
+        self._findings = None
         if not self._is_stale:
             self._earlier.look_at_all()
 
