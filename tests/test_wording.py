@@ -87,12 +87,17 @@ DOCUMENTS = (
     "docs/protocols/registers.md",
     "docs/protocols/image.md",
     "docs/protocols/exchange.md",
+    "docs/protocols/exchange-client.md",
     "docs/protocols/num-table.md",
     "docs/protocols/acr-terminal.md",
     "docs/protocols/grblhal.md",
     "Makefile",
     *sorted(p.relative_to(ROOT).as_posix() for p in ROOT.glob("examples/*/README.md")),
-    *sorted(p.relative_to(ROOT).as_posix() for p in ROOT.glob("docs/simulation/*.md")),
+    *sorted(
+        p.relative_to(ROOT).as_posix()
+        for folder in ("formats", "schema", "simulation")
+        for p in ROOT.glob(f"docs/{folder}/*.md")
+    ),
     *sorted(p.relative_to(ROOT).as_posix() for p in ROOT.glob("docs/decisions/*.md")),
 )
 

@@ -1,4 +1,4 @@
-"""What docs/formats.md describes is what the formats do."""
+"""What docs/formats.md and the pages below it describe is what the formats do."""
 
 from __future__ import annotations
 
@@ -19,8 +19,9 @@ from tests.families.num.small_num import SAMPLE, taken
 
 @pytest.fixture(scope="module")
 def page(checkout: Path) -> str:
-    """Return the page."""
-    return (checkout / "docs" / "formats.md").read_text(encoding="utf-8")
+    """Return all pages as one."""
+    pages = (checkout / "docs" / "formats.md", *sorted((checkout / "docs" / "formats").glob("*.md")))
+    return "\n".join(path.read_text(encoding="utf-8") for path in pages)
 
 
 def block(page: str, first: str) -> str:
@@ -51,5 +52,7 @@ def test_what_a_file_remembers_of_a_table_may_be_written_as_the_page_shows(page:
 
 def test_kept_words_may_be_written_as_the_page_shows(page: str, num: Schema) -> None:
     file = taken(num, SAMPLE)
-    file.unknown.update(YAML(typ="safe").load(block(page, "values:"))["values"])
+    file.unknown.update(
+        YAML(typ="safe").load(block(page[page.index("## NUM parameter table") :], "values:"))["values"]
+    )
     assert FORMAT.write(file).endswith("\nP12N10:t1n12;0C\n#3 4;04\nP130N0;06\n#5;02\n\x13")

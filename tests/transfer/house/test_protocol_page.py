@@ -33,7 +33,8 @@ from amp_studio.transfer.house.session import Session
 
 @pytest.fixture(scope="module")
 def page() -> str:
-    return (Path(__file__).parents[3] / "docs" / "protocols" / "exchange.md").read_text(encoding="utf-8")
+    folder = Path(__file__).parents[3] / "docs" / "protocols"
+    return "\n".join((folder / name).read_text("utf-8") for name in ("exchange.md", "exchange-client.md"))
 
 
 def table(page: str, head: str) -> Iterator[list[str]]:

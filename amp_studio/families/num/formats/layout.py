@@ -1,7 +1,7 @@
 """How the lines of a NUM parameter table are laid out, and what of a table is no value.
 
 A table is written as the control sends it (page 13-14) unless the parameter file remembers otherwise. What it
-remembers is in its header, in words that a person can read and change; ``docs/formats.md`` lists them.
+remembers is in its header, in words that a person can read and change; ``docs/formats/num.md`` lists them.
 """
 
 from __future__ import annotations
