@@ -1,8 +1,8 @@
 """The parameter table that NUM controls send and take (section 13.2.6).
 
 ``%`` and the job reference, then a header ``PaNb:tcnd`` and a data line ``#`` for each ten words, Xoff at the
-end; every line closes with ``;`` and its length in hexadecimal. ``docs/formats/num.md`` lists what was decided
-where the manual is silent.
+end; every line closes with ``;`` and its length in hexadecimal. ``docs/formats/num.md`` lists what was
+decided where the manual is silent.
 """
 
 from __future__ import annotations
