@@ -95,8 +95,6 @@ class TuningPage:
     page: str
     params: tuple[str, ...]
     note: str = ""
-    read_beside: tuple[str, ...] = ()
-    """Parameters that are shown beside them and not changed here."""
 
 
 @dataclass(frozen=True)

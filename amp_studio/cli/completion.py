@@ -12,9 +12,6 @@ from collections.abc import Iterator, Sequence
 from .registry import module_of, verb_names
 from .verb import Verb, VerbArgument
 
-ASKED = "__complete"
-"""The hidden verb that the scripts call: ``__complete WORD…``, the last word being the one that is typed."""
-
 
 def answer(words: Sequence[str], breaks: str) -> None:
     """Print what may come next, a line each; nothing if that is a file.

@@ -126,7 +126,7 @@ def _machine_of_report(
     return file
 
 
-def offer_of(path: Path, family: str | None = None) -> TextOffer | None:
+def offer_of(path: Path) -> TextOffer | None:
     """Return what may be decided about a text before it is imported; None if there is nothing.
     Raises OSError.
     """
@@ -134,11 +134,11 @@ def offer_of(path: Path, family: str | None = None) -> TextOffer | None:
         return None
     content = _as_utf8(read_file(path, _MOST_BYTES))
     try:
-        chosen = _format_for_reading(content, family, None)
+        chosen = _format_for_reading(content, None, None)
         if chosen.offer is None:
             return None
         text = _decoded(content, chosen)
-        return chosen.offer(text, load_schema(family or _only_family(chosen, text)))
+        return chosen.offer(text, load_schema(_only_family(chosen, text)))
     except FormatError:
         return None  # the import names it
 

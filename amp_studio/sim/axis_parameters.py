@@ -84,9 +84,9 @@ class AxisParameters:
             )
         return figure
 
-    def choice(self, parameter: str, *, everywhere: bool = False, at: str | None = None) -> str:
+    def choice(self, parameter: str, *, everywhere: bool = False) -> str:
         """Return the key of a choice; raises SimulationError if it is not set."""
-        key = self.value(parameter, everywhere=everywhere, at=at)
+        key = self.value(parameter, everywhere=everywhere)
         if key is None:
             raise self.missing(parameter)
         return str(key)

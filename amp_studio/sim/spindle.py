@@ -133,8 +133,6 @@ class Spindle:
 class Tapping:
     """How a control taps: who leads, and what both follow."""
 
-    pitch_axis: str
-    """The axis that taps where none is asked for."""
     overrides: Mapping[str, float]
     """Values of the axis while it taps, by parameter id."""
     gain: float

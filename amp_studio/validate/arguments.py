@@ -35,7 +35,7 @@ def whole(what: str, value: float, least: int = 1, most: int | None = None) -> i
     return int(value)
 
 
-def percent_of(what: str, value: float, most: float = 100.0) -> float:
-    if not (math.isfinite(value) and 0 <= value <= most):
-        raise ValueError(f"{what} must be 0 to {most:g} %, not {value!r}.")
+def percent_of(what: str, value: float) -> float:
+    if not (math.isfinite(value) and 0 <= value <= 100.0):
+        raise ValueError(f"{what} must be 0 to 100 %, not {value!r}.")
     return value

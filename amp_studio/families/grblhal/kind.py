@@ -30,7 +30,6 @@ from .settings import compiled_in, settings_of_file, values_of_settings
 
 FAMILY, CLASSIC = "grblhal", "grbl-1.1"
 HOMING, SOFT_LIMITS, JOG_LIMITS, RESET_ACTIONS, LOCATE_RATE, SEEK_RATE = 22, 20, 40, 676, 24, 25
-AXIS_LOCATE_RATE, AXIS_SEEK_RATE = 180, 190
 PER_AXIS_RATES = range(180, 200)
 """Settings that are there only while bit 9 of $22 is set,
 and $24 and $25 only while it is not (settings.c ``is_setting_available``)."""

@@ -34,9 +34,8 @@ OWN = (ids.homing_seek_rate, ids.homing_locate_rate)
 ENABLED, ORIGIN, PER_AXIS = 1 << 0, 1 << 3, 1 << 9
 PHASES = 6
 """Of a homing of all axes: $44 to $49."""
-SEARCH, LOCATE = 1.5, 5.0
-"""Times the travel, and times the pull-off, in which a switch is searched (config.h,
-HOMING_AXIS_SEARCH_SCALAR, _LOCATE_SCALAR)."""
+SEARCH = 1.5
+"""Times the travel in which a switch is searched (config.h, HOMING_AXIS_SEARCH_SCALAR)."""
 
 SAMPLE = MOTION.value("sample")
 """s"""

@@ -15,7 +15,7 @@ PRINTED = 127.0
 REPEATS = 6
 ROOM = 0.8
 """Share of the travel that a move may take."""
-FEED, INCHES = ids.max_cutting, 25.4
+FEED = ids.max_cutting
 
 
 def machine_tests(machine: BoundMachine, axis: AxisLaw) -> list[MachineTest]:

@@ -127,7 +127,6 @@ def tapping(machine: BoundMachine, _spindle: Spindle, gear: Gear, axis: AxisLaw,
     notes = (TAPPED, FORCED) if forced else (TAPPED,)
     forward = (read.optional(ids.feed_forward) or 0.0) / 100.0 if forced else 0.0
     return Tapping(
-        "",
         overrides,
         gain,
         forward,

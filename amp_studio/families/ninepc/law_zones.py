@@ -10,7 +10,6 @@ from .law_facts import ids
 
 ON = {"g22": ("2", "3"), "g22.1": ("3",), "g23": (), "g23.1": ("2",)}
 """G code at power-up (524) -> zones that are on (16-16)."""
-GUARDS = {"2": "outside", "3": "by start"}
 GROUPS = ("g1", "g2", "g3")
 NOTE = (
     "Zones count for the place of the axes alone: length and radius of the tool do not count (6-1). ASSUMED:"

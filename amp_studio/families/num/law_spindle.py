@@ -27,7 +27,6 @@ PROPORTION = (
     "ASSUMED: lower speeds are in proportion to the 10 V at the end of the range (8-16). No ramp of the"
     " reference is printed."
 )
-INDEXED = "The reference of an indexing is error x P45, clipped to P43 (8-6)."
 FOLLOWS = "The axis follows the angle of the spindle; word 1 of P63 of group 1 puts its command ahead (8-35)."
 INTEGRAL = (
     "ASSUMED: the integration of P63 word 0 and the start of the axis by word 2 are not simulated: both make"
@@ -116,7 +115,6 @@ def tapping(machine: BoundMachine, spindle: Spindle, gear: Gear, axis: AxisLaw, 
         "zero_crossing_anticipation": (start, "s"),
     }
     return Tapping(
-        "",
         {},
         0.0,
         0.0,

@@ -18,7 +18,7 @@ LETTERS: dict[Side, str] = {"base": "0", "a": "A", "b": "B"}
 _SHARES = (2.0, 4.6, 1.8, *(2.6,) * 4)
 
 
-def merge_paper(merge: Merge, names: Mapping[Side, str], date: datetime | None = None) -> Paper:
+def merge_paper(merge: Merge, names: Mapping[Side, str]) -> Paper:
     """Return a comparison group by group with its result; ``names`` has each source. Secrets are masked."""
     left = len(merge.open_conflicts)
     facts = (
@@ -30,7 +30,7 @@ def merge_paper(merge: Merge, names: Mapping[Side, str], date: datetime | None =
     result = merge.result()
     tables = tuple(_table(merge, group, tuple(names), result) for group in merge.grouped(merge.differing))
     title = merge.a.header.name or names["a"]
-    return Paper("Comparison", title, facts, tables, date or datetime.now().astimezone(), "Nothing differs.")
+    return Paper("Comparison", title, facts, tables, datetime.now().astimezone(), "Nothing differs.")
 
 
 def _table(merge: Merge, group: RowGroup, sides: tuple[Side, ...], result: ParameterFile) -> PaperTable:

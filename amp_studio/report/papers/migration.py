@@ -47,7 +47,7 @@ def write_migration_folder(
     return written
 
 
-def migration_paper(migration: Migration, date: datetime | None = None) -> Paper:
+def migration_paper(migration: Migration) -> Paper:
     """Return the paper; HAL is a template on it, and nothing is claimed of the wiring."""
     written = migration.written
     tables = [
@@ -78,5 +78,5 @@ def migration_paper(migration: Migration, date: datetime | None = None) -> Paper
         migration.machine.name,
         facts,
         tuple(t for t in tables if t.rows),
-        date or datetime.now().astimezone(),
+        datetime.now().astimezone(),
     )

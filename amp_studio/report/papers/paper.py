@@ -143,8 +143,9 @@ def results_paper(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]
     return Paper("Results", title, (), (table,), datetime.now().astimezone())
 
 
-def check_paper_ending(path: Path, endings: Sequence[str] = tuple(PAPER_FORMATS)) -> None:
+def check_paper_ending(path: Path) -> None:
     """Refuse a name whose ending is that of no such paper; raises ValueError."""
+    endings = tuple(PAPER_FORMATS)
     if path.suffix.lower() not in endings:
         raise ValueError(f"{path}: the table is written as {', '.join(endings[:-1])} or {endings[-1]}")
 

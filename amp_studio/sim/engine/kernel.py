@@ -90,7 +90,8 @@ WATCH = 18
 """The first place: signal (`AT_LOAD` or `AT_DEVICE`), direction (1 or -1), place (u), and the command (u)
 beyond which it counts."""
 WATCH_WIDTH, MOST_WATCHES = 4, 4
-TIMING_SIZE = 34
+"""Figures of a watch, and how many there is room for."""
+TIMING_SIZE = WATCH + MOST_WATCHES * WATCH_WIDTH
 
 AT_LOAD, AT_DEVICE = 0.0, 1.0
 """What a watch reads: where the load is (a switch), what the position device measures (a marker,

@@ -28,7 +28,6 @@ from amp_studio.sim.trace import Trace
 
 from .identify import figure_text, machine_settings
 
-ENDINGS = (".yaml", ".yml")
 _KEYS = ("family", "axis", "torque", "model", "identified")
 _MOST_BYTES = 2**18
 _LONGEST = 60

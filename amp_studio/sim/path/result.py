@@ -19,6 +19,8 @@ from .job import ProgramVersion, WhatIf, scaled
 from .planner import ProgramPlan
 from .program import ProgramRun
 
+TRIED_SHARE, MOST_TRIES = 1.2, 5
+"""By what a parameter that limits is multiplied to see what that brings, and how many are tried at most."""
 SMALL = 0.0005
 """Share of the time below which a limit is not listed."""
 
@@ -85,18 +87,16 @@ def limited_by(file: ParameterFile, run: ProgramRun) -> list[dict[str, Any]]:
     return sorted(rows, key=lambda row: -float(row["time_s"]))
 
 
-def limit_tries(
-    file: ParameterFile, run: ProgramRun, share: float = 1.2, most: int = 5
-) -> Iterator[Mapping[Address, Value]]:
+def limit_tries(file: ParameterFile, run: ProgramRun) -> Iterator[Mapping[Address, Value]]:
     """Yield another value of each parameter that limits a program, the longest first: its value times
-    ``share``.
+    `TRIED_SHARE`.
     """
     times = run.plan.time_by_cause()
-    for n in sorted(range(len(times)), key=lambda n: -times[n])[: most + 1]:
+    for n in sorted(range(len(times)), key=lambda n: -times[n])[: MOST_TRIES + 1]:
         limit = run.plan.causes[n]
         if limit.param is not None and times[n] > 0.0:
             with suppress(SimulationError):
-                yield {limit.param: scaled(file, limit.param, share)}
+                yield {limit.param: scaled(file, limit.param, TRIED_SHARE)}
 
 
 def program_summary(

@@ -32,8 +32,6 @@ SETTINGS = {
 AxisPoint = dict[str, float]
 MOST_PERIODS = 50
 """Servo samples between two looks at the zones, far from their edges."""
-WAIT = 20.0
-"""s at most after the command."""
 BY_LINE = (
     "ASSUMED: the axes go in a straight line, each with its share of speed and ramp, and are checked once in"
     " a servo sample, on the measured positions."

@@ -193,16 +193,16 @@ class LinearModel(SampledLoop):
         phase = _least([(math.degrees(p), f) for p, f in zip(phases, crossed, strict=True)])
         return Margins(*phase, *_least(found)), float(np.max(1.0 / np.abs(1.0 + loop)))
 
-    def yields(self, window: float, longest: float = LONGEST_STEP) -> tuple[float, float]:
+    def yields(self, window: float) -> tuple[float, float]:
         """Return the largest way of the load for one unit of torque that comes at once and stays, and its
-        mean in the first ``window`` s; infinite for an axis that does not come to rest within ``longest`` s.
+        mean in the first ``window`` s; infinite for an axis that is not stable.
         """
         slowest = float(np.max(np.abs(self._poles), initial=0.0))
         if slowest >= 1.0 - 1e-12:
             return math.inf, math.inf
         # Until the slowest pole has left a ten thousandth.
         needed = math.log(1e-4) / math.log(slowest) if slowest > 0.0 else 1.0
-        steps = math.ceil(min(max(needed, window / self.period + 1.0), longest / self.period))
+        steps = math.ceil(min(max(needed, window / self.period + 1.0), LONGEST_STEP / self.period))
         way = np.abs(self.pushed_way(steps))
         stays = float(
             (self.position @ np.linalg.solve(np.eye(len(self.closed)) - self.closed, self.pushed))[0, 0]

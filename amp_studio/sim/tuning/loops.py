@@ -132,9 +132,9 @@ class Loops:
         """
         return self.models.whole.yields(LASTING)
 
-    def inner_sound(self, need: LoopDemand = SOUND) -> bool:
-        """Return whether the velocity loop keeps what is needed."""
-        return self.inner_stable and (self.inner is None or self.inner.lacks(need.inner_phase, need) <= 0.0)
+    def inner_sound(self) -> bool:
+        """Return whether the velocity loop keeps what every sound axis keeps."""
+        return self.inner_stable and (self.inner is None or self.inner.lacks(SOUND.inner_phase, SOUND) <= 0.0)
 
     def sound(self, need: LoopDemand = SOUND) -> bool:
         """Return whether the axis keeps what is needed."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 
 from pydantic import TypeAdapter, ValidationError
 
@@ -21,8 +20,8 @@ _STATUS = TypeAdapter(ControlStatus)
 class ScreenReader:
     """Reads one screen; connects when it is first asked."""
 
-    def __init__(self, place: Endpoint, clock: Callable[[], float] = time.monotonic) -> None:
-        self._place, self._now = place, clock
+    def __init__(self, place: Endpoint) -> None:
+        self._place = place
         self._link: Link | None = None
 
     def status(self) -> ControlStatus:
@@ -36,9 +35,9 @@ class ScreenReader:
             raise NoConnectionError(f"no connection to the screen of the control ({error})", "") from None
 
     def _line(self, link: Link) -> bytes:
-        answer, end = b"", self._now() + ANSWER
+        answer, end = b"", time.monotonic() + ANSWER
         while not answer.endswith(b"\n"):
-            left = end - self._now()
+            left = end - time.monotonic()
             if left <= 0:
                 raise ControlSilentError(f"the screen of the control shows nothing for {ANSWER:g} s", "")
             answer += link.read(left)

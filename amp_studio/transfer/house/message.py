@@ -275,9 +275,9 @@ def unpack(frame: Frame) -> Message:
     return kind(*values)
 
 
-def shorten(text: str, limit: int = 255) -> str:
+def shorten(text: str) -> str:
     """Return as much of a text as a text field can contain (255 bytes of UTF-8)."""
-    return text.encode("utf-8")[:limit].decode("utf-8", errors="ignore")
+    return text.encode("utf-8")[:255].decode("utf-8", errors="ignore")
 
 
 # -- how each kind of field is written in the payload --------------------------------------------------

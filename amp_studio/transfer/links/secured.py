@@ -8,7 +8,7 @@ import ipaddress
 import ssl
 import time
 from collections import Counter
-from collections.abc import Callable, Generator
+from collections.abc import Generator
 from functools import partial
 
 from .endpoint import Endpoint
@@ -37,20 +37,18 @@ class SecuredListener:
         context: ssl.SSLContext | None,
         gate: Gate | None,
         certificate: bytes = NO_TLS,
-        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.endpoint: Endpoint = listener.endpoint
         self._listener = listener
         self._context = context
         self._gate = gate
         self._certificate = certificate
-        self._clock = clock
         self._entering: list[Entering] = []
 
     def accept(self, timeout: float) -> Link | None:
-        end = self._clock() + timeout
+        end = time.monotonic() + timeout
         while True:
-            left = max(0.0, end - self._clock())
+            left = max(0.0, end - time.monotonic())
             wait = min(left, SLICE) if self._entering else left
             for _ in range(WAITING):
                 caller = self._listener.accept(wait)
@@ -59,7 +57,7 @@ class SecuredListener:
                 self._begin(caller)
                 wait = 0.0
             link = self._let_in()
-            if link is not None or self._clock() >= end:
+            if link is not None or time.monotonic() >= end:
                 return link
 
     def close(self) -> None:
@@ -76,7 +74,7 @@ class SecuredListener:
     def _begin(self, caller: TcpLink) -> None:
         if len(self._entering) >= WAITING:
             self._send_away(self._most_numerous())
-        self._entering.append((caller, self._clock() + TIME_TO_ENTER, self._enter(caller)))
+        self._entering.append((caller, time.monotonic() + TIME_TO_ENTER, self._enter(caller)))
 
     def _most_numerous(self) -> Entering:
         """Return the first of those who wait from the host that has most of them:
@@ -91,7 +89,7 @@ class SecuredListener:
             _, until, steps = entry
             try:
                 link = next(steps)
-                if link is None and self._clock() >= until:
+                if link is None and time.monotonic() >= until:
                     raise LinkError(self.endpoint, "not let in in time")
             except (LinkError, StopIteration):
                 self._send_away(entry)

@@ -93,8 +93,8 @@ GAP, GAP2, GAP3, GAP4, GAP6 = 4, 8, 12, 16, 24
 """Gaps in logical pixels; a grid of four."""
 ROW, FINDING_ROW, TWO_LINE_ROW = 24, 30, 44
 """Heights of a row in a table or tree, of a finding, of a list with two lines."""
-TOOLS, TABS, HEAD, COLUMN_HEAD, MESSAGE, STATUS = 38, 32, 32, 28, 34, 24
-"""Heights of the tool bar, the tabs, the head of a panel, the head of a table, a message, the status bar."""
+TOOLS, HEAD, COLUMN_HEAD, MESSAGE, STATUS = 38, 32, 28, 34, 24
+"""Heights of the tool bar, the head of a panel, the head of a table, a message, the status bar."""
 CONTROL, SMALL_CONTROL, RADIUS = 26, 22, 4
 """Height of a button or a field, of one in a row, and the radius of their corners."""
 ICON, SMALL_ICON = 16, 14

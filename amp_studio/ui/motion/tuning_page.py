@@ -48,7 +48,6 @@ if TYPE_CHECKING:
 
 Connect = Callable[[], "LiveTuning | None"]
 """Asks for a control and returns it, not yet read; None where nobody names one."""
-CALIBRATION = "calibration"
 _LIST_WIDTH = 190
 _FILES = "Measured points (*.csv *.txt *.rtl *.pos *.dat);;All files (*)"
 
