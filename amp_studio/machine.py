@@ -151,7 +151,7 @@ class MachineParameters:
     def check(self, *, as_delivered: bool = False) -> tuple[Finding, ...]:
         """Return the findings, errors first; the builder's rules beside the file count too.
 
-        Those about printed defaults of steps that nobody has reached are left out, as ``validate`` does,
+        Those about printed defaults of steps that are not reached are left out, as ``validate`` does,
         unless ``as_delivered``: a download asks for them.
         """
         from amp_studio.guide import found_in

@@ -49,7 +49,7 @@ def run_verb(arguments: Sequence[str]) -> int:
         from amp_studio.ui import main as desktop
 
         return desktop(arguments)
-    if arguments[0] == "__complete":  # a shell asks while somebody types
+    if arguments[0] == "__complete":  # a shell asks while the user types
         return _complete(arguments[1:])
     replaced: list[Target] = []
     try:

@@ -62,12 +62,12 @@ def _screen(stream: TextIO | None) -> TextIO:
 
 
 def flush_results() -> None:
-    """Write out what was printed; raises OSError where nobody can take it."""
+    """Write out what was printed; raises OSError where it cannot be taken."""
     sys.stdout.flush()
 
 
 def end_results() -> None:
-    """Write out what was printed as far as somebody takes it; the rest goes nowhere."""
+    """Write out what was printed as far as it is taken; the rest goes nowhere."""
     try:
         flush_results()
     except (OSError, ValueError):
@@ -75,7 +75,7 @@ def end_results() -> None:
 
 
 def print_notice(text: str, end: str = "\n") -> None:
-    """Print a line on standard error; where nobody can read it the work goes on anyway."""
+    """Print a line on standard error; where it cannot be written the work goes on anyway."""
     stream = sys.stderr
     try:
         if isinstance(stream, Screen) and stream.overwritten:

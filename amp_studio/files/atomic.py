@@ -2,7 +2,7 @@
 
 The new content is written to a temporary file beside the old one, forced to
 the disk, and only then renamed over it; before that the old file is read once
-more, so that nobody's changes are overwritten unseen.
+more, so that no changes of another program are overwritten unseen.
 """
 
 from __future__ import annotations
@@ -149,7 +149,7 @@ def _named(temporary: Path, real: Path) -> bool:
     """Give a file a name that nothing has; returns whether the file system can.
     Raises ChangedOnDiskError where it is taken.
 
-    So nobody's file is replaced that came at the last moment, and no empty file has to keep the name free.
+    So no file is replaced that came at the last moment, and no empty file has to keep the name free.
     """
     try:
         os.link(temporary, real)

@@ -49,7 +49,7 @@ class EditLock:
     def __init__(self, path: Path) -> None:
         self.path = path
         self.remark = ""
-        """Why nobody is kept out, where the file system has no locks: a sentence for the person at work."""
+        """Why no other program is kept out, where the file system has no locks: a sentence for the user."""
         self.is_taken = False
         """Whether this object has the lock."""
         self._handle: int | None = None

@@ -197,7 +197,7 @@ class Merge:
                 self.choose(row, side)
 
     def choice(self, row: Row) -> MergeChoice | None:
-        """Return what the result takes; None for a conflict that nobody has settled."""
+        """Return what the result takes; None for a conflict that is not settled."""
         chosen = self._choices.get(row.id)
         if chosen is not None:
             return chosen
@@ -216,7 +216,7 @@ class Merge:
 
     @property
     def open_conflicts(self) -> list[Row]:
-        """The conflicts that nobody has settled."""
+        """The conflicts that are not settled."""
         return [row for row in self.conflicts if row.id not in self._choices]
 
     def keep_choices(self, before: Merge, *, swapped: bool = False, without: Side | None = None) -> None:
@@ -272,7 +272,7 @@ class Merge:
             if change is not None:
                 yield change
         source = None if isinstance(choice, Typed) else self._sources().get(choice)
-        # A value out of range that somebody has forced stays forced by him, not by the one who merges.
+        # A value out of range that a user has forced stays forced by him, not by the one who merges.
         mark = source.forced.get(address) if source is not None else file.forced.get(address)
         if mark is None or value is None:
             file.forced.pop(address, None)

@@ -32,7 +32,7 @@ def system_of(file: ParameterFile) -> str:
 
 
 def default_system(schema: Schema) -> str:
-    """Return the unit system that is used while nobody has chosen one;
+    """Return the unit system that is used while none is chosen;
     empty where the family prints no default.
     """
     chooser = schema.family.unit_parameter

@@ -54,7 +54,7 @@ _MOST_PDF = 64 * 2**20
 
 
 def all_formats() -> tuple[TextFormat, ...]:
-    """Return every format, in the order in which they are tried when nobody names the family of a text."""
+    """Return every format, in the order in which they are tried when the family of a text is not named."""
     return (*GENERAL, *(own for family in registered_families() for own in _own_formats(family)))
 
 

@@ -44,7 +44,7 @@ def keep_lines(found: TextRead, kind: str, rows: Sequence[PassthroughLine], *, a
 def lines_kept(file: ParameterFile, kind: str) -> list[str] | None:
     """Return the lines of a file's script, with marks for its settings; None where nothing is kept.
 
-    Raises FormatError for a kept line whose place is lost: what it does there, nobody knows.
+    Raises FormatError for a kept line whose place is lost: what it does there is unknown.
     """
     start = f"{kind} line "
     unknown = {key.removeprefix(start): text for key, text in file.unknown.items() if key.startswith(start)}

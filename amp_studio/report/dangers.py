@@ -14,7 +14,7 @@ from .wording import joined_places
 
 
 def dangers_of(schema: Schema, rows: Iterable[ReportRow], language: Language = ENGLISH) -> tuple[Danger, ...]:
-    """Return the dangers of values that are active and were chosen by somebody: not the printed default."""
+    """Return the dangers of values that are active and were chosen: not the printed default."""
     chosen = (row for row in rows if row.state == "in-force" and (row.is_changed or row.no_default))
     return _grouped(schema, ((row.id, row.anchor, row.name, row.place) for row in chosen), language)
 

@@ -45,7 +45,7 @@ class Schema:
     group_of: dict[str, Group]
     plausible: Plausible
     further_text: str = ""
-    """``FurtherFacts`` as they were compiled, until somebody asks for one of them."""
+    """``FurtherFacts`` as they were compiled, until one of them is asked for."""
     description: bytes = b""
     """The description that a control gave of itself, from which this schema was made;
     empty for the facts of the database."""

@@ -1,4 +1,4 @@
-"""How a message repeats what somebody wrote: short, and without a character that a terminal would obey."""
+"""How a message repeats what a user wrote: short, and without a character that a terminal would obey."""
 
 from __future__ import annotations
 

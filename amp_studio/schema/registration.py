@@ -1,5 +1,5 @@
 """How the code of a control family is found: one record a family,
-whose parts are loaded when somebody asks for them.
+whose parts are loaded when they are asked for.
 
 Facts are data and need no record. What a family does differently is code in ``amp_studio/families`` or in
 another package, which imports the rooms below it; they find it by name alone

@@ -1,7 +1,7 @@
 """The sheet for keying values in at a control by hand: what differs, in the control's own words,
 in a safe order.
 
-``make_sheet`` compares a file with what a control contains; ``Ticks`` remembers how far somebody has come;
+``make_sheet`` compares a file with what a control contains; ``Ticks`` remembers how far it is done;
 ``read_back`` compares what the control's screen shows afterwards. How a family's control is keyed into is its
 ``Keying`` (``keying``), found through its registration.
 """

@@ -42,7 +42,7 @@ class ReadBackError(AmpStudioError, ValueError):
 
 @dataclass(frozen=True)
 class ScreenReading:
-    """What somebody has read on the screen for a number, and the line he wrote it on."""
+    """What the operator has read on the screen for a number, and the line he wrote it on."""
 
     number: str
     text: str
@@ -51,7 +51,7 @@ class ScreenReading:
 
 @dataclass(frozen=True)
 class ReadBack:
-    """One entry and what the screen shows for it: ``screen_text`` is None where nobody has read it."""
+    """One entry and what the screen shows for it: ``screen_text`` is None where it was not read."""
 
     entry: SheetEntry
     screen_text: str | None
@@ -59,7 +59,7 @@ class ReadBack:
 
 
 def read_screen_readings(text: str) -> list[ScreenReading]:
-    """Return what somebody has read on the screen, of lines ``1750 203.20000``; raises ReadBackError.
+    """Return what the operator has read on the screen, of lines ``1750 203.20000``; raises ReadBackError.
 
     Number and value are parted by blanks, a tab, or one of ``= ; : ,``; what begins with ``#`` is for the
     reader. The sheet's own CSV is taken too, with its column ``read back`` filled in.

@@ -1,4 +1,4 @@
-"""How far somebody has come with a sheet: kept beside the file,
+"""How far the operator has come with a sheet: kept beside the file,
 so that the work can be interrupted and taken up again.
 
 A tick belongs to a number with the old and the new text. Where one of them has changed since, the value has

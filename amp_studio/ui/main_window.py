@@ -279,7 +279,7 @@ class MainWindow(PartsWindow):
             self.close_page(page)
         self.summaries.stop()
         if Task.running:
-            self.hide()  # pages that are being set cannot be interrupted: nobody has to watch that
+            self.hide()  # pages that are being set cannot be interrupted: the user need not watch that
         Task.end_all()
         event.accept()
 

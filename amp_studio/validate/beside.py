@@ -30,7 +30,7 @@ from .plausible import Earlier, values_of_fleet
 from .validator import Validator
 
 LARGEST_FLEET = 40
-"""Machines in a folder that are compared; more of them are no fleet that somebody looks after by hand."""
+"""Machines in a folder that are compared; more of them are no fleet that is looked after by hand."""
 
 
 def rules_beside(path: Path, file: ParameterFile) -> BuilderRules:

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from .finding import Finding
 
 _NOT_SET = "schema.unset"
-"""Values that nobody gave are a state of the file and no fault of a change."""
+"""Values that are not given are a state of the file and no fault of a change."""
 
 
 def new_findings(before: Iterable[Finding], after: Iterable[Finding]) -> list[Finding]:

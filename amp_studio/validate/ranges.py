@@ -125,7 +125,7 @@ class ValueChecks:
         if message is None:
             facts.fine[key] = True
             return None
-        # Of a code that nobody has printed the control alone knows what it does: no choice is the nearest to
+        # Of a code that is not printed the control alone knows what it does: no choice is the nearest to
         # it.
         return self._finding(address, value, message, None if facts.keys else self._nearest(address, value))
 

@@ -1,6 +1,6 @@
 """A machine builder's own rules: ``rules.yaml`` beside his files.
 
-It contains ``rules`` in the form of the database's own, and ``suppressions``: findings that somebody has
+It contains ``rules`` in the form of the database's own, and ``suppressions``: findings that the builder has
 checked and leaves as they are, with his name and the reason. What cannot be used in it is a finding itself,
 with file and line, and keeps nothing else from being checked.
 """

@@ -3,7 +3,7 @@
 It is offered only if with it its finding is gone and whatever comes up instead is less severe: never an
 error, a warning only for an error, a recommendation for either. So each fix that is made leaves fewer
 findings or lesser ones, and making one after the other comes to an end.
-Values that nobody gave (``schema.unset``) do not count.
+Values that are not given (``schema.unset``) do not count.
 
 A fix that brings a warning has its message. One that would make a speed less than a thirtieth of itself is
 not

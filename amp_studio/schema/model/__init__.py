@@ -4,7 +4,7 @@ Every YAML file under ``parameter_db`` is read into these models, and into
 nothing else: what a family can describe is exactly what is here. A model
 forbids unknown keys, so a typing error in a fact cannot hide.
 
-``docs/schema.md`` explains the same words to somebody who writes YAML.
+``docs/schema.md`` explains the same words to a person who writes YAML.
 """
 
 from .commissioning import Commissioning, CommissioningStep, Remainder

@@ -214,7 +214,7 @@ class Help(Model):
     find: str = ""
     wrong: str = ""
     danger: tuple[HelpNote, ...] = ()
-    """Where a wrong value can move the machine unexpectedly or hurt somebody."""
+    """Where a wrong value can move the machine unexpectedly or hurt a person."""
     warning: tuple[HelpNote, ...] = ()
     """Where a wrong value can damage something or cost accuracy."""
     note: tuple[HelpNote, ...] = ()

@@ -88,7 +88,7 @@ class Filters:
 
     @property
     def is_resonance_known(self) -> bool:
-        """Whether somebody named the resonance of the machine, or a record showed it."""
+        """Whether the user named the resonance of the machine, or a record showed it."""
         return self._resonance is not None
 
     def others(self, setting: FilterSetting) -> list[FilterSetting]:

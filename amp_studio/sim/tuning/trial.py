@@ -47,7 +47,7 @@ class Trial:
 
     @property
     def file(self) -> ParameterFile:
-        """Its file, a copy that nobody else changes."""
+        """Its file, a copy that nothing else changes."""
         return self._file
 
     def value(self, parameter: str) -> Value | None:

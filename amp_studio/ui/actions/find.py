@@ -56,7 +56,7 @@ class FindSearch(Translated):
         self._commands: dict[str, QAction] = {}
         self._menu = SearchIndex(())
         self._families: tuple[Finder, ...] | None = None
-        """The families without a file, once somebody has asked for a message without one."""
+        """The families without a file, once a message was asked for without one."""
         self._is_read = False
         """Whether the commands are those of the present menus; they are read at the first key,
         as Qt gives the focus at odd moments."""

@@ -38,7 +38,7 @@ def go_on(window: StudioWindow) -> None:
 
 
 def _show_passed(window: StudioWindow, page: FilePage, here: Address | None, found: Address) -> None:
-    """Name the steps between two values in which nothing is open but nobody has been either."""
+    """Name the steps between two values in which nothing is open but the user has not been either."""
     steps = step_of(page.workspace.file.schema)
     first = steps[here[0]].number if here else 0
     family = page.workspace.file.schema.family.family

@@ -1,4 +1,4 @@
-"""A message in the window that waits for nobody: what happened, and at most two things to do about it."""
+"""A message in the window that stops nothing: what happened, and at most two things to do about it."""
 
 from __future__ import annotations
 

@@ -130,7 +130,7 @@ class MergeTree(QTreeView):
             self.scrollTo(index)
 
     def step(self, step: int, *, conflicts: bool = False) -> None:
-        """Go to the next or previous row that differs, or that is a conflict nobody has settled;
+        """Go to the next or previous row that differs, or that is a conflict that is not settled;
         round at the end.
         """
         rows = [

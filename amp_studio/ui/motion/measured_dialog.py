@@ -38,7 +38,7 @@ from amp_studio.ui.forms.form import Field, FieldForm
 from .error_plot import ErrorPlot, ErrorTrace
 
 _ASK = "?"
-"""Data of a choice that nobody has made."""
+"""Data of a choice that is not made."""
 
 
 class MeasuredDialog(QDialog):

@@ -78,7 +78,7 @@ class ProgramPage(PageOfFile):
         *,
         earlier: Callable[[], Sequence[SavedVersion]] = tuple,
     ) -> None:
-        """``read`` returns the file as it is now, in a copy that nobody else changes; ``apply`` takes the
+        """``read`` returns the file as it is now, in a copy that nothing else changes; ``apply`` takes the
         values of a try into the file; ``earlier`` returns the file before its last saves.
         """
         super().__init__(parent)

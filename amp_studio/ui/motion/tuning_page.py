@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from .step_answer import StepAnswer
 
 Connect = Callable[[], "LiveTuning | None"]
-"""Asks for a control and returns it, not yet read; None where nobody names one."""
+"""Asks for a control and returns it, not yet read; None where the user names none."""
 _LIST_WIDTH = 190
 _FILES = "Measured points (*.csv *.txt *.rtl *.pos *.dat);;All files (*)"
 

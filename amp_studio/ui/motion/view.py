@@ -322,7 +322,7 @@ class MotionView(PageOfFile):
             self._after_edit()
 
     def _after_edit(self, *_: object) -> None:
-        """Update the choices and simulate again; while nobody looks it is only noted."""
+        """Update the choices and simulate again; while the page is hidden it is only marked as stale."""
         self._is_stale = not self.isVisible()
         if self._is_stale:
             return

@@ -43,7 +43,7 @@ class GroupList(QWidget):
         workspace.changed.connect(self._follow)
 
     def follow_edits(self, follows: bool) -> None:
-        """Keep the counts up to date, or leave them until somebody sees them."""
+        """Keep the counts up to date, or leave them until they are seen."""
         if follows and not self._follows:
             self.update_counts()
         self._follows = follows

@@ -116,7 +116,7 @@ class LeftPanel(QWidget):
         self.turned.emit(side)
 
     def take_project(self, make: Callable[[], QWidget]) -> None:
-        """Show what ``make`` returns as the project; it is asked when somebody looks."""
+        """Show what ``make`` returns as the project; it is called when the page is shown."""
         self._make_project = make
 
     def choose(self) -> None:

@@ -187,7 +187,7 @@ class StepsPanel(QWidget):
     # -- what is shown ---------------------------------------------------------
 
     def _follow(self, _: object) -> None:
-        """Show the progress after the present edit, and only where somebody sees it."""
+        """Show the progress after the present edit, and only where it is seen."""
         if self.isVisible():
             self._later.start(0)
 

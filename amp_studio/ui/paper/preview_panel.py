@@ -179,7 +179,7 @@ class PreviewPanel(QWidget):
             self._wait.start(WAIT_MS)
 
     def showEvent(self, event: object) -> None:
-        """Set what has changed while nobody looked."""
+        """Set what has changed while the preview was hidden."""
         super().showEvent(event)  # type: ignore[arg-type]  # Qt gives the event of this kind
         if self._is_stale:
             self.set_again()

@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QSplitter, QWidget
 Arrangement = Literal["beside", "below", "instead"]
 WIDE, TALL = 1000, 440
 """Width from which pictures are beside the table, height from which they are below it,
-while nobody has chosen."""
+while the user has not chosen."""
 LEAST_WIDE, LEAST_TALL = 720, 380
 """Least width and height for what a person has chosen; in a smaller room the pictures cover the table."""
 

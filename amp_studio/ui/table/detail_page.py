@@ -31,7 +31,7 @@ download, calculate, show a message of the control."""
 
 
 _RULES = 4
-"""Rules that are met and shown before somebody asks for all."""
+"""Rules that are met and shown before the user asks for all."""
 
 
 def hex_text(word: int) -> str:
@@ -49,7 +49,7 @@ class DetailPage(Translated):
         self.opened: set[str] = set()
         """Sections that are unfolded."""
         self.last_download: tuple[str, Value | None] | None = None
-        """When the last download was, and the value it had; None while nobody has asked."""
+        """When the last download was, and the value it had; None while it was not asked for."""
         self.may_have_download = False
 
     def write(self, address: Address) -> str:

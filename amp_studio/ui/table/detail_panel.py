@@ -143,7 +143,7 @@ class DetailPanel(QWidget):
 
     def _show(self, *_: object) -> None:
         self._is_stale = not self.isVisible()
-        if self._is_stale:  # written when somebody can see it
+        if self._is_stale:  # written when it can be seen
             return
         address, file = self._address, self._workspace.file
         self._pause.stop()

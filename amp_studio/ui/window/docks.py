@@ -33,12 +33,12 @@ _PANELS = (
     ("Parameter", Qt.DockWidgetArea.RightDockWidgetArea, 292),
     ("Findings", Qt.DockWidgetArea.BottomDockWidgetArea, 202),
 )
-"""Name of a dock, where it is and how wide or high, until somebody arranges them."""
+"""Name of a dock, where it is and how wide or high, until the user arranges them."""
 _NARROW = {"Groups": 212, "Parameter": 240}
 """The same in a window under 1400 pixels."""
 ROOMY = 1400
 PREVIEW = "Preview"
-"""Name of the dock of the report, which is closed until somebody opens it."""
+"""Name of the dock of the report, which is closed until the user opens it."""
 _PREVIEW_SHARE, _PREVIEW_LEAST, _PREVIEW_MOST = 0.36, 384, 560
 """Its share of the window's width, and the least and most pixels."""
 _PREVIEW_WIDEST = 0.45
@@ -254,7 +254,7 @@ class Docks(Translated):
         self.fit(self._size)
 
     def _width_of(self, title: str) -> int:
-        """Return how wide a panel at the side is until somebody arranges it."""
+        """Return how wide a panel at the side is until the user arranges it."""
         wide = next(size for name, _, size in _PANELS if name == title)
         return wide if self._size.width() >= ROOMY else _NARROW[title]
 

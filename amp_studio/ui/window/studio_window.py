@@ -83,7 +83,7 @@ class StudioWindow(QMainWindow):
 
     def close_page(self, page: FilePage) -> None:
         """Close a file without a question."""
-        page.blockSignals(True)  # nobody follows it any more
+        page.blockSignals(True)  # no view follows it any more
         self.tabs.remove(page)
         self.docks.remove(page)
         page.workspace.close()

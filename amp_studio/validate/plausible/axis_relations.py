@@ -300,7 +300,7 @@ def _is_far_out(own: Ends, like: Sequence[Ends]) -> bool:
     """
     sizes = [(_size(a), _size(a) / _size(b)) for a, b in like if _size(b)]
     least, most = min(sizes, default=(0.0,))[0], max(sizes, default=(0.0,))[0]
-    if not least or most > 3 * least:  # or the other axes have no travel: limits that nobody has set
+    if not least or most > 3 * least:  # or the other axes have no travel: limits that are not set
         return False
     size = _size(own[0])
     if size == 0:

@@ -51,7 +51,7 @@ _NAMES = {side: name for name, side in SIDES.items()}
 
 
 def run(options: Options) -> int:
-    """Merge three files by parameter; 1 where there are conflicts that nobody has settled."""
+    """Merge three files by parameter; 1 where there are conflicts that are not settled."""
     from amp_studio.files import Merge
     from amp_studio.report import finding_text
 
