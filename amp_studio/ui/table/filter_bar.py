@@ -43,7 +43,7 @@ def mark_names() -> dict[Mark, tuple[str, str]]:
             tr("Changed since download"),
             tr("Values that are not as in the last recorded download"),
         ),
-        "restart": (tr("Active after restart"), tr("Values that take effect after a restart")),
+        "restart": (tr("Takes effect after restart"), tr("Values that take effect after a restart")),
         "recent": (tr("Recently edited"), tr("The last values that were edited here")),
         "bookmarked": (tr("Bookmarked"), tr("Parameters that you have bookmarked (Ctrl+B)")),
         "noted": (tr("With a note"), tr("Values with a note")),
