@@ -188,7 +188,8 @@ class MachineParameters:
         validator: Validator | None = None,
     ) -> list[Fixed]:
         """Make the suggested fixes of all findings, of one rule, or those that set one parameter, and return
-        what changed; with ``safe`` only what moves nothing.
+        what changed; with ``safe`` only what moves nothing. A fix whose cause is likely another value, one
+        that is wrong itself or by a slip, is made only where its rule or parameter is named.
 
         ``validator`` is one of this machine, which has the findings that are left afterwards.
         Raises MachineError for a rule that does not exist, UnknownParameterError.
@@ -210,7 +211,7 @@ class MachineParameters:
             )
 
         validator.run()
-        return apply_fixes(validator, is_chosen)
+        return apply_fixes(validator, is_chosen, even_doubtful=rule is not None or param is not None)
 
     def diff(self, other: MachineParameters | str | Path) -> tuple[Difference, ...]:
         """Return what differs from another machine of the same family, or from a file; raises

@@ -23,16 +23,19 @@ class Fixed:
     rule: str
 
 
-def apply_fixes(validator: Validator, wanted: Callable[[Finding], bool]) -> list[Fixed]:
+def apply_fixes(
+    validator: Validator, wanted: Callable[[Finding], bool], *, even_doubtful: bool = False
+) -> list[Fixed]:
     """Apply the fixes of the findings that are ``wanted``, until no such fix is offered;
     returns what was changed.
 
     The most severe finding comes first, then the manual's order; each fix is offered in the light of those
-    before it. The findings are up to date before and after.
+    before it. ``even_doubtful`` is for fixes that a user chose: one whose cause is likely another value is
+    not made together with all others. The findings are up to date before and after.
     """
     done: list[Fixed] = []
     for _ in range(_MOST):
-        finding = validator.first_fix(wanted)
+        finding = validator.first_fix(wanted, even_doubtful=even_doubtful)
         if finding is None:
             break
         changes = validator.file.set_checked({setting.address: setting.value for setting in finding.fix})

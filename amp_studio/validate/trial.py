@@ -6,14 +6,14 @@ findings or lesser ones, and making one after the other comes to an end.
 Values that are not given (``schema.unset``) do not count.
 
 A fix that brings a warning has its message. One that would make a speed less than a thirtieth of itself is
-not
-offered: then another value is wrong, and nobody cuts a rapid to a sixtieth for a resolution
-that is a sixtieth.
+not offered: then another value is wrong, and nobody cuts a rapid to a sixtieth for a resolution that is a
+sixtieth. One that makes less than a third or more than three times of a speed or a ramp, or follows from a
+value that is itself doubted, is doubtful: it is made where a user chose it, not together with all others.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -27,8 +27,9 @@ from .plan import FindingPlace, Plan, RuleCheck, make_plan
 
 MOST_STEPS = 20_000_000
 """That a builder's rules may take in all trials of a file: about a second."""
-_LEAP = 0.03
-_SPEEDS = ("velocity", "angular velocity")
+_LEAP, _CUT = 0.03, 0.3
+"""The least part of a speed or ramp that a fix leaves, and that one leaves which nobody asked for."""
+_MOTIONS = ("velocity", "acceleration", "count rate")
 _ASKED = 1000
 """Steps that it takes to ask a rule at all."""
 
@@ -92,12 +93,29 @@ class Trials:
             return replace(finding, fix=(), safe=False)
         return replace(finding, brings=tried.brings, safe=False) if tried.brings else finding
 
+    def is_doubtful(self, finding: Finding, doubted: Collection[Address]) -> bool:
+        """Return whether a fix follows from a value that is ``doubted`` itself, or makes less than a third or
+        more than three times of a speed or ramp that is not.
+        """
+        if any(setting.address in doubted for setting in finding.fix):
+            return False
+        return any(a in doubted for a in finding.addresses) or any(map(self._is_far, finding.fix))
+
+    def _is_far(self, setting: AddressedValue) -> bool:
+        share = self._share(setting)
+        return share is not None and not _CUT <= share <= 1 / _CUT
+
     def _is_leap(self, setting: AddressedValue) -> bool:
         """Return whether a fix makes so little of a speed that another value must be wrong."""
+        is_speed = dimension(setting.value.unit).endswith("velocity")
+        return is_speed and (share := self._share(setting)) is not None and 0 < share < _LEAP
+
+    def _share(self, setting: AddressedValue) -> float | None:
+        """Return the part of a speed or a ramp that a fix leaves; None for any other value."""
         old, new = self._original.values.get(setting.address), setting.value
-        if old is None or dimension(old.unit) not in _SPEEDS or not old.value or not new.value:
-            return False
-        return abs(canonical(float(new.value), new.unit) / canonical(float(old.value), old.unit)) < _LEAP
+        if old is None or not dimension(old.unit).endswith(_MOTIONS) or not old.value:
+            return None
+        return abs(canonical(float(new.value), new.unit) / canonical(float(old.value), old.unit))
 
     def too_many(self, filed: Mapping[FindingPlace, tuple[object, Finding]]) -> frozenset[FindingPlace]:
         """Return the findings that have a fix too many: trying it would ask a builder's rules for too long.

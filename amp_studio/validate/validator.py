@@ -13,7 +13,7 @@ from .builder_rules import NO_RULES, BuilderRules, Suppressed, sort_out
 from .checks import Checks
 from .finding import SEVERITIES, Finding
 from .plan import FindingPlace, Plan, RuleCheck, make_plan
-from .plausible import Earlier, Experience
+from .plausible import OF_A_SLIP, Earlier, Experience
 from .trial import Trials
 
 _Order = tuple[int, int, str, int]
@@ -102,11 +102,12 @@ class Validator:
         self._experience.look_again(edited)
         self._trials.follow_edits(edited, (*addresses, *checks))
 
-    def first_fix(self, wanted: Callable[[Finding], bool]) -> Finding | None:
+    def first_fix(self, wanted: Callable[[Finding], bool], *, even_doubtful: bool = False) -> Finding | None:
         """Return the first of the present ``findings`` that is ``wanted`` and has a fix;
         later fixes are not tried.
 
-        One whose fix brings a warning is returned only where no other one is left.
+        One whose fix brings a warning is returned only where no other one is left. One whose cause is likely
+        another value, which is wrong by itself or by a slip, has a doubtful fix: none for which nobody asked.
         """
         too_many = self._trials.too_many(self._filed)
         fixable = [
@@ -116,10 +117,14 @@ class Validator:
         ]
         fixable.sort(key=lambda filed: filed[0])
         left_alone = self._left_alone([finding for _, _, finding in fixable])
-        last = None
+        last, doubted = None, frozenset() if even_doubtful or not fixable else self._doubted()
         for _, place, finding in fixable:
+            if id(finding) in left_alone or (
+                not even_doubtful and self._trials.is_doubtful(finding, doubted)
+            ):
+                continue
             offered = self._trials.offered(place, finding, self._filed)
-            if id(finding) in left_alone or not offered.fix:
+            if not offered.fix:
                 continue
             # A fix that brings a warning is the last resort.
             if not offered.brings:
@@ -261,6 +266,14 @@ class Validator:
                 yield order, replace(finding, fix=(), safe=False)
             else:
                 yield order, self._trials.offered(place, finding, self._filed)
+
+    def _doubted(self) -> frozenset[Address]:
+        """Return the values that are wrong by themselves, or by a slip that nobody has suppressed."""
+        asked = tuple(f for f in self._experience.findings() if f.rule in OF_A_SLIP)
+        if self.own.suppressions:
+            asked = sort_out(asked, self.own.suppressions, self.file.evaluation)[0]
+        wrong = (place for place in self._filed if not isinstance(place, int))
+        return frozenset((*wrong, *(address for finding in asked for address in finding.causes)))
 
     def _order(self, finding: Finding, place: int = -1) -> _Order:
         order, last = self._plan.order, len(self._plan.order)

@@ -121,7 +121,7 @@ def not_ended(file: ParameterFile, own: BuilderRules = NO_RULES) -> Iterator[str
     twin = file.copy()
     validator = Validator(twin, own)
     before = validator.run()
-    fixed = apply_fixes(validator, lambda _: True)
+    fixed = apply_fixes(validator, lambda _: True, even_doubtful=True)
     after = Validator(twin, own).run()
     if list(map(repr, after)) != list(map(repr, validator.findings())):
         yield "edit by edit the findings are not those of a full run"

@@ -11,7 +11,14 @@ import pytest
 from amp_studio.files import ParameterFile, open_file
 from amp_studio.report import finding_text
 from amp_studio.schema import Value
-from amp_studio.validate import BuilderRules, Validator, axes_by_letter, read_builder_rules, rules_beside
+from amp_studio.validate import (
+    BuilderRules,
+    Validator,
+    apply_fixes,
+    axes_by_letter,
+    read_builder_rules,
+    rules_beside,
+)
 
 RAPID = ("feedrate.rapid", "1")
 
@@ -66,6 +73,40 @@ def test_a_speed_is_not_cut_to_a_sixtieth(
     own = rules(tmp_path, mill, ("a", "error", f"rapid <= {speed}", speed))
     (finding,) = [finding for finding in Validator(mill, own).run() if finding.is_own]
     assert bool(finding.fix) is is_offered
+
+
+@pytest.fixture
+def syntec(checkout: Path) -> ParameterFile:
+    """Return the example mill, whose X has an encoder of 2500 lines and a rapid of 24000 mm/min."""
+    return open_file(checkout / "examples" / "syntec-mill" / "SYNTEC_MILL.amp").file
+
+
+def test_a_rapid_is_not_cut_for_an_encoder_that_slipped_unless_it_is_chosen(syntec: ParameterFile) -> None:
+    """Ten times the lines of the like axes leave an eighth of the rapid (page 1.4.2)."""
+    syntec.set(("resolution.encoder", "1"), Value(25000))
+    validator = Validator(syntec)
+    (error,) = [f for f in validator.run() if f.rule == "syntec.dda.rapid"]
+    assert error.fix[0].value == Value(3123, "mm/min")
+    assert [f.change.address for f in apply_fixes(validator, lambda _: True)] == []
+    chosen = apply_fixes(validator, lambda f: f.rule == "syntec.dda.rapid", even_doubtful=True)
+    assert [f.change.address for f in chosen] == [("feed.rapid", "1")]
+
+
+def test_a_rapid_that_slipped_itself_is_cut_to_its_limit(syntec: ParameterFile) -> None:
+    syntec.set(("feed.rapid", "1"), Value(240000, "mm/min"))
+    validator = Validator(syntec)
+    validator.run()
+    (fixed, *_) = apply_fixes(validator, lambda _: True)
+    assert (fixed.change.address, fixed.change.new) == (("feed.rapid", "1"), Value(31236, "mm/min"))
+
+
+def test_no_ramp_becomes_ten_times_itself_unasked(checkout: Path) -> None:
+    """The deceleration of a 57C422B follows an acceleration of ten times (page 4-14), which is to blame."""
+    press = open_file(checkout / "examples" / "57c422b-label-press" / "LABEL_PRESS.amp").file
+    press.set(("command.acceleration", "X"), Value(500000.0, "counts/s2"))
+    validator = Validator(press)
+    assert any(finding.fix for finding in validator.run())
+    assert apply_fixes(validator, lambda _: True) == []
 
 
 def test_a_rule_reads_an_axis_by_its_letter_in_the_file(mill: ParameterFile, tmp_path: Path) -> None:

@@ -200,7 +200,9 @@ class Edits(Translated):
             self.fix(findings[0])
             return
         workspace, keys = self.window.workspace_in_front, {finding.key for finding in findings}
-        wanted = partial(apply_fixes, workspace.validator, lambda finding: finding.key in keys)
+        wanted = partial(
+            apply_fixes, workspace.validator, lambda finding: finding.key in keys, even_doubtful=True
+        )
         if not workspace.do(self.tr("Fix several"), wanted):
             raise ValueError(
                 self.tr(

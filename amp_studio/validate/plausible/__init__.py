@@ -5,6 +5,6 @@ what it was. The facts behind it are data (``plausible.yaml`` of a family); noth
 """
 
 from .earlier import Earlier, values_of_fleet
-from .experience import TITLES, Experience
+from .experience import OF_A_SLIP, TITLES, Experience
 
-__all__ = ["TITLES", "Earlier", "Experience", "values_of_fleet"]
+__all__ = ["OF_A_SLIP", "TITLES", "Earlier", "Experience", "values_of_fleet"]

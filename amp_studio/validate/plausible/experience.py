@@ -49,6 +49,8 @@ TITLES = {
     EARLIER: "A value that was another one by a slip's factor",
 }
 """Rule -> its title."""
+OF_A_SLIP = frozenset({ALIKE, TABLE, EARLIER, ROW, COUNTED, UNIFORM})
+"""Rules that name the one value that a slip explains, and not two of which one is wrong."""
 
 
 class Experience:

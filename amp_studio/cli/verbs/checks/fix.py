@@ -84,6 +84,12 @@ def _lines(
         )
     errors = [finding for finding in findings if finding.severity == "error"]
     yield from (same_finding_text(file, same) for same in alike(errors))
+    doubtful = sorted({finding.rule for finding in findings if finding.fix})
+    if doubtful and not (options.rule or options.param or options.safe):
+        yield (
+            f"Not made, because another value is likely the cause: fixes of {', '.join(doubtful)}."
+            " Check that value, or name the rule with --rule."
+        )
     left = ", ".join(counted(sum(f.severity == s for f in findings), s) for s in SEVERITIES)
     changed = counted(len({fixed.change.address for fixed in done}), "value")
     yield f"{options.path}: {changed} {'would be ' if options.dry_run else ''}changed; left: {left}"
