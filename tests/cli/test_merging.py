@@ -12,6 +12,7 @@ import pytest
 
 from amp_studio.files import open_file
 from amp_studio.schema import Value
+from tests.campaigns import some
 
 CALIBRATION = ("home.calibration", "1")
 
@@ -28,7 +29,8 @@ def three(amp, mill: Path) -> tuple[Path, Path, Path]:
 
 
 @pytest.mark.parametrize(
-    ("take", "value"), [(["theirs"], 7.0), (["ours"], 1.0), (["base"], 0.0), (["theirs", "1300=ours"], 1.0)]
+    ("take", "value"),
+    some([(["theirs"], 7.0), (["ours"], 1.0), (["base"], 0.0), (["theirs", "1300=ours"], 1.0)], 2),
 )
 def test_a_conflict_is_settled_by_taking_a_side(amp, three, take: list[str], value: float) -> None:
     out = three[0].with_name("merged.amp")

@@ -11,6 +11,7 @@ import pytest
 from amp_studio.files import open_file
 from amp_studio.transfer.client.kept import save_image
 from amp_studio.transfer.image import encode_image
+from tests.campaigns import some
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
 
@@ -48,7 +49,7 @@ def test_a_kept_copy_is_a_side_as_good_as_a_file(amp, sides, tmp_path: Path) -> 
     ]
 
 
-@pytest.mark.parametrize("ending", [".pdf", ".html", ".txt", ".csv"])
+@pytest.mark.parametrize("ending", some([".pdf", ".html", ".txt", ".csv"], 2))
 def test_the_sheet_is_written_in_the_format_of_its_ending(amp, sides, tmp_path: Path, ending: str) -> None:
     output = tmp_path / f"sheet{ending}"
     message = amp("sheet", sides[0], "--against", sides[1], "-o", output)

@@ -13,7 +13,7 @@ from tests.campaigns import CAMPAIGN
 from .monkey import ALL
 
 ACTIONS = Path(__file__).with_name("actions.jsonl")
-SOME = 110
+SOME = 60
 """Actions that ``make test`` does again; ``make faults`` does all of them."""
 
 

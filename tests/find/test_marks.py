@@ -10,6 +10,7 @@ from amp_studio.files import ParameterFile, open_file
 from amp_studio.find import MARKS, Mark, ValueMarks, rows_of_file
 from amp_studio.schema import Address
 from amp_studio.validate import Validator
+from tests.campaigns import some
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 EXCESS = ("servo.excess_error", "1")
@@ -93,7 +94,7 @@ def test_only_values_that_wait_for_a_restart_are_listed_as_such(marks: ValueMark
 
 
 @pytest.mark.parametrize(
-    "example", ["mill-1394/MILL_1394", "num-1060-mill/MILL_1060", "grblhal-router/GRBL_ROUTER"]
+    "example", some(["mill-1394/MILL_1394", "num-1060-mill/MILL_1060", "grblhal-router/GRBL_ROUTER"], 2)
 )
 def test_after_any_edit_the_counts_are_those_of_a_fresh_start(example: str) -> None:
     """What is remembered between edits is never stale."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from datetime import datetime
 from functools import cache
 from pathlib import Path
@@ -17,7 +16,6 @@ from amp_studio.report.model import Report
 from amp_studio.report.write import FORMATS
 from amp_studio.schema import Value, family_ids, load_schema
 from tests.campaigns import CAMPAIGN
-from tests.report.conftest import IN_EVERY_ORDER
 
 ODD = (
     '#panic("x") $x$ *b* _i_ `c` \\ " <script>alert(1)</script> &amp; {{ 1 }} {% if %} // /* @ref ='
@@ -169,11 +167,6 @@ def test_another_order_is_refused(tmp_path: Path, mill: ParameterFile) -> None:
 def test_a_folder_that_is_not_there_is_shown_in_one_sentence(tmp_path: Path, mill: ParameterFile) -> None:
     with pytest.raises(SaveError, match=r"report\.txt cannot be written: No such file or directory"):
         print_report(mill, tmp_path / "nowhere" / "report.txt")
-
-
-@IN_EVERY_ORDER
-def test_a_full_machine_is_set_in_every_order(printed: Callable[..., Path], which: str, sort: Sort) -> None:
-    assert printed(which, sort).read_bytes().startswith(b"%PDF-")
 
 
 def test_writing_a_report_changes_nothing_in_the_file(

@@ -101,7 +101,7 @@ def test_a_response_becomes_the_machine_that_everything_runs_on(
 
 
 def test_a_resonance_has_its_notch_and_the_picture_both_curves(tmp_path: Path) -> None:
-    figures, response, _ = hidden_plant(2)
+    figures, response, _ = hidden_plant(4)
     record = tmp_path / "frf.csv"
     record.write_text(table(FREQUENCIES, response))
     trace = identify_response(open_file(MILL).file, record, "1")

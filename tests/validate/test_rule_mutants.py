@@ -20,6 +20,7 @@ from rule_machines import FAMILIES, HERE, TrialMachine, cases, machines, read, t
 from amp_studio.schema import Rule, load_schema
 from amp_studio.validate.plan import RuleCheck, checks_of
 from amp_studio.validate.rules import RuleChecks
+from tests.campaigns import some
 
 EQUIVALENT: Mapping[str, Mapping[str, str]] = read(HERE / "equivalent_mutants.yaml")
 """Rule -> a piece of a mutant's text, which the rule itself does not have -> why it means the same as the
@@ -103,7 +104,7 @@ class Campaign:
         return found
 
 
-@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("family", some(FAMILIES))
 def test_no_mutant_of_a_rule_passes_the_tables(family: str) -> None:
     campaign = Campaign(family)
     alive = [(rule, mutant) for rule, left in campaign.alive.items() for mutant in left]
