@@ -40,7 +40,7 @@ call."""
 @pytest.mark.skipif(
     compiler() is None, reason="the failing calls are made with a C compiler, and there is none"
 )
-@pytest.mark.parametrize("for_ever", some([False, True], 2), ids=["once", "from then on"])
+@pytest.mark.parametrize("for_ever", some([False, True], 2), ids=some(["once", "from then on"], 2))
 def test_a_failed_upload_of_an_image_leaves_no_empty_file(for_ever: bool, tmp_path: Path) -> None:
     env = {"LD_PRELOAD": library(), "FAULT_AT": "0", "FAULT_FOLDER": "none", "FAULT_ERRNO": str(errno.EIO)}
     env |= {"FAULT_FOREVER": "1"} if for_ever else {}
