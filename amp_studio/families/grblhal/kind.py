@@ -304,17 +304,18 @@ def _moved(settings: dict[int, str], wanted: Mapping[int, str], *, has_rates: bo
     """Return the settings with those that others move and nobody has set (settings.c
     ``set_homing_enable``).
     """
-    moved: dict[int, str] = {}
-    if HOMING in wanted and wanted[HOMING].isdecimal():
-        homing = int(wanted[HOMING])
-        if not homing & 1:
-            moved |= {SOFT_LIMITS: "0", JOG_LIMITS: "0"}
-        if settings.get(RESET_ACTIONS, "").isdecimal():
-            keeps = homing & 1 and homing & _KEEP_HOMED
-            moved[RESET_ACTIONS] = str(int(settings[RESET_ACTIONS]) & ~1 | (0 if keeps else 1))
     hidden = COMMON_RATES.keys() if has_rates else PER_AXIS_RATES
-    settings = {n: text for n, text in settings.items() if n not in hidden}
-    for number, text in moved.items():
-        if number in settings and number not in wanted:
-            settings[number] = text
-    return settings
+    visible = {n: text for n, text in settings.items() if n not in hidden}
+    moved = _moved_by_homing(settings, wanted.get(HOMING, ""))
+    return visible | {n: moved[n] for n in moved if n in visible and n not in wanted}
+
+
+def _moved_by_homing(settings: Mapping[int, str], homing: str) -> dict[int, str]:
+    """Return the settings that go with a new value of $22."""
+    if not homing.isdecimal():
+        return {}
+    moved = {} if int(homing) & 1 else {SOFT_LIMITS: "0", JOG_LIMITS: "0"}
+    if settings.get(RESET_ACTIONS, "").isdecimal():
+        keeps = int(homing) & 1 and int(homing) & _KEEP_HOMED
+        moved[RESET_ACTIONS] = str(int(settings[RESET_ACTIONS]) & ~1 | (0 if keeps else 1))
+    return moved

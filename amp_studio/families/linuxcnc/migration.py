@@ -308,12 +308,8 @@ class _Migration:
             f"[{j}]MIN_LIMIT, [{j}]MAX_LIMIT",
             "written" if kind == "limits" else "left out",
         )
-        if kind != "limits":
-            (
-                self.out.less_safe.append(f"{axis.letter}: no travel limits, as before")
-                if not axis.turns
-                else None
-            )
+        if kind != "limits" and not axis.turns:
+            self.out.less_safe.append(f"{axis.letter}: no travel limits, as before")
         if (axis.turns and axis.number("rollover")) or kind == "modulo":
             self.ini.put(a, "WRAPPED_ROTARY", "1", self._of(axis, "rollover", "approximate"))
             self.out.grade(

@@ -113,21 +113,19 @@ def gain_notes(
     integral_time = proportional / integral * 1e-3 if integral > 0.0 else math.inf
     highest = highest_rate(lag, integral_time)
     if loop > 0.0 and loop >= highest:
-        notes.append(
-            "The velocity loop is not stable: "
-            + (
-                f"its rate is {value_text(loop, '1/s', 3)}, and with a lag of "
-                f"{value_text(1000.0 * lag, 'ms', 2)} it"
-                f" oscillates from {value_text(highest, '1/s', 3)} on (A-9)."
-                if highest > 0.0
-                else (
-                    "the integral gain is too high for any proportional gain with a lag of"
-                    f" {value_text(1000.0 * lag, 'ms', 2)} (A-10)."
-                )
-            )
-        )
+        notes.append(f"The velocity loop is not stable: {_why_unstable(loop, lag, highest)}")
     if motor[:2] in ODD_FRAMES:
         notes.append(ODD_MOTOR)
     if integral == 0.0 and rate > 0.0:
         notes.append(SMOOTH)
     return notes
+
+
+def _why_unstable(loop: float, lag: float, highest: float) -> str:
+    late = value_text(1000.0 * lag, "ms", 2)
+    if highest > 0.0:
+        return (
+            f"its rate is {value_text(loop, '1/s', 3)}, and with a lag of {late} it"
+            f" oscillates from {value_text(highest, '1/s', 3)} on (A-9)."
+        )
+    return f"the integral gain is too high for any proportional gain with a lag of {late} (A-10)."

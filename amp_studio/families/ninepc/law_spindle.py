@@ -44,8 +44,7 @@ def spindle(read: AxisParameters, number: str) -> Spindle:
     if count is None:
         raise SimulationError(f"Number of Gears Used of spindle {number} is not set", ids.gear_count)
     names = [str(n) for n in range(1, min(int(count), GEARS) + 1)]
-    found = [_gear(read, number, name) for name in names]
-    gears = tuple(gear for gear in found if gear is not None)
+    gears = tuple(gear for name in names if (gear := _gear(read, number, name)) is not None)
     ramped = read.value(ids.dac_ramping, at=number) is True
     notes = (SHARED, RAMPED if ramped else STEPPED)
     fine = read.optional(ids.fine_foreground, everywhere=True)

@@ -181,7 +181,8 @@ class ControlDesk(Translated):
         if direction == "send" and workspace is not None and not self._has_a_way(workspace):
             direction = "hand"  # nothing can be sent: keyed in by hand
         page = self.page
-        if self.is_shown and page.direction == direction and page.workspace is workspace and not address:
+        is_in_front = self.is_shown and page.workspace is workspace
+        if is_in_front and page.direction == direction and not address:
             page.press()
             return
         if self.window.table_view is not None and not self.window.table_view.finish():

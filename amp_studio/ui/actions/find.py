@@ -104,14 +104,17 @@ class FindSearch(Translated):
 
     # -- asking --------------------------------------------------------------------------
 
+    def _rows_of_commands(self, query: str) -> list[FindRow]:
+        """Return the commands that are found, all of them without a question."""
+        hits = self._among(query) if query else [self._hit(entry, 1.0) for entry in self._menu.entries]
+        return rows_of(hits, self._commands) or [FindRow(self.box.tr("Nothing found"))]
+
     def rows(self, query: str) -> list[FindRow]:
         """Return what a question finds: in the file in front and among the commands, or among these alone."""
         self._read_menus()
         own = query.removeprefix(COMMANDS).strip()
         if query.startswith(COMMANDS):
-            every = [self._hit(entry, 1.0) for entry in self._menu.entries]
-            hits = self._among(own) if own else every
-            return rows_of(hits, self._commands) or [FindRow(self.box.tr("Nothing found"))]
+            return self._rows_of_commands(own)
         if self.window.page is None:
             found = self._messages(own) + self._among(own)
             return rows_of(sorted(found, key=lambda hit: -hit.score), self._commands) or self._nothing(
@@ -238,14 +241,17 @@ class FindSearch(Translated):
 
     # -- going there -----------------------------------------------------------------------
 
-    def _go(self, row: FindRow) -> None:
-        if row.action is not None and not is_alive(row.action):
+    def _trigger(self, action: QAction) -> None:
+        if not is_alive(action):
             self.box.search()  # its menu was filled again
             return
+        self.box.clear()
+        self._focus_table()
+        action.trigger()
+
+    def _go(self, row: FindRow) -> None:
         if row.action is not None:
-            self.box.clear()
-            self._focus_table()
-            row.action.trigger()
+            self._trigger(row.action)
         elif row.family and row.hit is not None:
             self._show_fact(row.family, row.hit)
         elif row.hit is not None and self.window.page is None:

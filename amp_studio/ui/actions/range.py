@@ -148,15 +148,9 @@ class RangeEdits:
             block: AddressBlock = chosen  # the range is filled with the block, as often as it fits
         else:
             block = view.cells.block_from(height, width)
-        found: dict[Address, str] = {}
-        for r, row in enumerate(block):
-            for c, address in enumerate(row):
-                text = rows[r % height][c % width].strip()
-                if address is not None and text:
-                    found[address] = text
         below = max(0, height - len(block)) * width
         right = max(0, width - max(map(len, block), default=0)) * len(block)
-        return found, _beyond_the_table(below + right)
+        return _texts_of(block, rows), _beyond_the_table(below + right)
 
     def _by_name(self, rows: list[list[str]]) -> tuple[dict[Address, str], list[str]]:
         """Return the text for each address of a block that has numbers and heads, wherever its rows are
@@ -287,3 +281,14 @@ def _beyond_the_table(count: int) -> list[str]:
     return [
         tr("1 cell is beyond the table.") if count == 1 else tr("%n cells are beyond the table.", "", count)
     ]
+
+
+def _texts_of(block: AddressBlock, rows: list[list[str]]) -> dict[Address, str]:
+    """Return the text for each address of a block, which is filled with rows as often as they fit."""
+    found: dict[Address, str] = {}
+    for r, row in enumerate(block):
+        for c, address in enumerate(row):
+            text = rows[r % len(rows)][c % len(rows[0])].strip()
+            if address is not None and text:
+                found[address] = text
+    return found

@@ -340,7 +340,14 @@ def _reading(picture: Picture, one: float, two: float) -> Iterator[str]:
     cell = "<td align=right>&nbsp;&nbsp;{}</td>"
     yield "<table cellspacing=0 cellpadding=1><tr><td></td>"
     yield "".join(cell.format(f"<b>{head}</b>") for head in ("A", "B", "B − A")) + "</tr>"
-    rows: list[tuple[str, str, float, float]] = [(along.label, along.unit, one, two)]
+    for words, unit, a, b in ((along.label, along.unit, one, two), *_values_at(picture, one, two)):
+        values = "".join(cell.format(_five_digits(value)) for value in (a, b, b - a))
+        yield f"<tr><td>{words}</td>{values}<td>&nbsp;{unit}</td></tr>"
+    yield "</table>"
+
+
+def _values_at(picture: Picture, one: float, two: float) -> Iterator[tuple[str, str, float, float]]:
+    """Yield name and unit of each curve, and its values at two places."""
     for panel in picture.panels:
         curves = [curve for curve in panel.curves if not curve.is_before]
         alone = sum(bool(curve.name) for curve in curves) < 2
@@ -348,8 +355,4 @@ def _reading(picture: Picture, one: float, two: float) -> Iterator[str]:
             if len(curve.x):
                 words = panel.title if alone else f"{panel.title}, {curve.name}"
                 at_one, at_two = (float(np.interp(at, curve.x, curve.y)) for at in (one, two))
-                rows.append((words, panel.y.unit, at_one, at_two))
-    for words, unit, a, b in rows:
-        values = "".join(cell.format(_five_digits(value)) for value in (a, b, b - a))
-        yield f"<tr><td>{words}</td>{values}<td>&nbsp;{unit}</td></tr>"
-    yield "</table>"
+                yield words, panel.y.unit, at_one, at_two

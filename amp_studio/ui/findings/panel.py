@@ -294,14 +294,17 @@ class FindingsPanel(QWidget):
         if not self.model.groups:
             self._say_why_empty(len(reached))
 
+    def _expand(self, opened: set[str]) -> None:
+        for n, group in enumerate(self.model.groups):
+            if group.key in opened:
+                self.view.setExpanded(self.model.index(n, 0), True)
+
     def _restore(self, opened: set[str], group: str, finding: Finding | None, row: int, place: int) -> None:
         """Open and select the same rows again; a finding that has ended leaves its place to the next one."""
         groups = [each.key for each in self.model.groups]
-        for n, key in enumerate(groups):
-            if key in opened:
-                self.view.setExpanded(self.model.index(n, 0), True)
         if not groups:
             return
+        self._expand(opened)
         found = groups.index(group) if group in groups else None
         index = self.model.index(min(max(row, 0), len(groups) - 1) if found is None else found, 0)
         if found is not None and finding is not None:

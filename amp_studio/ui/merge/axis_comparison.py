@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import (
     QComboBox,
@@ -94,6 +96,17 @@ class AxisComparison(QDialog):
         """Return the two axes."""
         return str(self.first.currentData()), str(self.second.currentData())
 
+    def _list(self, found: Sequence[AxisDifference], titles: Sequence[str]) -> None:
+        self.list.clear()
+        self.list.setHeaderLabels([self.tr("Parameter"), *titles])
+        for difference in found:
+            item = QTreeWidgetItem(self._texts(difference))
+            item.setData(0, _DIFFERENCE, difference)
+            item.setSizeHint(0, QSize(0, ROW))
+            self.list.addTopLevelItem(item)
+        for column, width in enumerate((400, 160)):
+            self.list.setColumnWidth(column, width)
+
     def refresh(self, *_: object) -> None:
         """List again what differs; the current row stays where it was."""
         file, fitted = self._workspace.file, list(fitted_axes(self._workspace.file))
@@ -107,15 +120,7 @@ class AxisComparison(QDialog):
         row = max(self.list.currentIndex().row(), 0)
         titles = [axis_title(file, axis) for axis in (first, second)]
         found = compare_axes(file, first, second)
-        self.list.clear()
-        self.list.setHeaderLabels([self.tr("Parameter"), *titles])
-        for difference in found:
-            item = QTreeWidgetItem(self._texts(difference))
-            item.setData(0, _DIFFERENCE, difference)
-            item.setSizeHint(0, QSize(0, ROW))
-            self.list.addTopLevelItem(item)
-        for column, width in enumerate((400, 160)):
-            self.list.setColumnWidth(column, width)
+        self._list(found, titles)
         if found:
             self.list.setCurrentIndex(self.list.model().index(min(row, len(found) - 1), 0))
         self.count.setText(self._how_many(len(found)))

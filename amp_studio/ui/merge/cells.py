@@ -35,7 +35,7 @@ def cells_of(
     if row.id.part != "value":
         return [MergeCell("–" if value is None else visible(str(value.value))) for value in values]
     parameter = merge.a.schema.parameters[row.address[0]]
-    own = next((value.unit for value in values if value is not None and value.unit), None)
+    own = next(filter(None, (value.unit for value in values if value is not None)), None)
     if own is not None:
         values = in_one_unit(values, own if units is None else merge.a.evaluation.unit(row.address, units))
     masked = parameter.secret and not secrets

@@ -61,15 +61,9 @@ class MachinesModel(QAbstractTableModel):
         if role == _Role.AccessibleTextRole:
             departs = self.tr(", unlike most") if column in line.departing else ""
             return f"{self._names[column]}: {line.texts[column]}{departs}"
-        if role == _Role.FontRole and column in line.departing:
-            loud = font("text")
-            loud.setBold(True)
-            return loud
-        if role == _Role.BackgroundRole and column in line.departing:
-            return colour("hover")
-        if role == _Role.ForegroundRole and line.departing and column not in line.departing:
-            return colour("dim")
-        return None
+        if column in line.departing:
+            return _loud(role)
+        return colour("dim") if role == _Role.ForegroundRole and line.departing else None
 
 
 class MachinesFilter(QSortFilterProxyModel):
@@ -93,3 +87,11 @@ class MachinesFilter(QSortFilterProxyModel):
         line = model.lines[source_row]
         text = " ".join((*line.named, *line.texts)).casefold()
         return all(word in text for word in self._words)
+
+
+def _loud(role: int) -> object:
+    if role == _Role.FontRole:
+        loud = font("text")
+        loud.setBold(True)
+        return loud
+    return colour("hover") if role == _Role.BackgroundRole else None

@@ -99,13 +99,13 @@ class MergeModel(QAbstractItemModel):
         if words:
             rows = [row for row in rows if all(word in self._searched(row) for word in words)]
         if wanted.only_active:
-            state = self.merge.a.evaluation.state
-            rows = [
-                row
-                for row in rows
-                if row.id.part != "value" or (row.address in self._places and state(row.address).is_active)
-            ]
+            rows = filter(self._is_active, rows)
         return rows
+
+    def _is_active(self, row: Row) -> bool:
+        """Return whether a row is an active value, or none."""
+        is_value, state = row.id.part == "value", self.merge.a.evaluation.state
+        return not is_value or (row.address in self._places and state(row.address).is_active)
 
     @property
     def _places(self) -> Any:

@@ -4,8 +4,9 @@ what is expected to remain.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
@@ -39,12 +40,18 @@ class ErrorPlot(Plot):
     def show_errors(self, traces: Sequence[ErrorTrace], unit: str) -> None:
         """Draw these curves instead of the ones before; ``unit`` of positions and errors."""
         times, error_unit = (MICRO, "µm") if "mm" in unit else (1, unit)
-        curves = []
-        for trace in (trace for trace in traces if trace.curve.points):
-            x, y = (np.array([float(each[n]) for each in trace.curve.points]) for n in (0, 1))
-            curves.append(Curve(trace.name, x, y * times, trace.sort, trace.dashed))
-            if len(x) <= MOST_DOTS:
-                curves.append(replace(curves[-1], name="", dots=True))
+        curves = [*chain.from_iterable(_curves(trace, times) for trace in traces)]
         named = [curve.name for curve in curves if curve.name]
         title = named[0] if len(named) == 1 else "error" if named else self.tr("No points")
         self.draw(Picture("", (), (panel_of(title, curves, ("position", unit), error_unit),)))
+
+
+def _curves(trace: ErrorTrace, times: float) -> Iterator[Curve]:
+    """Yield a curve, and dots at its points where there is room for them."""
+    if not trace.curve.points:
+        return
+    x, y = (np.array([float(each[n]) for each in trace.curve.points]) for n in (0, 1))
+    curve = Curve(trace.name, x, y * times, trace.sort, trace.dashed)
+    yield curve
+    if len(x) <= MOST_DOTS:
+        yield replace(curve, name="", dots=True)

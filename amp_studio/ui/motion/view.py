@@ -410,16 +410,18 @@ class MotionView(PageOfFile):
         text = self.tr("<b>%n figures of the machine are assumed</b>, see Assumed.", "", assumed)
         self.summary.setText(f"{html.escape(sentenced(trace.model, family))}. {text if assumed else ''}")
         self.recommendations.show_all(schema, trace.recommendations, self._may_apply)
-        count = len(trace.recommendations)
-        self.tabs.setTabText(
-            1, self.tr("Recommended ({count})").format(count=count) if count else self.tr("Recommended")
-        )
+        self._show_count(len(trace.recommendations))
         self.assumptions.show_trace(family, trace)
         taken = (_ASSUMED.match(text) for text in trace.assumptions)
         self.machine.show_defaults(
             {found[1]: self.tr("{what}, assumed").format(what=found[2]) for found in taken if found}
         )
         self._redraw()
+
+    def _show_count(self, count: int) -> None:
+        """Show in the tab how many recommendations there are."""
+        title = self.tr("Recommended ({count})").format(count=count) if count else self.tr("Recommended")
+        self.tabs.setTabText(1, title)
 
     def _redraw(self, *_: object) -> None:
         if self.trace is not None:

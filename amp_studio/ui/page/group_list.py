@@ -65,7 +65,7 @@ class GroupList(QWidget):
             header.hideSection(column)
         self.update_counts()
         self._hide_empty()
-        self.tree.setCurrentItem(next(i for i in self._items[1:] if not i.isHidden() and i.data(0, _KEYS)))
+        self.tree.setCurrentItem(next(filter(_has_values, self._items[1:])))
 
     def _add_head(self, name: str) -> QTreeWidgetItem:
         """Add an area: a head over its groups, no page."""
@@ -171,3 +171,7 @@ class GroupList(QWidget):
                 self.tree.setCurrentItem(item)
                 self.choose()
                 return
+
+
+def _has_values(item: QTreeWidgetItem) -> bool:
+    return not item.isHidden() and bool(item.data(0, _KEYS))

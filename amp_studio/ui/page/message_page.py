@@ -69,12 +69,10 @@ class MessageWindow(QDialog):
             parts.append(f"<p>{escape(self.tr('The manual does not print the text of this message.'))}</p>")
         parts.append(f"<p>{own(message.means)}</p>")
         parts += self._broken(page.broken)
-        parts += self._listed(self.tr("How to find the cause"), [own(text) for text in message.causes])
-        parts += self._listed(self.tr("What helps"), [own(text) for text in message.cures])
+        parts += self._listed(self.tr("How to find the cause"), [*map(own, message.causes)])
+        parts += self._listed(self.tr("What helps"), [*map(own, message.cures)])
         parts += self._listed(self.tr("Scenarios that show it"), list(message.scenarios))
-        parts += self._listed(
-            self.tr("Parameters to look at"), [self._parameter(each) for each in page.parameters]
-        )
+        parts += self._listed(self.tr("Parameters to look at"), [*map(self._parameter, page.parameters)])
         rest = [own(linked.rule.title) for linked in page.rules if not linked.findings]
         title = self.tr("Rules that find it") if self._page is None else self.tr("Rules that are met here")
         parts += self._listed(title, rest)

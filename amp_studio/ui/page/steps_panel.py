@@ -216,9 +216,7 @@ class StepsPanel(QWidget):
         counts = tuple((s, each.count(s)) for s in SEVERITIES if each.count(s))
         item.setData(0, COUNTS, counts)
         item.setData(0, RIGHT, str(len(each.open)) if each.open else "")
-        is_near = now.current is None or each.step.number <= now.current.step.number
-        tokens = {"not needed": "off"}
-        item.setData(0, TOKEN, tokens.get(each.state, "text" if is_near or each.own else "dim"))
+        item.setData(0, TOKEN, _token(each, now))
         parts = [item.text(0), self._state_name(each.state)]
         parts += [counted(n, severity) for severity, n in counts]
         parts += [self.tr("%n values not set", "", len(each.open))] if each.open else []
@@ -362,3 +360,11 @@ def _tip(step: SetupStep, family: str) -> str:
     page = ", " + worded(f"page {step.page}") if step.page else ""
     what = f": {worded(step.what, family)}" if step.what else ""
     return f"{worded(step.title, family)}{page}{what}"
+
+
+def _token(each: StepProgress, now: GuideProgress) -> str:
+    """Return the colour of a step: what is not needed is off, what comes later dim."""
+    if each.state == "not needed":
+        return "off"
+    is_near = now.current is None or each.step.number <= now.current.step.number
+    return "text" if is_near or each.own else "dim"

@@ -218,14 +218,17 @@ class PageView(QAbstractScrollArea):
             rect = self._rect(n)
             if rect.contains(at.toPoint()):
                 scale = self._scale(n)
-                x, y = (at.x() - rect.left()) / scale, (at.y() - rect.top()) / scale
-                here = [(p, a) for a, p in self.places.items() if p.page == n + 1]
-                lines = [p.y for p, _ in here if p.y - _LINE_ABOVE <= y <= p.y + _REACH]
-                if not lines:
-                    return None
-                row = sorted((p.x, a) for p, a in here if p.y == max(lines))
-                return max((each for each in row if each[0] <= x + GAP), default=row[0])[1]
+                return self._value_on(n, (at.x() - rect.left()) / scale, (at.y() - rect.top()) / scale)
         return None
+
+    def _value_on(self, n: int, x: float, y: float) -> Address | None:
+        """Return the value at a place of a page, from 0."""
+        here = [(p, a) for a, p in self.places.items() if p.page == n + 1]
+        lines = [p.y for p, _ in here if p.y - _LINE_ABOVE <= y <= p.y + _REACH]
+        if not lines:
+            return None
+        row = sorted((p.x, a) for p, a in here if p.y == max(lines))
+        return max((each for each in row if each[0] <= x + GAP), default=row[0])[1]
 
     # -- painting --------------------------------------------------------------------------
 

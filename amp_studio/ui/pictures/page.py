@@ -8,7 +8,7 @@ from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QFocusEvent, QResizeEvent
 from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
-from amp_studio.drawing import Handle
+from amp_studio.drawing import Handle, Scene
 from amp_studio.files import RangeError
 from amp_studio.pictures import drawn_in, pictures_of
 from amp_studio.schema import Address, InvalidValueError
@@ -198,11 +198,7 @@ class PicturesPage(QWidget):
             self._stale = True
             return
         if any(card.canvas.is_dragging for card in self._seen):  # the rest follows when the handle is dropped
-            for card in self._seen:
-                if card.canvas.is_dragging:
-                    card.canvas.mark_findings()
-                elif set(addresses) & set(card.canvas.scene.drawn_from):
-                    card.canvas.draw_again()
+            self._follow_drag(addresses)
             return
         names = list(self._pictures)
         self._pictures = {picture.name: picture for picture in pictures_of(self.workspace.file)}
@@ -212,6 +208,14 @@ class PicturesPage(QWidget):
         for card in self._seen:
             card.follow(self._pictures[card.picture.name])
         self.footer.show_handle(self._active.canvas.handle if self._active else None)
+
+    def _follow_drag(self, addresses: list[Address]) -> None:
+        """Draw again what shows the value that is dragged elsewhere."""
+        for card in self._seen:
+            if card.canvas.is_dragging:
+                card.canvas.mark_findings()
+            elif set(addresses) & set(card.canvas.scene.drawn_from):
+                card.canvas.draw_again()
 
     def _drop_cards(self) -> None:
         """Remove the cards of pictures that there are no longer."""
@@ -252,11 +256,10 @@ class PicturesPage(QWidget):
         card = self.card(name)
         if card.part != part:
             card.show_part(part)
-        handles = card.canvas.scene.handles
-        own = [n for n, h in enumerate(handles) if [drag.address for drag in h.drags] == [address]]
-        if own:
+        own = _handle_of(card.canvas.scene, address)
+        if own is not None:
             self._choose_alone(card)
-            card.canvas.choose(own[0])
+            card.canvas.choose(own)
             if focus:
                 card.canvas.focus_handle()
             else:
@@ -321,3 +324,9 @@ class PicturesPage(QWidget):
         if self._active is not None:
             self.footer.show_handle(self._active.canvas.handle)
             self._active.canvas.focus_handle()
+
+
+def _handle_of(scene: Scene, address: Address) -> int | None:
+    """Return the place of the handle that moves one value alone."""
+    owns = ([drag.address for drag in handle.drags] for handle in scene.handles)
+    return next((n for n, own in enumerate(owns) if own == [address]), None)

@@ -106,9 +106,7 @@ class ProjectCheckDialog(QDialog):
 def _branch(checked: CheckedFile) -> QTreeWidgetItem:
     counts = {severity: checked.count(severity) for severity in SEVERITIES}
     worst = "error" if checked.fault else next((s for s in SEVERITIES if counts[s]), "")
-    first = checked.fault or (
-        finding_in_words(checked.findings[0]) if checked.findings else worded("no findings")
-    )
+    first = checked.fault or next(map(finding_in_words, checked.findings), worded("no findings"))
     figures = ["" if checked.fault else str(count) for count in counts.values()]
     item = QTreeWidgetItem([checked.path.name, *figures, first])
     if worst:

@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
@@ -264,15 +264,19 @@ class ShownValues(Translated):
             lines.append(tr("Forced {when}").format(when=with_days_and_times(file.forced[address])))
         if note := value_note(file, address):
             lines.append(tr("Note: {text}").format(text=note))
+        return "\n".join([*lines, *self._other_values(address)])
+
+    def _other_values(self, address: Address) -> Iterator[str]:
+        """Yield what is saved, and what was entered, where that is another text."""
+        file = self.workspace.file
         value, saved = file.get(address), self.workspace.document.saved.get(address)
         if value != saved:
-            lines.append(
-                tr("Saved: {value} (Ctrl+Shift+Backspace goes back)").format(value=self.text(address, saved))
+            yield tr("Saved: {value} (Ctrl+Shift+Backspace goes back)").format(
+                value=self.text(address, saved)
             )
         if value is not None and self.in_units(address, value) != value:
             entered = show_value(file.schema.parameters[address[0]], value, secrets=self.workspace.secrets)
-            lines.append(tr("Entered as {value}").format(value=entered))
-        return "\n".join(lines)
+            yield tr("Entered as {value}").format(value=entered)
 
     # -- looks -----------------------------------------------------------------
 

@@ -16,7 +16,16 @@ from amp_studio.files import (
     with_days_and_times,
 )
 from amp_studio.report import GRADES, facts, help_parts, severity_name, state_name, tables_of
-from amp_studio.schema import Address, Value, labels_of_word, limits, real_value, same_value, unit_text
+from amp_studio.schema import (
+    Address,
+    Parameter,
+    Value,
+    labels_of_word,
+    limits,
+    real_value,
+    same_value,
+    unit_text,
+)
 from amp_studio.ui.base.figures import sentence, show_value
 from amp_studio.ui.base.hazard import hazard_html
 from amp_studio.ui.base.theme import colour, icon_html, severity_html
@@ -214,26 +223,28 @@ class DetailPage(Translated):
             if title in GRADES:
                 lines.append(hazard_html(GRADES[title], text))
                 continue
-            related = [link(schema, r) for r in parameter.help.related if r in schema.parameters]
-            body = ", ".join(related) if title == "Related" else html.escape(text)
+            body = self._related(parameter) if title == "Related" else html.escape(text)
             lines.append(f"<p><b>{worded(title)}</b><br>{body}</p>")
         if messages := schema.messages_of(parameter.id):
             names = (f'<a href="{MESSAGE}{m.id}">{html.escape(m.name)}</a>' for m in messages)
             lines.append(f"<p><b>{self.tr('Messages of the control')}</b><br>{'<br>'.join(names)}</p>")
         if parameter.formulas:
             known = calculators(schema.family.family)
-            formulas = (
+            titles = (
                 f"{known[f].title}: {known[f].description.partition(chr(10))[0]}" for f in parameter.formulas
             )
-            lines.append(
-                f"<p><b>{self.tr('Formulas')}</b></p>" + "".join(f"<p>{html.escape(t)}</p>" for t in formulas)
-            )
+            paragraphs = "</p><p>".join(map(html.escape, titles))
+            lines.append(f"<p><b>{self.tr('Formulas')}</b></p><p>{paragraphs}</p>")
         lines += [drawn(table) for table in tables_of(schema, parameter)]
         lines.append(
             f"<p><small>{html.escape(schema.family.title)},"
             f" {worded(f'page {schema.page(address)}')}</small></p>"
         )
         return "".join(lines)
+
+    def _related(self, parameter: Parameter) -> str:
+        schema = self._workspace.file.schema
+        return ", ".join(link(schema, r) for r in parameter.help.related if r in schema.parameters)
 
     def _where_else(self, address: Address) -> str:
         """Return the value on disk, in the control, at the last download and in the other open files."""

@@ -4,6 +4,9 @@ and kept for the next time.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from typing import TypeVar
+
 from PySide6.QtCore import QObject, Signal
 
 from amp_studio.languages import language_codes, name_of_language
@@ -12,6 +15,8 @@ from amp_studio.ui.base.translated import language_in_use, tr
 from amp_studio.ui.forms.form import Field, FormAnswers
 
 from .settings import UserSettings
+
+_T = TypeVar("_T")
 
 
 class ReportChoice(QObject):
@@ -30,13 +35,13 @@ class ReportChoice(QObject):
         sort, units, paper, language = (kept.get(name, "") for name in ("sort", "units", "paper", "language"))
         without = kept.get("without", "").split(",")
         return Contents(
-            next((each for each in SORTS if each == sort), "group"),
+            _one_of(sort, SORTS, "group"),
             kept.get("changed") == "yes",
             kept.get("inactive") == "yes",
-            next((each for each in UNIT_CHOICES if each == units), "file"),
+            _one_of(units, UNIT_CHOICES, "file"),
             language if language in language_codes() else language_in_use(self._settings.language()),
             frozenset(each for each in CHAPTERS if each in without),
-            next((each for each in PAPER_SIZES if each == paper), "a4"),
+            _one_of(paper, PAPER_SIZES, "a4"),
         )
 
     @contents.setter
@@ -114,3 +119,8 @@ def contents_of(given: FormAnswers) -> Contents:
     without = frozenset(chapter for chapter in CHAPTERS if not given[chapter])
     shared = (given["units"], given["language"], without, given["paper"])
     return Contents(given["sort"], given["changed"], given["inactive"], *shared)
+
+
+def _one_of(text: str, known: Iterable[_T], otherwise: _T) -> _T:
+    """Return which of the known texts one is."""
+    return next((each for each in known if each == text), otherwise)

@@ -16,6 +16,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import chain
 
 from amp_studio.files import ParameterFile
 from amp_studio.formats import (
@@ -217,33 +218,25 @@ def _is_of_a_program(text: str, words: set[str]) -> bool:
 
 def _check_letters(lines: list[_ScriptLine], letters: Sequence[str]) -> None:
     """Refuse settings by a letter that the program gives to another axis than it is here."""
-    given = {}
-    for line in lines:
-        if found := _ATTACH.match(line.text):
-            given[found["letter"].upper()] = int(found["axis"]), line.number
+    attached = ((_ATTACH.match(line.text), line.number) for line in lines)
+    given = {found["letter"].upper(): (int(found["axis"]), at) for found, at in attached if found}
     other = {x: at for x, at in given.items() if x in letters and letters.index(x) != at[0]}
     for line in lines:
-        for argument in line.arguments:
-            setting = argument.setting
-            if "{i}" in setting.template and setting.instance in other:
-                axis, at = other[setting.instance]
-                here = letters.index(setting.instance)
-                line.fault = FormatError(
-                    f"{setting.instance} is AXIS{axis} of this program (line {at}), and here it is"
-                    f" AXIS{here}",
-                    line.number,
-                    argument.column,
-                )
+        by_letter = [each for each in line.arguments if "{i}" in each.setting.template]
+        for argument in by_letter:
+            letter = argument.setting.instance
+            if letter in other:
+                axis, at = other[letter]
+                text = f"{letter} is AXIS{axis} of this program (line {at}), and here it is"
+                here = letters.index(letter)
+                line.fault = FormatError(f"{text} AXIS{here}", line.number, argument.column)
         if line.fault is not None:
             line.arguments = []
 
 
 def _keep_unequal(lines: list[_ScriptLine], commands: list[Command], schema: Schema, system: str) -> None:
     """Take settings in the forms of programs for text where not all of them are there with one value."""
-    forms: dict[Address, set[str]] = {}
-    for command in commands:
-        for setting in command.settings:
-            forms.setdefault(setting.addresses[0], set()).add(setting.template)
+    forms = _forms(commands)
     seen: dict[Address, list[tuple[_ScriptLine, str, set[Value]]]] = {}
     for line in lines:
         for each in line.arguments:
@@ -253,10 +246,18 @@ def _keep_unequal(lines: list[_ScriptLine], commands: list[Command], schema: Sch
                 values = {read_figure(schema, parameter, text, system) for text, _ in each.figures}
                 seen.setdefault(address, []).append((line, each.setting.template, values))
     for address, some in seen.items():
-        values = set().union(*(each[2] for each in some))
-        if len(values) > 1 or {each[1] for each in some} != forms[address]:
-            for line, _, _ in some:
+        own, templates, figures = zip(*some, strict=True)
+        if len(set().union(*figures)) > 1 or {*templates} != forms[address]:
+            for line in own:
                 line.arguments, line.is_kept = [], True
+
+
+def _forms(commands: list[Command]) -> dict[Address, set[str]]:
+    """Return the forms in which programs set a value."""
+    forms: dict[Address, set[str]] = {}
+    for setting in chain.from_iterable(command.settings for command in commands):
+        forms.setdefault(setting.addresses[0], set()).add(setting.template)
+    return forms
 
 
 def _arguments(line: _ScriptLine, commands: list[Command]) -> Iterator[CommandArgument]:

@@ -25,7 +25,7 @@ from amp_studio.formats import (
     system_of,
     write_figure,
 )
-from amp_studio.schema import InvalidValueError, load_schema
+from amp_studio.schema import Address, InvalidValueError, Value, load_schema
 from amp_studio.transfer import ImageError, TakesAllOrRefuses
 
 KIND = "ACR script 1"
@@ -267,15 +267,16 @@ def _figures_in(file: ParameterFile, card: CardContent) -> dict[str, tuple[str, 
         for n, (address, value) in enumerate(zip(setting.addresses, values, strict=True)):
             if value is None and n >= len(present):
                 raise ImageError(f"{name} has several figures, and the file sets only some of them")
-            try:
-                parameter = file.schema.parameters[address[0]]
-                figures.append(
-                    present[n] if value is None else write_figure(file.schema, parameter, value, card.system)
-                )
-            except InvalidValueError as error:
-                raise ImageError(f"{file.machine_schema.label(address)}: {error}") from None
+            figures.append(present[n] if value is None else _figure(file, address, value, card.system))
         wanted[name] = tuple(figures)
     return wanted
+
+
+def _figure(file: ParameterFile, address: Address, value: Value, system: str) -> str:
+    try:
+        return write_figure(file.schema, file.schema.parameters[address[0]], value, system)
+    except InvalidValueError as error:
+        raise ImageError(f"{file.machine_schema.label(address)}: {error}") from None
 
 
 def _ballscrew_in(file: ParameterFile) -> dict[str, str]:

@@ -7,6 +7,7 @@ which has to find out how this behaves.
 
 from __future__ import annotations
 
+import math
 import re
 import struct
 from collections.abc import Iterator
@@ -71,14 +72,19 @@ class StoredSetting:
         if self.kind == _DECIMAL:
             return self._decimal(found[0])
         number = int(found[1])
-        if self.kind in (0, 1, 3, _AXES):
-            if number > {0: 1, 3: len(self.labels) - 1}.get(self.kind, (1 << len(self.labels)) - 1):
-                raise RefusedError(OUT_OF_RANGE)
-        elif (self.most is not None and number > self.most) or (
-            self.least is not None and number < self.least
-        ):
+        least, most = self._range()
+        if not least <= number <= most:
             raise RefusedError(OUT_OF_RANGE)
         return float(number % (1 << self.bits))
+
+    def _range(self) -> tuple[float, float]:
+        """Return the least and the greatest whole number; infinite where there is none."""
+        if self.kind in (0, 1, 3, _AXES):
+            most = {0: 1, 3: len(self.labels) - 1}.get(self.kind, (1 << len(self.labels)) - 1)
+            return -math.inf, most
+
+        least = -math.inf if self.least is None else self.least
+        return least, math.inf if self.most is None else self.most
 
     def _decimal(self, text: str) -> float:
         number = struct.unpack("<f", struct.pack("<f", float(text)))[0]

@@ -8,8 +8,9 @@ have is kept as text and written back.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from typing import TypeVar
 
 from amp_studio.families.grblhal.settings import (
     SettingError,
@@ -25,6 +26,8 @@ from .log import Log, LoggedListing, figure, is_listing, read_log
 from .older import OLDER, read_older
 from .relatives import Relative, is_relative, read_relative
 
+_K = TypeVar("_K")
+_V = TypeVar("_V")
 _STEPS = 100
 _OF_AXES = 9
 """Ten numbers are for each quantity of the axes; the last one is of no axis."""
@@ -189,37 +192,42 @@ def _fit(schema: Schema, log: Log, listing: LoggedListing, machine: str) -> _Fit
         n: listing.text_of(n, written) if n in written else figure(text)
         for n, text in listing.settings.items()
     }
-    unknown = tuple(n for n in texts if n not in known)
-    unreadable: dict[int, str] = {}
-    values: dict[Address, Value] = {}
-    while True:
-        try:
-            values, _ = values_of_settings(
-                schema, {n: text for n, text in texts.items() if n not in unreadable}, machine
-            )
-        except SettingError as error:
-            unreadable[error.number] = str(error)
-        else:
-            break
+    values, unreadable = _readable(schema, texts, machine)
     values |= _axes(schema, log, listing.settings, machine)
     file = ParameterFile(schema)
     file.header.machine = machine
     file.take(values)
     outside = {address for address, value in values.items() if fault(file.evaluation, address, value)}
-    of_some_builds = {n for n in texts.keys() & known.keys() if schema.parameters[known[n][0]].needs}
+    of_some_builds = [n for n in texts if n in known and schema.parameters[known[n][0]].needs]
     masked = {n for n in of_some_builds if schema.parameters[known[n][0]].secret and not texts[n].strip("*")}
-    other = tuple(n for n in of_some_builds if n in unreadable or n in masked or known[n] in outside)
+    other = {n: known[n] for n in of_some_builds if n in unreadable or n in masked or known[n] in outside}
     missing = known.keys() - texts.keys()
     return _Fit(
         machine,
-        {address: value for address, value in values.items() if address not in {known[n] for n in other}},
-        unknown,
-        other,
-        {n: why for n, why in unreadable.items() if n not in other},
-        len(outside - {known[n] for n in other}),
+        _without(values, other.values()),
+        tuple(n for n in texts if n not in known),
+        tuple(other),
+        _without(unreadable, other),
+        len(outside.difference(other.values())),
         len(missing),
         1 - len(missing) / max(1, len(known)),
     )
+
+
+def _readable(
+    schema: Schema, texts: Mapping[int, str], machine: str
+) -> tuple[dict[Address, Value], dict[int, str]]:
+    """Return the values of the settings whose text is one, and why the others are none."""
+    unreadable: dict[int, str] = {}
+    while True:
+        try:
+            return values_of_settings(schema, _without(texts, unreadable), machine)[0], unreadable
+        except SettingError as error:
+            unreadable[error.number] = str(error)
+
+
+def _without(entries: Mapping[_K, _V], keys: Collection[_K]) -> dict[_K, _V]:
+    return {key: entry for key, entry in entries.items() if key not in keys}
 
 
 def _axes(schema: Schema, log: Log, settings: Iterable[int], machine: str) -> dict[Address, Value]:
@@ -227,12 +235,12 @@ def _axes(schema: Schema, log: Log, settings: Iterable[int], machine: str) -> di
     declared, letters = schema.family.declared_axes, schema.family.scopes["axis"].instances
     if not declared or not declared.letters:
         return {}
-    fact = re.fullmatch(r"\d:([A-Z]{1,9})", (log.facts.get("AXS") or [""])[-1])
+    named = re.fullmatch(r"\d:([A-Z]{1,9})", log.facts.get("AXS", [""])[-1])
+    fact = named[1] if named else ""
     most = declared.most.get(machine, len(letters))
     have = [n % 10 for n in settings if n // 10 * 10 in range(_STEPS, _STEPS + 40, 10) and n % 10 < _OF_AXES]
-    count = len(fact[1]) if fact else max(have, default=-1) + 1
-    is_known = not fact or "".join(letters).startswith(fact[1])
-    if not is_known or not declared.least <= count <= most:
+    count = len(fact) or max(have, default=-1) + 1
+    if not "".join(letters).startswith(fact) or not declared.least <= count <= most:
         return {}
     return {(declared.letters, ""): Value("".join(letters[:count]))}
 
@@ -255,6 +263,23 @@ def _unreadable(listing: LoggedListing, fit: _Fit) -> FormatError:
 def _notes(
     schema: Schema, log: Log, listing: LoggedListing, fit: _Fit, options: ReadOptions
 ) -> Iterable[str]:
+    yield from _notes_of_listings(log, listing)
+    yield from _notes_of_kept(log, listing, fit)
+    if log.others:
+        n, line = log.others[0]
+        count = "a line" if len(log.others) == 1 else f"{len(log.others)} lines"
+        yield (
+            f"{count} without a setting left out: line {n},"
+            f" {quoted(short(line))}{', …' if len(log.others) > 1 else ''}"
+        )
+    if not options.machine:
+        family = schema.family
+        keys = ", ".join(m.key for m in family.machines)
+        yield f"machine type {family.machine_name(fit.machine)}; --machine chooses another: {keys}"
+
+
+def _notes_of_listings(log: Log, listing: LoggedListing) -> Iterator[str]:
+    """Yield which listing was read, and what beside it is a setting, or none."""
     if len(log.listings) > 1:
         others = ", ".join(
             f"{n} ({_place(one)})" for n, one in enumerate(log.listings, 1) if one is not listing
@@ -281,6 +306,10 @@ def _notes(
             "what the control answered with an error is left out: line"
             f" {', '.join(map(str, log.refused[:9]))}"
         )
+
+
+def _notes_of_kept(log: Log, listing: LoggedListing, fit: _Fit) -> Iterator[str]:
+    """Yield what is kept as text."""
     kept = sorted((*fit.unknown, *fit.unreadable))
     if kept:
         yield (
@@ -297,19 +326,6 @@ def _notes(
     if any(log.startup.values()):
         lines = ", ".join(key for key, block in log.startup.items() if block)
         yield f"start-up lines are no settings and are kept as text: {lines}"
-    if log.others:
-        n, line = log.others[0]
-        count = "a line" if len(log.others) == 1 else f"{len(log.others)} lines"
-        yield (
-            f"{count} without a setting left out: line {n},"
-            f" {quoted(short(line))}{', …' if len(log.others) > 1 else ''}"
-        )
-    if not options.machine:
-        name = next(m.name for m in schema.family.machines if m.key == fit.machine)
-        yield (
-            f"machine type {name}; --machine chooses another:"
-            f" {', '.join(m.key for m in schema.family.machines)}"
-        )
 
 
 def _are(numbers: list[int]) -> str:
@@ -324,9 +340,8 @@ def _write(file: ParameterFile) -> str:
         settings = settings_of_file(file, padded=True, hidden=True)
     except StorageError as error:
         raise FormatError(str(error)) from None
-    for key, value in file.unknown.items():
-        if re.fullmatch(r"\$[0-9]{1,5}", key) and int(key[1:]) not in settings:
-            settings[int(key[1:])] = value
+    unknown = {int(key[1:]): text for key, text in file.unknown.items() if re.fullmatch(r"\$[0-9]{1,5}", key)}
+    settings = unknown | settings
     if not settings:
         raise FormatError(
             f"no setting has a value: {short(file.header.name) or 'the file'} gives an empty listing"
@@ -336,16 +351,20 @@ def _write(file: ParameterFile) -> str:
     for key, value in (lines | startup).items():
         if re.search(r"[\r\n]", value):
             raise FormatError(f"{key} is a text of several lines, which no setting can be")
+    return "".join(
+        f"{line}\n"
+        for line in (*_remarks(file), *(f"{key}={value}" for key, value in (startup | lines).items()))
+    )
+
+
+def _remarks(file: ParameterFile) -> Iterator[str]:
+    """Yield what the control answers to ``$I``, and what the file has that is no line of a listing."""
     fact = file.header.extra.get(_IDENTITY)
-    identity = [one for one in fact if isinstance(one, str)] if isinstance(fact, list) else []
-    remarks = [f"; {' '.join(one.split())}" for one in identity]
-    others = [
+    remarks = [one for one in fact if isinstance(one, str)] if isinstance(fact, list) else []
+    remarks += [
         f"{key} {text}" for key, text in file.unknown.items() if not re.match(r"\$(N[0-9]|[0-9]{1,5})$", key)
     ]
-    remarks += [f"; {' '.join(one.split())}" for one in others]
-    return "".join(
-        f"{line}\n" for line in (*remarks, *(f"{key}={value}" for key, value in (startup | lines).items()))
-    )
+    return (f"; {' '.join(one.split())}" for one in remarks)
 
 
 FORMAT = TextFormat(

@@ -14,6 +14,7 @@ and v0_8 and of the commits 2055e92 (0.9b), 3c3382f (0.9c) and 532c359 (0.9e).
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from amp_studio.formats import FormatError
@@ -163,13 +164,16 @@ def read_older(listing: LoggedListing, greeting: str) -> tuple[LoggedListing, Ol
         {n: _TODAY[m] for n, m in names.items() if m in _TODAY},
     )
     today = LoggedListing(heading=listing.heading)
-    for n in listing.settings:
+    for n, text in listing.settings.items():
         if n in then.numbers:
-            today.put(then.numbers[n], figure(listing.settings[n]), listing.lines[n], "", "")
+            today.put(then.numbers[n], figure(text), listing.lines[n], "", "")
         else:
-            remark = f" ({listing.remarks[n]})" if listing.remarks[n] else ""
-            then.kept[f"{then.name} ${n}"] = f"{listing.settings[n]}{remark}"
+            then.kept[f"{then.name} ${n}"] = " ".join(filter(None, (text, _in_brackets(listing.remarks[n]))))
     return today, then
+
+
+def _in_brackets(remark: str) -> str:
+    return f"({remark})" if remark else ""
 
 
 def _by_remarks(listing: LoggedListing) -> dict[int, str]:
@@ -199,21 +203,15 @@ def _by_layout(listing: LoggedListing, release: str) -> dict[int, str]:
     """
     texts = {n: figure(text) for n, text in listing.settings.items()}
     named = next((key for letters, key in _NAMED.items() if re.match(letters, release)), "")
-    odd = sum("." in texts[n] for n in _BYTES & texts.keys())
-    is_whole = len(texts) >= _LEAST_SETTINGS and texts.keys() >= {0, 1, 2}
-    is_odd = any(name and _TODAY.get(name) != n for n, r in listing.remarks.items() for name in [_name_of(r)])
-    if not named and not is_odd and not (odd > 1 and is_whole):
+    if not named and not _is_odd(listing, texts):
         return {}
-    fits = [
-        names
-        for names in (dict(enumerate(_LAYOUTS[key])) for key in ([named] if named else _LAYOUTS))
-        if texts.keys() <= names.keys() and not any("." in texts[n] and names[n] in _WHOLE for n in texts)
-    ]
-    for likelier in (
-        [names for names in fits if names.keys() == texts.keys()],
-        [names for names in fits if all(("." in texts[n]) != (names[n] in _WHOLE) for n in texts)],
+    layouts = [dict(enumerate(_LAYOUTS[key])) for key in ([named] if named else _LAYOUTS)]
+    fits = [names for names in layouts if _fits(texts, names)]
+    for is_likelier in (
+        lambda names: names.keys() == texts.keys(),
+        lambda names: all(("." in texts[n]) != (names[n] in _WHOLE) for n in texts),
     ):
-        fits = [names for names in fits if names in likelier] or fits
+        fits = [*filter(is_likelier, fits)] or fits
     if len(fits) > 1:
         raise FormatError(
             "this is a listing of a Grbl before 0.9g, whose numbers mean other settings ($0 is the steps of"
@@ -223,6 +221,22 @@ def _by_layout(listing: LoggedListing, release: str) -> dict[int, str]:
             1,
         )
     return fits[0] if fits else {}
+
+
+def _is_odd(listing: LoggedListing, texts: Mapping[int, str]) -> bool:
+    """Return whether remarks name other settings than the numbers do today, or what are whole bytes today
+    has a point.
+    """
+    names = {n: _name_of(remark) for n, remark in listing.remarks.items()}
+    if any(name and _TODAY.get(name) != n for n, name in names.items()):
+        return True
+    odd = sum("." in texts[n] for n in _BYTES & texts.keys())
+    return odd > 1 and len(texts) >= _LEAST_SETTINGS and texts.keys() >= {0, 1, 2}
+
+
+def _fits(texts: Mapping[int, str], names: Mapping[int, str]) -> bool:
+    """Return whether a release has all these numbers, and none of its whole figures has a point here."""
+    return texts.keys() <= names.keys() and not any("." in texts[n] and names[n] in _WHOLE for n in texts)
 
 
 def _release_of(listing: LoggedListing, names: dict[int, str]) -> str:

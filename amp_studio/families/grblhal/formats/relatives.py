@@ -150,18 +150,25 @@ def _marlin(text: str) -> Relative:
             raise FormatError("the listing is in inches: send G21 before M503", n)
         words = dict(_WORD.findall(code[2]))
         is_doubtful = not is_known and any(float(figure or 0) > _FASTEST for figure in words.values())
-        if code[1] in _OF_MARLIN and not (code[1] == _RATES and is_doubtful):
-            factor = 60 if code[1] == _RATES and not is_per_minute else 1
-            for k, axis in enumerate("XYZ"):
-                if words.get(axis):
-                    found.settings[_OF_MARLIN[code[1]] + k] = _plain(Decimal(words.pop(axis)) * factor)
-        elif code[1] == "M205" and words.get("J"):
-            found.settings[11] = words.pop("J")
-        elif code[1] == "M211" and words.get("S") in ("0", "1"):
-            found.settings[20] = words.pop("S")
+        if code[1] != _RATES:
+            _take_words(found, code[1], words, 1)
+        elif not is_doubtful:
+            _take_words(found, code[1], words, 1 if is_per_minute else 60)
         if words and code[1] != "G21":
             _keep(found, code[1], " ".join(f"{letter}{figure}" for letter, figure in words.items()))
     return found
+
+
+def _take_words(found: Relative, code: str, words: dict[str, str], factor: int) -> None:
+    """Take the words of a code that are settings of Grbl."""
+    if code in _OF_MARLIN:
+        for k, axis in enumerate("XYZ"):
+            if words.get(axis):
+                found.settings[_OF_MARLIN[code] + k] = _plain(Decimal(words.pop(axis)) * factor)
+    elif code == "M205" and words.get("J"):
+        found.settings[11] = words.pop("J")
+    elif code == "M211" and words.get("S") in ("0", "1"):
+        found.settings[20] = words.pop("S")
 
 
 def _keep(found: Relative, code: str, text: str) -> None:
@@ -242,16 +249,19 @@ class _OfAxes:
     def _joined(self, name: str, entries: list[tuple[str, str, str]]) -> str | None:
         texts = {text.casefold() for _, _, text in entries}
         if name == _DIRECTION:
-            negative = {axis for axis, _, text in entries if text.casefold() == "false"}
-            return (
-                str(sum(1 << AXES.index(a.upper()) for a in negative)) if texts <= {"true", "false"} else None
-            )
+            return _directions(entries) if texts <= {"true", "false"} else None
         if texts == {"true"}:
             return "1" if {axis for axis, _, _ in entries} == self._axes else None
         if texts == {"false"}:
             return "0"
         is_number = len(texts) == 1 and re.fullmatch(r"[0-9]+\.?[0-9]*", next(iter(texts)))
         return entries[0][2] if is_number else None
+
+
+def _directions(entries: list[tuple[str, str, str]]) -> str:
+    """Return the word with the bit of each axis that homes in its negative direction."""
+    negative = {axis for axis, _, text in entries if text.casefold() == "false"}
+    return str(sum(1 << AXES.index(axis.upper()) for axis in negative))
 
 
 def _number_of(path: str) -> int | None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from operator import itemgetter
 
 from amp_studio.families.linuxcnc.figures import (
     TYPE,
@@ -83,13 +84,13 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
             found.kept.append(f"{row.entry.name} = {row.entry.text}")
     found.notes += _notes(ini, schema, machine, options)
     included = {name: lines for name, lines in ini.lines.items() if name}
-    found.extra[_KIND] = {
-        "lines": ini.lines[""],
-        **({"encoding": encoding} if encoding != "utf-8" else {}),
-        **({"newline": "crlf"} if newline == "\r\n" else {}),
-        **({"included": included} if included else {}),
-        **({"hal": sorted(hal)} if hal else {}),
+    further = {
+        "encoding": encoding if encoding != "utf-8" else "",
+        "newline": "crlf" if newline == "\r\n" else "",
+        "included": included,
+        "hal": sorted(hal),
     }
+    found.extra[_KIND] = {"lines": ini.lines[""], **dict(filter(itemgetter(1), further.items()))}
     return found
 
 
@@ -136,14 +137,14 @@ def _notes(ini: IniText, schema: Schema, machine: str, options: ReadOptions) -> 
 def _hal_references(ini: IniText, beside: Callable[[str], str | None]) -> dict[str, list[str]]:
     """Return ``[SECTION]KEY`` -> the pins that HAL files beside the configuration set to it."""
     found: dict[str, list[str]] = {}
-    for entry in ini.entries:
-        if entry.section == "HAL" and entry.key.endswith("HALFILE"):
-            name = (entry.text.split() or [""])[0]
-            for line, where, pin in references((beside(name) if not name.startswith("LIB:") else None) or ""):
-                found.setdefault(where, []).append(
-                    f"{pin} ({name} line {line})" if pin else f"{name} line {line}"
-                )
-        elif entry.section == "HAL" and entry.key == "HALCMD":
+    for entry in (each for each in ini.entries if each.section == "HAL"):
+        if entry.key.endswith("HALFILE"):
+            name = next(iter(entry.text.split()), "")
+            text = "" if name.startswith("LIB:") else beside(name)
+            for line, where, pin in references(text or ""):
+                place = f"{name} line {line}"
+                found.setdefault(where, []).append(f"{pin} ({place})" if pin else place)
+        elif entry.key == "HALCMD":
             for _, where, pin in references(entry.text):
                 found.setdefault(where, []).append(pin or "HALCMD")
     return found
@@ -280,18 +281,8 @@ class _Edited:
 
     def rows(self) -> dict[str, list[str]]:
         """Return the lines of each file, with new values at the ends of their sections."""
-        new: dict[str, list[str]] = {}
-        for address in self.file.addresses():
-            value = self.file.get(address)
-            if (
-                value is not None
-                and address not in self.written
-                and (line := _new_line(self.file, address, value))
-            ):
-                new.setdefault(line[0], []).append(line[1])
-        for section in sorted(
-            (s for s in new if s in self.ini.last), key=self.ini.last.__getitem__, reverse=True
-        ):
+        new = self._new_lines()
+        for section in sorted(new.keys() & self.ini.last.keys(), key=self.ini.last.__getitem__, reverse=True):
             at = self.ini.last[section] + 1
             self.lines[""][at:at] = new.pop(section)
         rows = {name: [row for row in lines if row is not None] for name, lines in self.lines.items()}
@@ -300,6 +291,15 @@ class _Edited:
             ends = bool(main) and main[-1] == ""
             main[len(main) - ends :] = ["", f"[{section}]", *lines, *[""] * ends]
         return rows
+
+    def _new_lines(self) -> dict[str, list[str]]:
+        """Return section -> the lines of values that have none yet."""
+        new: dict[str, list[str]] = {}
+        for address in self.file.addresses():
+            value = self.file.get(address) if address not in self.written else None
+            if value is not None and (line := _new_line(self.file, address, value)):
+                new.setdefault(line[0], []).append(line[1])
+        return new
 
     def _value(self, row: _Row, address: Address, before: Value) -> None:
         value, unit = self.file.get(address), unit_in(self.file, address)

@@ -110,10 +110,11 @@ class MachineKeys:
             return self._reference(words)
         if unhomed := [axis for axis in words if not self._machine.is_homed(axis)]:
             raise ValueError(f"{MUST_HOME} {', '.join(unhomed)}")
-        is_feed = found[1] in ("1", "01")
-        if is_feed and not feed:
+        if found[1] not in ("1", "01"):
+            feed = None
+        elif not feed:
             raise ValueError("G1 needs a feedrate F")
-        self._machine.move(words, feed / 60.0 if is_feed and feed else None)
+        self._machine.move(words, feed / 60.0 if feed else None)
         return block.strip()
 
     def _reference(self, words: dict[str, float]) -> str:

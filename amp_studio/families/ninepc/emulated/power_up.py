@@ -8,7 +8,7 @@ and all words but those in capitals.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 
 from amp_studio.files import ParameterFile
@@ -52,11 +52,14 @@ def estop_reasons(file: ParameterFile, axes: int) -> Iterator[str]:
     modes = {_choice(file, (f"tool.{which}_mode", "")) for which in ("geometry", "wear")}
     if modes == {"shift-move", "shift-delayed-move"}:
         yield "INCOMPATIBLE TOOL ACTIVATION MODES (page 21-4)"
+    yield from _monitor_codes(file)
+
+
+def _monitor_codes(file: ParameterFile) -> Iterator[str]:
     for instance, number in (("2", 86), ("3", 87)):
         code = _number(file, ("patch.dac_monitor", instance))
-        if code and not _is_dac_code(
-            code
-        ):  # by the manual no value switches the monitor off; 0 is taken as off
+        # By the manual no value switches the monitor off; 0 is taken as off.
+        if code and not _is_dac_code(code):
             yield (
                 f"parameter {number} contains {write_number(float(code))}, which is no function and axis"
                 " (page A-6)"
@@ -81,24 +84,26 @@ def corrected_limits(file: ParameterFile) -> dict[str, dict[Address, Fraction]]:
     """
     found = {}
     for axis in fitted(file):
-        limits = [(address, _number(file, address)) for address in ((name, axis) for name in _LIMITS)]
-        if any(value is None for _, value in limits):
-            continue
-        changed: dict[Address, Fraction] = {}
-        above: Fraction | None = None
-        for address, value in reversed(limits):
-            assert value is not None
-            most = value
-            if above is not None:
-                most = (
-                    above if address[0] == "servo.feedrate_suppression" else max(above - _STEP, Fraction(0))
-                )
-            above = min(value, most)
-            if above < value:
-                changed[address] = above
-        if changed:
+        numbers = {(name, axis): _number(file, (name, axis)) for name in _LIMITS}
+        limits = {address: number for address, number in numbers.items() if number is not None}
+        if len(limits) == len(numbers) and (changed := _lowered(limits)):
             found[axis] = changed
     return found
+
+
+def _lowered(limits: Mapping[Address, Fraction]) -> dict[Address, Fraction]:
+    """Return the limits that are not below the next one, from the highest down, as they then are."""
+    changed: dict[Address, Fraction] = {}
+    above: Fraction | None = None
+    for address, value in reversed([*limits.items()]):
+        most = value
+        if above is not None:
+            is_equal_allowed = address[0] == "servo.feedrate_suppression"
+            most = above if is_equal_allowed else max(above - _STEP, Fraction(0))
+        above = min(value, most)
+        if above < value:
+            changed[address] = above
+    return changed
 
 
 def _is_dac_code(code: Fraction) -> bool:

@@ -70,10 +70,7 @@ def _write(file: ParameterFile) -> str:
 
 def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     """Return the values of a sheet; raises FormatError with line and column."""
-    named = re.search(r"^# machine (\S+)$", text, re.MULTILINE)
-    machine = named[1] if named else schema.family.default_machine
-    if machine not in schema.machines:
-        raise FormatError(f"{schema.family.name} has no machine type {quoted(machine)}")
+    machine = _machine_of(text, schema)
     found = TextRead(machine=machine)
     # A number means what it means on the machine of the sheet: it is looked up in a file of that type.
     file = ParameterFile(schema)
@@ -98,6 +95,15 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
             raise FormatError(f"{number} occurs twice", n, 1)
         found.values[address] = _value(file, address, cells, n, len(number) + 2)
     return found
+
+
+def _machine_of(text: str, schema: Schema) -> str:
+    """Return the machine type that a sheet names; raises FormatError."""
+    named = re.search(r"^# machine (\S+)$", text, re.MULTILINE)
+    machine = named[1] if named else schema.family.default_machine
+    if machine not in schema.machines:
+        raise FormatError(f"{schema.family.name} has no machine type {quoted(machine)}")
+    return machine
 
 
 def _keep(found: TextRead, number: str, cells: list[str], line: int) -> None:
