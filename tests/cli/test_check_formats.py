@@ -294,3 +294,16 @@ def test_the_hook_of_pre_commit_checks_the_files_of_a_commit(
     assert program in scripts
     assert cli.run([*arguments, staged[0]]) == 1
     assert "1300 Home Calibration" in capsys.readouterr().out
+
+
+def test_of_several_files_the_name_comes_first_and_of_one_last(amp, tmp_path: Path, checkout: Path) -> None:
+    text = (checkout / "examples" / "grblhal-router" / "GRBL_ROUTER.amp").read_text("utf-8")
+    for name, speed in (("good.amp", "8000"), ("bad.amp", "-5")):
+        (tmp_path / name).write_text(
+            text.replace("axis.max_rate@X: 8000", f"axis.max_rate@X: {speed}"), "utf-8"
+        )
+    alone = amp("validate", tmp_path / "bad.amp").out.splitlines()
+    listed = amp("validate", tmp_path, "--no-cache").out.splitlines()
+    assert alone[-1].startswith(f"{tmp_path / 'bad.amp'}: 1 error")
+    assert listed == [alone[-1], *(f"  {line}" for line in alone[:-1]), listed[-1]]
+    assert listed[-1].startswith(f"{tmp_path / 'good.amp'}: 0 errors")

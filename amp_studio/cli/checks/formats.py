@@ -13,6 +13,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from textwrap import indent
 from typing import Any, NamedTuple
 from urllib.parse import quote_from_bytes
 
@@ -63,6 +64,8 @@ class FileFindings:
     """Its findings, and apart from them what is as delivered."""
     why: bool
     """Whether each finding is explained."""
+    is_listed: bool = False
+    """Whether other files are printed beside it, so that its name comes first."""
     motion: object = None
     """What the check of the motion found, where it was asked for: text, or a part of the JSON document."""
 
@@ -115,6 +118,20 @@ class CheckFormat:
         return re.sub("[^\0-\x7f]", lambda found: json.dumps(found[0])[1:-1], document)
 
     def _lines(self, checked: FileFindings) -> Iterator[str]:
+        """Yield what was found and the summary; of one file of several the summary, with its name, and what
+        was found below it.
+        """
+        if not checked.is_listed:
+            yield from self._found(checked)
+            yield checked.summary
+        else:
+            yield checked.summary
+            for text in self._found(checked):
+                yield indent(text, "  ")
+        if checked.motion:
+            yield str(checked.motion)
+
+    def _found(self, checked: FileFindings) -> Iterator[str]:
         validator = checked.validator
         for same in alike(checked.findings):
             yield same_finding_text(validator.file, same)
@@ -124,9 +141,6 @@ class CheckFormat:
             yield suppressed_text(validator.file, left)
         if state := delivered_text(checked.present.delivered, checked.present.steps):
             yield state
-        yield checked.summary
-        if checked.motion:
-            yield str(checked.motion)
 
 
 def _reasons(validator: Validator, same: Iterable[Finding]) -> Iterator[str]:

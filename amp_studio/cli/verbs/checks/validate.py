@@ -87,7 +87,7 @@ def run(options: Options) -> int:
             options.rules
         )  # a file that is not there is a slip of the hand, one that is wrong a finding
     paths, unread = _files(options.paths)
-    check = partial(_check, options)
+    check = partial(_check, options, len(paths) > 1)
     counts_shown = len(paths) > 1 and (form.needs_all or not sys.stdout.isatty())
     show = progress() if counts_shown else None
     checked = []
@@ -226,7 +226,7 @@ def _start() -> None:
     gc.freeze()
 
 
-def _check(options: Options, path: Path) -> CheckResult:
+def _check(options: Options, is_listed: bool, path: Path) -> CheckResult:
     """Check one file; whatever is wrong with it ends no other's check."""
     from amp_studio.cli.checks.formats import CHECK_FORMATS, CheckResult
     from amp_studio.files import ParameterFileError
@@ -236,7 +236,7 @@ def _check(options: Options, path: Path) -> CheckResult:
         machine = opened(path, options, notes.append)
         own = machine.builder_rules(options.rules)
         with _kept_validators().validator_of(machine.file, machine.source, own) as validator:
-            checked = _checked(path, validator, options.why)
+            checked = _checked(path, validator, options.why, is_listed)
             bad = 0
             if options.motion:
                 found, bad = _in_motion(machine, as_document=options.format == "json")
@@ -270,14 +270,14 @@ def _in_motion(machine: MachineParameters, *, as_document: bool) -> tuple[object
     return found, sum(check.verdict == "bad" for check in checks)
 
 
-def _checked(path: Path, validator: Validator, why: bool) -> FileFindings:
+def _checked(path: Path, validator: Validator, why: bool, is_listed: bool) -> FileFindings:
     """Return the findings of a file, apart from those about values as delivered,
     of steps that are not reached.
     """
     from amp_studio.cli.checks.formats import FileFindings
     from amp_studio.guide import present
 
-    return FileFindings(path, validator, present(validator, validator.findings()), why)
+    return FileFindings(path, validator, present(validator, validator.findings()), why, is_listed)
 
 
 @cache
