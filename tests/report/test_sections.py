@@ -242,9 +242,12 @@ def test_the_same_sentence_about_several_axes_is_shown_once(mill: ParameterFile)
     assert found[0].about == (("home.calibration@2", "2300"), ("home.calibration@3", "3300 Home Calibration"))
 
 
-def test_a_forced_value_of_an_axis_that_is_not_fitted_is_not_forgotten(mill: ParameterFile) -> None:
-    mill.forced[("home.calibration", "8")] = "by hand"
-    assert "home.calibration@8" in {r.anchor for r in build_report(mill).forced}
+def test_a_forced_value_is_not_forgotten(mill: ParameterFile) -> None:
+    """Neither one of an axis that is not fitted nor one that is the printed default."""
+    mill.forced[("home.calibration", "8")] = mill.forced[("home.calibration", "3")] = "by hand"
+    report = build_report(mill, Contents(changed_only=True))
+    assert {"home.calibration@3", "home.calibration@8"} <= {r.anchor for r in report.forced}
+    assert "home.calibration@3" in {r.anchor for r in report.rows()}
 
 
 def test_the_facts_name_the_file_and_its_checksum(

@@ -11,9 +11,27 @@ from typing import Any
 import pytest
 
 from amp_studio.transfer.emulated.responder import Responder
-from amp_studio.transfer.errors import ControlSilentError, ProtocolMismatchError, TransferError
+from amp_studio.transfer.errors import (
+    ControlSilentError,
+    ImageDamagedError,
+    ProtocolMismatchError,
+    TransferError,
+)
 from amp_studio.transfer.house.frame import encode_frame
-from amp_studio.transfer.house.message import Hello, Message, OpenUpload, Refused, UploadReady, pack, unpack
+from amp_studio.transfer.house.message import (
+    Code,
+    Commit,
+    Hello,
+    Message,
+    OpenDownload,
+    OpenUpload,
+    Ready,
+    Refused,
+    UploadReady,
+    pack,
+    unpack,
+)
+from amp_studio.transfer.links.link import LinkError
 from tests.campaigns import some
 from tests.transfer.hostile_clients import clients_beside_hostile_ones
 from tests.transfer.hostile_controls import exchange_with_hostile_control
@@ -162,3 +180,55 @@ def test_the_words_of_a_control_steer_no_terminal(lying: Callable[..., Any]) -> 
 
 
 # -- a client that means no good -------------------------------------------------------------------
+
+
+def test_a_control_that_loses_again_and_again_what_it_was_sent_is_given_up(lying: Callable[..., Any]) -> None:
+    def lie(request: Message, answer: Message) -> Message:
+        if isinstance(request, Commit):
+            return Refused(Code.INCOMPLETE, "some of it is gone")
+        return Ready(0) if isinstance(request, OpenDownload) else answer
+
+    made = lying(lie)
+    with pytest.raises(TransferError) as caught:
+        send(made.session())
+    assert caught.value.at_control == "old"
+    assert made.clock.now < 25
+
+
+def test_an_image_that_is_another_each_time_is_not_read_for_ever(lying: Callable[..., Any]) -> None:
+    count = iter(range(10_000))
+
+    def lie(request: Message, answer: Message) -> Message:
+        if isinstance(answer, UploadReady):
+            return replace(answer, sha256=next(count).to_bytes(32, "big"))
+        return answer
+
+    made = lying(lie, OLD * 10)
+    connect = made.modem.connect
+
+    def cut_soon() -> Any:
+        link = connect()
+        left = [400]
+        read = link.read
+
+        def reading(timeout: float) -> bytes:
+            data = read(timeout)
+            left[0] -= len(data)
+            if left[0] < 0:
+                raise LinkError("null modem", "cut")
+            return data
+
+        link.read = reading
+        return link
+
+    made.modem.connect = cut_soon
+    with pytest.raises(ImageDamagedError, match="changes again and again"):
+        made.session().fetch()
+
+
+def test_a_control_cannot_offer_a_window_that_fills_the_line_for_good(lying: Callable[..., Any]) -> None:
+    """255 pieces of 4096 bytes would be a megabyte on the line before the first answer."""
+    made = lying(lambda _, answer: answer, window=255, chunk=4_096)
+    session = made.session()
+    session.hello()
+    assert session._line.sizes(session._line._talk) == (4_096, 16)

@@ -26,7 +26,7 @@ from amp_studio.transfer.errors import (
 )
 from amp_studio.transfer.exchange import Replacement
 from amp_studio.transfer.house.driver import HouseDriver
-from amp_studio.transfer.house.message import Ack, Code, Hello, Message, OpenUpload, Read, Refused
+from amp_studio.transfer.house.message import Ack, Code, Data, Gap, Hello, Message, OpenUpload, Read, Refused
 from amp_studio.transfer.links.link import LinkError
 from tests.transfer.images import NEW, OLD, send
 
@@ -210,3 +210,20 @@ def test_a_control_that_does_not_keep_to_the_protocol_is_not_believed(
         upload(HouseDriver(made.session()))
     assert caught.value.at_control == "", "an upload replaces nothing, and need not say so"
     assert made.clock.now < 120
+
+
+class Stuck(Responder):
+    """A control that answers everything and gets nowhere."""
+
+    def _data(self, data: Data) -> Message:
+        return Gap(0)
+
+
+def test_a_control_that_gets_nowhere_is_given_up(
+    rig: Callable[..., Any], control: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tests.transfer.null_modem.Responder", Stuck)
+    made = rig(control=control(), bytes_per_second=11_520)
+    with pytest.raises(ControlSilentError):
+        send(made.session())
+    assert made.control.image == OLD
