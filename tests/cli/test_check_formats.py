@@ -304,6 +304,6 @@ def test_of_several_files_the_name_comes_first_and_of_one_last(amp, tmp_path: Pa
         )
     alone = amp("validate", tmp_path / "bad.amp").out.splitlines()
     listed = amp("validate", tmp_path, "--no-cache").out.splitlines()
-    assert alone[-1].startswith(f"{tmp_path / 'bad.amp'}: 1 error")
+    assert alone[-1].startswith(f"{tmp_path / 'bad.amp'}: 2 errors")
     assert listed == [alone[-1], *(f"  {line}" for line in alone[:-1]), listed[-1]]
     assert listed[-1].startswith(f"{tmp_path / 'good.amp'}: 0 errors")
