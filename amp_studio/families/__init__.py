@@ -18,7 +18,10 @@ FAMILIES = {
 }
 """Family -> its record."""
 
-SCENARIOS = {"9pc": ("procedure", "hard-stop"), "57c422b": ("procedure", "gear", "cam", "backlash")}
+SCENARIOS = {
+    "9pc": ("procedure", "hard-stop"),
+    "57c422b": ("procedure", "gear", "cam", "backlash", "passive-home"),
+}
 """Family -> the scenarios that its law alone has, for help and completion, which load no law."""
 
 FORMATS = {

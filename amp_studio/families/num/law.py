@@ -24,7 +24,7 @@ from .law_advice import advise, follow
 from .law_facts import MOTION, ids
 from .law_loop import loop
 from .law_machine_tests import machine_tests
-from .law_notes import ALWAYS, NOT_SIMULATED
+from .law_notes import ALWAYS, CLAMPED, NOT_SIMULATED
 from .law_pair import drive_axis, is_synchronised, refuse_chain, synchronised
 from .law_path import path_rules
 from .law_spindle import spindle, tapping
@@ -110,7 +110,7 @@ def _alone(read: AxisParameters) -> tuple[AxisLaw, float]:
         limits=limits,
         sources=_sources(read, words),
         follow=follow,
-        assumptions=(*notes, *ALWAYS, *NOT_SIMULATED),
+        assumptions=(*notes, *_clamped(read), *ALWAYS, *NOT_SIMULATED),
         assumed=MOTION.reasons(
             "acceleration_per_output", "velocity_bandwidth", "velocity_integral", "inertia_ratio"
         ),
@@ -121,6 +121,12 @@ def _alone(read: AxisParameters) -> tuple[AxisLaw, float]:
         travel=partial(events.travel, read, words.length),
     )
     return law, words.length
+
+
+def _clamped(read: AxisParameters) -> tuple[str, ...]:
+    """Return what a clamp means for the times of an axis; nothing for one without."""
+    word = int(read.optional(ids.axes_clamped, everywhere=True) or 0.0)
+    return (CLAMPED,) if word >> int(read.axis) & 1 else ()
 
 
 def predicted(words: Words, feedrate: float) -> Mapping[str, Prediction]:

@@ -19,4 +19,9 @@ ALWAYS = (
     "Directions (P10, P20) are taken to fit the wiring.",
 )
 
+CLAMPED = (
+    "The axis has a clamp (P8): its reference comes only when the PLC has reported the end of unclamping"
+    " (CRM), and the program goes on only when it has reported clamping (4-23). How long that takes is not"
+    " in the file and is left out of the times here."
+)
 NOT_SIMULATED = ("Not simulated: interaxis calibration, QVN and DISC loops (P70 to P87).",)

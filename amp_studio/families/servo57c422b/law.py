@@ -36,6 +36,7 @@ from .law_commands import COMMANDS
 from .law_facts import MOTION, ids
 from .law_home import homing, jogging, travel
 from .law_machine_tests import machine_tests
+from .law_passive import SCENARIO as PASSIVE
 from .law_registration import probing
 from .law_tune import Scales
 
@@ -347,5 +348,11 @@ SAME = 5e-4
 
 
 LAW = Law(
-    bind=bind, axes=axes, advise=advise, probing=probing, own=COMMANDS, machine_tests=machine_tests, cam=CAM
+    bind=bind,
+    axes=axes,
+    advise=advise,
+    probing=probing,
+    own={**COMMANDS, PASSIVE.name: PASSIVE},
+    machine_tests=machine_tests,
+    cam=CAM,
 )

@@ -22,6 +22,8 @@ from .moving_axis import GoOrder, MoveOrder, MovingAxis, Orders, StopOrder, Watc
 
 COAST = 10.0
 """s in which an axis that has lost its drive may run out."""
+FIRST_MARKER = 0.25
+"""Turns from where the axis began to a marker, as in `usual_around`."""
 AWAKE = 0.5
 """s after the last order in which an axis is still stepped; then it is at rest and costs nothing."""
 SLICE = 0.02
@@ -43,6 +45,10 @@ class SimulatedAxis:
         self._offset = position  # of the control's coordinates
         self._left = 0.0  # s that it is still stepped
         self._homed: Homed | None = None
+        self._marker_waited: tuple[float, float, float] | None = None
+        """Position to take, and the markers below and above the axis, u of the moving axis."""
+        self._moved_zero = 0.0
+        """How far the zero of the moving axis is from where the axis began."""
         self.is_homed = False
         self.is_enabled = True
         self.alarm: AlarmText | None = None
@@ -83,11 +89,23 @@ class SimulatedAxis:
         """Call the place where the command is by another position; the axis does not move."""
         self._offset = position - self._moving.position
 
+    def define_at_marker(self, position: float, turn: float) -> None:
+        """Call the place of the next marker by another position, once the axis passes it in any motion;
+        markers are ``turn`` u apart, a quarter turn from where the axis began. Commands stay where they are.
+        """
+        first = FIRST_MARKER * turn - self._moved_zero
+        turns = math.floor((self._moving.measured - first) / turn)
+        self._marker_waited = (position, first + turns * turn, first + (turns + 1) * turn)
+
     def bind(self, law: AxisLaw) -> None:
         """Take other parameters over, at rest."""
         at, moving = self.command, MovingAxis(law, engine="plain", keep=False, coast=COAST)
         if self._around is not None:  # the switches stay where they are in the machine
             self._around = moved(self._around, -self._moving.position)
+        self._moved_zero += self._moving.position
+        if self._marker_waited is not None:
+            position, below, above = self._marker_waited
+            self._marker_waited = (position, below - self._moving.position, above - self._moving.position)
         self.law, self._moving, self._offset = law, moving, at
 
     def move(self, to: float, feedrate: float, ramp: Ramp) -> None:
@@ -164,6 +182,7 @@ class SimulatedAxis:
             left -= step
             self._left = AWAKE if self._moving.is_busy else self._left - step
             self._check_stops()
+            self._check_marker()
         self._settle()
 
     def _run_away(self, text: str) -> None:
@@ -186,6 +205,15 @@ class SimulatedAxis:
                 code = travel.alarm_negative or travel.alarm if forward < 0.0 else travel.alarm
                 self.alarm = AlarmText(code, f"The axis has passed {name} ({page_text(travel.page)})")
                 self.switch_off() if travel.coasts else self.stop(travel.stop or Ramp())
+
+    def _check_marker(self) -> None:
+        """Take the position of the first marker that the axis has passed, where one is waited for."""
+        if self._marker_waited is None:
+            return
+        position, below, above = self._marker_waited
+        passed = above if self._moving.measured >= above else below
+        if not below < self._moving.measured < above:
+            self._offset, self._marker_waited = position - passed, None
 
     def _settle(self) -> None:
         homed = self._homed

@@ -47,6 +47,7 @@ SETTINGS = {
         "by how much the switch comes on at another place each time, at most (mm or deg); default: 0"
     ),
 }
+OF_SWITCH = ("move.switch", "move.switch_length", "move.dog")
 QUARTER = 0.25
 DOUBTFUL = 0.45
 """Share of a turn between switch and nearest marker from which a sample more or less may take another
@@ -79,6 +80,7 @@ def run_home(axis: AxisLaw, settings: Settings) -> Trace:
         raise SimulationError(
             "The direction of homing is in the file: leave out move.direction", "move.direction"
         )
+    _refuse_switch(axis, homing, settings)
     ramp = homing.ramp or (axis.manual_ramp(True) if axis.manual_ramp else next(iter(axis.ramps.values())))
     around = _around(axis, homing, ramp, settings)
     moving, found = _homed(axis, homing, ramp, around)
@@ -102,6 +104,16 @@ def run_home(axis: AxisLaw, settings: Settings) -> Trace:
         limits={"inposition band": (axis.inposition_band, axis.unit)},
         move={"move.switch": abs(around.switch)} if homing.approach else {},
     )
+
+
+def _refuse_switch(axis: AxisLaw, homing: Homing, settings: Settings) -> None:
+    """Raise SimulationError for a setting of a switch that the sequence does not go to."""
+    for name in OF_SWITCH:
+        if settings.get(name) is not None and not homing.approach:
+            raise SimulationError(
+                f"Axis {axis.axis} is homed without a switch ({page_text(homing.page)}): leave out {name}",
+                name,
+            )
 
 
 def _homed(axis: AxisLaw, homing: Homing, ramp: Ramp, around: Around) -> tuple[MovingAxis, Homed]:

@@ -9,12 +9,15 @@ import pytest
 
 from amp_studio.families.num import law_sample as sample
 from amp_studio.families.num.law import LAW
+from amp_studio.schema import Value as StoredValue
 from amp_studio.sim import AxisLaw, SimulationError
 from amp_studio.sim.axis.motion import Motion, Until, run_axis
 from amp_studio.sim.axis_parameters import AxisParameters
+from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.command.ramps import move
 from amp_studio.sim.engine.profiles import SINE
 from amp_studio.sim.model import with_model
+from tests.programs.test_block import example
 
 Value = float | str | bool | None
 
@@ -327,3 +330,11 @@ def test_a_drive_axis_that_is_driven_itself_is_refused() -> None:
 def test_a_copied_reference_without_correction_is_named() -> None:
     law = bound(axes__drive_axis_at_0="axis-1", axes__synchronised=0.0)
     assert any("copies the reference of drive axis 1" in each for each in law.assumptions)
+
+
+def test_a_clamp_is_named_as_time_that_is_left_out() -> None:
+    """4-23: the reference waits for the report of unclamping; P8 has a bit for each address."""
+    file = example("num-1060-mill")
+    file.set(("axes.clamped", ""), StoredValue(0x2))
+    clamped = [any("has a clamp" in note for note in bind_axis(file, LAW, axis).assumptions) for axis in "01"]
+    assert clamped == [False, True]

@@ -102,3 +102,25 @@ def test_a_jog_is_velocity_control_at_registers_19_and_21_to_24() -> None:
     assert trace.columns["command_velocity"].min() == pytest.approx(-40000.0 * 60.0)
     assert trace.result["stop_position"][0] == pytest.approx(-80000.0, abs=10.0)
     assert trace.alarms == ()
+
+
+@pytest.mark.parametrize(
+    ("distance", "marker", "home"),
+    [(6000.0, 700.0, 700.0), (-6000.0, 700.0, -3300.0), (9000.0, -100.0, 3900.0)],
+)
+def test_passive_homing_takes_the_first_marker_of_any_motion(
+    distance: float, marker: float, home: float
+) -> None:
+    """Page 4-33: the command moves nothing; at the marker the feedback position becomes registers 17, 18."""
+    move = {"move.distance": distance, "move.marker": marker}
+    found = simulate(press(), "passive-home", "X", move).result
+    assert found["home_from_start"] == (home, "counts")
+    assert found["home_position"] == (80000.0, "counts")
+    assert found["stop_position"][0] == pytest.approx(80000.0 + distance - home, abs=10.0)
+
+
+def test_passive_homing_without_a_marker_is_refused() -> None:
+    with pytest.raises(SimulationError, match="waits for ever"):
+        simulate(press(0x05), "passive-home", "X")
+    short = simulate(press(), "passive-home", "X", {"move.distance": 500.0})
+    assert [alarm.code for alarm in short.alarms] == ["NO MARKER"]

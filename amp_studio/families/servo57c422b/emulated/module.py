@@ -10,11 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from amp_studio.families.servo57c422b.law_facts import MOTION
+from amp_studio.families.servo57c422b.switch_bits import MARKER
+
 from .module_axis import ModuleMotion, double
 
 REGISTERS, AXIS_Y = 4096, 2048
 AXES = {"X": 0, "Y": AXIS_Y}
-ACCELERATION, DECELERATION, POSITION = 21, 23, 17
+SWITCHES, ACCELERATION, DECELERATION, POSITION = 2, 21, 23, 17
 AUTO_ACKNOWLEDGE, INTERRUPT_RESET, MODE, COMMAND, COMMAND_2 = 63, 64, 65, 66, 67
 ENABLE_STATUS, ENABLE_FAULT, STATUS, FAULT, SOURCE_STATUS, SOURCE_FAULT = 68, 69, 72, 73, 104, 105
 FEEDBACK, VERSION = 74, 99
@@ -184,7 +187,7 @@ class Module:
             if first & bit:
                 act(axis)
         if second & PASSIVE:
-            self._define(axis)
+            self._arm(axis)
         if self.words[axis + AUTO_ACKNOWLEDGE] & 1:  # page 4-22
             self.words[axis + COMMAND] = self.words[axis + COMMAND_2] = 0
         else:
@@ -228,6 +231,13 @@ class Module:
         motion = self._motion[axis]
         if motion.bind(self.words) and motion.simulated:
             motion.simulated.define(float(double(self.words, axis + POSITION)))
+
+    def _arm(self, axis: int) -> None:
+        """Have the next feedback marker, in any motion, give the position of 17, 18; nothing moves (4-33)."""
+        motion = self._motion[axis]
+        if motion.bind(self.words) and motion.simulated and self.words[axis + SWITCHES] & MARKER:
+            value = float(double(self.words, axis + POSITION))
+            motion.simulated.define_at_marker(value, MOTION.value("marker_distance"))
 
     def _home(self, axis: int) -> None:
         """Home by the sequence that register 2 gives (4-29)."""

@@ -19,6 +19,7 @@ from amp_studio.families.servo57c422b.emulated.module import (
     ILLEGAL,
     LATCH,
     MOVE,
+    PASSIVE,
     SYSTEM,
     Module,
 )
@@ -166,6 +167,19 @@ def test_homing_with_switch_and_marker_moves_the_axis_and_names_its_place(module
     assert status[0] & (1 << 2)  # busy
     assert status[-1] & HOMED
     assert abs(places[-1] - 500) < 100  # and stopped a little behind the marker
+
+
+def test_the_first_marker_gives_the_position_where_passive_homing_is_set(module: Module) -> None:
+    """4-33: bit 4 of register 67 (inferred) moves nothing; at the marker, a quarter turn on, it is 500."""
+    module.write(2, 1 << 3)
+    module.write(67, PASSIVE)
+    module.write(67, 0)
+    module.advance(0.5)
+    assert double(module, 74) == 0
+    put(module, 17, 3000)
+    module.write(66, MOVE)
+    put(module, 17, 500)
+    assert done(module, 0) == pytest.approx(3000 - 1000 + 500, abs=10)
 
 
 def test_an_axis_without_gains_does_not_follow_and_faults(module: Module) -> None:
