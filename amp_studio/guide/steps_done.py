@@ -8,8 +8,9 @@ value next to the others. Where it reads none it belongs to the step of what is 
 
 The steps are reached in their order, as far as the first that is not finished: it has an open value, or an
 error belongs to it. In a file in which nobody has set anything but its axes none is reached; in one that
-lacks no value all are. A finding that belongs to a later step is deferred, as delivered: a state of the file
-and no fault in it, unless somebody has set what is wrong: he learns it at once.
+lacks no value all are, and what is ticked as done is, with the steps before it. A finding that belongs to a
+later step is deferred, as delivered: a state of the file and no fault in it, unless somebody has set what is
+wrong: he learns it at once.
 A download and its preview know nothing of steps.
 """
 
@@ -161,7 +162,8 @@ def progress(validator: Validator, findings: Sequence[Finding] | None = None) ->
     errors = {number for f, number, _ in belongs if f.severity == "error"} - {0}
     reached = min({*counts.open} | errors, default=len(steps) + 1)
     come_to = len(steps) if not validator.not_set else 0 if _is_fresh(file) else reached
-    found = _StepFindings(belongs, places, come_to)
+    ticked = (step.number for step in steps if step.id in file.header.done)
+    found = _StepFindings(belongs, places, max(come_to, *ticked, 0))
     each = tuple(
         StepProgress(
             step,

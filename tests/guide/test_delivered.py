@@ -9,7 +9,7 @@ import pytest
 from amp_studio.files import ParameterFile, new_file, open_file
 from amp_studio.files.axis_abilities import why_axes_are_fixed
 from amp_studio.files.example_files import examples_folder
-from amp_studio.guide import present, progress
+from amp_studio.guide import present, progress, tick
 from amp_studio.schema import Value, family_ids, load_schema
 from amp_studio.validate import NOT_SET, Finding, Validator
 
@@ -49,6 +49,22 @@ def test_once_a_user_has_begun_the_first_step_has_its_errors() -> None:
         "9pc.servo.hardware-missing",
         "9pc.servo.loop-type-missing",
     }
+
+
+def test_a_step_that_is_ticked_as_done_has_its_errors_though_only_axes_are_named() -> None:
+    file = new_file("9pc", "mill", ["X", "Y"])
+    assert displayed(file) == []
+    tick(file, "control", "R. Meier")
+    assert {f.rule for f in displayed(file)} >= {"9pc.servo.hardware-missing", "9pc.servo.loop-type-missing"}
+
+
+def test_a_ticked_step_is_reached_before_the_others() -> None:
+    """The gains of an AcroMill are its third step, and none of the first two is finished."""
+    file = new_file("acromill")
+    tick(file, "gains", "R. Meier")
+    assert {f.rule for f in displayed(file)} >= {"acromill.servo.not-tuned"}
+    validator = Validator(file)
+    assert 3 not in present(validator, validator.run()).steps
 
 
 @pytest.mark.parametrize("path", sorted(examples_folder().glob("*/*.amp")), ids=lambda path: path.stem)
