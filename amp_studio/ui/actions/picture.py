@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import sys
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -13,7 +13,8 @@ from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import check_output, write_atomic
 from amp_studio.schema import Address
-from amp_studio.ui.base.loading import load, load_beside
+from amp_studio.ui.base.loading import is_loaded, load, load_beside
+from amp_studio.ui.base.task import in_background
 from amp_studio.ui.page.file_page import FilePage
 from amp_studio.ui.pictures.split import Arrangement, PictureLayout
 from amp_studio.ui.window.studio_window import StudioWindow
@@ -21,9 +22,19 @@ from amp_studio.ui.window.studio_window import StudioWindow
 if TYPE_CHECKING:
     from amp_studio.ui.pictures.page import PicturesPage
 
-RAMPS = "amp_studio.pictures.ramps"
+PARTS = ("amp_studio.pictures.ramps", "amp_studio.pictures.loop", "amp_studio.ui.pictures.page")
+"""What the pictures need; the simulator's pieces take a fifth of a second."""
 LOAD_MS = 1500
-"""Milliseconds after a file came to the front until what ramps need is loaded, beside the window."""
+"""Milliseconds after a file came to the front until they are loaded, beside the window."""
+
+
+def _load(family: str) -> None:
+    """Load what the pictures of a family need, with the law of its axes. For a thread."""
+    load(*PARTS)
+    from amp_studio.sim import SimulationError, law_of
+
+    with suppress(SimulationError):  # one that cannot be simulated has pictures too
+        law_of(family)
 
 
 class Pictures(QObject):
@@ -32,6 +43,8 @@ class Pictures(QObject):
     def __init__(self, window: StudioWindow) -> None:
         super().__init__(window)
         self.window = window
+        self._loaded: set[str] = set()
+        """The families whose pictures have been shown."""
         self._early = QTimer(self)
         self._early.setSingleShot(True)
         self._early.setInterval(LOAD_MS)
@@ -45,19 +58,22 @@ class Pictures(QObject):
         page, layout = self.window.page, self.window.settings.pictures()
         if page is None:
             return
-        load_beside("amp_studio.sim", RAMPS)  # the simulator's pieces take a fifth of a second
+        load_beside(*PARTS)
         is_needed = layout.is_shown and page.pictures is None
         page.middle.arrange(layout)
         if is_needed and page.middle.arrangement != "instead":
-            if RAMPS in sys.modules:
+            if is_loaded(*PARTS):
                 self.show(page, True)
             else:
                 self._early.start()
 
     def pages(self, page: FilePage) -> PicturesPage:
         """Return the pictures of a file, made when they are first asked for."""
-        if page.pictures is None:
-            load("amp_studio.sim", RAMPS)
+        family = page.workspace.file.schema.family.family
+        if family not in self._loaded:
+            in_background(self.window, self.tr("Loading the simulator"), partial(_load, family))
+            self._loaded.add(family)
+        if page.pictures is None:  # the timer may have shown them meanwhile
             from amp_studio.ui.pictures.page import PicturesPage
 
             pictures = PicturesPage(page.workspace)

@@ -22,7 +22,12 @@ def load(*modules: str) -> None:
             import_module(module)
 
 
+def is_loaded(*modules: str) -> bool:
+    """Return whether modules have been imported, and nothing is just being loaded."""
+    return not _LOADING.locked() and all(module in sys.modules for module in modules)
+
+
 def load_beside(*modules: str) -> None:
     """Import modules in another thread, if they are not there yet."""
-    if any(module not in sys.modules for module in modules):
+    if not is_loaded(*modules):
         threading.Thread(target=load, args=modules, daemon=True).start()
