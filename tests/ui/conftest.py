@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from PySide6.QtCore import QEvent, QSettings, Qt, QTimer
+from PySide6.QtCore import QSettings, Qt, QTimer
 from PySide6.QtGui import QAction
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import (
@@ -35,13 +35,13 @@ from amp_studio.transfer.emulated.emulator import serve
 from amp_studio.transfer.emulated.record import Identity
 from amp_studio.ui.base import garbage
 from amp_studio.ui.base.menu_commands import commands
-from amp_studio.ui.base.task import ProgressDialog, Task
+from amp_studio.ui.base.task import ProgressDialog
 from amp_studio.ui.base.translated import speak
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
 
 from .alt_letters import doubled, texts_of
-from .shared import First, first_of, put_back
+from .shared import Brush, SharedWindow, close_windows
 
 garbage.REST_MS = 3_600_000  # no test but that of the collection goes through the objects of all tests
 WAIT_MS = 20_000
@@ -168,24 +168,21 @@ def example(checkout: Path) -> bytes:
 
 
 @pytest.fixture(scope="session")
+def router(checkout: Path) -> bytes:
+    """Return the content of the example router: the shortest report, and one page of pictures."""
+    return (checkout / "examples" / "grblhal-router" / "GRBL_ROUTER.amp").read_bytes()
+
+
+@pytest.fixture(scope="session")
 def bare() -> bytes:
     """Return the content of a new file: five axes at their printed defaults, with its errors."""
     return content_of(new_file("9pc", "mill", ["X", "Y", "Z", "B", "S"], "bare"))
 
 
-@pytest.fixture
-def path(tmp_path: Path, example: bytes) -> Path:
-    """Return a copy of the example mill in a separate folder."""
-    folder = tmp_path / "machine"
-    folder.mkdir()
-    path = folder / "mill.amp"
-    path.write_bytes(example)
-    return path
-
-
 def new_window(path: Path | None = None) -> MainWindow:
     """Open a window on a file, or none, and wait until it has the keyboard."""
     window = MainWindow(opening=[str(path)] if path else [])
+    Brush(window)
     # the least in which every panel has its own place; a smaller one is painted sooner
     window.resize(1200, 640)
     window.show()
@@ -196,16 +193,6 @@ def new_window(path: Path | None = None) -> MainWindow:
     window.activateWindow()
     assert QTest.qWaitForWindowActive(window, WAIT_MS)
     return window
-
-
-def close_windows(windows: list[MainWindow]) -> None:
-    """Close windows, and throw unsaved work away."""
-    for window in windows:
-        window.may_leave = lambda *_: True
-        window.close()
-        window.deleteLater()
-    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
-    assert not Task.running
 
 
 @pytest.fixture
@@ -223,51 +210,73 @@ def open_window(qtbot: QtBot, user: User) -> Iterator[Callable[..., MainWindow]]
 
 
 @pytest.fixture(scope="module")
-def window_to_read(
-    qapp: QApplication, tmp_path_factory: pytest.TempPathFactory, example: bytes
-) -> Iterator[MainWindow]:
-    """Return a window with the example mill, the same one in each test of a module:
-    nothing of it may be changed.
+def _shared(
+    qapp: QApplication, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Callable[[bytes], SharedWindow]]:
+    """Return what gives the window that the tests of a module share for a content; made when one asks for it."""
+    windows: dict[bytes, SharedWindow] = {}
+
+    def of(content: bytes) -> SharedWindow:
+        if content not in windows:
+            path = tmp_path_factory.mktemp("shared") / "mill.amp"
+            path.write_bytes(content)
+            windows[content] = SharedWindow(path, new_window)
+        return windows[content]
+
+    yield of
+    for each in windows.values():
+        each.close()
+
+
+@pytest.fixture
+def window_with(user: User, _shared: Callable[[bytes], SharedWindow]) -> Iterator[Callable[..., MainWindow]]:
+    """Return what gives a window with a file of this content open, as a new one is: one of the module, in which
+    what a test did is taken back after it.
     """
-    QSettings("AMP Studio", "AMP Studio").clear()
-    path = tmp_path_factory.mktemp("read") / "mill.amp"
+    given: list[SharedWindow] = []
+
+    def give(content: bytes) -> MainWindow:
+        shared = _shared(content)
+        given.append(shared)
+        window = shared.get()
+        window.activateWindow()
+        assert QTest.qWaitForWindowActive(window, WAIT_MS)
+        return window
+
+    yield give
+    for each in given:
+        each.put_back()
+
+
+def is_shared(request: pytest.FixtureRequest) -> bool:
+    """Return whether the window of a test is that of its module: not where it is marked with ``own_window``."""
+    return "window" in request.fixturenames and not any(request.node.iter_markers("own_window"))
+
+
+@pytest.fixture
+def path(request: pytest.FixtureRequest, tmp_path: Path, example: bytes) -> Path:
+    """Return the file of the window that is shared, else a copy of the example mill in a separate folder."""
+    if is_shared(request):
+        shared: SharedWindow = request.getfixturevalue("_shared")(example)
+        return shared.path
+    folder = tmp_path / "machine"
+    folder.mkdir()
+    path = folder / "mill.amp"
     path.write_bytes(example)
-    window = new_window(path)
-    assert window.workspace is not None
-    values = dict(window.workspace.file.values)
-    yield window
-    assert window.workspace.file.values == values, "a test that shares its window has changed the file"
-    close_windows([window])
-
-
-@pytest.fixture(scope="module")
-def _first(window_to_read: MainWindow) -> First:
-    """Return what the window of a module was when it was new."""
-    return first_of(window_to_read)
+    return path
 
 
 @pytest.fixture
-def shared_window(window_to_read: MainWindow, _first: First, user: User) -> Iterator[MainWindow]:
-    """Return the window of the module with the example mill. What a test does to the file is taken back after
-    it, and the list and the panels of a new window are shown again; one that saves, closes or
-    rearranges has a separate one.
+def window(request: pytest.FixtureRequest, path: Path, example: bytes) -> MainWindow:
+    """Return a window with the example mill open: the one of the module; a separate one where the module opens
+    other files, or for a test that is marked with ``own_window``.
     """
-    window_to_read.activateWindow()
-    assert QTest.qWaitForWindowActive(window_to_read, WAIT_MS)
-    yield window_to_read
-    put_back(window_to_read, _first)
-
-
-@pytest.fixture
-def window(request: pytest.FixtureRequest) -> MainWindow:
-    """Return a window with the example mill open: a new one, or that of the module where its tests are marked
-    with ``shared_window`` and this one is not marked with ``own_window``.
-    """
-    is_own = any(request.node.iter_markers("own_window"))
-    if any(request.node.iter_markers("shared_window")) and not is_own:
-        shared: MainWindow = request.getfixturevalue("shared_window")
-        return shared
-    made: MainWindow = request.getfixturevalue("open_window")(request.getfixturevalue("path"))
+    shared: SharedWindow = request.getfixturevalue("_shared")(example)
+    made: MainWindow
+    if is_shared(request) and path == shared.path:
+        made = request.getfixturevalue("window_with")(example)
+    else:
+        made = request.getfixturevalue("open_window")(path)
     return made
 
 

@@ -35,8 +35,8 @@ def menus_of(menu: QMenu) -> Iterator[QMenu]:
 # -- the window
 
 
-def test_every_menu_has_each_letter_once(window_to_read: MainWindow) -> None:
-    bar = window_to_read.menuBar()
+def test_every_menu_has_each_letter_once(window: MainWindow) -> None:
+    bar = window.menuBar()
     assert doubled([a.text() for a in bar.actions() if a.isVisible()]) == {}
     for action in bar.actions():
         for menu in menus_of(action.menu()):
@@ -122,10 +122,8 @@ def given(window: MainWindow, tmp_path: Path) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("kind", dialogs(), ids=lambda kind: kind.__name__)
-def test_every_dialog_has_each_letter_once(
-    window_to_read: MainWindow, tmp_path: Path, kind: type[QDialog]
-) -> None:
-    known = given(window_to_read, tmp_path)
+def test_every_dialog_has_each_letter_once(window: MainWindow, tmp_path: Path, kind: type[QDialog]) -> None:
+    known = given(window, tmp_path)
     wanted = [
         p
         for p in list(inspect.signature(kind.__init__).parameters.values())[1:]

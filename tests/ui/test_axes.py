@@ -15,8 +15,6 @@ from amp_studio.ui.main_window import MainWindow
 
 from .conftest import User, action
 
-pytestmark = pytest.mark.shared_window
-
 
 def choose(dialog: AxisDialog, axis: str, **labels: str) -> None:
     """Choose an axis and, by the last word of a parameter's id, its choices."""
@@ -55,7 +53,6 @@ def test_configure_type_takes_the_units_along_as_one_step(
     assert file.values == before
 
 
-@pytest.mark.own_window
 def test_tab_goes_through_the_fields_before_the_buttons(window: MainWindow, qtbot) -> None:
     dialog = axis._dialog(window, "Configure servo")
     dialog.ask_for(["servo.hardware_type", "servo.loop_type"])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
 from PySide6.QtWidgets import QComboBox
 
 from amp_studio.schema import Value
@@ -10,8 +9,6 @@ from amp_studio.ui.dialogs.calculator_dialog import CalculatorDialog
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import User, action
-
-pytestmark = pytest.mark.shared_window
 
 GAIN_BREAK = ("servo.gain_break_point", "1")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 
+import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
 from PySide6.QtTest import QTest
@@ -30,24 +31,24 @@ def mnemonic(text: str) -> str:
     return text[at + 1].casefold() if at >= 0 else ""
 
 
-def test_every_action_of_the_window_is_in_a_menu_and_has_a_name(window_to_read: MainWindow) -> None:
-    in_menus = {a for _, a in commands(window_to_read.menuBar())}
-    assert set(window_to_read.actions()) <= in_menus
+def test_every_action_of_the_window_is_in_a_menu_and_has_a_name(window: MainWindow) -> None:
+    in_menus = {a for _, a in commands(window.menuBar())}
+    assert set(window.actions()) <= in_menus
     assert all(a.text() for a in in_menus)
 
 
-def test_every_command_has_a_keyboard_route(window_to_read: MainWindow) -> None:
+def test_every_command_has_a_keyboard_route(window: MainWindow) -> None:
     """A letter underlined in its menu, which no other of that menu has."""
-    for menu in [window_to_read.menuBar(), *menus(window_to_read)]:
+    for menu in [window.menuBar(), *menus(window)]:
         letters = Counter(mnemonic(a.text()) for a in menu.actions() if not a.isSeparator())
         assert [letter for letter, n in letters.items() if not letter or n > 1] == [], [
             a.text() for a in menu.actions()
         ]
 
 
-def test_no_key_means_two_things(window_to_read: MainWindow) -> None:
+def test_no_key_means_two_things(window: MainWindow) -> None:
     keys = Counter(
-        a.shortcut().toString() for _, a in commands(window_to_read.menuBar()) if not a.shortcut().isEmpty()
+        a.shortcut().toString() for _, a in commands(window.menuBar()) if not a.shortcut().isEmpty()
     )
     assert [key for key, n in keys.items() if n > 1] == []
 
@@ -73,14 +74,12 @@ def listed(window: MainWindow, text: str = ">") -> dict[str, QAction]:
     return {row.text: row.action for row in window.finder.box.model.rows if row.action is not None}
 
 
-def test_the_find_box_lists_every_enabled_command_and_no_other(window_to_read: MainWindow) -> None:
-    found = listed(window_to_read)
-    assert set(found.values()) == {a for _, a in commands(window_to_read.menuBar()) if a.isEnabled()}
-    assert window_to_read.menus["edit.undo"] not in found.values()
+def test_the_find_box_lists_every_enabled_command_and_no_other(window: MainWindow) -> None:
+    found = listed(window)
+    assert set(found.values()) == {a for _, a in commands(window.menuBar()) if a.isEnabled()}
+    assert window.menus["edit.undo"] not in found.values()
     assert found["✓ View › Units › Metric"].isChecked()
-    assert any(
-        row.text == "File › Save" and row.right == "Ctrl+S" for row in window_to_read.finder.box.model.rows
-    )
+    assert any(row.text == "File › Save" and row.right == "Ctrl+S" for row in window.finder.box.model.rows)
 
 
 def test_no_command_is_listed_twice_after_another_file(window: MainWindow, path) -> None:
@@ -91,6 +90,7 @@ def test_no_command_is_listed_twice_after_another_file(window: MainWindow, path)
     assert len(names) == len(set(names))
 
 
+@pytest.mark.own_window
 def test_the_find_box_runs_every_command_it_lists(window: MainWindow) -> None:
     """What is chosen is triggered once, and only when the list is closed."""
     triggered, box = [], window.finder.box
@@ -152,6 +152,6 @@ def test_without_a_file_only_what_needs_none_is_offered(open_window) -> None:
     assert not {"File › Save", "Edit › Clear (Not Set)", "Axis › Copy Axis", "View › Motion"} & enabled
 
 
-def test_what_an_action_refuses_is_reported_in_one_sentence(window_to_read: MainWindow, user) -> None:
-    window_to_read.guarded(lambda: (_ for _ in ()).throw(KeyError("no such thing")), "Test")
+def test_what_an_action_refuses_is_reported_in_one_sentence(window: MainWindow, user) -> None:
+    window.guarded(lambda: (_ for _ in ()).throw(KeyError("no such thing")), "Test")
     assert user.reads() == "no such thing"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import pytest
 from PySide6.QtCore import QUrl
 
 from amp_studio.schema import Value
@@ -12,8 +11,6 @@ from amp_studio.ui.base.theme import colour
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import WAIT_MS
-
-pytestmark = pytest.mark.shared_window
 
 EXCESS = ("servo.excess_error", "1")
 
@@ -23,36 +20,32 @@ def page(window: MainWindow) -> str:
     return window.detail.page.toPlainText()
 
 
-def test_help_shows_what_it_is_where_it_counts_and_what_is_allowed(window_to_read: MainWindow) -> None:
-    window_to_read.go_to(EXCESS)
-    assert (window_to_read.detail.number.text(), window_to_read.detail.name.text()) == (
-        "1750",
-        "Excess Error",
-    )
-    assert window_to_read.detail.value.text() == "11 mm"
-    assert window_to_read.detail.axes.choice == "1"
+def test_help_shows_what_it_is_where_it_counts_and_what_is_allowed(window: MainWindow) -> None:
+    window.go_to(EXCESS)
+    assert (window.detail.number.text(), window.detail.name.text()) == ("1750", "Excess Error")
+    assert window.detail.value.text() == "11 mm"
+    assert window.detail.axes.choice == "1"
     for part in ("Allowed here: 0 to", "What it does", "page 7-"):
-        assert part in page(window_to_read)
+        assert part in page(window)
 
 
-def test_a_danger_is_in_a_box_before_the_help(window_to_read: MainWindow) -> None:
-    window_to_read.go_to(EXCESS)
-    displayed = page(window_to_read)
+def test_a_danger_is_in_a_box_before_the_help(window: MainWindow) -> None:
+    window.go_to(EXCESS)
+    displayed = page(window)
     assert "DANGER\nThis limit guards against damage and injury" in displayed
     assert displayed.index("DANGER") < displayed.index("What it does") < displayed.index("The order must be")
-    assert colour("errorbg").name() in window_to_read.detail.page.toHtml()
+    assert colour("errorbg").name() in window.detail.page.toHtml()
 
 
-def test_facts_are_folded_until_they_are_wanted(window_to_read: MainWindow) -> None:
-    window_to_read.go_to(EXCESS)
-    assert "servo.excess_error" not in page(window_to_read)
-    window_to_read.detail.page.anchorClicked.emit(QUrl("fold:facts"))
-    assert "servo.excess_error" in page(window_to_read)
-    window_to_read.detail.page.anchorClicked.emit(QUrl("fold:facts"))
-    assert "servo.excess_error" not in page(window_to_read)
+def test_facts_are_folded_until_they_are_wanted(window: MainWindow) -> None:
+    window.go_to(EXCESS)
+    assert "servo.excess_error" not in page(window)
+    window.detail.page.anchorClicked.emit(QUrl("fold:facts"))
+    assert "servo.excess_error" in page(window)
+    window.detail.page.anchorClicked.emit(QUrl("fold:facts"))
+    assert "servo.excess_error" not in page(window)
 
 
-@pytest.mark.own_window
 def test_history_has_what_was_saved(window: MainWindow) -> None:
     window.go_to(EXCESS)
     assert "No saved changes of 1750 Excess Error yet" in page(window)
@@ -63,21 +56,21 @@ def test_history_has_what_was_saved(window: MainWindow) -> None:
     assert "today " in page(window)
 
 
-def test_the_bar_has_the_range_and_what_the_rules_allow(window_to_read: MainWindow, qtbot) -> None:
+def test_the_bar_has_the_range_and_what_the_rules_allow(window: MainWindow, qtbot) -> None:
     """With a rapid of 10000 mm/min and this gain the axis trails by 10 mm;
     a tenth more is demanded (page 7-20).
     """
-    window_to_read.go_to(EXCESS)
-    assert window_to_read.detail.bar.isVisible()
-    qtbot.waitUntil(lambda: bool(window_to_read.detail.bar.words), timeout=WAIT_MS)
-    assert window_to_read.detail.bar.words == "rules allow from 11"
-    assert window_to_read.detail.bar.accessibleDescription() == "0 to 214.1 mm, rules allow from 11"
+    window.go_to(EXCESS)
+    assert window.detail.bar.isVisible()
+    qtbot.waitUntil(lambda: bool(window.detail.bar.words), timeout=WAIT_MS)
+    assert window.detail.bar.words == "rules allow from 11"
+    assert window.detail.bar.accessibleDescription() == "0 to 214.1 mm, rules allow from 11"
 
 
-def test_a_choice_and_a_secret_have_no_bar(window_to_read: MainWindow) -> None:
+def test_a_choice_and_a_secret_have_no_bar(window: MainWindow) -> None:
     for address in (("servo.position_loop_type", "1"), ("password.character", "1")):
-        window_to_read.go_to(address)
-        assert window_to_read.detail.bar.isHidden(), address
+        window.go_to(address)
+        assert window.detail.bar.isHidden(), address
 
 
 def test_rules_that_are_not_met_come_first_and_are_counted(window: MainWindow) -> None:
@@ -98,20 +91,13 @@ def test_a_calculated_value_is_taken_by_a_link_and_nothing_else(window: MainWind
     assert window.workspace.file.get(EXCESS) == Value(11.0, "mm")
 
 
-def test_the_axes_of_the_panel_choose_the_cell(window_to_read: MainWindow) -> None:
-    window_to_read.go_to(EXCESS)
-    assert [button.text() for button in window_to_read.detail.axes.buttons.values()] == [
-        "X",
-        "Y",
-        "Z",
-        "B",
-        "S",
-    ]
-    window_to_read.detail.axes.buttons["3"].click()
-    assert window_to_read.selected() == ("servo.excess_error", "3")
+def test_the_axes_of_the_panel_choose_the_cell(window: MainWindow) -> None:
+    window.go_to(EXCESS)
+    assert [button.text() for button in window.detail.axes.buttons.values()] == ["X", "Y", "Z", "B", "S"]
+    window.detail.axes.buttons["3"].click()
+    assert window.selected() == ("servo.excess_error", "3")
 
 
-@pytest.mark.own_window
 def test_the_other_open_files_have_their_values_beside(window: MainWindow, path: Path) -> None:
     other = path.with_name("router.amp")
     other.write_bytes(path.read_bytes())
@@ -124,15 +110,14 @@ def test_the_other_open_files_have_their_values_beside(window: MainWindow, path:
     assert "X 7 mm, Y 11 mm" in page(window)
 
 
-def test_the_printed_table_of_a_value_is_below_its_help(window_to_read: MainWindow) -> None:
-    window_to_read.go_to(("servo.velocity_proportional_gain", "1"))
-    text = window_to_read.detail.page.toPlainText()
+def test_the_printed_table_of_a_value_is_below_its_help(window: MainWindow) -> None:
+    window.go_to(("servo.velocity_proportional_gain", "1"))
+    text = window.detail.page.toPlainText()
     assert "Velocity Proportional Gain Values for Standard Motors (page 7-55)" in text
     assert "B520E" in text
     assert "26214" in text
 
 
-@pytest.mark.own_window
 def test_three_values_where_they_differ(window: MainWindow) -> None:
     """What is edited is not what is on disk, and not what the control contains."""
     window.go_to(EXCESS)
@@ -154,17 +139,17 @@ def test_the_range_that_another_parameter_sets_names_it(window: MainWindow) -> N
     assert "Excess" not in text or "Allowed here" in text
 
 
-def test_why_a_parameter_is_out_of_force(window_to_read: MainWindow) -> None:
-    file = window_to_read.workspace.file
+def test_why_a_parameter_is_out_of_force(window: MainWindow) -> None:
+    file = window.workspace.file
     ignored = next(a for a in file.addresses() if file.evaluation.state(a).state == "ignored" and a[1] == "1")
-    window_to_read.go_to(ignored)
-    assert f"Ignored: {file.evaluation.state(ignored).why}" in page(window_to_read)
+    window.go_to(ignored)
+    assert f"Ignored: {file.evaluation.state(ignored).why}" in page(window)
 
 
-def test_a_link_leads_to_the_parameter_on_the_same_axis(window_to_read: MainWindow) -> None:
-    window_to_read.go_to(("servo.excess_error", "3"))
-    window_to_read.detail.page.anchorClicked.emit(QUrl("param:servo.gain_break_point"))
-    assert window_to_read.selected() == ("servo.gain_break_point", "3")
+def test_a_link_leads_to_the_parameter_on_the_same_axis(window: MainWindow) -> None:
+    window.go_to(("servo.excess_error", "3"))
+    window.detail.page.anchorClicked.emit(QUrl("param:servo.gain_break_point"))
+    assert window.selected() == ("servo.gain_break_point", "3")
 
 
 def test_a_page_that_does_not_change_stays_where_it_was_scrolled(window: MainWindow) -> None:
@@ -176,8 +161,8 @@ def test_a_page_that_does_not_change_stays_where_it_was_scrolled(window: MainWin
     assert bar.value() == bar.maximum()
 
 
-def test_formulas_have_their_titles_and_no_names_of_functions(window_to_read: MainWindow) -> None:
-    window_to_read.go_to(("servo.gain_break_point", "1"))
-    text = window_to_read.detail.page.toPlainText()
+def test_formulas_have_their_titles_and_no_names_of_functions(window: MainWindow) -> None:
+    window.go_to(("servo.gain_break_point", "1"))
+    text = window.detail.page.toPlainText()
     assert "Gain break point: " in text
     assert "gain_break_point" not in text

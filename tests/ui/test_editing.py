@@ -15,8 +15,6 @@ from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.validate import Validator
 
-pytestmark = pytest.mark.shared_window
-
 CALIBRATION = ("home.calibration", "1")
 EXCESS = ("servo.excess_error", "1")
 

@@ -18,8 +18,6 @@ from amp_studio.ui.table.filter_bar import FilterBar
 
 from .conftest import WAIT_MS, action
 
-pytestmark = pytest.mark.shared_window
-
 EXCESS: Address = ("servo.excess_error", "1")
 BREAK: Address = ("servo.gain_break_point", "1")
 
@@ -110,7 +108,6 @@ def test_what_is_not_saved_and_what_was_edited_lately_is_in_the_funnel(
     assert ids(window) == {"servo.gain_break_point"}
 
 
-@pytest.mark.own_window
 def test_bookmarks_are_a_persons_and_stay(window: MainWindow, path: Path, filters: FilterBar) -> None:
     window.go_to(EXCESS)
     action(window, "Bookmark").trigger()
@@ -132,7 +129,6 @@ def test_without_a_download_the_page_shows_it_and_shows_everything(
     assert (ids(window), filters.active) == (every, set())
 
 
-@pytest.mark.own_window
 def test_what_was_changed_since_the_download_is_listed(
     window: MainWindow, workspace: Workspace, filters: FilterBar
 ) -> None:
@@ -166,7 +162,6 @@ def test_going_to_a_value_that_a_filter_hides_takes_the_filter_away(
     assert filters.active == set()
 
 
-@pytest.mark.own_window
 def test_a_narrow_window_has_all_filters_in_the_funnel(window: MainWindow, filters: FilterBar) -> None:
     window.page.filters.resize(400, 30)
     assert filters.all.isHidden()

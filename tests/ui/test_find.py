@@ -15,21 +15,11 @@ from amp_studio.ui.page.message_page import MessageWindow
 
 from .conftest import WAIT_MS, User, action
 
-pytestmark = pytest.mark.shared_window
-
 
 @pytest.fixture
 def box(window: MainWindow, qtbot) -> FindBox:
     """Return the box of a window whose family is indexed."""
     return indexed(window, qtbot)
-
-
-@pytest.fixture
-def shared_box(window_to_read: MainWindow, qtbot) -> FindBox:
-    """Return the box of the window of this module, for tests that change nothing."""
-    window_to_read.activateWindow()
-    assert QTest.qWaitForWindowActive(window_to_read, WAIT_MS)
-    return indexed(window_to_read, qtbot)
 
 
 def indexed(window: MainWindow, qtbot) -> FindBox:
@@ -55,27 +45,25 @@ def test_control_f_and_control_k_come_to_the_box_and_control_g_too(window: MainW
 
 
 def test_enter_goes_to_the_best_parameter_and_the_cursor_to_the_table(
-    window_to_read: MainWindow, shared_box: FindBox
+    window: MainWindow, box: FindBox
 ) -> None:
-    typed(shared_box, "exess error y")
-    assert (shared_box.is_open, heads(shared_box)[0]) == (True, "Parameters")
-    QTest.keyClick(shared_box, Qt.Key.Key_Return)
-    assert window_to_read.selected() == ("servo.excess_error", "2")
-    assert window_to_read.focusWidget() is window_to_read.table_view
-    assert not shared_box.is_open
+    typed(box, "exess error y")
+    assert (box.is_open, heads(box)[0]) == (True, "Parameters")
+    QTest.keyClick(box, Qt.Key.Key_Return)
+    assert window.selected() == ("servo.excess_error", "2")
+    assert window.focusWidget() is window.table_view
+    assert not box.is_open
 
 
-def test_a_number_a_value_and_a_choice_each_lead_to_their_cell(
-    window_to_read: MainWindow, shared_box: FindBox
-) -> None:
+def test_a_number_a_value_and_a_choice_each_lead_to_their_cell(window: MainWindow, box: FindBox) -> None:
     for text, address in (
         ("2300", ("home.calibration", "2")),
         ("12.7 mm", ("servo.lead_screw_pitch", "1")),
         ("J3", ("servo.position_port", "3")),
     ):
-        typed(shared_box, text)
-        QTest.keyClick(shared_box, Qt.Key.Key_Return)
-        assert window_to_read.selected() == address, text
+        typed(box, text)
+        QTest.keyClick(box, Qt.Key.Key_Return)
+        assert window.selected() == address, text
 
 
 def test_a_group_is_shown_on_the_left_with_its_parameters(window: MainWindow, box: FindBox) -> None:
@@ -91,66 +79,56 @@ def test_a_group_is_shown_on_the_left_with_its_parameters(window: MainWindow, bo
     assert window.focusWidget() is window.table_view
 
 
-def test_a_parameter_is_listed_with_its_value_in_the_current_axis(
-    window_to_read: MainWindow, shared_box: FindBox
-) -> None:
-    window_to_read.go_to(("home.calibration", "4"))
-    typed(shared_box, "excess error")
-    assert shared_box.model.rows[1].detail.startswith("3.96°   Servo Parameters")
-    typed(shared_box, "1750")
-    assert shared_box.model.rows[1].detail.startswith("11 mm   ")
+def test_a_parameter_is_listed_with_its_value_in_the_current_axis(window: MainWindow, box: FindBox) -> None:
+    window.go_to(("home.calibration", "4"))
+    typed(box, "excess error")
+    assert box.model.rows[1].detail.startswith("3.96°   Servo Parameters")
+    typed(box, "1750")
+    assert box.model.rows[1].detail.startswith("11 mm   ")
 
 
-def test_heads_are_passed_by_the_keys_and_the_ends_join(shared_box: FindBox) -> None:
-    typed(shared_box, "closed loop")
-    rows = shared_box.model.rows
+def test_heads_are_passed_by_the_keys_and_the_ends_join(box: FindBox) -> None:
+    typed(box, "closed loop")
+    rows = box.model.rows
     able = [n for n, row in enumerate(rows) if not row.is_head]
-    assert len(heads(shared_box)) > 2
+    assert len(heads(box)) > 2
     seen = []
     for _ in range(len(able) + 1):
-        seen.append(shared_box.list.currentIndex().row())
-        QTest.keyClick(shared_box, Qt.Key.Key_Down)
+        seen.append(box.list.currentIndex().row())
+        QTest.keyClick(box, Qt.Key.Key_Down)
     assert seen == [*able, able[0]]
-    QTest.keyClick(shared_box, Qt.Key.Key_Up)
-    QTest.keyClick(shared_box, Qt.Key.Key_Up)
-    assert shared_box.list.currentIndex().row() == able[-1]
-    assert shared_box.window().focusWidget() is shared_box
+    QTest.keyClick(box, Qt.Key.Key_Up)
+    QTest.keyClick(box, Qt.Key.Key_Up)
+    assert box.list.currentIndex().row() == able[-1]
+    assert box.window().focusWidget() is box
 
 
-def test_escape_closes_the_list_and_keeps_the_question(shared_box: FindBox) -> None:
-    typed(shared_box, "home")
-    QTest.keyClick(shared_box, Qt.Key.Key_Escape)
-    assert (shared_box.is_open, shared_box.text(), shared_box.window().focusWidget()) == (
-        False,
-        "home",
-        shared_box,
-    )
+def test_escape_closes_the_list_and_keeps_the_question(box: FindBox) -> None:
+    typed(box, "home")
+    QTest.keyClick(box, Qt.Key.Key_Escape)
+    assert (box.is_open, box.text(), box.window().focusWidget()) == (False, "home", box)
 
 
-def test_the_list_closes_when_the_cursor_goes_elsewhere(
-    window_to_read: MainWindow, shared_box: FindBox
-) -> None:
-    typed(shared_box, "home")
-    window_to_read.table_view.setFocus()
-    assert not shared_box.is_open
+def test_the_list_closes_when_the_cursor_goes_elsewhere(window: MainWindow, box: FindBox) -> None:
+    typed(box, "home")
+    window.table_view.setFocus()
+    assert not box.is_open
 
 
-def test_nothing_found_offers_the_nearest_and_enter_takes_it(
-    window_to_read: MainWindow, shared_box: FindBox
-) -> None:
-    typed(shared_box, "excccesss")
-    nothing, nearest, *ways_on = shared_box.model.rows
+def test_nothing_found_offers_the_nearest_and_enter_takes_it(window: MainWindow, box: FindBox) -> None:
+    typed(box, "excccesss")
+    nothing, nearest, *ways_on = box.model.rows
     assert [row.text for row in ways_on[-2:]] == [
         "Show all parameters in the table",
         "Copy this question, to report the word",
     ]
-    shared_box.chosen.emit(ways_on[-1])
+    box.chosen.emit(ways_on[-1])
     assert "9pc: find 'excccesss' has no answer" in QGuiApplication.clipboard().text()
-    typed(shared_box, "excccesss")
+    typed(box, "excccesss")
     assert (nothing.text, nearest.instead) == ("Nothing found", "excess")
-    QTest.keyClick(shared_box, Qt.Key.Key_Return)
-    assert (shared_box.text(), shared_box.is_open) == ("excess", True)
-    assert heads(shared_box)[0] == "Parameters"
+    QTest.keyClick(box, Qt.Key.Key_Return)
+    assert (box.text(), box.is_open) == ("excess", True)
+    assert heads(box)[0] == "Parameters"
 
 
 def test_another_family_that_has_it_is_named_and_shown(
@@ -164,22 +142,20 @@ def test_another_family_that_has_it_is_named_and_shown(
     assert "Id: homing.debounce" in user.reads()
 
 
-def test_a_german_word_leads_to_the_parameter_whatever_the_language(shared_box: FindBox) -> None:
-    typed(shared_box, "Schleppfehler")
-    assert shared_box.model.rows[1].hit.key == "servo.excess_error"
-    assert shared_box.model.rows[1].right == "'schleppfehler' as 'excess error'"
+def test_a_german_word_leads_to_the_parameter_whatever_the_language(box: FindBox) -> None:
+    typed(box, "Schleppfehler")
+    assert box.model.rows[1].hit.key == "servo.excess_error"
+    assert box.model.rows[1].right == "'schleppfehler' as 'excess error'"
 
 
-def test_the_old_question_is_selected_by_the_click_that_comes_back(
-    window_to_read: MainWindow, shared_box: FindBox
-) -> None:
-    typed(shared_box, "home")
-    window_to_read.table_view.setFocus()
-    shared_box.setFocus(Qt.FocusReason.MouseFocusReason)  # as Qt does before the click
-    QTest.mouseClick(shared_box, Qt.MouseButton.LeftButton)
-    assert shared_box.selectedText() == "home"
-    QTest.mouseClick(shared_box, Qt.MouseButton.LeftButton, pos=shared_box.rect().center())
-    assert shared_box.selectedText() == "", "the second click puts the cursor"
+def test_the_old_question_is_selected_by_the_click_that_comes_back(window: MainWindow, box: FindBox) -> None:
+    typed(box, "home")
+    window.table_view.setFocus()
+    box.setFocus(Qt.FocusReason.MouseFocusReason)  # as Qt does before the click
+    QTest.mouseClick(box, Qt.MouseButton.LeftButton)
+    assert box.selectedText() == "home"
+    QTest.mouseClick(box, Qt.MouseButton.LeftButton, pos=box.rect().center())
+    assert box.selectedText() == "", "the second click puts the cursor"
 
 
 def test_a_value_is_found_as_it_was_edited(workspace: Workspace, box: FindBox) -> None:
@@ -237,7 +213,6 @@ def test_without_a_file_the_messages_of_every_family_are_found_and_shown(open_wi
     assert "Rules that find it" in page.text.toPlainText()
 
 
-@pytest.mark.own_window
 def test_a_closed_file_is_forgotten(window: MainWindow, box: FindBox, qtbot) -> None:
     window.close_page(window.page)
     qtbot.waitUntil(lambda: not window.finder._finders, timeout=WAIT_MS)

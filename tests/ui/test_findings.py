@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QPoint, Qt, QUrl
@@ -19,8 +18,6 @@ from amp_studio.ui.main_window import MainWindow
 
 from .conftest import action
 
-pytestmark = pytest.mark.shared_window
-
 EXCESS = ("servo.excess_error", "1")
 
 
@@ -33,10 +30,10 @@ def wrong(window: MainWindow) -> MainWindow:
     return window
 
 
-def with_all_findings(open_window: Callable[..., MainWindow], path: Path, bare: bytes) -> MainWindow:
+@pytest.fixture
+def delivered(window_with: Callable[[bytes], MainWindow], bare: bytes) -> MainWindow:
     """Return a window with a new file that lists the findings of later steps too."""
-    path.write_bytes(bare)
-    window = open_window(path)
+    window = window_with(bare)
     window.workspace.show_later(True)
     return window
 
@@ -59,8 +56,8 @@ def test_the_selected_finding_stays_selected(wrong: MainWindow) -> None:
     assert wrong.findings.current().addresses == finding.addresses
 
 
-def test_when_a_rule_is_met_again_the_next_row_is_selected(path, bare: bytes, open_window) -> None:
-    panel = with_all_findings(open_window, path, bare).findings
+def test_when_a_rule_is_met_again_the_next_row_is_selected(delivered: MainWindow) -> None:
+    panel = delivered.findings
     place = next(n for n, group in enumerate(panel.model.groups) if group.fixable and n)
     panel.view.setCurrentIndex(panel.model.index(place, 0))
     ended = panel.model.groups[place].key
@@ -100,8 +97,8 @@ def click(panel: FindingsPanel, part: str, row: int, child: int | None = None) -
     QTest.mouseClick(panel.view.viewport(), Qt.MouseButton.LeftButton, pos=spot)
 
 
-def test_a_row_is_a_rule_with_the_axes_it_is_broken_on(path, bare: bytes, open_window) -> None:
-    model = with_all_findings(open_window, path, bare).findings.model
+def test_a_row_is_a_rule_with_the_axes_it_is_broken_on(delivered: MainWindow) -> None:
+    model = delivered.findings.model
     first = model.index(0, 0)
     assert model.group(first).title == "Servo hardware of a fitted axis"
     assert model.text_of(first).startswith("The axis is fitted but its Servo Hardware Type is None")
@@ -116,52 +113,47 @@ def test_a_row_is_a_rule_with_the_axes_it_is_broken_on(path, bare: bytes, open_w
     ]
 
 
-def test_the_button_of_a_rule_fixes_it_on_every_axis_as_one_step(path, bare: bytes, open_window) -> None:
-    wrong = with_all_findings(open_window, path, bare)
-    steps = wrong.workspace.undo_stack.count()
-    click(wrong.findings, "fix", 0)
-    types = [wrong.workspace.file.get(("servo.hardware_type", axis)).value for axis in "12345"]
+def test_the_button_of_a_rule_fixes_it_on_every_axis_as_one_step(delivered: MainWindow) -> None:
+    steps = delivered.workspace.undo_stack.count()
+    click(delivered.findings, "fix", 0)
+    types = [delivered.workspace.file.get(("servo.hardware_type", axis)).value for axis in "12345"]
     assert types == ["sercos"] * 5
-    assert wrong.workspace.undo_stack.count() == steps + 1
-    wrong.menus["edit.undo"].trigger()
-    assert wrong.workspace.file.get(("servo.hardware_type", "5")).value == "none"
+    assert delivered.workspace.undo_stack.count() == steps + 1
+    delivered.menus["edit.undo"].trigger()
+    assert delivered.workspace.file.get(("servo.hardware_type", "5")).value == "none"
 
 
-def test_a_finding_below_its_rule_is_fixed_alone(path, bare: bytes, open_window) -> None:
-    wrong = with_all_findings(open_window, path, bare)
-    panel = wrong.findings
+def test_a_finding_below_its_rule_is_fixed_alone(delivered: MainWindow) -> None:
+    panel = delivered.findings
     panel.view.setExpanded(panel.model.index(0, 0), True)
     panel.view.setCurrentIndex(panel.model.index(2, 0, panel.model.index(0, 0)))
-    wrong.edits.fix_selected()
-    types = [wrong.workspace.file.get(("servo.hardware_type", axis)).value for axis in "1234"]
+    delivered.edits.fix_selected()
+    types = [delivered.workspace.file.get(("servo.hardware_type", axis)).value for axis in "1234"]
     assert types == ["none", "none", "sercos", "none"]
     assert panel.view.isExpanded(panel.model.index(0, 0)), "the list keeps its place"
     assert panel.view.currentIndex().parent().row() == 0
 
 
-def test_a_link_goes_to_the_value_of_a_finding(path, bare: bytes, open_window) -> None:
-    wrong = with_all_findings(open_window, path, bare)
-    click(wrong.findings, "go", 0, 3)
-    assert wrong.selected() == ("servo.hardware_type", "4")
+def test_a_link_goes_to_the_value_of_a_finding(delivered: MainWindow) -> None:
+    click(delivered.findings, "go", 0, 3)
+    assert delivered.selected() == ("servo.hardware_type", "4")
 
 
-def test_a_finding_without_a_fix_shows_it(path, bare: bytes, open_window, user) -> None:
-    wrong = with_all_findings(open_window, path, bare)
-    panel = wrong.findings
+def test_a_finding_without_a_fix_shows_it(delivered: MainWindow, user) -> None:
+    panel = delivered.findings
     unable = next(n for n, group in enumerate(panel.model.groups) if not group.fixable)
     panel.view.setCurrentIndex(panel.model.index(unable, 0))
-    wrong.guarded(wrong.edits.fix_selected)
+    delivered.guarded(delivered.edits.fix_selected)
     assert "has no suggested fix" in user.reads()
 
 
-def test_findings_are_filtered_to_the_axis_and_the_group_in_front(path, bare: bytes, open_window) -> None:
-    wrong = with_all_findings(open_window, path, bare)
-    panel = wrong.findings
-    wrong.go_to(("servo.loop_type", "5"))
+def test_findings_are_filtered_to_the_axis_and_the_group_in_front(delivered: MainWindow) -> None:
+    panel = delivered.findings
+    delivered.go_to(("servo.loop_type", "5"))
     panel.scope.buttons["axis"].click()
     assert panel.scope.buttons["axis"].text() == "Axis S"
     assert {group.axes for group in panel.model.groups} == {("S",)}
-    wrong.go_to(("accdec.jerk", "1"))
+    delivered.go_to(("accdec.jerk", "1"))
     panel.scope.buttons["shown"].click()
     assert {group.findings[0].causes[0][0] for group in panel.model.groups} == {
         "accdec.jerk",
@@ -171,8 +163,8 @@ def test_findings_are_filtered_to_the_axis_and_the_group_in_front(path, bare: by
     assert len(panel.model.groups) > 4
 
 
-def test_a_severity_is_left_out_and_listed_again(path, bare: bytes, open_window) -> None:
-    panel = with_all_findings(open_window, path, bare).findings
+def test_a_severity_is_left_out_and_listed_again(delivered: MainWindow) -> None:
+    panel = delivered.findings
     for severity in ("error", "warning", "advice"):
         panel.chips[severity].click()
     assert panel.model.groups == ()
@@ -181,8 +173,8 @@ def test_a_severity_is_left_out_and_listed_again(path, bare: bytes, open_window)
     assert {group.severity for group in panel.model.groups} == {"error", "warning", "advice"}
 
 
-def test_what_is_kept_back_is_counted_and_not_listed(path, bare: bytes, open_window) -> None:
-    panel = with_all_findings(open_window, path, bare).findings
+def test_what_is_kept_back_is_counted_and_not_listed(delivered: MainWindow) -> None:
+    panel = delivered.findings
     panel.withhold(lambda finding: finding.rule.startswith("9pc.accdec."))
     assert not any("accdec" in group.key for group in panel.model.groups)
     assert panel.hint.text().startswith("8 as delivered, to be set in steps ")
@@ -199,11 +191,8 @@ def test_an_empty_list_leads_to_what_is_not_set(path, open_window) -> None:
     assert window.page.list_title.text().startswith("<b>Not set</b>")
 
 
-def test_several_fixes_are_chosen_from_a_list_and_undone_at_once(
-    path, bare: bytes, open_window, accept
-) -> None:
-    wrong = with_all_findings(open_window, path, bare)
-    before, steps = dict(wrong.workspace.file.values), wrong.workspace.undo_stack.count()
+def test_several_fixes_are_chosen_from_a_list_and_undone_at_once(delivered: MainWindow, accept) -> None:
+    before, steps = dict(delivered.workspace.file.values), delivered.workspace.undo_stack.count()
 
     def choose(dialog: FixSeveralDialog) -> None:
         assert dialog.chosen() == (), "nothing that can change motion is chosen by itself"
@@ -213,13 +202,13 @@ def test_several_fixes_are_chosen_from_a_list_and_undone_at_once(
         assert dialog.ok.text() == "Apply 3 &Fixes"
 
     accept(FixSeveralDialog, choose)
-    wrong.findings.several.click()
+    delivered.findings.several.click()
 
-    changed = {a for a, value in wrong.workspace.file.values.items() if before.get(a) != value}
+    changed = {a for a, value in delivered.workspace.file.values.items() if before.get(a) != value}
     assert changed == {("servo.hardware_type", "1"), ("servo.hardware_type", "2"), ("accdec.jerk", "3")}
-    assert wrong.workspace.undo_stack.count() == steps + 1
-    wrong.menus["edit.undo"].trigger()
-    assert wrong.workspace.file.values == before
+    assert delivered.workspace.undo_stack.count() == steps + 1
+    delivered.menus["edit.undo"].trigger()
+    assert delivered.workspace.file.values == before
 
 
 def test_rows_are_as_high_as_their_words_need(path, bare: bytes, open_window, qtbot) -> None:
@@ -268,7 +257,6 @@ def test_why_shows_the_rule_and_leads_to_its_parameters(wrong: MainWindow) -> No
     dialog.close()
 
 
-@pytest.mark.own_window
 def test_a_finding_is_left_as_it_is_with_a_reason_and_a_name(wrong: MainWindow, path, monkeypatch) -> None:
     finding = next(f for f in wrong.workspace.findings if f.addresses[0] == EXCESS)
     wrong.findings.select(finding)
@@ -328,15 +316,14 @@ def test_what_the_control_uses_instead_is_behind_an_arrow(path, open_window) -> 
     assert "1 mm effective value in the control" in window.detail.page.toPlainText()
 
 
-def test_keys_go_from_finding_to_finding_and_their_values(path, bare: bytes, open_window) -> None:
-    window = with_all_findings(open_window, path, bare)
-    groups = window.findings.model.groups
-    window.findings.view.setCurrentIndex(window.findings.model.index(0, 0))
-    action(window, "Next Finding").trigger()
-    assert window.selected() == groups[1].findings[0].addresses[0]
+def test_keys_go_from_finding_to_finding_and_their_values(delivered: MainWindow) -> None:
+    groups = delivered.findings.model.groups
+    delivered.findings.view.setCurrentIndex(delivered.findings.model.index(0, 0))
+    action(delivered, "Next Finding").trigger()
+    assert delivered.selected() == groups[1].findings[0].addresses[0]
     for _ in range(2):
-        action(window, "Previous Finding").trigger()
-    assert window.findings.view.currentIndex().row() == len(groups) - 1
+        action(delivered, "Previous Finding").trigger()
+    assert delivered.findings.view.currentIndex().row() == len(groups) - 1
 
 
 def test_the_outline_of_a_finding_ends_with_it(window: MainWindow) -> None:
@@ -350,7 +337,6 @@ def test_the_outline_of_a_finding_ends_with_it(window: MainWindow) -> None:
     assert page.table.outlined == frozenset()
 
 
-@pytest.mark.own_window
 def test_a_typed_slip_is_asked_about_until_it_is_saved_and_saved_again(window: MainWindow) -> None:
     workspace, address = window.workspace, ("cycle.peck_retract", "")
     was = workspace.file.get(address)

@@ -159,7 +159,7 @@ def test_the_end_of_the_tabs_lists_every_open_file(window: MainWindow, path: Pat
     assert window.workspace.path == path
 
 
-@pytest.mark.parametrize("size", [(1920, 1080), (1400, 900), (1366, 768), (1024, 700)])
+@pytest.mark.parametrize("size", [(1400, 900), (1366, 768), (1024, 700)])
 def test_nothing_has_moved_after_each_panel_was_opened_and_closed_twice(
     window: MainWindow, size: tuple[int, int], qtbot: QtBot
 ) -> None:

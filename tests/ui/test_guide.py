@@ -13,29 +13,30 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QMenu, QTreeWidgetItem
 from pytestqt.qtbot import QtBot
 
-from amp_studio.files import Document, new_file
+from amp_studio.files import content_of, new_file
 from amp_studio.guide import SetupStep
 from amp_studio.schema import Value
-from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.place_tree import COUNTS, KEY, PICTURE, RIGHT
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.page.steps_panel import StepsPanel
 
 from .conftest import WAIT_MS, action
 
-pytestmark = pytest.mark.shared_window
 
-
-@pytest.fixture
-def fresh(open_window: Callable[..., MainWindow], tmp_path: Path) -> MainWindow:
-    """Return a window with a new mill of three axes that have servos."""
-    window = open_window()
+@pytest.fixture(scope="module")
+def begun() -> bytes:
+    """Return the content of a new mill of three axes that have servos."""
     file = new_file("9pc", "mill", ["X", "Y", "Z"])
     for axis in "123":
         file.set(("servo.hardware_type", axis), Value("sercos"))
         file.set(("servo.loop_type", axis), Value("digital"))
-    window.show_workspace(Workspace(Document.create(file, tmp_path / "new.amp")))
-    return window
+    return content_of(file)
+
+
+@pytest.fixture
+def fresh(window_with: Callable[[bytes], MainWindow], begun: bytes) -> MainWindow:
+    """Return a window with that new mill."""
+    return window_with(begun)
 
 
 def item(steps: StepsPanel, step_id: str) -> QTreeWidgetItem:
@@ -251,6 +252,7 @@ def test_the_side_that_was_chosen_last_is_that_of_the_next_file(fresh: MainWindo
     assert fresh.page.left.side == "steps"
 
 
+@pytest.mark.own_window
 def test_what_the_left_panel_shows_is_made_when_a_user_looks(window: MainWindow) -> None:
     left, made = window.page.left, []
     left.take_project(lambda: made.append(QLabel("the machines")) or made[0])
@@ -265,15 +267,14 @@ def test_what_the_left_panel_shows_is_made_when_a_user_looks(window: MainWindow)
     assert [left.groups.isVisible(), left.steps.isVisible(), len(made)] == [False, False, 1]
 
 
-def test_a_fresh_file_is_calm_wherever_one_looks(
-    open_window: Callable[..., MainWindow], tmp_path: Path
-) -> None:
+def test_a_fresh_file_is_calm_wherever_one_looks(window_with: Callable[[bytes], MainWindow]) -> None:
     """What is wrong with printed defaults is a state: no finding, no mark in a cell;
     the parameter panel has it.
     """
-    window, hardware = open_window(), ("servo.hardware_type", "1")
-    file = new_file("9pc", "mill", ["X", "Y", "Z"])
-    window.show_workspace(Workspace(Document.create(file, tmp_path / "new.amp")))
+    window, hardware = (
+        window_with(content_of(new_file("9pc", "mill", ["X", "Y", "Z"]))),
+        ("servo.hardware_type", "1"),
+    )
     window.go_to(hardware)
     assert window.workspace.count("error") == 0
     assert window.table.values.worst == {}

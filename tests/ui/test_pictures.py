@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from pathlib import Path
 
@@ -15,8 +16,6 @@ from amp_studio.schema import Value
 from amp_studio.ui.pictures.page import PicturesPage
 
 from .conftest import WAIT_MS, action
-
-pytestmark = pytest.mark.shared_window
 
 RIGHT = ("zone.limit3_max", "1")
 LOW = ("zone.limit3_min", "2")
@@ -249,7 +248,6 @@ def test_a_picture_that_was_hidden_follows_when_it_is_seen_again(window, picture
     assert canvas.scene.handles[place(canvas, RIGHT)[1]].at[0] == -200.0
 
 
-@pytest.mark.own_window
 def test_a_name_leads_to_its_parameter_in_the_table(window, pictures):
     canvas = pictures.chosen_card.canvas
     canvas.grab()
@@ -361,3 +359,16 @@ def test_the_loops_are_drawn_at_the_speed_that_is_chosen(pictures):
     assert texts["following error"] == "2.5 mm"
     card.speed.setValue(100.0)
     assert card.part == "1"
+
+
+def test_what_pictures_need_is_loaded_beside_the_window_however_soon_they_are_asked_for(window, monkeypatch):
+    """The simulator and the law of the axes took a fifth of a second of the window's thread."""
+    threads = []
+    monkeypatch.setattr(
+        "amp_studio.ui.actions.picture.load", lambda *_: threads.append(threading.current_thread())
+    )
+    window.pictures._loaded.clear()
+    action(window, "Pictures").trigger()
+    assert window.page.shows_pictures
+    assert threads
+    assert threading.main_thread() not in threads

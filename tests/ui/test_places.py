@@ -17,14 +17,13 @@ EXCESS, RAPID, HOME = ("servo.excess_error", "1"), ("feedrate.rapid", "1"), ("ho
 
 
 @pytest.fixture
-def manual(window_to_read: MainWindow) -> ManualWindow:
-    window_to_read.menus["help.tutorial"].trigger()
-    (opened,) = window_to_read.beside.of(ManualWindow)
+def manual(window: MainWindow) -> ManualWindow:
+    window.menus["help.tutorial"].trigger()
+    (opened,) = window.beside.of(ManualWindow)
     return opened
 
 
-def test_back_and_forward_go_through_the_groups_that_were_visited(window_to_read: MainWindow) -> None:
-    window = window_to_read
+def test_back_and_forward_go_through_the_groups_that_were_visited(window: MainWindow) -> None:
     for address in (EXCESS, RAPID, HOME, ("home.calibration", "3")):
         window.go_to(address)
     back, forward = window.menus["view.back"], window.menus["view.forward"]
@@ -43,8 +42,7 @@ def test_back_and_forward_go_through_the_groups_that_were_visited(window_to_read
     assert len(listed) == len(set(listed)) >= 3
 
 
-def test_back_leaves_the_page_at_the_control_first(window_to_read: MainWindow) -> None:
-    window = window_to_read
+def test_back_leaves_the_page_at_the_control_first(window: MainWindow) -> None:
     window.go_to(EXCESS)
     window.go_to(RAPID)
     window.control.show("compare")

@@ -15,7 +15,6 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox
 from pytestqt.qtbot import QtBot
 
-from amp_studio.files.example_files import examples
 from amp_studio.report import Contents, PrintedFigure
 from amp_studio.schema import Address
 from amp_studio.ui.dialogs.file_dialogs import ReportDialog
@@ -35,11 +34,10 @@ SHORT = Contents(changed_only=True, without=frozenset({"pictures", "motion", "ex
 
 
 @pytest.fixture
-def path(tmp_path: Path) -> Path:
+def path(tmp_path: Path, router: bytes) -> Path:
     """Return a copy of the example with the shortest report."""
-    (example,) = [each.path for each in examples() if each.family == "grblhal"]
-    path = tmp_path / example.name
-    path.write_bytes(example.read_bytes())
+    path = tmp_path / "router.amp"
+    path.write_bytes(router)
     return path
 
 
@@ -102,7 +100,7 @@ def point_of(panel: PreviewPanel, address: Address) -> QPointF:
     return QPointF(view._left(place.page - 1) + place.x * view._scale(place.page - 1) + 2, line.center().y())
 
 
-def test_the_pages_turn_to_the_selected_value_and_a_click_goes_back(
+def test_the_pages_turn_to_the_selected_value_or_its_absence_is_reported_and_a_click_goes_back(
     window: MainWindow, panel: PreviewPanel
 ) -> None:
     view = panel.view
@@ -122,9 +120,6 @@ def test_the_pages_turn_to_the_selected_value_and_a_click_goes_back(
     view.mark(TRAVEL, scroll=True)
     QTest.mouseClick(view.viewport(), Qt.MouseButton.LeftButton, pos=point_of(panel, TRAVEL).toPoint())
     assert window.selected() == TRAVEL
-
-
-def test_a_value_that_the_report_does_not_have_is_reported(window: MainWindow, panel: PreviewPanel) -> None:
     window.go_to(("general.arc_tolerance", ""))  # at its default, and only changed values are printed
     panel.go_to_selected()
     assert panel.bar.text.text() == "$12 Arc tolerance is not in this report."
@@ -218,15 +213,6 @@ def test_the_preview_is_open_again_at_the_next_start_and_loaded_only_when_it_is_
     assert not action(again, "Report Preview").isChecked()
 
 
-def test_the_table_keeps_its_room_beside_the_preview(window: MainWindow, panel: PreviewPanel) -> None:
-    window.resize(1024, 700)
-    assert window.table_view.width() > 400
-    assert not window.docks._dock("Groups").isVisible()
-    action(window, "Report Preview").trigger()
-    assert window.docks._dock("Groups").isVisible()
-    assert window.table_view.hasFocus()
-
-
 def test_drawings_of_the_simulator_come_when_they_are_ready(
     window: MainWindow, panel: PreviewPanel, settled, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -257,7 +243,16 @@ def test_what_is_seen_is_exported_and_printed(
     assert (tmp_path / "printed.pdf").read_bytes().startswith(b"%PDF")
 
 
-def test_zoom_by_keys_keeps_the_page(panel: PreviewPanel) -> None:
+def test_tables_to_fill_in_by_hand_are_written(window: MainWindow, tmp_path: Path, user: User) -> None:
+    user.chooses(tmp_path / "form.html")
+    action(window, "Form to Fill In").trigger()
+    page = (tmp_path / "form.html").read_text("utf-8")
+    assert "Maximum travel" in page
+    assert "______ mm" in page
+    assert str(tmp_path / "form.html") in window.statusBar().currentMessage()
+
+
+def test_zoom_by_keys_keeps_the_page_and_the_table_its_room(window: MainWindow, panel: PreviewPanel) -> None:
     view = panel.view
     view.go_to_page(3)
     page, scale = view.spot().page, view.scale()
@@ -269,12 +264,9 @@ def test_zoom_by_keys_keeps_the_page(panel: PreviewPanel) -> None:
     QTest.keyClick(view, Qt.Key.Key_End)
     assert view.spot().page == len(view.pages) - 1
     assert view.accessibleDescription() == f"Page {len(view.pages)} of {len(view.pages)}"
-
-
-def test_tables_to_fill_in_by_hand_are_written(window: MainWindow, tmp_path: Path, user: User) -> None:
-    user.chooses(tmp_path / "form.html")
-    action(window, "Form to Fill In").trigger()
-    page = (tmp_path / "form.html").read_text("utf-8")
-    assert "Maximum travel" in page
-    assert "______ mm" in page
-    assert str(tmp_path / "form.html") in window.statusBar().currentMessage()
+    window.resize(1024, 700)
+    assert window.table_view.width() > 400
+    assert not window.docks._dock("Groups").isVisible()
+    action(window, "Report Preview").trigger()
+    assert window.docks._dock("Groups").isVisible()
+    assert window.table_view.hasFocus()

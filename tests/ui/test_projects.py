@@ -15,6 +15,8 @@ from amp_studio.ui.project.check import ProjectCheckDialog
 
 from .conftest import User, action, on_disk
 
+pytestmark = pytest.mark.own_window
+
 EXCESS = ("servo.excess_error", "1")
 
 

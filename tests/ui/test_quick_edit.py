@@ -14,8 +14,6 @@ from amp_studio.ui.table.quick_edit import QuickEdit
 
 from .conftest import WAIT_MS
 
-pytestmark = pytest.mark.shared_window
-
 ENTER = Qt.Key.Key_Return
 
 
@@ -129,7 +127,6 @@ def test_what_is_out_of_force_shows_it(quick: QuickEdit) -> None:
     assert "\n" in quick.name.text()
 
 
-@pytest.mark.own_window
 def test_it_closes_with_its_file(quick: QuickEdit, window: MainWindow, qtbot) -> None:
     with qtbot.waitSignal(quick.destroyed, timeout=WAIT_MS):
         window.files.close()

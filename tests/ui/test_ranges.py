@@ -18,8 +18,6 @@ from amp_studio.ui.table.block_preview import BlockPreview
 
 from .conftest import action, editor
 
-pytestmark = pytest.mark.shared_window
-
 EXCESS, SUPPRESSION, BREAK = ("servo.excess_error", "servo.feedrate_suppression", "servo.gain_break_point")
 KEY, SHIFT = Qt.Key, Qt.KeyboardModifier.ShiftModifier
 
@@ -48,14 +46,12 @@ def of(file: ParameterFile, parameter: str, axes: str = "123") -> list[Value | N
 # -- selecting -------------------------------------------------------------------
 
 
-def test_shift_and_arrows_select_a_range_and_the_status_bar_sums_it_up(window_to_read: MainWindow) -> None:
-    window_to_read.go_to((EXCESS, "1"))
+def test_shift_and_arrows_select_a_range_and_the_status_bar_sums_it_up(window: MainWindow) -> None:
+    window.go_to((EXCESS, "1"))
     for _ in range(2):
-        QTest.keyClick(window_to_read.table_view, KEY.Key_Right, SHIFT)
-    assert window_to_read.table_view.cells.addresses() == [(EXCESS, axis) for axis in "123"]
-    assert (
-        window_to_read.page.address_text() == "3 cells of 1750 Excess Error, X to Z   min 11 mm   max 11 mm"
-    )
+        QTest.keyClick(window.table_view, KEY.Key_Right, SHIFT)
+    assert window.table_view.cells.addresses() == [(EXCESS, axis) for axis in "123"]
+    assert window.page.address_text() == "3 cells of 1750 Excess Error, X to Z   min 11 mm   max 11 mm"
 
 
 def test_the_sum_in_the_status_bar_follows_an_undo(window: MainWindow) -> None:
@@ -67,24 +63,23 @@ def test_the_sum_in_the_status_bar_follows_an_undo(window: MainWindow) -> None:
     assert window.status.value.text() == before
 
 
-@pytest.mark.own_window
-def test_keys_pass_over_what_does_not_exist(window_to_read: MainWindow) -> None:
+def test_keys_pass_over_what_does_not_exist(window: MainWindow) -> None:
     """The feedback ports of the first axes have no analog voltage, which only the spindle has."""
-    window_to_read.go_to((EXCESS, "1"))
-    voltage = window_to_read.table.index_of(("servo.analog_positive_voltage", "5"))
-    assert not window_to_read.table.index(voltage.row(), 0).flags() & Qt.ItemFlag.ItemIsEnabled
-    window_to_read.table_view.setCurrentIndex(window_to_read.table.index(voltage.row() - 1, 0))
-    QTest.keyClick(window_to_read.table_view, KEY.Key_Down)
-    assert window_to_read.table_view.currentIndex() == window_to_read.table.index(voltage.row() - 1, 0)
-    window_to_read.table_view.setCurrentIndex(voltage)
-    QTest.keyClick(window_to_read.table_view, KEY.Key_Left)
-    assert window_to_read.table_view.currentIndex() == voltage
+    window.go_to((EXCESS, "1"))
+    voltage = window.table.index_of(("servo.analog_positive_voltage", "5"))
+    assert not window.table.index(voltage.row(), 0).flags() & Qt.ItemFlag.ItemIsEnabled
+    window.table_view.setCurrentIndex(window.table.index(voltage.row() - 1, 0))
+    QTest.keyClick(window.table_view, KEY.Key_Down)
+    assert window.table_view.currentIndex() == window.table.index(voltage.row() - 1, 0)
+    window.table_view.setCurrentIndex(voltage)
+    QTest.keyClick(window.table_view, KEY.Key_Left)
+    assert window.table_view.currentIndex() == voltage
 
 
-def test_ctrl_a_selects_all_values(window_to_read: MainWindow) -> None:
-    window_to_read.go_to((EXCESS, "1"))
-    QTest.keyClick(window_to_read.table_view, KEY.Key_A, Qt.KeyboardModifier.ControlModifier)
-    assert len(window_to_read.table_view.cells.block()) == window_to_read.table.count
+def test_ctrl_a_selects_all_values(window: MainWindow) -> None:
+    window.go_to((EXCESS, "1"))
+    QTest.keyClick(window.table_view, KEY.Key_A, Qt.KeyboardModifier.ControlModifier)
+    assert len(window.table_view.cells.block()) == window.table.count
 
 
 def test_tab_leaves_the_table_behind_its_last_cell(window: MainWindow) -> None:
@@ -105,14 +100,14 @@ def test_tab_leaves_the_table_behind_its_last_cell(window: MainWindow) -> None:
 # -- copying -----------------------------------------------------------------------
 
 
-def test_a_block_is_copied_plain_and_exact_with_units(window_to_read: MainWindow) -> None:
-    select(window_to_read, (EXCESS, "1"), (SUPPRESSION, "2"))
-    window_to_read.edits.range.copy()
+def test_a_block_is_copied_plain_and_exact_with_units(window: MainWindow) -> None:
+    select(window, (EXCESS, "1"), (SUPPRESSION, "2"))
+    window.edits.range.copy()
     data = QGuiApplication.clipboard().mimeData()
     assert data.text() == "11 mm\t11 mm\n11 mm\t11 mm"
     assert data.html().count("<td") == 4
-    select(window_to_read, ("servo.position_counts", "1"), ("servo.position_counts", "1"))
-    window_to_read.edits.range.copy()
+    select(window, ("servo.position_counts", "1"), ("servo.position_counts", "1"))
+    window.edits.range.copy()
     assert "\u202f" not in QGuiApplication.clipboard().text(), "groups of digits are for the screen"
 
 
@@ -281,7 +276,6 @@ def test_the_fill_handle_is_dragged(window: MainWindow, file: ParameterFile) -> 
 # -- default and not set -------------------------------------------------------------
 
 
-@pytest.mark.own_window
 def test_a_changed_value_names_the_saved_one_under_the_pointer_and_goes_back_to_it(
     window: MainWindow,
 ) -> None:
@@ -306,7 +300,6 @@ def test_several_values_go_to_default_and_to_not_set_in_one_step(
     assert window.workspace.undo_stack.count() == 2
 
 
-@pytest.mark.own_window
 def test_the_list_of_steps_is_in_words_and_leads_back(window: MainWindow, file: ParameterFile) -> None:
     window.edits.commit((EXCESS, "1"), "9 mm")
     window.edits.commit((EXCESS, "1"), "=Y*2")
@@ -325,10 +318,10 @@ def test_the_list_of_steps_is_in_words_and_leads_back(window: MainWindow, file: 
 
 
 @pytest.mark.parametrize("key", ["Ctrl+D", "Ctrl+R", "Ctrl+Backspace"])
-def test_each_key_belongs_to_one_command(window_to_read: MainWindow, key: str) -> None:
+def test_each_key_belongs_to_one_command(window: MainWindow, key: str) -> None:
     from amp_studio.ui.base.menu_commands import commands
 
-    found = [name for name, act in commands(window_to_read.menuBar()) if act.shortcut().toString() == key]
+    found = [name for name, act in commands(window.menuBar()) if act.shortcut().toString() == key]
     assert len(found) == 1
 
 

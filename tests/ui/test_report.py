@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -15,14 +16,18 @@ from amp_studio.ui.main_window import MainWindow
 
 from .conftest import User, action
 
-pytestmark = pytest.mark.shared_window
+
+@pytest.fixture
+def small(window_with: Callable[[bytes], MainWindow], router: bytes) -> MainWindow:
+    """Return a window with the example that has the shortest report."""
+    return window_with(router)
 
 
 @pytest.mark.parametrize(
     ("ending", "begins"), [("pdf", b"%PDF"), ("html", b"<!"), ("csv", b""), ("txt", b"")]
 )
 def test_a_report_in_each_format(
-    window: MainWindow, tmp_path: Path, accept, ending: str, begins: bytes, monkeypatch: pytest.MonkeyPatch
+    small: MainWindow, tmp_path: Path, accept, ending: str, begins: bytes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # neither the simulator nor Typst is loaded into the window: together they keep 250 MB
     monkeypatch.setattr("amp_studio.dossier.motion_figures", None)
@@ -35,12 +40,12 @@ def test_a_report_in_each_format(
         lambda d: (d.form.set_answer("path", str(path)), d.form.set_answer("changed", ending == "pdf")),
     )
 
-    action(window, "Report").trigger()
+    action(small, "Report").trigger()
 
     assert path.read_bytes().startswith(begins)
     assert path.stat().st_size > 1000
     assert ending != "html" or "Not simulated: no machine" in path.read_text("utf-8")
-    assert str(path) in window.statusBar().currentMessage()
+    assert str(path) in small.statusBar().currentMessage()
 
 
 def test_the_report_contains_what_is_edited_and_not_what_is_saved(
@@ -99,7 +104,7 @@ def test_what_a_written_file_could_not_keep_is_shown(
 
 
 def test_a_report_is_shown_as_pages_and_goes_to_a_printer(
-    window: MainWindow, tmp_path: Path, accept, monkeypatch: pytest.MonkeyPatch
+    small: MainWindow, tmp_path: Path, accept, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     out, displayed = tmp_path / "printed.pdf", []
 
@@ -115,7 +120,7 @@ def test_a_report_is_shown_as_pages_and_goes_to_a_printer(
     monkeypatch.setattr("amp_studio.ui.paper.printing.PPI", 40)
     monkeypatch.setattr("amp_studio.dossier.motion_apart", lambda file: ())  # test_preview.py has it
     accept(ReportDialog, lambda d: (d.form.set_answer("changed", True), setattr(d, "to_printer", True)))
-    action(window, "Report").trigger()
+    action(small, "Report").trigger()
     assert displayed == ["Report"]
     content = out.read_bytes()
     assert content.startswith(b"%PDF")

@@ -13,8 +13,6 @@ from amp_studio.ui.page.group_list import GroupList
 
 from .conftest import WAIT_MS
 
-pytestmark = pytest.mark.shared_window
-
 
 @pytest.fixture
 def groups(workspace: Workspace) -> GroupList:

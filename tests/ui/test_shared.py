@@ -1,8 +1,8 @@
-"""The window that tests share is as a new one after each of them, or the test that changed it fails."""
+"""The window that tests share is as a new one after each of them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,13 +11,21 @@ from PySide6.QtWidgets import QDialog
 
 from amp_studio.ui.main_window import MainWindow
 
-from .conftest import action, on_disk
-from .shared import first_of, put_back
+from .conftest import User, action, new_window, on_disk
+from .shared import SharedWindow, first_of
 
 EXCESS = ("servo.excess_error", "1")
 
 
-def test_what_a_test_did_is_taken_back(window: MainWindow, path: Path) -> None:
+@pytest.fixture
+def shared(path: Path, user: User) -> Iterator[SharedWindow]:
+    made = SharedWindow(path, new_window)
+    yield made
+    made.close()
+
+
+def test_what_a_test_did_is_taken_back(shared: SharedWindow, path: Path) -> None:
+    window = shared.get()
     first, title = first_of(window), window.windowTitle()
     page = window.page
     assert page is not None
@@ -28,7 +36,8 @@ def test_what_a_test_did_is_taken_back(window: MainWindow, path: Path) -> None:
     window.show_panel("Findings")
     QDialog(window).show()
     window.workspace._keep_unsaved()
-    put_back(window, first)
+    shared.put_back()
+    assert shared.get() is window
     assert replace(first_of(window), docks=first.docks) == first
     assert not window.findings.isVisible()
     assert not page.shows_pictures
@@ -39,19 +48,32 @@ def test_what_a_test_did_is_taken_back(window: MainWindow, path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("does", "what"),
+    ("does", "is_kept"),
     [
-        (lambda window: window.close_page(window.page), "opened or closed a file"),
-        (lambda window: window.close(), "closed it"),
-        (lambda window: window.workspace.file.set(EXCESS, None), "changed the file"),
-        (lambda window: window.workspace.path.with_name("a.csv").write_text(""), "left {'.csv'}"),
+        (lambda window: window.close_page(window.page), True),
+        (lambda window: window.edits.commit(EXCESS, "3 mm") and window.save(), True),
+        (lambda window: window.workspace.path.with_name("a.csv").write_text(""), True),
+        (lambda window: action(window, "Motion").trigger(), True),
+        (lambda window: window.control.show("compare"), False),
+        (lambda window: window.close(), False),
     ],
-    ids=("file", "window", "value", "beside"),
+    ids=("closed", "saved", "beside", "motion", "control", "window"),
 )
-def test_what_cannot_be_taken_back_is_a_failure(
-    window: MainWindow, does: Callable[[MainWindow], object], what: str
+def test_what_undo_does_not_take_back_is_opened_again(
+    shared: SharedWindow, path: Path, does: Callable[[MainWindow], object], is_kept: bool
 ) -> None:
+    window, content = shared.get(), path.read_bytes()
     first = first_of(window)
     does(window)
-    with pytest.raises(AssertionError, match=what):
-        put_back(window, first)
+    shared.put_back()
+    again = shared.get()
+    assert (again is window) == is_kept
+    assert replace(first_of(again), page=first.page, docks=first.docks) == first
+    assert path.read_bytes() == content
+    assert {each.suffix for each in path.parent.iterdir()} <= {".amp", ".lock", ".holder"}
+
+
+def test_a_change_past_the_undo_steps_is_a_failure(shared: SharedWindow) -> None:
+    shared.get().workspace.file.set(EXCESS, None)
+    with pytest.raises(AssertionError, match="has changed the file"):
+        shared.put_back()

@@ -13,8 +13,6 @@ from PySide6.QtWidgets import QApplication, QDialog, QWidget
 
 from amp_studio.ui.main_window import MainWindow
 
-pytestmark = pytest.mark.shared_window
-
 COMMANDS = {
     "edit.steps": "StepList",
     "edit.quick": "QuickEdit",
@@ -44,7 +42,6 @@ def beside(window: MainWindow) -> list[QWidget]:
     return [each for each in found if isinstance(each, QDialog) or each.windowType() == Qt.WindowType.Window]
 
 
-@pytest.mark.own_window
 def test_each_command_has_one_window_that_goes_when_it_is_closed(window: MainWindow, quiet: None) -> None:
     for _ in range(3):
         for command in COMMANDS:
@@ -65,7 +62,6 @@ def test_what_belongs_to_a_value_follows_the_selection(window: MainWindow, quiet
     assert second is not first, "its result would go to the value that was selected before"
 
 
-@pytest.mark.own_window
 def test_each_file_has_its_windows(window: MainWindow, quiet: None, path: Path) -> None:
     second = path.with_name("second.amp")
     second.write_bytes(path.read_bytes())

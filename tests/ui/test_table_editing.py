@@ -15,8 +15,6 @@ from amp_studio.ui.main_window import MainWindow
 
 from .conftest import WAIT_MS, action, editor, on_disk
 
-pytestmark = pytest.mark.shared_window
-
 EXCESS = ("servo.excess_error", "1")
 LOOP = ("servo.position_loop_type", "1")
 KEY = Qt.Key
@@ -154,7 +152,6 @@ def test_the_result_of_an_expression_is_shown_while_it_is_typed(
     assert window.workspace.undo_stack.undoText() == "Set 1750 Excess Error, X to 5.08 mm (25.4/5)"
 
 
-@pytest.mark.own_window
 def test_one_key_opens_the_list_of_choices_and_a_letter_chooses(
     window: MainWindow, file: ParameterFile, qtbot
 ) -> None:
@@ -183,7 +180,6 @@ def test_escape_closes_the_list_and_leaves_the_choice(window: MainWindow, file: 
     assert file.get(LOOP) == Value("closed")
 
 
-@pytest.mark.own_window
 def test_typing_a_letter_on_a_choice_opens_the_list_at_it(window: MainWindow, qtbot) -> None:
     window.go_to(LOOP)
     press(window, KEY.Key_O)
@@ -244,7 +240,6 @@ def test_a_list_of_choices_forgives_accents() -> None:
     assert folded("Größe É") == "grosse e"
 
 
-@pytest.mark.own_window
 def test_no_list_is_closed_twice(window: MainWindow, qtbot, qtlog) -> None:
     for key in (KEY.Key_Return, KEY.Key_Escape):
         box = typed(window, qtbot, "dig")
@@ -271,7 +266,6 @@ def test_a_key_that_is_no_letter_goes_through(window: MainWindow) -> None:
     assert not window.table_view.viewport().findChildren(QLineEdit)
 
 
-@pytest.mark.own_window
 def test_saving_takes_what_is_in_an_open_field(window: MainWindow, path) -> None:
     window.go_to(EXCESS)
     press(window, KEY.Key_F2)
@@ -282,7 +276,6 @@ def test_saving_takes_what_is_in_an_open_field(window: MainWindow, path) -> None
     assert on_disk(path).get(EXCESS) == Value(3.5, "mm")
 
 
-@pytest.mark.own_window
 def test_an_action_waits_for_a_field_that_cannot_be_taken(window: MainWindow, path) -> None:
     window.edits.commit(EXCESS, "3 mm")
     window.go_to(EXCESS)
@@ -297,7 +290,6 @@ def test_an_action_waits_for_a_field_that_cannot_be_taken(window: MainWindow, pa
     QTest.keyClick(editor(window), KEY.Key_Escape)
 
 
-@pytest.mark.own_window
 def test_closing_asks_about_what_is_in_an_open_field(window: MainWindow, path, user) -> None:
     window.go_to(EXCESS)
     press(window, KEY.Key_F2)
@@ -309,7 +301,6 @@ def test_closing_asks_about_what_is_in_an_open_field(window: MainWindow, path, u
     assert on_disk(path).get(EXCESS) == Value(3.5, "mm")
 
 
-@pytest.mark.own_window
 def test_closing_with_an_open_list_ends_well(window: MainWindow, file: ParameterFile, qtbot) -> None:
     window.go_to(LOOP)
     press(window, KEY.Key_F2)

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import pytest
 from PySide6.QtCore import QUrl
 
 from amp_studio.ui.dialogs.tables_dialog import TablesDialog
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import action
-
-pytestmark = pytest.mark.shared_window
 
 
 def tables(window: MainWindow) -> TablesDialog:

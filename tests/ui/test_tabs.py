@@ -271,6 +271,7 @@ def test_the_layout_can_be_reset(window: MainWindow, qtbot: QtBot) -> None:
     for name, width in (("Groups", 212), ("Parameter", 240)):
         dock = window.findChild(QDockWidget, name)
         qtbot.waitUntil(dock.isVisible, timeout=WAIT_MS)
+        QApplication.processEvents()
         assert abs(dock.width() - width) < 30, name
 
 

@@ -13,8 +13,6 @@ from amp_studio.ui.table.parameter_table import ParameterTable
 
 from .conftest import editor
 
-pytestmark = pytest.mark.shared_window
-
 EXCESS = ("servo.excess_error", "1")
 
 
@@ -42,7 +40,6 @@ def test_the_switch_changes_the_display_and_no_value(window: MainWindow, workspa
     assert not workspace.is_dirty
 
 
-@pytest.mark.own_window
 def test_the_unit_system_belongs_to_the_file_and_is_saved_with_it(
     window: MainWindow, workspace: Workspace, path
 ) -> None:
@@ -119,7 +116,6 @@ def test_the_menu_checks_the_state_after_an_undo(window: MainWindow, workspace: 
     assert not lathe.isChecked()
 
 
-@pytest.mark.own_window
 def test_options_stay_when_another_file_is_opened(window: MainWindow, path) -> None:
     other = path.with_name("other.amp")
     other.write_bytes(path.read_bytes())

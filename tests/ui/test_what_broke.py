@@ -93,6 +93,7 @@ def test_letters_typed_on_a_choice_are_those_of_its_label(window: MainWindow) ->
     box.deleteLater()
 
 
+@pytest.mark.own_window
 def test_tab_down_tab_down_chooses_both_types_of_a_servo(window: MainWindow) -> None:
     file = window.workspace.file
     for parameter in ("servo.hardware_type", "servo.loop_type"):
