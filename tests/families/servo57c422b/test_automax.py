@@ -385,7 +385,7 @@ def test_the_names_of_registers_are_those_of_the_printed_tasks(servo: Schema) ->
     for message, name in zip(printed.column("Register") or (), printed.column("Variable") or (), strict=True):
         numbers = [int(n) for n in str(message).split(", ")]
         assert (registers[name], len(numbers)) == (numbers[0], 2 if str(name).endswith("!") else 1)
+    known = Registers(servo, "module")
     for name, register in registers.items():
-        known = Registers(servo, "module")
         last = int(register) + (1 if str(name).endswith("!") else 0)
         assert {len(known.claims.get(n, ())) for n in range(int(register), last + 1)} <= {1, 2, 3}, name
