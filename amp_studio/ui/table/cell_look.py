@@ -267,7 +267,7 @@ class ShownValues(Translated):
         return "\n".join([*lines, *self._other_values(address)])
 
     def _other_values(self, address: Address) -> Iterator[str]:
-        """Yield what is saved, and what was entered, where that is another text."""
+        """Yield what is saved, and what was entered, if that is another text."""
         file = self.workspace.file
         value, saved = file.get(address), self.workspace.document.saved.get(address)
         if value != saved:
