@@ -67,10 +67,9 @@ class StepProgress:
         It is done when nothing is open, nothing about it is an error, and all that somebody had to give is
         given. Where every value has a default nobody had to give any: then it is done when a person ticks it.
         """
-        is_needed = self.step.id != REST or self.total or self.own
-        if not self.active or not is_needed:
+        if not self.active or (self.step.id == REST and not (self.total or self.own)):
             return "not needed"
-        if not (self.open or self.errors) and (self.total or self.ticked):
+        if not self.open and not self.errors and (self.total or self.ticked):
             return "done"
         return "begun" if self.own or self.ticked else "not begun"
 
@@ -159,8 +158,7 @@ def progress(validator: Validator, findings: Sequence[Finding] | None = None) ->
     places, steps = step_of(file.schema), steps_of(file.schema)
     counts = _StepCounts(validator, places)
     belongs = [(f, *_belongs_to(file, f)) for f in findings if f.rule != NOT_SET]
-    errors = {number for f, number, _ in belongs if f.severity == "error"} - {0}
-    reached = min({*counts.open} | errors, default=len(steps) + 1)
+    reached = min({*counts.open} | _steps_with_errors(belongs), default=len(steps) + 1)
     come_to = len(steps) if not validator.not_set else 0 if _is_fresh(file) else reached
     ticked = (step.number for step in steps if step.id in file.header.done)
     found = _StepFindings(belongs, places, max(come_to, *ticked, 0))
@@ -231,7 +229,7 @@ def next_open(now: GuideProgress, after: Address | None = None) -> Address | Non
     Without an address, or one that is in no step, it is the first. None where nothing is open.
     """
     opened = [*chain.from_iterable(each.open for each in now.steps)]
-    if after is None or not opened:
+    if after is None:
         return next(iter(opened), None)
     parameters = chain.from_iterable(each.step.parameters for each in now.steps)
     place = {p.id: n for n, p in enumerate(parameters)}
@@ -239,4 +237,8 @@ def next_open(now: GuideProgress, after: Address | None = None) -> Address | Non
     at = now.places.get(after, -1)
     own = [a for a in opened if a[0] == after[0] and now.places[a] > at]
     behind = [a for a in opened if place[a[0]] > here]
-    return next(iter([*own, *behind, *opened]))
+    return next(iter([*own, *behind, *opened]), None)
+
+
+def _steps_with_errors(belongs: Iterable[tuple[Finding, int, object]]) -> set[int]:
+    return {number for finding, number, _ in belongs if finding.severity == "error" and number}

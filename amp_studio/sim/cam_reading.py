@@ -8,11 +8,11 @@ from typing import Literal
 import numpy as np
 
 from amp_studio.files import text_of_name
-from amp_studio.schema import UnitError, canonical, read_table_text, unit_named
+from amp_studio.schema import read_table_text
 
 from .cam import CamPoints
 from .errors import SimulationError
-from .identification.drive_record import named_columns, read_number_table
+from .identification.drive_record import named_columns, read_number_table, seconds_of
 
 MOST_POINTS = 100_000
 _COLUMNS = {
@@ -36,13 +36,8 @@ def read_cam_points(path: Path) -> CamPoints:
         raise SimulationError(f"{name}: a cam has 2 to {MOST_POINTS} points, not {len(x)}")
     if not (np.diff(x) > 0.0).all():
         raise SimulationError(f"{name}: its {over} does not rise from row to row")
-    for column in (over, "position") if over == "master" else ("position",):
-        if places[column][1] not in ("", "counts"):
+    for column in ("master", "position"):
+        if column in places and places[column][1] not in ("", "counts"):
             raise SimulationError(f"{name}: the {column} is in {places[column][1]}; it must be in counts")
-    try:
-        factor = canonical(1.0, unit_named(places[over][1] or "s")) / canonical(1.0, "s")
-    except UnitError as error:
-        if over == "time":
-            raise SimulationError(f"{name}: {error}") from None
-        factor = 1.0
-    return CamPoints(over, (x - x[0]) * (factor if over == "time" else 1.0), position - position[0])
+    factor = seconds_of(name, places["time"][1]) if over == "time" else 1.0
+    return CamPoints(over, (x - x[0]) * factor, position - position[0])

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from amp_studio.files import ParameterFile
 from amp_studio.guide import present
 from amp_studio.schema import Address
-from amp_studio.validate import Validator
+from amp_studio.validate import Finding, Validator
 
 MOST = 8
 """Findings that are listed one by one."""
@@ -22,22 +22,23 @@ def doubts(file: ParameterFile, read: Iterable[Address], overridden: Iterable[st
     ``read`` are the addresses that the axis was made of; those in ``overridden`` came from elsewhere.
     """
     replaced = frozenset(overridden)
-    addresses = dict.fromkeys(
-        address for address in read if address[0] in file.schema.parameters and address[0] not in replaced
-    )
+    own_ids = file.schema.parameters.keys() - replaced
+    addresses = dict.fromkeys(address for address in read if address[0] in own_ids)
     validator = Validator(file)
-    errors = [finding for finding in validator.run() if finding.severity == "error"]
-    own = [finding for finding in errors if not addresses.keys().isdisjoint(finding.addresses)]
+    own = [f for f in _errors(validator.run()) if not addresses.keys().isdisjoint(f.addresses)]
     doubts_of_findings = [finding.message for finding in own[:MOST]]
-    others = len(own[MOST:]) + sum(
-        f.severity == "error" and f not in own for f in present(validator, validator.findings()).findings
-    )
+    left = _errors(present(validator, validator.findings()).findings)
+    others = len(own[MOST:]) + sum(finding not in own for finding in left)
     if others:
         doubts_of_findings.append(
             f"The file has {others} other error{'s' if others > 1 else ''}: validate it before this result is"
             " trusted"
         )
     return (*doubts_of_findings, *_states(file, addresses))
+
+
+def _errors(findings: Iterable[Finding]) -> list[Finding]:
+    return [finding for finding in findings if finding.severity == "error"]
 
 
 def _states(file: ParameterFile, addresses: Iterable[Address]) -> Iterator[str]:

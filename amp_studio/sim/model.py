@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 from .axis_parameters import AxisParameters
@@ -84,10 +85,7 @@ def with_model(axis: AxisLaw, read: AxisParameters) -> AxisLaw:
     """Return the axis with the machine as the settings have it; what is set is no longer assumed."""
     given = {name: value for name in _FIGURES if (value := read.optional(name)) is not None}
     changes = {_FIGURES[name][0]: value * _FIGURES[name][1] for name, value in given.items()}
-    for own in ("velocity_bandwidth", "velocity_integral"):
-        if own in changes and axis.machine.velocity_per_output == 0.0:
-            name = f"model.{own}"
-            raise SimulationError(f"{name} does not fit axis {axis.axis}: its drive gives a torque", name)
+    _refuse_of_velocity(axis, changes)
     assumed = {figure: why for figure, why in axis.assumed.items() if figure not in changes}
     machine = replace(axis.machine, **changes)  # type: ignore[arg-type]  # none of them is the flag
     if "inertia_ratio" in changes and not machine.two_masses:
@@ -101,6 +99,14 @@ def with_model(axis: AxisLaw, read: AxisParameters) -> AxisLaw:
         machine = _coupled(machine, assumed)
     found = replace(axis, machine=machine, assumed=assumed)
     return found if axis.settled is None else axis.settled(found)
+
+
+def _refuse_of_velocity(axis: AxisLaw, changes: Iterable[str]) -> None:
+    """Refuse figures of a drive with a velocity loop where it gives a torque."""
+    for own in ("velocity_bandwidth", "velocity_integral"):
+        if own in changes and axis.machine.velocity_per_output == 0.0:
+            name = f"model.{own}"
+            raise SimulationError(f"{name} does not fit axis {axis.axis}: its drive gives a torque", name)
 
 
 def _coupled(machine: Machine, assumed: dict[str, str]) -> Machine:

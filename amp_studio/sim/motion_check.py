@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Literal
 
 from amp_studio.files import ParameterFile
@@ -54,14 +55,16 @@ def check_motion(file: ParameterFile, axis: str | None = None) -> Iterator[Motio
     if not axes:
         raise SimulationError(law.motion.without_axes)
     chosen = axes if axis is None else (axis,)
-    for scenario in {**SCENARIOS, **law.own}.values():
-        if not scenario.checked or scenario.name not in (*law.motion.scenarios, *law.own):
-            continue
+    for scenario in filter(partial(_is_checked, law), {**SCENARIOS, **law.own}.values()):
         if not (scenario.once and scenario.of_machine):
             for each in chosen[:1] if scenario.once else chosen:
                 yield _checked(file, law, scenario, each)
         elif axis is None and (checked := _of_spindle(file, law, scenario)):
             yield checked
+
+
+def _is_checked(law: Law, scenario: Scenario) -> bool:
+    return bool(scenario.checked) and scenario.name in (*law.motion.scenarios, *law.own)
 
 
 def _of_spindle(file: ParameterFile, law: Law, scenario: Scenario) -> MotionCheck | None:
@@ -71,19 +74,20 @@ def _of_spindle(file: ParameterFile, law: Law, scenario: Scenario) -> MotionChec
 
 
 def _checked(file: ParameterFile, law: Law, scenario: Scenario, axis: str | None) -> MotionCheck:
-    letter = "" if axis is None else axis_name(file.evaluation, axis) or axis
+    instance = axis or ""
+    letter = axis_name(file.evaluation, instance) or instance if instance else ""
     try:
         trace, assumed = _run(file, scenario, axis)
     except SimulationError as error:
         read = (error.parameter,) if error.parameter in file.schema.parameters else ()
-        return MotionCheck(scenario.name, axis or "", letter, "not possible", why=error.what, params=read)
+        return MotionCheck(scenario.name, instance, letter, "not possible", why=error.what, params=read)
     verdict, why = _verdict(trace)
     if verdict == "bad" and scenario.programmed:
         verdict = "doubtful"  # the speed is the program's: another one may be good
     figures = {name: trace.result[name] for name in scenario.checked if name in trace.result}
-    params = _parameters(file, law, trace) if verdict != "good" and axis is not None else ()
+    params = _parameters(file, law, trace) if verdict != "good" and instance else ()
     notes = (*assumed, *trace.assumptions)
-    return MotionCheck(scenario.name, axis or "", letter, verdict, figures, trace.alarms, why, params, notes)
+    return MotionCheck(scenario.name, instance, letter, verdict, figures, trace.alarms, why, params, notes)
 
 
 def _run(file: ParameterFile, scenario: Scenario, axis: str | None) -> tuple[Trace, tuple[str, ...]]:

@@ -38,22 +38,25 @@ def read_settings(
     written: dict[str, str] = {}
     for name, value in given.items():
         values[name], units = value, units_of(known.get(name, ""))
-        rest = ""
-        if isinstance(value, str) and "=" in value:
-            continue  # what a sweep varies
-        if isinstance(value, str):
-            try:
-                values[name], rest = read_number(value)
-            except InvalidValueError:
-                continue  # a word, as of a ramp
-        number = values[name]
+        number, rest = _number_and_unit(value)
         if not isinstance(number, float):
-            continue
+            continue  # a word, as of a ramp, or what a sweep varies
+        values[name] = number
         if rest.strip():
             values[name], written[name] = _converted(name, number, rest, units, unit)
         elif unit == "in" and units and units[0] in _ANGULAR:
             values[name] = canonical(number, own_unit(units[0], unit))
     return values, written
+
+
+def _number_and_unit(value: ParameterValue) -> tuple[ParameterValue, str]:
+    """Return the number that a text begins with, and the rest; the value itself where it has none."""
+    if not isinstance(value, str) or "=" in value:
+        return value, ""
+    try:
+        return read_number(value)
+    except InvalidValueError:
+        return value, ""
 
 
 def _converted(name: str, number: float, unit: str, units: tuple[str, ...], length: str) -> tuple[float, str]:

@@ -41,7 +41,7 @@ class AllowedByRules:
         if not self._rules:
             return low, high
         steps = (low + (high - low) * n / _SAMPLES for n in range(_SAMPLES + 1))
-        wanted = [x for x in near if low <= x <= high]
+        wanted = _within(near, low, high)
         try:
             points = sorted({self._value(x) for x in (*steps, *wanted)})
             hopeless = frozenset.intersection(*map(self._broken, points))
@@ -96,3 +96,7 @@ def _shortest(one: float, other: float) -> float:
     low, high = sorted((one, other))
     tried = (round((low + high) / 2, digits) for digits in range(-6, 12))
     return next((x for x in tried if low <= x <= high), one)
+
+
+def _within(numbers: Iterable[float], low: float, high: float) -> list[float]:
+    return [x for x in numbers if low <= x <= high]

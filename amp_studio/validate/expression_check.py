@@ -236,15 +236,13 @@ class ExpressionCheck:
         every = {part.kind for part in parts}
         kinds = every - {"any", "null"}
         operator = "-" if node.kind == "negative" else node.kind
-        if operator == "+" and kinds == {"list"}:
-            return _joined(parts)
-        if operator == "+" and kinds == {"text"}:
-            return text_worth(sum(p.length for p in parts))
+        if operator == "+" and kinds in ({"list"}, {"text"}):
+            return _joined(parts) if kinds == {"list"} else _joined_texts(parts)
         if slip := _misuse(node, parts, operator, kinds):
             self._slip(slip)
-        if every <= {*_NUMBERS, "null"}:
-            return WHOLE if kinds == {"whole"} else DECIMAL
-        return WHOLE if kinds == {"whole"} else replace(_joined(parts), kind="any")
+        if kinds == {"whole"}:
+            return WHOLE
+        return DECIMAL if every <= {*_NUMBERS, "null"} else replace(_joined(parts), kind="any")
 
     def _compare(self, node: Node, left: Worth, right: Worth) -> None:
         one, other = node.parts
@@ -374,6 +372,10 @@ def _mixed(node: Node, parts: list[Worth]) -> str:
         f"{whole.text}.0" if whole.kind == "value" and whole.text.isdecimal() else f"double({whole.text})"
     )
     return f"mixes a whole number with a decimal one: write {better}"
+
+
+def _joined_texts(parts: list[Worth]) -> Worth:
+    return text_worth(sum(part.length for part in parts))
 
 
 def _misuse(node: Node, parts: list[Worth], operator: str, kinds: set[ValueKind]) -> str:

@@ -341,9 +341,10 @@ def _runs_for(evaluation: Evaluation, rule: Rule) -> tuple[str | None, tuple[str
         return None, ()
     several = {p: evaluation.scope((p, "")) for p in own if instances[p] != ("",)}
     for scope in dict.fromkeys(several.values()):
-        here = [p for p in several if several[p] == scope]
-        if not any(own[p] and "" not in instances[p] for p in several if p not in here):
-            return scope, tuple(dict.fromkeys(chain.from_iterable(instances[p] for p in here)))
+        here = {p: instances[p] for p in several if several[p] == scope}
+        alone = (instances[p] for p in several.keys() - here if own[p])
+        if all("" in others for others in alone):
+            return scope, tuple(dict.fromkeys(chain.from_iterable(here.values())))
     if several:
         raise RuleError(rule.id, f"reads {' and '.join(several)}, whose instances do not go together")
     return None, ("",)

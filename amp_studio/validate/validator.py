@@ -116,7 +116,7 @@ class Validator:
             if finding.fix and place not in too_many and wanted(finding)
         ]
         fixable.sort(key=lambda filed: filed[0])
-        left_alone = self._left_alone([finding for _, _, finding in fixable])
+        left_alone = self._left_alone(fixable)
         last, doubted = None, frozenset() if even_doubtful or not fixable else self._doubted()
         for _, place, finding in fixable:
             if id(finding) in left_alone or (
@@ -132,9 +132,10 @@ class Validator:
             last = last or finding
         return last
 
-    def _left_alone(self, findings: Iterable[Finding]) -> set[int]:
+    def _left_alone(self, filed: Iterable[tuple[object, FindingPlace, Finding]]) -> set[int]:
         """Return the ``id`` of findings that are suppressed."""
-        suppressed = sort_out(tuple(findings), self.own.suppressions, self.file.evaluation)[1]
+        findings = tuple(finding for _, _, finding in filed)
+        suppressed = sort_out(findings, self.own.suppressions, self.file.evaluation)[1]
         return {id(one.finding) for one in suppressed}
 
     def compare_with(self, earlier: Sequence[Earlier]) -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Literal
 
 from amp_studio.sim import BoundMachine, Zone
 
@@ -18,6 +19,13 @@ NOTE = (
 THIRD = "Zone 3 keeps the axes inside if they are in it when it is switched on, else outside (6-2)."
 
 
+_KINDS: Mapping[str, tuple[Literal["outside", "by start"], tuple[str, ...]]] = {
+    "2": ("outside", (NOTE,)),
+    "3": ("by start", (NOTE, THIRD)),
+}
+"""Programmable zone -> on which side of it axes may be, and notes."""
+
+
 def zones(machine: BoundMachine, axes: Sequence[str]) -> Iterator[Zone]:
     """Yield the zones of every group that these axes are in;
     an axis of no group is open to its overtravels (6-4).
@@ -31,16 +39,17 @@ def zones(machine: BoundMachine, axes: Sequence[str]) -> Iterator[Zone]:
         members = [axis for axis in machine.fitted if machine.read(axis).value(ids.zone_group) == group]
         if not any(axis in axes for axis in members):
             continue
-        for zone in ("2", "3"):
+        for zone in _KINDS:
             if sides := _sides(machine, zone, members):
+                side, notes = _KINDS[zone]
                 yield Zone(
                     f"programmable zone {zone}, group {n}",
                     sides,
-                    "outside" if zone == "2" else "by start",
+                    side,
                     is_on=zone in on,
                     code=f"ZONE {zone}",
                     page="6-3 to 6-9",
-                    notes=(NOTE,) if zone == "2" else (NOTE, THIRD),
+                    notes=notes,
                 )
 
 

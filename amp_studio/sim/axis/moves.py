@@ -92,11 +92,14 @@ def _overrides(settings: Settings) -> list[Override]:
         return []
     if share is None or start is None:
         raise SimulationError("Give move.override and move.override_time together", "move.override")
-    if not (share >= 0.0 and start > 0.0 and (resumed is None or resumed > start)):
+    if share < 0.0 or not 0.0 < start < (math.inf if resumed is None else resumed):
         raise SimulationError(
             "The override must not be negative, and its times above 0 and in their order", "move.override"
         )
-    return [Override(start, share / 100.0), *([] if resumed is None else [Override(resumed, 1.0)])]
+    overrides = [Override(start, share / 100.0)]
+    if resumed is not None:
+        overrides.append(Override(resumed, 1.0))
+    return overrides
 
 
 def _parts(settings: Settings) -> int:

@@ -436,3 +436,11 @@ def speed_factor(record: DriveRecord, unit: str, turn: str | None = None) -> flo
     if own == "counts/s" or record.velocity is None:
         return canonical(1.0, own)
     return canonical(1.0, own) / 60.0
+
+
+def seconds_of(name: str, unit: str) -> float:
+    """Return the s of one unit of the times of a table, without one of 1 s; raises SimulationError."""
+    try:
+        return canonical(1.0, unit_named(unit or "s")) / canonical(1.0, "s")
+    except UnitError as error:
+        raise SimulationError(f"{name}: {error}") from None

@@ -20,7 +20,7 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Figure, Trace
 
-from .drive_record import named_columns, read_number_table
+from .drive_record import named_columns, read_number_table, seconds_of
 
 SIGNALS = {
     "command_position": "command( position)?|(position )?(command|setpoint)|commanded position|sollposition",
@@ -44,17 +44,12 @@ def read_channels(path: Path, trace: Trace) -> tuple[Series, dict[str, Series]]:
     places = named_columns(text, {"time": _TIME, **SIGNALS})
     known = {signal: place for signal, place in places.items() if signal in trace.columns}
     if "time" not in places or not known:
-        raise SimulationError(
-            f"{name}: it needs a column of time and one of"
-            f" {', '.join(each for each in SIGNALS if each in trace.columns)}, with their units"
-        )
+        signals = ", ".join(filter(trace.columns.__contains__, SIGNALS))
+        raise SimulationError(f"{name}: it needs a column of time and one of {signals}, with their units")
     columns = read_number_table(text, [place for place, _ in (places["time"], *known.values())])
     if len(columns[0]) < LEAST_ROWS:
         raise SimulationError(f"{name}: {len(columns[0])} rows are too few: at least {LEAST_ROWS}")
-    try:
-        time = columns[0] * canonical(1.0, unit_named(places["time"][1] or "s")) / canonical(1.0, "s")
-    except UnitError as error:
-        raise SimulationError(f"{name}: {error}") from None
+    time = columns[0] * seconds_of(name, places["time"][1])
     if not (np.diff(time) > 0.0).all():
         raise SimulationError(f"{name}: its time does not rise from row to row")
     return time - time[0], {

@@ -112,11 +112,14 @@ def guarded_boxes(
         with suppress(SimulationError):
             limits = axis.travel().limits if axis.travel is not None else {}
             found += [GuardedBox(title, {letter: edges}, keeps_in=True) for title, edges in limits.items()]
+    return (*found, *_zone_boxes(path, machine))
+
+
+def _zone_boxes(path: ToolPath, machine: BoundMachine) -> Iterator[GuardedBox]:
     for zone in machine.law.zones(machine, machine.fitted) if machine.law.zones else ():
         if any(_is_on(zone, numbers) for numbers in path.zone_sets):
             sides = {machine.letter(axis) or axis: side for axis, side in zone.sides.items()}
-            found.append(GuardedBox(zone.name, sides, keeps_in=False))
-    return tuple(found)
+            yield GuardedBox(zone.name, sides, keeps_in=False)
 
 
 def zones_met(plan: ProgramPlan, machine: BoundMachine) -> Iterator[PathAlarm]:

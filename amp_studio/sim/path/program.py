@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
@@ -87,11 +88,8 @@ def run_program(
     if with_contour:
         contour, why = _contour(plan, axes)
         if contour is not None:
-            alarms += [
-                PathAlarm(_line_at(plan, alarm.time_s), alarm.time_s, alarm.code, alarm.message)
-                for alarm in contour.alarms
-            ]
-            notes += [note for axis in axes for note in assumptions(axis)]
+            alarms += _alarms_on(plan, contour)
+            notes += chain.from_iterable(map(assumptions, axes))
     if path.fault is not None:
         fault = path.fault
         alarms.append(PathAlarm(fault.line, plan.time, fault.code, fault.message))
@@ -104,6 +102,11 @@ def run_program(
         tuple(dict.fromkeys(notes)),
         guarded_boxes(plan, machine, axes),
     )
+
+
+def _alarms_on(plan: ProgramPlan, contour: ContourError) -> Iterator[PathAlarm]:
+    for alarm in contour.alarms:
+        yield PathAlarm(_line_at(plan, alarm.time_s), alarm.time_s, alarm.code, alarm.message)
 
 
 def home_positions(file: ParameterFile, letters: Sequence[str]) -> list[float]:
@@ -168,10 +171,10 @@ def _contour(plan: ProgramPlan, axes: list[AxisLaw]) -> tuple[ContourError | Non
     # The end of a whole circle is its start: an axis moves where it has a share in a row.
     ways = plan.geometry.share * plan.geometry.length[:, None]
     chosen = [axis if (ways[:, n] > 1e-9).any() else None for n, axis in enumerate(axes)]
-    moving = [axis for axis in chosen if axis is not None]
+    moving = [*filter(None, chosen)]
     if not moving:
         return None, "the program moves nothing"
-    if not all(any(gain in axis.sources for gain in axis.gains) for axis in moving):
+    if any(axis.sources.keys().isdisjoint(axis.gains) for axis in moving):
         return None, "this control has no servo loop whose gains are in the file"
     if len({axis.unit for axis in moving}) > 1:
         return None, "the axes do not move in one unit"

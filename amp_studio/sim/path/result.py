@@ -202,13 +202,7 @@ def _lines(
 ) -> Iterator[str]:
     plan = run.plan
     yield f"{plan.path.blocks} blocks, {len(plan.path)} moves, {value_text(plan.time, 's', 5)}"
-    if len(plan.path):
-        yield "Where the time goes:"
-    for row in limited_by(file, run):
-        if row["share"] >= SMALL:
-            param = f"  {row['param']}" if row["param"] else ""
-            time = value_text(row["time_s"], "s", 5)
-            yield f"  {100.0 * row['share']:5.1f} %  {time:>10}  {row['name']}{param}"
+    yield from _shares_of_time(file, run)
     yield contour_text(file, run)
     if tries:
         yield "What if:"
@@ -221,6 +215,16 @@ def _lines(
         yield f"Line {alarm.line}: {code}{alarm.message}"
     for note in run.assumptions:
         yield note if note.startswith("ASSUMED") else f"ASSUMED: {note}"
+
+
+def _shares_of_time(file: ParameterFile, run: ProgramRun) -> Iterator[str]:
+    if len(run.plan.path):
+        yield "Where the time goes:"
+    for row in limited_by(file, run):
+        if row["share"] >= SMALL:
+            param = f"  {row['param']}" if row["param"] else ""
+            time = value_text(row["time_s"], "s", 5)
+            yield f"  {100.0 * row['share']:5.1f} %  {time:>10}  {row['name']}{param}"
 
 
 def _try_line(file: ParameterFile, before: ProgramRun, each: WhatIf) -> str:

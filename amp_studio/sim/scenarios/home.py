@@ -81,7 +81,7 @@ def run_home(axis: AxisLaw, settings: Settings) -> Trace:
             "The direction of homing is in the file: leave out move.direction", "move.direction"
         )
     _refuse_switch(axis, homing, settings)
-    ramp = homing.ramp or (axis.manual_ramp(True) if axis.manual_ramp else next(iter(axis.ramps.values())))
+    ramp = homing.ramp or _usual_ramp(axis)
     around = _around(axis, homing, ramp, settings)
     moving, found = _homed(axis, homing, ramp, around)
     motion = moving.motion()
@@ -114,6 +114,10 @@ def _refuse_switch(axis: AxisLaw, homing: Homing, settings: Settings) -> None:
                 f"Axis {axis.axis} is homed without a switch ({page_text(homing.page)}): leave out {name}",
                 name,
             )
+
+
+def _usual_ramp(axis: AxisLaw) -> Ramp:
+    return axis.manual_ramp(True) if axis.manual_ramp else next(iter(axis.ramps.values()))
 
 
 def _homed(axis: AxisLaw, homing: Homing, ramp: Ramp, around: Around) -> tuple[MovingAxis, Homed]:

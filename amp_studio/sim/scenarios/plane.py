@@ -55,7 +55,7 @@ def run_plane(machine: BoundMachine, settings: Settings) -> Trace:
     if mode not in ("jog", "program"):
         raise SimulationError("move.mode must be jog or program", "move.mode")
     zones = [zone.settled(start) for zone in _active(machine, axes, settings)]
-    if broken := next((zone for zone in zones if zone.broken(start)), None):
+    for broken in (zone for zone in zones if zone.broken(start)):
         raise SimulationError(
             f"The start is not allowed by {broken.name}: give another move.start", "move.start"
         )
@@ -357,11 +357,9 @@ def _areas(
     margin = max(high - low for low, high in reach.values()) or 1.0
     seen = {name: (low - margin, high + margin) for name, (low, high) in reach.items()}
     for zone in zones:
-        if not any(name in zone.sides for name in pair):
+        if zone.sides.keys().isdisjoint(pair):
             continue
-        spans = []
-        for name, (least, most) in seen.items():
-            low, high = zone.sides.get(name, (-math.inf, math.inf))
-            spans.append((max(low, least), min(high, most)))
+        sides = {**dict.fromkeys(pair, (-math.inf, math.inf)), **zone.sides}
+        spans = [(max(sides[n][0], least), min(sides[n][1], most)) for n, (least, most) in seen.items()]
         if all(low < high for low, high in spans):
             yield PlaneArea(zone.name, spans[0], spans[1])

@@ -54,7 +54,8 @@ def recommendations(
     found = gain_recommendations(trial, solved, f"{why_not_sound(loops)}; ")
     named = {each.parameter for each in found}
     notes = () if solved.sound else (f"{why_not_sound(loops)}. {NONE_SOUND}",)
-    return (*found, *(each for each in own if each.parameter not in named)), (*notes, *chatter)
+    rest = (each for each in own if each.parameter not in named)
+    return (*found, *rest), (*notes, *chatter)
 
 
 def sounder(trial: Tried) -> Solved:

@@ -167,24 +167,30 @@ class Alike:
         change = (new is not None) - (old is not None)
         for other in rows.keys() - {instance}:
             if name in rows[other]:
-                pair = self._pairs.get((scope, instance, other)) or self._pairs[scope, other, instance]
+                pair = self._pair(scope, instance, other)
                 pair.note(name, change, is_same=new in (None, rows[other][name]))
         self._look_at_column(scope, name)
         return True
+
+    def _pair(self, scope: str, a: str, b: str) -> _Pair:
+        return self._pairs.get((scope, a, b)) or self._pairs[scope, b, a]
 
     def _look_at_column(self, scope: str, name: str) -> None:
         """Note the one instance of at least three, all moving alike, whose value is another by a slip."""
         self._odd.pop((scope, name), None)
         column = {instance: row[name] for instance, row in self._rows[scope].items() if name in row}
-        counts = Counter(column.values()) if len(column) > 2 else {}
-        if len(counts) != 2 or min(counts.values()) != 1:
+        counts = Counter(column.values())
+        if len(column) < 3 or sorted(counts.values()) != [1, len(column) - 1]:
             return
         usual = max(counts, key=lambda seen: counts[seen])
         odd = min(column, key=lambda instance: counts[column[instance]])
         like = next(instance for instance in column if instance != odd)
         words = self._slip(scope, name, odd, like) if column[odd].measures == usual.measures else ""
-        if words and (scope != "axis" or all(are_alike(self._file, odd, i) for i in column)):
+        if words and self._move_alike(scope, odd, column):
             self._odd[scope, name] = _Odd(odd, words)
+
+    def _move_alike(self, scope: str, one: str, others: Iterable[str]) -> bool:
+        return scope != "axis" or all(are_alike(self._file, one, other) for other in others)
 
     def _key(self, address: Address) -> _Seen | None:
         """Return what is equal for equal values; None where the value does not count."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
+from operator import itemgetter
 
 from amp_studio.files import ParameterFile, are_alike, axis_letter
 from amp_studio.schema import AmongAxes, Gears, Proportion, Towards, TravelEnds
@@ -84,9 +85,10 @@ class AxisRelations:
             return found
         odd = []
         for number, one in numbers:
-            like = [pair for pair in numbers if self._is_like(pair[1], one)]
-            if like and all(_apart(number, other) > fact.within * (1 + 1e-9) for other, _ in like):
-                odd.append((one, min(like, key=lambda pair: _apart(number, pair[0]))[1]))
+            like = [(_apart(number, other), seen) for other, seen in numbers if self._is_like(seen, one)]
+            least, nearest = min(like, key=itemgetter(0), default=(0.0, one))
+            if least > fact.within * (1 + 1e-9):
+                odd.append((one, nearest))
         if len(numbers) > 2 and len(odd) > 1:
             return []  # each of several is far from all others: nothing is known of what is usual
         return [self._finding(AMONG, AMONG_REASON, one, other) for one, other in odd[:1]]
@@ -142,11 +144,15 @@ class AxisRelations:
             return
         lows, highs = self._values[fact.low], self._values[fact.high]
         for low, high in ((lows[i], highs[i]) for i in highs if i in lows):
-            stored = [self._file.values[one.address].value for one in (low, high)]
-            none = [isinstance(number, int | float) and abs(number) >= unlimited for number in stored]
+            none = [self._is_beyond(unlimited, one) for one in (low, high)]
             if any(none) and not (all(none) and _side(low) < 0 < _side(high)):
                 odd, other = (high, low) if none[0] else (low, high)
                 yield self._finding(TRAVEL, TRAVEL_REASON, odd, other)
+
+    def _is_beyond(self, unlimited: float, end: ActiveValue) -> bool:
+        """Return whether an end is so far out that it is no limit."""
+        number = self._file.values[end.address].value
+        return isinstance(number, int | float) and abs(number) >= unlimited
 
     def _is_unlimited(self, end: ActiveValue) -> bool:
         """Return whether an end is the printed default: no limit, as a rule."""
@@ -206,12 +212,11 @@ class AxisRelations:
     def _towards(self, fact: Towards) -> list[Finding]:
         found, values = [], self._values
         for instance, speed in values[fact.speed].items():
-            ends = [values[name].get(instance) for name in (fact.place, fact.low, fact.high)]
-            if not _size(speed) or any(one is None for one in ends):
+            places = (values[name].get(instance) for name in (fact.place, fact.low, fact.high))
+            ends = [*filter(None, places)]
+            if not _size(speed) or len(ends) < 3 or len({one.measures for one in ends}) > 1:
                 continue
-            place, low, high = (one for one in ends if one is not None)
-            if not place.measures == low.measures == high.measures:
-                continue
+            place, low, high = ends
             down, up = float(place.number) - float(low.number), float(high.number) - float(place.number)
             is_at_end = 0 < down + up < _UNLIMITED and min(abs(down), abs(up)) <= _BESIDE * (down + up)
             if is_at_end and _side(speed) != (1 if abs(up) < abs(down) else -1):

@@ -168,6 +168,8 @@ class UsualValues:
 
 def _not_usual(facts: _Known, usual: Usual, number: float, unit: str) -> str:
     """Return what is usual instead of a number; "" where it is one of the usual."""
+    if usual.bits:
+        return _doubt_of_bits(usual, int(number))
     if number in usual.also:
         return ""
     if usual.among:
@@ -185,8 +187,6 @@ def _doubt(facts: _Known, value: Value) -> str:
     usual = facts.usual
     if isinstance(value.value, (bool, str)):
         return _doubt_of_choice(facts.parameter, usual, value.value) if usual is not None else ""
-    if usual is not None and usual.bits:
-        return _doubt_of_bits(usual, int(value.value))
     number = float(value.value)
     measures = dimension(value.unit)
     if usual is not None and (words := _not_usual(facts, usual, number, value.unit)):

@@ -78,7 +78,7 @@ def run(options: Options) -> int:
         print_json({"differences": rows, "same": found.same} | known)
     else:
         print_comparison(a, found, options.secrets, (b, of_b))
-        print("".join(f"sha256 {digest}\n" for digest in (a_digest, b_digest) if digest), end="")
+        print(*(f"sha256 {digest}\n" for digest in (a_digest, b_digest) if digest), sep="", end="")
     return int(bool(found.differences or of_b))
 
 

@@ -153,7 +153,7 @@ def _family(options: Options, schema: Schema, asked_for: str | None) -> int:
         return 0
     order = _order(schema)
     if not asked_for and order["order"]:
-        print(f"{order['why']}{_cited(order['page'] if order['order'] == 'manual' else None)}")
+        print(f"{order['why']}{_cited({'manual': order['page']}.get(order['order']))}")
     for step in steps:
         print(f"{step.number:>3}  {step.title}{_cited(step.page)}")
         if asked_for:

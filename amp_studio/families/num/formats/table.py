@@ -8,7 +8,7 @@ decided where the manual is silent.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from amp_studio.files import ParameterFile
@@ -75,10 +75,7 @@ class _Reader:
             self._check_place(block, word, count, column)
             if not text and not alone:
                 raise FormatError("a value is missing: values have one blank between them", line, column)
-            try:
-                content = text if form is None else form.read(text)
-            except InvalidValueError as error:
-                raise FormatError(f"{name_of(word)}: {error}", line, column) from None
+            content = text if form is None else _content(form, word, text, (line, column))
             if meanings := self.known.meanings.get(word):
                 content = self.contents[word] = text if meanings[0].parameter.type == "text" else content
                 spelled.append(text if form is None else form.spell(content))
@@ -188,6 +185,9 @@ class _Reader:
             here.setdefault(parameter, set()).add(word)
         if missing := [a for a in sorted(self.known.counts) if a not in here]:
             yield f"the table does not contain {_runs_of('P', missing)}"
+        yield from self._missing_words(here)
+
+    def _missing_words(self, here: Mapping[int, set[int]]) -> Iterator[str]:
         left, other = [], []
         for parameter, words in sorted(here.items()):
             known = self.known.counts.get(parameter)
@@ -301,3 +301,11 @@ FORMAT = TextFormat(
     encoding="ascii",
     other_endings=(".num", ".txt"),
 )
+
+
+def _content(form: Spelling, word: Word, text: str, at: tuple[int, int]) -> int | float | str:
+    """Return what a text is in its form; raises FormatError with its line and column."""
+    try:
+        return form.read(text)
+    except InvalidValueError as error:
+        raise FormatError(f"{name_of(word)}: {error}", *at) from None
