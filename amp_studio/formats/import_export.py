@@ -34,6 +34,7 @@ from amp_studio.schema import (
 
 from . import values_csv
 from .account import Account, account_of_export, account_of_import
+from .bare_figures import system_of
 from .report_pdf import attached_machine, is_pdf
 from .text_format import (
     FamilyNotGivenError,
@@ -192,6 +193,8 @@ def file_of(schema: Schema, read: TextRead, name: str) -> ParameterFile:
     file.header.extra.update(read.extra)
     for key, text in read.value_notes.items():
         set_value_note(file, read_address(key), text)
+    # A bare number that somebody types is in the unit of the text.
+    file.header.units = system_of(file)
     return file
 
 

@@ -401,6 +401,8 @@ VEL 60.000000
 10 LD 769
 P12341=P12336
 F500
+DRIVE ON X
+ENDP
 """
 """Commands in the order and notation of a published start-up program; the figures are made up."""
 
@@ -483,8 +485,8 @@ def test_the_lines_that_are_kept_are_one_note_and_in_the_account(
     printed = capsys.readouterr()
     assert (
         printed.err
-        == "17 lines of the program set nothing here, kept in their place: ATTACH, AXIS, BIT, DETACH, ECHO,"
-        " F, HLIM, JRK, LD, P, PROG, SLIM, STP, VEL\n"
+        == "19 lines of the program set nothing here, kept in their place: ATTACH, AXIS, BIT, DETACH, DRIVE,"
+        " ECHO, ENDP, F, HLIM, JRK, LD, P, PROG, SLIM, STP, VEL\n"
     )
     assert json.loads(printed.out)["kept"][:2] == ["ECHO 1", "prog0"]
     assert run(["validate", str(program), "--json"]) in (0, 1)
@@ -534,3 +536,13 @@ def test_the_verbs_know_a_script_by_its_commands(tmp_path: Path, capsys: pytest.
     assert (tmp_path / "b.acr").read_bytes() == b"REM caf\xc3\xa9\r\nTLM X4\r\nREX X\r\n"
     export_file(new_file("acromill", name="NEW"), tmp_path / "c.acr")
     assert import_file(tmp_path / "c.acr").get(("servo.p_gain", "U")) == Value(0.00244, "V/count")
+
+
+def test_a_bare_number_in_an_imported_program_is_in_its_unit(tmp_path: Path) -> None:
+    """The figures of a program are in inches while it names no other unit (page 61)."""
+    program = tmp_path / "startup.acr"
+    program.write_text(STARTUP, encoding="ascii")
+    file = import_file(program)
+    address = file.find("axes.pulses_per_unit@Y")
+    assert file.header.units == "inch"
+    assert file.read(address, "12000") == Value(12000.0, "counts/in")

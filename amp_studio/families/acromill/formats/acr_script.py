@@ -74,7 +74,9 @@ _WORDS = re.compile(
     "SYS|THEN|TLM|TRG|TRJ|TROFF|TRON|UNLOCK|USING|VECDEF|VECTOR|VEL|VER|WIDTH|XID"
 )
 """Commands of the controller (page 91)."""
-_LATER = ("BIT", "HLIM", "SLIM")
+_LATER = re.compile(
+    "BIT|BREAK|DRIVE|ELSE|ENDIF|ENDP|FSTAT|HLBIT|HLDEC|HLIM|LOOK|MAXVEL|MBUF|SLDEC|SLIM|SLM|WEND|WHILE"
+)
 """Words of published start-up programs for later controllers: the guide does not have them."""
 _OF_A_PROGRAM = re.compile(
     r"\s*(?:[0-9]+\s+[A-Z]|(?P<assigned>P|BIT)[0-9]+\s*=|[FXYZABCUV]\s*[-+.0-9]|(?P<word>[A-Z]+)[0-9]*(?![A-Z]))",
@@ -213,7 +215,7 @@ def _is_of_a_program(text: str, words: set[str]) -> bool:
         return True
     if word == "DAC":
         return not re.match(r"\s*DAC[0-9]*\s+GAIN\b", text, re.IGNORECASE)
-    return word not in words and (word in _LATER or _WORDS.fullmatch(word) is not None)
+    return word not in words and (_LATER.fullmatch(word) or _WORDS.fullmatch(word)) is not None
 
 
 def _check_letters(lines: list[_ScriptLine], letters: Sequence[str]) -> None:
