@@ -36,6 +36,8 @@ class Homed:
     home: float | None = None
     coordinate: float | None = None
     """What the axis is called at ``home``; None where the homing failed."""
+    ended: float = 0.0
+    """When the last order of a scenario was done, s."""
     alarm: str = ""
     why: str = ""
 

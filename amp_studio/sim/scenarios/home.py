@@ -48,6 +48,8 @@ SETTINGS = {
     ),
 }
 OF_SWITCH = ("move.switch", "move.switch_length", "move.dog")
+SETTLE = 8.0
+"""Time constants of the position loop after the last order, as for a tap."""
 QUARTER = 0.25
 DOUBTFUL = 0.45
 """Share of a turn between switch and nearest marker from which a sample more or less may take another
@@ -123,6 +125,11 @@ def _usual_ramp(axis: AxisLaw) -> Ramp:
 def _homed(axis: AxisLaw, homing: Homing, ramp: Ramp, around: Around) -> tuple[MovingAxis, Homed]:
     moving, found = MovingAxis(axis), Homed()
     moving.follow(home_axis(moving, homing, ramp, around, found))
+    found.ended = moving.time
+    if (
+        not moving.is_over
+    ):  # in position is not yet at rest: a wide window ends a homing counts before its place
+        moving.advance(SETTLE / axis.position_rate)
     return moving, found
 
 
@@ -279,7 +286,7 @@ def _figures(
         "home_position": (homing.coordinate if reached else None, u),
         "home_from_start": (found.home if reached else None, u),
         "stop_position": (None if off is None else homing.coordinate + off, u),
-        "time": (motion.command_end if reached else None, "s"),
+        "time": (found.ended if reached else None, "s"),
         "peak_following_error": (float(np.abs(columns["following_error"][motion.driven]).max()), u),
     }
     if homing.order is not None:
