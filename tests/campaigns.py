@@ -12,7 +12,7 @@ CAMPAIGN = os.environ.get("AMP_STUDIO_FULL") == "1"
 """Whether ``make campaign`` or ``make mutants`` asks for all that can be tried."""
 MORE = 25
 """How many times as many a campaign tries."""
-FEWER = 5
+FEWER = 8
 """Of how many ``make test`` tries one."""
 
 
