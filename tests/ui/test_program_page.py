@@ -65,8 +65,9 @@ def window(qtbot: QtBot, applied: list[dict[Address, Value]]) -> Iterator[Progra
 
 
 def enter(window: ProgramPage, key: str, text: str) -> None:
-    window.form.set_answer(key, text)
-    window.form.entered.emit(key)
+    form = window.change_form if key == "change" else window.form
+    form.set_answer(key, text)
+    form.entered.emit(key)
 
 
 def test_a_typed_block_is_read_word_by_word(window: ProgramPage) -> None:

@@ -12,7 +12,17 @@ from typing import cast
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QHideEvent
-from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QPushButton, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QFileDialog,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QSizePolicy,
+    QSplitter,
+    QTableWidget,
+    QVBoxLayout,
+    QWidget,
+)
 
 from amp_studio.errors import AmpStudioError
 from amp_studio.files import ParameterFile, SavedVersion, day_and_time
@@ -44,20 +54,21 @@ from amp_studio.sim import (
 )
 from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.plot import Plot
-from amp_studio.ui.base.scene_painter import TOKENS
 from amp_studio.ui.base.task import Task, TaskProgress
-from amp_studio.ui.base.theme import GAP2, GAP3, colour, font, scheme
+from amp_studio.ui.base.theme import GAP2, GAP3, font
 from amp_studio.ui.base.translated import sentenced, worded
 from amp_studio.ui.forms.form import Field, FieldForm
 from amp_studio.ui.forms.segment import Segment
 from amp_studio.ui.page.page_of_file import PageOfFile
 
 from .program_play import PlayBar, TimeBar, TimePart
-from .program_tables import fill, read_table
+from .program_tables import TableLook, fill, read_table
 from .what_if_panel import WhatIfPanel
 
 _LEFT = 210
 """Width in pixels of the program at least."""
+_SHARES = (5, 11, 7)
+"""Of the width: the program, its path, what limits it."""
 MOST_LINES = 5000
 """Lines of a program that are listed; the rest is computed too."""
 Apply = Callable[[Mapping[Address, Value]], bool]
@@ -91,14 +102,21 @@ class ProgramPage(PageOfFile):
         self.words = read_table(
             self.tr("Words of the block"),
             (self.tr("Word"), self.tr("Number"), self.tr("Meaning"), self.tr("Parameters")),
-            2,
+            TableLook(wide=2, figures=(1,)),
         )
         self.lines = read_table(
-            self.tr("Blocks of the program"), (self.tr("Block"), self.tr("Limit"), self.tr("s"))
+            self.tr("Blocks of the program"),
+            (self.tr("Block"), self.tr("Limit"), self.tr("s")),
+            TableLook(figures=(2,), bars=1),
         )
         self.limits = read_table(
-            self.tr("What limits the feed"), ("", self.tr("What limits"), self.tr("s"), self.tr("%")), 1
+            self.tr("What limits the feed"),
+            ("", self.tr("What limits"), self.tr("s"), self.tr("%")),
+            TableLook(wide=1, figures=(2, 3), chips=0),
         )
+        # Of its rows there are a few: what is below has the room.
+        self.limits.setSizeAdjustPolicy(QTableWidget.SizeAdjustPolicy.AdjustToContents)
+        self.limits.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Maximum)
         self.tries = WhatIfPanel()
         self.tries.limits_button.clicked.connect(self._try_limits)
         self.tries.earlier_button.clicked.connect(self._try_earlier)
@@ -126,10 +144,10 @@ class ProgramPage(PageOfFile):
             segment.chosen.connect(lambda _key: self._draw())
         self.bar, self.play = TimeBar(), PlayBar()
         self.play.moved.connect(self._show_moment)
-        scheme().changed.connect(self._colour_letters)
         self.words.hide()
-        self.form = FieldForm(self._fields())
+        self.form, self.change_form = FieldForm(self._fields()), FieldForm((self._change_field(),))
         self.form.entered.connect(self._entered)
+        self.change_form.entered.connect(lambda _key: self._try(str(self.change_form.answers()["change"])))
         self._lay_out()
         self._say(self.tr("Type a block, or open a part program."))
 
@@ -149,12 +167,14 @@ class ProgramPage(PageOfFile):
                 hint="X0,Y0",
                 tip=self.tr("Where the zero of the program is in the machine; empty takes work coordinates"),
             ),
-            Field(
-                "change",
-                self.tr("What &if"),
-                hint="1210=+20%",
-                tip=self.tr("A parameter and another value, several separated by semicolons; Enter tries it"),
-            ),
+        )
+
+    def _change_field(self) -> Field:
+        return Field(
+            "change",
+            self.tr("What &if"),
+            hint="1210=+20%",
+            tip=self.tr("A parameter and another value, several separated by semicolons; Enter tries it"),
         )
 
     def _lay_out(self) -> None:
@@ -168,14 +188,15 @@ class ProgramPage(PageOfFile):
         row.addWidget(self.view)
         row.addWidget(self.colours)
         row.addStretch()
+        row.addWidget(self.open_button)
         left, middle, right = QWidget(), QWidget(), QWidget()
         for side, parts in (
-            (left, (self.open_button, self.form, self.words, self.lines, self.play)),
+            (left, (self.lines, self.play, self.words, self.form)),
             (middle, (self.title, self.head, self.plot, self.bar)),
-            (right, (self.limits, self.tries)),
+            (right, (self.limits, self.change_form, self.tries)),
         ):
             column = QVBoxLayout(side)
-            column.setContentsMargins(0, 0, 0, 0)
+            column.setContentsMargins(0 if side is left else GAP2, 0, 0 if side is right else GAP2, 0)
             column.setSpacing(GAP2)
             for part in parts:
                 column.addWidget(part)
@@ -183,7 +204,8 @@ class ProgramPage(PageOfFile):
         splitter = QSplitter(Qt.Orientation.Horizontal)
         for n, side in enumerate((left, middle, right)):
             splitter.addWidget(side)
-            splitter.setStretchFactor(n, (3, 5, 4)[n])
+            splitter.setStretchFactor(n, _SHARES[n])
+        splitter.setSizes([1000 * share for share in _SHARES])
         foot = QHBoxLayout()
         foot.addWidget(self.summary, 1)
         foot.addWidget(self.missing)
@@ -198,8 +220,6 @@ class ProgramPage(PageOfFile):
     def _entered(self, key: str) -> None:
         if key == "block":
             self._read_block(str(self.form.answers()["block"]))
-        elif key == "change":
-            self._try(str(self.form.answers()["change"]))
         else:
             self.run_again()
 
@@ -414,7 +434,6 @@ class ProgramPage(PageOfFile):
             for each in run.alarms[:2]
         ]
         self._say("; ".join(alarms))
-        self._colour_letters()
         self.bar.show_parts(
             [
                 TimePart(row["letter"], worded(row["name"]), row["time_s"], limit_sort(row["letter"]))
@@ -428,13 +447,6 @@ class ProgramPage(PageOfFile):
 
     def _worded(self, text: str) -> str:
         return sentenced(text, self._read().schema.family.family)
-
-    def _colour_letters(self) -> None:
-        """Write the letters of limits in the colours that the path has."""
-        for table, column in ((self.limits, 0), (self.lines, 1)):
-            for row in range(table.rowCount()):
-                item = table.item(row, column)
-                item.setForeground(colour(TOKENS[limit_sort(item.text())]))
 
     def _show_moment(self, _seconds: float) -> None:
         """Draw where the axes are, and show the block that is run."""
@@ -462,7 +474,11 @@ class ProgramPage(PageOfFile):
                 notes.append(tried.why_not)
                 continue
             found = try_summary(self._file, self.outcome, tried)
-            changes = [f"{one['param']}\n{one['from']} → {one['to']}" for one in found["changes"]]
+            named = map(self._file.machine_schema.named, tried.changes)
+            changes = [
+                f"{name}\n{one['from']} → {one['to']}"
+                for name, one in zip(named, found["changes"], strict=True)
+            ]
             self.tries.add("\n".join(changes), each, found, is_ticked=is_ticked)
             notes += tried.not_allowed
         self._say("; ".join(map(self._worded, notes)))

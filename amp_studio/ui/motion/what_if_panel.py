@@ -13,7 +13,7 @@ from amp_studio.sim import path_error_text, path_error_unit, value_text
 from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.theme import GAP, GAP2, font
 
-from .program_tables import fill, read_table
+from .program_tables import TableLook, fill, read_table
 
 Values = Mapping[Address, Value]
 
@@ -38,7 +38,11 @@ class WhatIfPanel(QWidget):
         super().__init__()
         self._length = "mm"
         self._values: list[Values | None] = []
-        self.table = read_table(self.tr("What if"), (self.tr("Change"), self.tr("s"), self.tr("%"), ""))
+        self.table = read_table(
+            self.tr("What if"),
+            (self.tr("What if"), self.tr("s"), self.tr("%"), ""),
+            TableLook(figures=(1, 2, 3)),
+        )
         self.table.itemChanged.connect(self._changed)
         self.show_lengths_in("mm")
         self.together = QLabel()
