@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping
+
 from amp_studio.transfer import AtControl, TransferError, state_after_break
 
 from .content import GrblContent
@@ -52,22 +54,32 @@ def state_of(
     # Rates of single axes come and go with $22: only what was there or is sent can be old or new.
     wanted = {name: text for name, text in wanted.items() if name in names or name in present}
     wanted |= {name: text for name, text in present.items() if name not in names}
-    now = names_of(found)
-    for name in names & {*present, *wanted}:
-        is_new = _is_shown(writing, found, name, wanted[name], now.get(name, ""))
-        if is_new and (now.get(name) != present.get(name) or name in writing.sent.names):
-            now[name] = wanted[name]
-    # The firmware moves these itself: they may be others without the download.
-    now |= {name: present[name] for name in (_MOVED - names) & present.keys()}
+    now = _seen(writing, found, names, present, wanted)
     changed = [n for n in present if n not in names and now.get(n) != present[n]]
-    at, new = state_after_break(
-        present, wanted, {n: t for n, t in now.items() if n in present or n in wanted}
-    )
+    known = {*present, *wanted}
+    at, new = state_after_break(present, wanted, {n: t for n, t in now.items() if n in known})
     # Many others at once: the control has restarted with its defaults.
     if (has_lost_memory and at != "old") or len(changed) >= _MANY:
         after = writing.sent.unanswered  # what a control that has just restarted has still taken
         return "defaults", (after,) if after and now.get(after) == wanted.get(after) else ()
     return at, new
+
+
+def _seen(
+    writing: Writing,
+    found: GrblContent,
+    names: Collection[str],
+    present: Mapping[str, str],
+    wanted: Mapping[str, str],
+) -> dict[str, str]:
+    """Return what the control shows now, a new value as it was sent."""
+    now = names_of(found)
+    for name in {*names} & {*present, *wanted}:
+        is_new = _is_shown(writing, found, name, wanted[name], now.get(name, ""))
+        if is_new and (now.get(name) != present.get(name) or name in writing.sent.names):
+            now[name] = wanted[name]
+    # The firmware moves these itself: they may be others without the download.
+    return now | {name: present[name] for name in (_MOVED - {*names}) & present.keys()}
 
 
 def names_of(content: GrblContent) -> dict[str, str]:

@@ -46,14 +46,23 @@ def check_text(setting: DescribedSetting | None, number: int, text: str, axes: i
         if text.isdecimal() and int(text) > CLASSIC.get(number, LARGEST):
             raise BoundsError(f"{name} takes 0 to {CLASSIC.get(number, 0)}, not {text}")
     elif setting.type in (TEXT, PASSWORD, IPV4):
-        most = int(setting.most) if setting.most.isdecimal() and setting.type != IPV4 else 127
-        if len(text) > most:
-            raise BoundsError(f"{name} takes {most} characters, not {len(text)}")
+        _check_length(setting, name, text)
     elif setting.type == DECIMAL:
         _check_decimal(setting, name, text)
-    elif not text.isdecimal():
+    else:
+        _check_whole(setting, name, text, axes)
+
+
+def _check_length(setting: DescribedSetting, name: str, text: str) -> None:
+    most = int(setting.most) if setting.most.isdecimal() and setting.type != IPV4 else 127
+    if len(text) > most:
+        raise BoundsError(f"{name} takes {most} characters, not {len(text)}")
+
+
+def _check_whole(setting: DescribedSetting, name: str, text: str, axes: int) -> None:
+    if not text.isdecimal():
         raise BoundsError(f"{name} takes whole numbers from 0 on, not '{text[:40]}'")
-    elif not (setting.may_be_zero and int(text) == 0):
+    if not (setting.may_be_zero and int(text) == 0):
         low, high = _bounds(setting, axes)
         if not low <= int(text) <= high:
             raise BoundsError(f"{name} takes {low} to {high}, not {text[:40]}")

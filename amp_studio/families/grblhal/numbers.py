@@ -43,10 +43,8 @@ def read_number(text: str) -> float:
     found = _NUMBER.match(text)
     if found is None or not (found[1] or found[2]):
         raise ValueError(f"'{text[:40]}' is no number")
-    exponent, number = 0, 0
-    for digit in (found[1] + (found[2] or "")).lstrip("0")[:DIGITS]:
-        number = number * 10 + int(digit)
     whole, fraction = found[1].lstrip("0"), found[2] or ""
+    number = int((whole + fraction).lstrip("0")[:DIGITS] or "0")
     if len(whole) >= DIGITS:
         exponent = len(whole) - DIGITS
     else:
@@ -55,14 +53,19 @@ def read_number(text: str) -> float:
     value = single(float(number))
     if value and (exponent > DIGITS or value * 10.0**exponent > LARGEST):
         raise ValueError(f"{text[:20]} is too large")
-    if value:
-        while exponent <= -2:
-            value, exponent = single(value * single(0.01)), exponent + 2
-        if exponent < 0:
-            value = single(value * single(0.1))
-        while exponent > 0:
-            value, exponent = single(value * 10.0), exponent - 1
+    value = _scaled(value, exponent) if value else value
     return -value if text.startswith("-") else value
+
+
+def _scaled(value: float, exponent: int) -> float:
+    """Return a number times a power of ten, rounded after each step as the firmware rounds."""
+    while exponent <= -2:
+        value, exponent = single(value * single(0.01)), exponent + 2
+    if exponent < 0:
+        value = single(value * single(0.1))
+    while exponent > 0:
+        value, exponent = single(value * 10.0), exponent - 1
+    return value
 
 
 def shown_number(value: float, decimals: int) -> str:

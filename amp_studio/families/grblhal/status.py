@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from amp_studio.transfer import AxisStatus, ControlIdentity, ControlStatus, ProtocolMismatchError, known_fault
 
 LETTERS = "XYZABCUV"
@@ -25,10 +27,8 @@ def status_of(identity: ControlIdentity, report: str, alarm: str = "") -> Contro
     state, *parts = report.strip("<>").split("|")
     fields = dict(part.partition(":")[::2] for part in parts)
     try:
-        places = [float(each) for each in (fields.get("MPos") or fields.get("WPos") or "").split(",") if each]
-        feed, speed = (
-            [float(each) for each in fields.get("FS", fields.get("F", "")).split(",") if each] + [0.0, 0.0]
-        )[:2]
+        places = _numbers(fields.get("MPos") or fields.get("WPos") or "")
+        feed, speed, *_ = (*_numbers(fields.get("FS", fields.get("F", ""))), 0.0, 0.0)
     except ValueError:
         raise ProtocolMismatchError(f"the control reports '{report[:60]}'") from None
     pins = fields.get("Pn", "")
@@ -37,11 +37,7 @@ def status_of(identity: ControlIdentity, report: str, alarm: str = "") -> Contro
         AxisStatus(name, place, unit="mm", states=SWITCH if name in pins else (), known_states=SWITCH)
         for name, place in zip(names, places, strict=False)
     )
-    values: dict[str, float | str] = {"feed": feed, "spindle speed": speed}
-    if pins:
-        values["inputs"] = ", ".join(PINS.get(pin, f"limit {pin}") for pin in pins)
-    if "WCO" in fields:
-        values["work coordinate offset"] = fields["WCO"]
+    values = {"feed": feed, "spindle speed": speed, **_further(fields, pins)}
     code = alarm or (f"ALARM:{state.partition(':')[2]}" if state.startswith("Alarm:") else "")
     in_alarm = state.startswith("Alarm")
     faults = (known_fault(identity.family, code or "Alarm", "The control is locked"),) if in_alarm else ()
@@ -50,3 +46,17 @@ def status_of(identity: ControlIdentity, report: str, alarm: str = "") -> Contro
     return ControlStatus(
         identity.family, identity.protocol, identity.name, state, axes, faults, values, notes
     )
+
+
+def _numbers(text: str) -> list[float]:
+    return [float(each) for each in text.split(",") if each]
+
+
+def _further(fields: Mapping[str, str], pins: str) -> dict[str, float | str]:
+    """Return what a report has only at times."""
+    values: dict[str, float | str] = {}
+    if pins:
+        values["inputs"] = ", ".join(PINS.get(pin, f"limit {pin}") for pin in pins)
+    if "WCO" in fields:
+        values["work coordinate offset"] = fields["WCO"]
+    return values

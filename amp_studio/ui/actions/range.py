@@ -24,6 +24,7 @@ from amp_studio.schema import Address, InvalidValueError, Value, quoted, write_v
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.table.block_preview import BlockPreview
+from amp_studio.ui.table.parameter_table import ParameterTable
 from amp_studio.ui.window.studio_window import StudioWindow
 
 AddressBlock = Sequence[Sequence[Address | None]]
@@ -54,12 +55,12 @@ class RangeEdits:
         page = self.window.page_in_front
         table, view = page.table, page.table_view
         block = view.cells.block()
-        places = [table.index_of(next(a for a in row if a)) for row in block if any(row)]
-        if not places:
-            raise ValueError(tr("Select a value in the table first."))
-        first = min(table.index_of(a).column() for row in block for a in row if a)
         block = [row for row in block if any(row)]
-        left = min(n for row in block for n, a in enumerate(row) if a)
+        if not block:
+            raise ValueError(tr("Select a value in the table first."))
+        places = [table.index_of(next(filter(None, row))) for row in block]
+        chosen = [(n, table.index_of(a).column()) for row in block for n, a in enumerate(row) if a]
+        left, first = (min(column) for column in zip(*chosen, strict=True))
         columns = range(first - left, first - left + len(block[0]))
         heads = [tr("No."), tr("Parameter"), *(" ".join(filter(None, table.column_head(c))) for c in columns)]
         names = [[table.number(i.row()), table.row_name(i.row())] for i in places]
@@ -67,15 +68,7 @@ class RangeEdits:
 
     def _put(self, block: AddressBlock, names: list[list[str]]) -> None:
         """Put a block into the clipboard; a secret alone is refused, among others it is left out."""
-        chosen = [address for row in block for address in row if address is not None]
-        masked = [address for address in chosen if self.window.page_in_front.workspace.is_masked(address)]
-        if masked and len(chosen) == 1:
-            name = describe(self.window.page_in_front.workspace.file, masked[0])
-            raise ValueError(
-                tr("{name} is secret. To copy it, first switch on Show Secrets.").format(name=name)
-            )
-        if masked:
-            self.window.show_status(tr("Secrets are left out; Show Secrets takes them along."))
+        self._leave_out_secrets([address for row in block for address in row if address is not None])
         cells = [[self._cell(address) for address in row] for row in block]
         if names:
             heads = [[BlockCell(text) for text in names[0]]]
@@ -88,6 +81,18 @@ class RangeEdits:
         if not is_one:
             data.setHtml(block_html(cells, heads=bool(names)))
         QGuiApplication.clipboard().setMimeData(data)
+
+    def _leave_out_secrets(self, chosen: list[Address]) -> None:
+        """Show that secrets are left out; raises ValueError for one alone."""
+        workspace = self.window.page_in_front.workspace
+        masked = [*filter(workspace.is_masked, chosen)]
+        if masked and len(chosen) == 1:
+            name = describe(workspace.file, masked[0])
+            raise ValueError(
+                tr("{name} is secret. To copy it, first switch on Show Secrets.").format(name=name)
+            )
+        if masked:
+            self.window.show_status(tr("Secrets are left out; Show Secrets takes them along."))
 
     def _cell(self, address: Address | None) -> BlockCell:
         page = self.window.page_in_front
@@ -157,15 +162,7 @@ class RangeEdits:
         now.
         """
         table = self.window.page_in_front.table
-        heads = [table.column_head(c) for c in range(len(table.columns))]
-        columns = {
-            letter: c for c, (letter, _) in enumerate(heads) if letter
-        }  # another file may have X as axis 2
-        columns |= {" ".join(filter(None, head)): c for c, head in enumerate(heads)}
-        numbers: dict[tuple[str, str], int] = {}
-        for n, row in enumerate(table.rows):
-            if not row.section:
-                numbers[table.number(n), table.row_name(n)] = n
+        columns, numbers = _columns_by_head(table), _rows_by_name(table)
         found, left_out = {}, []
         for row_texts in rows[1:]:
             number, name = row_texts[0].strip(), row_texts[1].strip()
@@ -292,3 +289,18 @@ def _texts_of(block: AddressBlock, rows: list[list[str]]) -> dict[Address, str]:
             if address is not None and text:
                 found[address] = text
     return found
+
+
+def _columns_by_head(table: ParameterTable) -> dict[str, int]:
+    """Return the columns by the letter of their axis, as another file may have X as axis 2, and by their
+    whole head.
+    """
+    heads = [table.column_head(c) for c in range(len(table.columns))]
+    columns = {letter: c for c, (letter, _) in enumerate(heads) if letter}
+    return columns | {" ".join(filter(None, head)): c for c, head in enumerate(heads)}
+
+
+def _rows_by_name(table: ParameterTable) -> dict[tuple[str, str], int]:
+    """Return the rows by number and name."""
+    rows = (n for n, row in enumerate(table.rows) if not row.section)
+    return {(table.number(n), table.row_name(n)): n for n in rows}

@@ -282,8 +282,9 @@ class FindingsPanel(QWidget):
             g.key for n, g in enumerate(self.model.groups) if self.view.isExpanded(self.model.index(n, 0))
         }
         current = self.view.currentIndex()
-        group = self.model.group(current).key if current.isValid() else ""
-        finding = self.model.finding(current) if current.isValid() else None
+        group, finding = ("", None)
+        if current.isValid():
+            group, finding = self.model.group(current).key, self.model.finding(current)
         row = (current.parent() if current.parent().isValid() else current).row()
         scrolled = self.view.verticalScrollBar().value()
         if self.model.show_findings(listed):

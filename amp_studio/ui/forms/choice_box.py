@@ -14,6 +14,8 @@ from amp_studio.ui.base.workspace import Workspace
 
 _CODE = Qt.ItemDataRole.UserRole + 1
 _WORDS = re.compile(r"[\W_]+")
+_NO_RANK = 4
+"""Rank of a row that does not fit."""
 PAUSE_MS = 1_000
 """Milliseconds after which a typed letter begins a new word."""
 
@@ -61,14 +63,19 @@ class ChoiceBox(QComboBox):
         part of a label.
         """
         typed, rows = folded(typed), range(self.count())
-        labels = [folded(str(self.itemData(n))) for n in rows]
-        ranks = (
-            [n for n in rows if labels[n].startswith(typed)],
-            [n for n in rows if any(word.startswith(typed) for word in _WORDS.split(labels[n]))],
-            [n for n in rows if folded(str(self.itemData(n, _CODE))) == typed],
-            [n for n in rows if typed in labels[n]] if len(typed) > 1 else [],
+        ranks = {n: self._rank(n, typed) for n in rows}
+        return sorted((n for n in rows if ranks[n] < _NO_RANK), key=ranks.__getitem__)
+
+    def _rank(self, row: int, typed: str) -> int:
+        """Return how well a row fits a typed text, 0 best."""
+        label = folded(str(self.itemData(row)))
+        fits = (
+            label.startswith(typed),
+            any(word.startswith(typed) for word in _WORDS.split(label)),
+            folded(str(self.itemData(row, _CODE))) == typed,
+            len(typed) > 1 and typed in label,
         )
-        return list(dict.fromkeys(n for rank in ranks for n in rank))
+        return fits.index(True) if any(fits) else _NO_RANK
 
     def _type(self, letter: str) -> None:
         is_open = self.view().isVisible()
@@ -77,18 +84,14 @@ class ChoiceBox(QComboBox):
         found = self.rows_of(typed)
         if not found and again and set(folded(typed)) == {folded(letter)}:  # asked for the next one
             typed, found = letter, self.rows_of(letter)
-            later = [n for n in found if n > self.currentIndex()]
-            found = later + [n for n in found if n not in later]
+            found.sort(key=lambda n: n <= self.currentIndex())  # those behind it come first
         self._typed = typed
         self._since.start()
         self.setCurrentIndex(found[0] if found else self._own)  # a typing error never chooses another one
         self._show_only(set(found) if found else None)
         if self.view().isVisible():
-            QToolTip.showText(
-                self.mapToGlobal(QPoint(0, -30)),
-                typed if found else self.tr("{typed}: no choice").format(typed=typed),
-                self,
-            )
+            tip = typed if found else self.tr("{typed}: no choice").format(typed=typed)
+            QToolTip.showText(self.mapToGlobal(QPoint(0, -30)), tip, self)
 
     def _show_only(self, rows: set[int] | None) -> None:
         """Leave these rows in the open list; None for all."""

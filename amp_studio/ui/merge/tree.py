@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from itertools import chain
 
 from PySide6.QtCore import QItemSelectionModel, QModelIndex, QPersistentModelIndex, Qt, Signal
 from PySide6.QtGui import QAction, QGuiApplication, QKeySequence, QResizeEvent
@@ -133,22 +134,17 @@ class MergeTree(QTreeView):
         """Go to the next or previous row that differs, or that is a conflict that is not settled;
         round at the end.
         """
-        rows = [
-            row
-            for group in self.rows.groups
-            for row in group.rows
-            if (self.rows.merge.choice(row) is None if conflicts else row.kind != "same")
-        ]
+        every = [*chain.from_iterable(group.rows for group in self.rows.groups)]
+        if conflicts:
+            rows = [row for row in every if self.rows.merge.choice(row) is None]
+        else:
+            rows = [row for row in every if row.kind != "same"]
         if not rows:
             return
-        every = [row.id for group in self.rows.groups for row in group.rows]
-        places = {row_id: n for n, row_id in enumerate(every)}
+        places = {row.id: n for n, row in enumerate(every)}
         here = places.get(current.id, -1) if (current := self.row()) else -1
-        if step > 0:
-            wanted = next((row for row in rows if places[row.id] > here), rows[0])
-        else:
-            wanted = next((row for row in reversed(rows) if places[row.id] < here), rows[-1])
-        self.show_row(wanted)
+        ahead = [row for row in rows if (places[row.id] - here) * step > 0] or rows
+        self.show_row(ahead[0 if step > 0 else -1])
 
     # -- choosing ------------------------------------------------------------------------
 

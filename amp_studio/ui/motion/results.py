@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Sequence
 
 from PySide6.QtCore import Qt, QUrl
 from PySide6.QtWidgets import (
@@ -68,26 +68,28 @@ class FiguresPage(QTextBrowser):
 def _rows(trace: Trace, before: Trace | None, before_name: str) -> list[str]:
     dim = state_colour().name()
     others = [kind for kind in (PREDICTED, SWEPT) if any(name.startswith(kind) for name in trace.result)]
-    heads = [*(worded(kind.rstrip("_")) for kind in others), *([before_name] if before else [])]
+    heads = [worded(kind.rstrip("_")) for kind in others] + [before_name] * (before is not None)
     head = "".join(f'<td align=right style="color:{dim}">{words}</td>' for words in heads)
     rows = [f"<tr><td></td><td></td>{head}</tr>"] if heads else []
     for name, (value, unit) in trace.result.items():
-        base = next((name.removeprefix(kind) for kind in others if name.startswith(kind)), "")
-        if base in trace.result:
+        if _is_beside(name, others, trace.result):
             continue
         cells = [trace.result.get(f"{kind}{name}", (None, ""))[0] for kind in others]
         if before:
             cells.append(before.result.get(name, (None, ""))[0])
-        beside = "".join(
-            f'<td align=right style="color:{dim}">{_number(cell) if cell is not None else ""}</td>'
-            for cell in cells
-        )
+        texts = ("" if cell is None else _number(cell) for cell in cells)
+        beside = "".join(f'<td align=right style="color:{dim}">{text}</td>' for text in texts)
         words = worded(name.replace("_", " "))
         rows.append(
             f"<tr><td>{words}</td><td"
             f" align=right><b>{_number(value)}</b>&nbsp;{unit_text(unit)}</td>{beside}</tr>"
         )
     return rows
+
+
+def _is_beside(name: str, kinds: Sequence[str], result: Container[str]) -> bool:
+    """Return whether a figure is in the row of the one that it predicts or was swept for."""
+    return any(name.startswith(kind) and name.removeprefix(kind) in result for kind in kinds)
 
 
 def _number(value: float | None) -> str:

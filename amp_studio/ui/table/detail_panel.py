@@ -203,14 +203,17 @@ class DetailPanel(QWidget):
         found = limits(file.evaluation, address, unit)
         if found is None or found.low is None or found.high is None or found.low >= found.high:
             return None
+        value, default = (_number(v, unit) for v in (file.get(address), file.default(address)))
+        return ValueInRange(found.low, found.high, unit, value, default, self._worst(address))
+
+    def _worst(self, address: Address) -> str:
+        """Return the worst severity of the findings that a value is the cause of; "" without any."""
         severities = {
             f.severity
             for f in self._workspace.findings_of(address)
             if f.rule != NOT_SET and address in f.causes and not self._workspace.is_deferred(f)
         }
-        worst = next((severity for severity in SEVERITIES if severity in severities), "")
-        value, default = (_number(v, unit) for v in (file.get(address), file.default(address)))
-        return ValueInRange(found.low, found.high, unit, value, default, worst)
+        return next((severity for severity in SEVERITIES if severity in severities), "")
 
     def _ask_rules(self) -> None:
         """Ask in the background which values the rules allow;

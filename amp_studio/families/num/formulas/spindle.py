@@ -5,7 +5,7 @@ The control counts the angle of a spindle in increments, of which a revolution h
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from amp_studio.validate import finite, not_negative, positive, whole
 
@@ -102,14 +102,22 @@ def speed_gap(
     range whose highest speed is 0 does not exist, and one that ends before it begins has no speeds.
     """
     _same_length(minima, maxima, limits)
-    there = [(low, limit or high) for low, high, limit in zip(minima, maxima, limits, strict=True) if high]
-    ranges = [(low, end) for low, end in there if low is None or low <= end]
+    ranges = [*_ranges(minima, maxima, limits)]
     last = max((end for _, end in ranges), default=0.0)
     for _, end in sorted(ranges, key=lambda found: found[1]):
         following = (low for low, other in ranges if other > end and low is not None)
         if end < last and not any(low <= end + 1.0 for low in following):
             return end
     return 0.0
+
+
+def _ranges(
+    minima: Sequence[float | None], maxima: Sequence[float | None], limits: Sequence[float | None]
+) -> Iterator[tuple[float | None, float]]:
+    """Yield beginning and end of each range that has speeds."""
+    for low, high, limit in zip(minima, maxima, limits, strict=True):
+        if high and (low is None or low <= (limit or high)):
+            yield low, limit or high
 
 
 def _same_length(*words: Sequence[float | None]) -> None:
