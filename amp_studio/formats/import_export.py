@@ -265,7 +265,12 @@ def _format_for_reading(content: bytes, family: str | None, format_key: str | No
     text = text_to_recognise(content)
     found = next((f for f in offered if f.recognises(text)), None)
     if found is None:
-        raise FormatError(f"Unrecognised file format. Known: {', '.join(f.key for f in offered)}")
+        known = f"Known: {', '.join(f.key for f in offered)}"
+        other = next((f for f in all_formats() if f.recognises(text)), None) if family else None
+        if other is None:
+            raise FormatError(f"Unrecognised file format. {known}")
+        whose = " or ".join(families_of(other)) or "another family"
+        raise FormatError(f"Not a text of {family}, but of {whose} (format {other.key}). {known}")
     return found
 
 

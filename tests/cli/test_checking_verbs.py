@@ -147,7 +147,11 @@ def test_a_file_that_cannot_be_read_does_not_hide_the_others(
 def test_a_folder_without_files_and_no_processes_are_refused(amp, tmp_path: Path, mill: Path) -> None:
     (tmp_path / "empty").mkdir()
     assert amp("validate", tmp_path / "empty").err.endswith("empty: contains no .amp files\n")
+    (tmp_path / "empty" / "listing.txt").write_text("$0=10\n$1=25\n$2=0\n$3=0\n$100=250.000\n$110=500.000\n")
+    assert "name a control's own text by itself: " in amp("validate", tmp_path / "empty").err
     assert "0 is no number from 1 to 100000" in amp("validate", mill, "--jobs", 0).err
+    other = amp("validate", tmp_path / "empty" / "listing.txt", "--family", "num")
+    assert (other.code, "Not a text of num, but of grblhal (format grbl)" in other.err) == (2, True)
 
 
 def test_validate_writes_nothing(amp, mill: Path, folder) -> None:

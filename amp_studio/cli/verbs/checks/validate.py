@@ -7,6 +7,7 @@ import os
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import cache, partial
 from pathlib import Path
@@ -66,6 +67,9 @@ MOST = 61
 
 AT_A_TIME = 16
 """Files a process is handed at once; of few files each one gets its share."""
+
+_LOOKED_INTO = 20
+"""Files of a folder without parameter files of which one may be a control's own text."""
 
 WITH_REASONS = ("text", "json")
 """Formats with a place for what ``--why`` explains."""
@@ -173,9 +177,23 @@ def _files(paths: Sequence[Path]) -> tuple[list[Path], list[CheckResult]]:
         inside = [Path(folder, name) for folder, name in names if name.endswith(ENDING)]
         inside.sort(key=lambda file: file.parts)
         if not inside and before == len(unread):
-            unread.append(CheckResult(path, fault=f"{path}: contains no {ENDING} files"))
+            unread.append(CheckResult(path, fault=f"{path}: contains no {ENDING} files{_texts_in(path)}"))
         found += inside
     return found, unread
+
+
+def _texts_in(folder: Path) -> str:
+    """Return how to check a control's own texts in a folder without parameter files; "" where the first of
+    its files are none.
+    """
+    from amp_studio.files import ParameterFileError
+    from amp_studio.formats import is_text_of_control
+
+    with suppress(OSError, ParameterFileError):
+        for each in sorted(folder.iterdir())[:_LOOKED_INTO]:
+            if each.is_file() and is_text_of_control(each):
+                return f"; name a control's own text by itself: {each}"
+    return ""
 
 
 def _is_folder(path: Path) -> bool:
