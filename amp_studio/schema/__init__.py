@@ -93,7 +93,6 @@ if TYPE_CHECKING:
         RampKind,
         RampRoles,
         Range,
-        ReachRole,
         Rule,
         Scope,
         Severity,

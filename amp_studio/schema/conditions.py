@@ -12,13 +12,11 @@ from functools import lru_cache
 from itertools import chain
 from typing import Literal, NamedTuple
 
-from amp_studio.schema import Parameter
-
 from .address import Address, UnknownParameterError, read_address, whole_of
 from .catalog import Schema
 from .cel_engine import WORD_FUNCTIONS
 from .expression import Decision, Key, program
-from .model import BoundRef, ParameterState, Scope
+from .model import BoundRef, Parameter, ParameterState, Scope
 
 Asked = tuple[str, str, str | None]
 """What is asked (a condition, an entry of ``reads``), for which instance, of which scope."""

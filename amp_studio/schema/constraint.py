@@ -10,12 +10,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from amp_studio.schema import Bit
-
 from .address import Address
 from .bit_fields import field_value
 from .evaluation import Evaluation
-from .model import Bound, BoundRef, Parameter, Range
+from .model import Bit, Bound, BoundRef, Parameter, Range
 from .storage import exact, stored_range, stored_unit
 from .units import UNITS, angular, canonical_unit, convert, dimension, unit_text
 from .value import Value

@@ -23,7 +23,7 @@ PAST_THE_DOOR = {
         "program.py": "ui",
         "stopping.py": "transfer",
         "checks/cache.py": "files validate",
-        "verbs/checks/validate.py": "files guide sim validate",
+        "verbs/checks/validate.py": "files formats guide sim validate",
         "verbs/documents/report.py": "files validate",
         "verbs/facts/find.py": "files find",
     },
@@ -84,6 +84,7 @@ AS_THE_DOOR_DOES = {
     "files/marked.py": "found_in",
     "verbs/checks/diff.py": "compare",  # by the schema of A, also where B is of another revision
     "verbs/checks/merge.py": "rules_beside text_of_name",  # the result has no file yet
+    "verbs/checks/validate.py": "is_text_of_control",  # of a folder, nothing is opened
     "verbs/controls/history.py": "text_of_name",  # the name in the record
     "verbs/controls/restore.py": "open_copy",  # it is shown before it goes back
     "verbs/controls/upload.py": "decode_content",  # of bytes that are kept also where they cannot be read
