@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
 from amp_studio.files import Notify, ParameterFile, user
-from amp_studio.report import Paper, PaperTable, PrintedFigure, write_paper
+from amp_studio.report import Language, Paper, PaperTable, PrintedFigure, language_of, write_paper
 from amp_studio.scenarios import CHARTS
 from amp_studio.sim import Trace, address_of, figure_rows, named_parameter, plot_svg, value_text
 
@@ -29,11 +30,14 @@ def write_motion_paper(
     before: Trace | None = None,
     chart: str = CHARTS[0],
     machine: Sequence[GivenFigure] = (),
+    language: str = "en",
 ) -> None:
     """Write the result of a simulation as a document; ``name`` is the file that it was made with,
-    ``machine`` what was given of the machine. Raises ValueError, SaveError.
+    ``machine`` what was given of the machine, ``language`` a code of ``language_codes``.
+    Raises ValueError, SaveError.
     """
-    write_paper(motion_paper(file, name, trace, before=before, chart=chart, machine=machine), path, notify)
+    paper = motion_paper(file, name, trace, before=before, chart=chart, machine=machine, language=language)
+    write_paper(paper, path, notify)
 
 
 def motion_paper(
@@ -44,37 +48,53 @@ def motion_paper(
     before: Trace | None = None,
     chart: str = CHARTS[0],
     machine: Sequence[GivenFigure] = (),
+    language: str = "en",
 ) -> Paper:
     """Return the result of a simulation as a paper: what was recommended, figures, the machine that was taken
     and how it was found, doubts and assumptions, the picture.
     """
-    drawn = plot_svg(trace, before, chart=chart, width=_WIDTH, unit=_UNIT, small_print=False)
+    words = language_of(language, file.schema.family.family)
+    worded = words.sentence
+    drawn = words.drawing(plot_svg(trace, before, chart=chart, width=_WIDTH, unit=_UNIT, small_print=False))
     facts = (
         ("File", name),
         ("Machine", file.header.name),
         ("Control", file.schema.family.name),
         ("Axis", trace.axis_title),
-        ("Model", trace.model),
+        ("Model", worded(trace.model)),
         ("Made by", user()),
     )
     return Paper(
-        _KINDS.get(trace.scenario, "Simulation"),
-        f"{trace.scenario.capitalize()}, {name}",
-        tuple((head, text) for head, text in facts if text),
-        tuple(table for table in _tables(file, trace, machine) if table.rows),
+        worded(_KINDS.get(trace.scenario, "Simulation")),
+        f"{worded(trace.scenario.capitalize())}, {name}",
+        tuple((worded(head), text) for head, text in facts if text),
+        tuple(_worded(table, words) for table in _tables(file, trace, machine, words) if table.rows),
         datetime.now().astimezone(),
-        figures=(PrintedFigure("Picture", drawn),),
+        figures=(PrintedFigure(worded("Picture"), drawn),),
         signed=("Checked by", "Released by"),
+        language=language,
     )
 
 
-def _tables(file: ParameterFile, trace: Trace, machine: Sequence[GivenFigure]) -> Iterator[PaperTable]:
+def _worded(table: PaperTable, words: Language) -> PaperTable:
+    """Return a table in a language; names of parameters and codes of alarms have no other words."""
+    return replace(
+        table,
+        title=words.sentence(table.title),
+        heads=tuple(map(words.sentence, table.heads)),
+        rows=tuple(tuple(map(words.sentence, row)) for row in table.rows),
+    )
+
+
+def _tables(
+    file: ParameterFile, trace: Trace, machine: Sequence[GivenFigure], words: Language
+) -> Iterator[PaperTable]:
     alarms = tuple((each.code, value_text(each.time_s, "s"), each.message) for each in trace.alarms)
     yield PaperTable("Alarms", ("Alarm", "Time", "Message"), alarms, (1.0, 1.0, 4.0))
     yield PaperTable(
         "Recommended",
         ("Parameter", "Name", "In the file", "Recommended", "Reason and price"),
-        tuple(_recommended(file, trace)),
+        tuple(_recommended(file, trace, words)),
         (1.6, 2.0, 1.2, 1.2, 4.0),
     )
     if trace.scenario == "identify":
@@ -90,7 +110,7 @@ def _tables(file: ParameterFile, trace: Trace, machine: Sequence[GivenFigure]) -
     yield PaperTable("Machine and assumptions", ("Assumption",), tuple((t,) for t in trace.assumptions))
 
 
-def _recommended(file: ParameterFile, trace: Trace) -> Iterator[tuple[str, ...]]:
+def _recommended(file: ParameterFile, trace: Trace, words: Language) -> Iterator[tuple[str, ...]]:
     for each in trace.recommendations:
         address = address_of(file, each.parameter, trace.axis)
         present = file.get(address) if address else None
@@ -100,7 +120,7 @@ def _recommended(file: ParameterFile, trace: Trace) -> Iterator[tuple[str, ...]]
             known.name if known else each.parameter,
             "not set" if present is None else value_text(float(present.value), present.unit, 9),
             value_text(each.value, each.unit, 9),
-            f"{each.why} {each.price}".strip(),
+            " ".join(words.sentence(text) for text in (each.why, each.price) if text),
         )
 
 

@@ -198,14 +198,15 @@ def _behind_a_number() -> re.Pattern[str]:
 
 
 @cache
-def language_of(code: str, family: str = "") -> Language:
-    """Return a language by its code, with the facts of a family where one is named; raises ValueError for
-    another code.
+def language_of(code: str, family: str = "", *more: str) -> Language:
+    """Return a language by its code, with the facts of a family where one is named, and of ``more`` families
+    where it has no words; raises ValueError for another code.
     """
     if code == "en":
         return ENGLISH
     if family:
-        facts, shared = fact_texts(family, code), language_of(code)
+        facts, shared = fact_texts(family, code), language_of(code, *more)
+        facts = facts.model_copy(update={"sentences": {**shared.facts.sentences, **facts.sentences}})
         return replace(shared, facts=facts, sentences=(*_sentences(facts.patterns), *shared.sentences))
     name = name_of_language(code)
     sentences = _own(code, "sentences")

@@ -7,7 +7,7 @@ from datetime import datetime
 from pathlib import Path
 
 from amp_studio.meaning import Migration, less_safe, write_migration
-from amp_studio.report.wording import counted
+from amp_studio.report.language import language_of
 
 from .paper import Paper, PaperTable, write_paper
 
@@ -33,50 +33,68 @@ _HEADS = {
 
 
 def write_migration_folder(
-    migration: Migration, folder: Path, notify: Callable[[str], None] = lambda _note: None
+    migration: Migration,
+    folder: Path,
+    notify: Callable[[str], None] = lambda _note: None,
+    language: str = "en",
 ) -> list[str]:
     """Write the configuration, the report and its paper into a new folder; returns the names. Raises OSError,
-    with nothing written.
+    with nothing written. ``language`` is a code of ``language_codes``, of the paper.
 
     A name with an ending is that of a file: the configuration alone.
     """
     written = write_migration(migration, folder)
     if folder.is_dir():
-        write_paper(migration_paper(migration), folder / "migration.pdf", notify=notify)
+        write_paper(migration_paper(migration, language=language), folder / "migration.pdf", notify=notify)
         written.append("migration.pdf")
     return written
 
 
-def migration_paper(migration: Migration) -> Paper:
-    """Return the paper; HAL is a template on it, and nothing is claimed of the wiring."""
+def migration_paper(migration: Migration, language: str = "en") -> Paper:
+    """Return the paper in a language; HAL is a template on it, and nothing is claimed of the wiring."""
     written = migration.written
+    words = language_of(language, migration.target, migration.machine.family)
+    worded = words.sentence
     tables = [
-        PaperTable("Less safe than before", ("",), tuple(zip(less_safe(migration)))),
         PaperTable(
-            "Open questions: their keys are left out",
-            ("Question", ""),
-            tuple((q.id, q.question) for q in written.open),
+            worded("Less safe than before"), ("",), tuple((worded(text),) for text in less_safe(migration))
+        ),
+        PaperTable(
+            worded("Open questions: their keys are left out"),
+            (worded("Question"), ""),
+            tuple((q.id, worded(q.question)) for q in written.open),
             (1.0, 4.0),
         ),
-        PaperTable("To be measured at the machine", ("",), tuple(zip(written.measure))),
+        PaperTable(
+            worded("To be measured at the machine"), ("",), tuple((worded(text),) for text in written.measure)
+        ),
     ]
     for outcome, (title, heads, keys) in _HEADS.items():
-        rows = tuple((e.param, *(str(e.facts.get(key) or "") for key in keys)) for e in migration.of(outcome))
-        tables.append(PaperTable(title, heads, rows))
-    counts = [
-        (heads[0], counted(len(migration.of(outcome)), "parameter")) for outcome, heads in _HEADS.items()
-    ]
+        rows = tuple(
+            (e.param, *(_cell(key, str(e.facts.get(key) or ""), worded) for key in keys))
+            for e in migration.of(outcome)
+        )
+        tables.append(PaperTable(worded(title), tuple(map(worded, heads)), rows))
     facts = (
-        ("From", migration.machine.family),
-        ("To", migration.target),
-        ("Active parameters", str(len(migration.entries))),
-        *counts,
-        ("HAL", "a template: it moves nothing, and nothing of the old wiring is in it"),
+        (worded("From"), migration.machine.family),
+        (worded("To"), migration.target),
+        (worded("Active parameters"), str(len(migration.entries))),
+        *(
+            (worded(title), words.counted(len(migration.of(outcome)), "parameter"))
+            for outcome, (title, _, _) in _HEADS.items()
+        ),
+        ("HAL", worded("a template: it moves nothing, and nothing of the old wiring is in it")),
     )
     return Paper(
-        "Migration",
+        worded("Migration"),
         migration.machine.name,
         facts,
         tuple(t for t in tables if t.rows),
         datetime.now().astimezone(),
+        language=language,
     )
+
+
+def _cell(key: str, text: str, worded: Callable[[str], str]) -> str:
+    """Return a cell: what is written at either control as it is, words in the language."""
+    return text if key in ("raw", "key", "value", "id", "answer") else worded(text)

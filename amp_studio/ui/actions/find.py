@@ -125,7 +125,8 @@ class FindSearch(Translated):
         found = [self._with_value(hit, self.window.page) for hit in hits]
         found = sorted(found + self._among(own), key=lambda hit: -hit.score)
         if found:
-            return rows_of(found, self._commands) + self._every(found)
+            family = self.window.page.workspace.file.schema.family.family
+            return rows_of(found, self._commands, family) + self._every(found)
         return self._nothing(own, finder.nearest(own) if finder is not None else "")
 
     def _finder(self) -> Finder | None:

@@ -72,8 +72,10 @@ def _head(kind: HitKind) -> str:
     }[kind]
 
 
-def rows_of(hits: Sequence[Hit], actions: dict[str, QAction]) -> list[FindRow]:
-    """Return the hits under heads: the kind of the best hit first, and in each the best first."""
+def rows_of(hits: Sequence[Hit], actions: dict[str, QAction], family: str = "") -> list[FindRow]:
+    """Return the hits under heads: the kind of the best hit first, and in each the best first;
+    titles of messages of a family are in the language of the window.
+    """
     kinds: dict[HitKind, list[Hit]] = {}
     for hit in hits:
         kinds.setdefault(hit.kind, []).append(hit)
@@ -81,18 +83,19 @@ def rows_of(hits: Sequence[Hit], actions: dict[str, QAction]) -> list[FindRow]:
     for kind, found in kinds.items():
         rows.append(FindRow(_head(kind)))
         listed = found[: _MOST[kind]] if len(kinds) > 1 else found
-        rows += [_row(hit, actions.get(hit.key) if kind == "command" else None) for hit in listed]
+        rows += [_row(hit, actions.get(hit.key) if kind == "command" else None, family) for hit in listed]
     return rows
 
 
-def _row(hit: Hit, action: QAction | None) -> FindRow:
+def _row(hit: Hit, action: QAction | None, family: str) -> FindRow:
     if action is not None:
         mark = "✓ " if action.isCheckable() and action.isChecked() else ""
         keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
         return FindRow(mark + hit.title, "", keys, _ICONS["command"], hit, action)
     reasons = [_in_words(reason) for reason in hit.why.split(", ") if reason not in _PLAIN]
     detail = _PAGE.sub(lambda found: worded(found[0]), hit.detail)
-    return FindRow(hit.title, detail, ", ".join(reasons), _ICONS[hit.kind], hit)
+    title = worded(hit.title, family) if hit.kind == "message" else hit.title
+    return FindRow(title, detail, ", ".join(reasons), _ICONS[hit.kind], hit)
 
 
 def _in_words(reason: str) -> str:

@@ -37,14 +37,14 @@ def worded(text: str, family: str = "") -> str:
     return text if _spoken == "en" else _worded(_spoken, text, family)
 
 
-def sentenced(text: str, family: str = "") -> str:
+def sentenced(text: str, *families: str) -> str:
     """Return as ``worded``, with its numbers and their units as the language writes them too."""
-    return text if _spoken == "en" else _sentenced(_spoken, text, family)
+    return text if _spoken == "en" else _sentenced(_spoken, text, *families)
 
 
 @lru_cache(maxsize=4096)
-def _sentenced(code: str, text: str, family: str) -> str:
-    return language_of(code, family).sentence(text)
+def _sentenced(code: str, text: str, *families: str) -> str:
+    return language_of(code, *families).sentence(text)
 
 
 @lru_cache(maxsize=4096)
@@ -120,6 +120,11 @@ class CatalogueTranslator(QTranslator):
 
 _installed: list[QTranslator] = []
 _spoken = "en"
+
+
+def language_of_window() -> str:
+    """Return the code of the language that the window has."""
+    return _spoken
 
 
 def language_in_use(choice: str) -> str:

@@ -22,7 +22,7 @@ from amp_studio.files import (
     why_axes_are_fixed,
 )
 from amp_studio.schema import Schema, family_ids, load_schema
-from amp_studio.ui.base.translated import tr
+from amp_studio.ui.base.translated import tr, worded
 from amp_studio.ui.forms.form import Field, FormDialog
 
 from .file_dialogs import family_choices
@@ -96,7 +96,11 @@ class NewFileDialog(FormDialog):
         title = self.tr("Example: {title}")
         return [
             (None, self.tr("The printed defaults")),
-            *((e.path, title.format(title=e.title)) for e in examples() if e.family == family),
+            *(
+                (e.path, title.format(title=worded(e.title, family)))
+                for e in examples()
+                if e.family == family
+            ),
             *((path, path.name) for path in self._recent),
             (_OTHER, self.tr("Another file of mine…")),
         ]

@@ -20,6 +20,7 @@ from amp_studio.report import cells_of
 from amp_studio.schema import Address, Table
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.theme import scheme
+from amp_studio.ui.base.translated import facts_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.pages import LINK, drawn, link
 
@@ -89,7 +90,9 @@ class TablesDialog(QDialog):
 
     def _html(self, table: Table) -> str:
         links = ", ".join(link(self._schema, p) for p in table.params)
-        return drawn(table) + (f"<p>Parameters: {links}</p>" if links else "")
+        return drawn(table, facts_in_words(self._schema)) + (
+            f"<p>{worded('Parameters')}: {links}</p>" if links else ""
+        )
 
     def _follow(self, url: QUrl) -> None:
         self.linked.emit(url.toString().removeprefix(LINK))

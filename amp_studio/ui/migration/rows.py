@@ -14,6 +14,8 @@ from amp_studio.ui.base.translated import tr
 
 _OLD, _MEANING = 360, 190
 """Widths of the columns as the window opens."""
+_AS_WRITTEN = ("key", "value", "raw", "id", "page", "answer")
+"""Facts of an entry that are no words: they stay as file and control have them."""
 
 
 @dataclass(frozen=True)
@@ -70,11 +72,19 @@ def meanings() -> dict[str, str]:
     }
 
 
-def rows_of(migration: Migration, label: Callable[[MigratedParameter], str]) -> Iterator[MigrationRow]:
-    """Yield the row of each entry, in their order; ``label`` names a parameter of the old file."""
+def rows_of(
+    migration: Migration, label: Callable[[MigratedParameter], str], sentence: Callable[[str], str]
+) -> Iterator[MigrationRow]:
+    """Yield the row of each entry, in their order; ``label`` names a parameter of the old file,
+    ``sentence`` returns the words of one in the language of the window.
+    """
     words = meanings()
     for entry in migration.entries:
-        facts = {key: str(value) for key, value in entry.facts.items() if value is not None}
+        facts = {
+            key: str(value) if key in _AS_WRITTEN else sentence(str(value))
+            for key, value in entry.facts.items()
+            if value is not None
+        }
         concepts = dict.fromkeys(f"{letter} {words[concept]}".strip() for letter, concept in entry.meanings)
         key, value = facts.get("key", ""), facts.get("value", "")
         new = f"{key} = {value}" if key else facts.get("answer", "")
@@ -110,14 +120,16 @@ class MigrationTree(QTreeWidget):
         self.header().resizeSection(1, _MEANING)
         self._folded = {"exact", "old_hardware"}
 
-    def show_migration(self, migration: Migration, label: Callable[[MigratedParameter], str]) -> None:
+    def show_migration(
+        self, migration: Migration, label: Callable[[MigratedParameter], str], sentence: Callable[[str], str]
+    ) -> None:
         """List a migration; what was folded, and the place in the list, stay."""
         for item in self._heads():
             outcome = item.data(0, Qt.ItemDataRole.UserRole)
             (self._folded.discard if item.isExpanded() else self._folded.add)(outcome)
         place = self.verticalScrollBar().value()
         self.clear()
-        rows = list(zip(migration.entries, rows_of(migration, label), strict=True))
+        rows = list(zip(migration.entries, rows_of(migration, label, sentence), strict=True))
         for outcome, (title, mark, shade) in outcomes().items():
             own = [row for entry, row in rows if entry.outcome == outcome]
             if own:

@@ -35,7 +35,7 @@ from amp_studio.schema import load_schema
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3, colour, font
-from amp_studio.ui.base.translated import tr
+from amp_studio.ui.base.translated import language_of_window, sentenced, tr
 from amp_studio.ui.forms.folder_view import show_in_folder
 from amp_studio.ui.forms.form import Field, FieldForm
 from amp_studio.ui.forms.message_bar import MessageBar
@@ -155,13 +155,13 @@ class MigrationWindow(QDialog):
         try:
             found = migrate(self._file, target, asked)
         except (TargetError, MeaningError) as error:
-            self._sum_up(str(error))
+            self._sum_up(self._worded(str(error)))
             return
         self.migration = found
         self._ask(found)
-        self.tree.show_migration(found, self._label)
+        self.tree.show_migration(found, self._label, self._worded)
         self.losses.setText(
-            "\n".join(f"• {text}" for text in less_safe(found)) or tr("nothing that is known")
+            "\n".join(f"• {self._worded(text)}" for text in less_safe(found)) or tr("nothing that is known")
         )
         self._sum_up()
 
@@ -184,9 +184,13 @@ class MigrationWindow(QDialog):
     def _ask(self, found: Migration) -> None:
         fields: list[Field] = []
         for question in found.written.asked:
-            fields.append(Field(question.id + _QUESTION, "", "words", question.question))
-            fields.append(Field(question.id, question.id))
+            fields.append(Field(question.id + _QUESTION, "", "words", self._worded(question.question)))
+            fields.append(Field(question.id, tr("Answer"), tip=question.id))
         self.questions.offer(fields, keep=True)
+
+    def _worded(self, text: str) -> str:
+        """Return what the new control's or the file's family states, in the language of the window."""
+        return sentenced(text, str(self.target.answer(_TO)), self._file.schema.family.family)
 
     def _label(self, entry: MigratedParameter) -> str:
         return self._file.machine_schema.label(entry.address)
@@ -217,7 +221,9 @@ class MigrationWindow(QDialog):
             written = in_background(
                 self,
                 tr("Migrate to Another Control"),
-                lambda: write_migration_folder(migration, folder, notes.append),
+                lambda: write_migration_folder(
+                    migration, folder, notes.append, language=language_of_window()
+                ),
             )
         except OSError as error:
             self.bar.say(f"{folder}: {error.strerror or error}", "error")

@@ -43,7 +43,7 @@ from amp_studio.calibration import (
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value, read_exact, unit_text
 from amp_studio.ui.base.theme import GAP2, ROW, colour, font, scheme
-from amp_studio.ui.base.translated import sentenced
+from amp_studio.ui.base.translated import sentenced, worded
 from amp_studio.ui.forms.form import Field, FieldForm
 
 from .error_plot import ErrorPlot, ErrorTrace
@@ -250,7 +250,7 @@ class CalibrationPage(QWidget):
             )
             box.setCurrentIndex(max(0, box.findData(present)))
         if not state.is_active:
-            self.fault.setText(state.why)
+            self.fault.setText(worded(state.why, family))
             self.fault.show()
 
     def _fill(self, table: CalibrationTable) -> None:

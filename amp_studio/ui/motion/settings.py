@@ -8,7 +8,7 @@ from PySide6.QtCore import QEvent, QObject, QSize, Qt
 from PySide6.QtWidgets import QLineEdit, QScrollArea, QWidget
 
 from amp_studio.schema import dimension, read_number, unit_named, unit_text
-from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.translated import sentenced, worded
 from amp_studio.ui.forms.form import Field, FieldForm
 
 MODE = "move.mode"
@@ -43,10 +43,14 @@ class SettingsForm(FieldForm):
         self.entered.connect(lambda _: changed())
 
     def offer_settings(
-        self, settings: Mapping[str, str], units: tuple[str, str], axes: Iterable[tuple[str, str]] = ()
+        self,
+        settings: Mapping[str, str],
+        units: tuple[str, str],
+        axes: Iterable[tuple[str, str]] = (),
+        family: str = "",
     ) -> None:
         """Show the fields of these settings (name -> what it is) and keep what is in them;
-        ``units`` of length and feedrate.
+        ``units`` of length and feedrate; the family's own are worded with its facts.
         """
         self._units = units
         choices = {
@@ -55,9 +59,9 @@ class SettingsForm(FieldForm):
         }
         self.offer(
             [
-                Field(name, _title(name), "choice", "", choices[name], meaning)
+                Field(name, _title(name), "choice", "", choices[name], sentenced(meaning, family))
                 if name in choices
-                else Field(name, _title(name), tip=meaning, hint=self._hint(name, meaning))
+                else Field(name, _title(name), tip=sentenced(meaning, family), hint=self._hint(name, meaning))
                 for name, meaning in settings.items()
             ],
             keep=True,
@@ -67,7 +71,7 @@ class SettingsForm(FieldForm):
         unit = self._unit(name)
         default = meaning.partition("default: ")[2] or "automatic"
         unit = unit or ("" if name in (*LENGTHS, FEEDRATE) else meaning.partition(" (")[2].partition(")")[0])
-        empty = f"{self.tr('empty:')} {worded(default)}"
+        empty = f"{self.tr('empty:')} {sentenced(default)}"
         return f"{unit_text(unit)}, {empty}" if unit else empty
 
     def _unit(self, name: str) -> str:

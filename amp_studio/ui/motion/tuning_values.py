@@ -203,7 +203,7 @@ class ValuesPage(QWidget):
             flags = Qt.ItemFlag.ItemIsSelectable | Qt.ItemFlag.ItemIsEnabled
             item.setFlags(flags | Qt.ItemFlag.ItemIsEditable if column == _VALUE and may else flags)
             item.setText(text)
-            item.setToolTip(text if state.is_active else state.why)
+            item.setToolTip(text if state.is_active else worded(state.why, file.schema.family.family))
             item.setForeground(colour("text" if state.is_active and column != _ALLOWED else "dim"))
             if column == _VALUE:
                 item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
@@ -301,7 +301,8 @@ class ValuesPage(QWidget):
         state = self.target.file.evaluation.state(address)
         if not state.is_active:
             label = self.target.file.machine_schema.label(address)
-            raise CalibrationError(self.tr("{name} is not used: {why}.").format(name=label, why=state.why))
+            why = worded(state.why, self.target.file.schema.family.family)
+            raise CalibrationError(self.tr("{name} is not used: {why}.").format(name=label, why=why))
         self.target.set(f"{what} {self.target.file.machine_schema.label(address)}", {address: value})
 
 

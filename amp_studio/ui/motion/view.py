@@ -44,7 +44,7 @@ from amp_studio.sim import (
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import GAP2, GAP3, scheme, severity_colour
-from amp_studio.ui.base.translated import sentenced, worded
+from amp_studio.ui.base.translated import language_of_window, sentenced, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.form import Field, FieldForm, fill_choices
 from amp_studio.ui.forms.pages import LINK
@@ -254,9 +254,10 @@ class MotionView(PageOfFile):
         fill_choices(self.axis, titles, wanted)
         chosen = next((each for each in found.scenarios if each.name == self.scenario.currentData()), None)
         others = [each for each in titles if each[0] != self.axis.currentData()]
-        self.scenario.setToolTip(chosen.title if chosen else "")
-        self.settings.offer_settings(chosen.settings if chosen else {}, self._units(), others)
-        self.machine.offer_settings(found.model, ("", ""))
+        family = file.schema.family.family
+        self.scenario.setToolTip(sentenced(chosen.title, family) if chosen else "")
+        self.settings.offer_settings(chosen.settings if chosen else {}, self._units(), others, family)
+        self.machine.offer_settings(found.model, ("", ""), family=family)
         self._offer_reference()
 
     def show_axis(self, axis: str) -> None:
@@ -511,7 +512,9 @@ class MotionView(PageOfFile):
         except (OSError, ValueError) as error:
             self._fail(error)
         else:
-            self.summary.setText(html.escape("; ".join([f"{path} written", *notes])))
+            self.summary.setText(
+                html.escape("; ".join([self.tr("{path} written").format(path=path), *notes]))
+            )
 
     def _write_paper(self, path: Path, chart: str, notes: list[str]) -> None:
         """Write the trace as a document, with what the page Machine gives."""
@@ -520,7 +523,17 @@ class MotionView(PageOfFile):
         assert file is not None
         given = [(name, str(value), self.tr("entered")) for name, value in self.machine.filled_in().items()]
         name, before = self._workspace.path.name, self.before
-        write_motion_paper(file, name, trace, path, notes.append, before=before, chart=chart, machine=given)
+        write_motion_paper(
+            file,
+            name,
+            trace,
+            path,
+            notes.append,
+            before=before,
+            chart=chart,
+            machine=given,
+            language=language_of_window(),
+        )
 
     def _end(self) -> None:
         """Ignore the result of a run that has not finished."""

@@ -226,7 +226,11 @@ class DetailPage(Translated):
             body = self._related(parameter) if title == "Related" else html.escape(text)
             lines.append(f"<p><b>{worded(title)}</b><br>{body}</p>")
         if messages := schema.messages_of(parameter.id):
-            names = (f'<a href="{MESSAGE}{m.id}">{html.escape(m.name)}</a>' for m in messages)
+            family = schema.family.family
+            names = (
+                f'<a href="{MESSAGE}{m.id}">{html.escape(worded(m.name, family) if m.title else m.name)}</a>'
+                for m in messages
+            )
             lines.append(f"<p><b>{self.tr('Messages of the control')}</b><br>{'<br>'.join(names)}</p>")
         if parameter.formulas:
             known = calculators(schema.family.family)
@@ -235,7 +239,7 @@ class DetailPage(Translated):
             )
             paragraphs = "</p><p>".join(map(html.escape, titles))
             lines.append(f"<p><b>{self.tr('Formulas')}</b></p><p>{paragraphs}</p>")
-        lines += [drawn(table) for table in tables_of(schema, parameter)]
+        lines += [drawn(table, facts_in_words(schema)) for table in tables_of(schema, parameter)]
         lines.append(
             f"<p><small>{html.escape(schema.family.title)},"
             f" {worded(f'page {schema.page(address)}')}</small></p>"

@@ -33,6 +33,7 @@ from amp_studio.ui.base.modal import pop_up
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import CONTROL, GAP, GAP2, GAP3, GAP4, GAP6, font, icon
 from amp_studio.ui.base.time_words import in_words
+from amp_studio.ui.base.translated import worded
 from amp_studio.ui.forms.folder_view import show_in_folder
 from amp_studio.ui.forms.message_bar import MessageBar
 from amp_studio.ui.window.recent_files import changed_at, folder_of
@@ -301,7 +302,7 @@ class WelcomePage(QWidget):
         if not self.isVisible():
             return
         if not self.families.count() and self._reading is None:
-            self._reading = task = Task(lambda *_: (_all_families(), examples()))
+            self._reading = task = Task(lambda *_: (_all_families(), _worded_examples()))
             task.done.connect(self._show_facts)
             task.finished.connect(self._done_reading)
             task.begin()
@@ -381,7 +382,7 @@ class WelcomePage(QWidget):
         menu.addAction(self.tr("&New File…"), partial(self._new, item))
         for each in examples():
             if each.family == item.data(KEY):
-                text = self.tr("Copy of {title}…").format(title=each.title)
+                text = self.tr("Copy of {title}…").format(title=worded(each.title, each.family))
                 menu.addAction(
                     text, partial(self._window.guarded, partial(self._files.open_example, each.path))
                 )
@@ -394,6 +395,16 @@ class WelcomePage(QWidget):
         wanted = QBoxLayout.Direction.BottomToTop if narrow else QBoxLayout.Direction.LeftToRight
         if self._columns.direction() != wanted:
             self._columns.setDirection(wanted)
+
+
+def _worded_examples() -> tuple[Example, ...]:
+    """Return the examples in the language of the window, in a thread: the facts of every family are read."""
+    return tuple(
+        replace(
+            each, title=worded(each.title, each.family), description=worded(each.description, each.family)
+        )
+        for each in examples()
+    )
 
 
 def _all_families() -> list[_Family]:
