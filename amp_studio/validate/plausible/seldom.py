@@ -30,7 +30,9 @@ class SeldomChanged:
         if address[0] not in self._names:
             return False
         before, file = self._findings.pop(address, None), self._file
-        is_changed = address in file.values and not file.is_default(address)
+        # A control that describes itself prints no defaults: nothing is known of what it was delivered with.
+        has_default = address in file.values and file.default(address) is not None
+        is_changed = has_default and not file.is_default(address)
         if is_changed and file.evaluation.state(address).is_active:
             self._findings[address] = self._finding(address)
         return self._findings.get(address) != before
@@ -42,7 +44,8 @@ class SeldomChanged:
     def _finding(self, address: Address) -> Finding:
         schema, parameter = self._file.schema, self._file.schema.parameters[address[0]]
         label, default = schema.on(self._file.machine).label(address), self._file.default(address)
-        printed = show_value(parameter, default) if default else "none"
+        assert default is not None  # as look_again has seen
+        printed = show_value(parameter, default)
         text = show_value(parameter, self._file.values[address])
         message = f"{label} is {text}; nearly every machine keeps the default {printed}. Is it meant?"
         return Finding(SELDOM, "advice", (address,), message, reason=REASON)

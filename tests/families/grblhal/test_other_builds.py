@@ -14,7 +14,7 @@ import pytest
 from amp_studio.cli import run
 from amp_studio.families.grblhal.described import schema_of
 from amp_studio.families.grblhal.formats.listing import FORMAT
-from amp_studio.files import new_file, open_file
+from amp_studio.files import Header, ParameterFile, new_file, open_file
 from amp_studio.formats import file_of, import_file
 from amp_studio.formats.text_format import ReadOptions, TextRead
 from amp_studio.schema import Value, load_schema
@@ -57,6 +57,17 @@ def test_a_new_file_has_none_of_them_and_an_old_one_keeps_its_signature() -> Non
 def test_a_control_that_describes_itself_has_its_own_settings_only() -> None:
     described = schema_of(THREE_AXES)
     assert not {p.id for p in GRBLHAL.parameters.values() if not p.in_signature} & described.parameters.keys()
+
+
+def test_what_a_control_was_delivered_with_is_not_known_where_it_describes_itself() -> None:
+    """It prints no defaults, and every value of it seemed to be another one."""
+    schema = schema_of(THREE_AXES)
+    file = ParameterFile(schema, Header(signature=schema.signature, machine="grblhal"))
+    seldom = [(name, "") for name in GRBLHAL.plausible.seldom if name in file.schema.parameters]
+    assert len(seldom) > 10
+    for address in seldom:
+        file.set(address, file.read(address, "0"))
+    assert "plausible.seldom" not in {finding.rule for finding in Validator(file).run()}
 
 
 @pytest.mark.parametrize(
