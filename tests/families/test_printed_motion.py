@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from amp_studio.schema import Value
-from amp_studio.sim import simulate
+from amp_studio.sim import SimulationError, simulate
 from amp_studio.validate import calculate
 from tests.programs.test_block import example
 
@@ -36,3 +36,36 @@ def test_a_limit_at_zero_has_no_sign() -> None:
     file = example("grblhal-router")
     file.set(("homing.pull_off", ""), Value(0.0, "mm"))
     assert "soft limit, 0 mm" in simulate(file, "travel", "X", {}).alarms[0].message
+
+
+@pytest.mark.parametrize("negative", [0, 1])
+@pytest.mark.parametrize("place", [0, 250_000, -90_000_000])
+def test_the_six_cases_of_homing_of_a_num_end_with_p16_at_the_encoder_zero(negative: int, place: int) -> None:
+    """7-5 to 7-7, 7-10: both directions, with the measurement origin at the zero, elsewhere, and outside of the
+    travel, which 7-12 allows. Their figures are lost.
+    """
+    file = example("num-1060-mill")
+    file.set(("travel.homing_negative", ""), Value(negative))
+    file.set(("travel.switch_position", "0"), Value(place, "iu"))
+    found = simulate(file, "home", "0", {}, advise=False).result
+    assert found["home_position"] == (place / 1000.0, "mm")
+    assert (found["home_from_start"][0] < 0.0) == bool(negative)
+
+
+def test_limits_of_a_module_in_the_wrong_order_are_a_motion_fault() -> None:
+    """57C422B, 4-10: the negative limit must be below the positive one."""
+    file = example("57c422b-label-press")
+    file.set(("setup.switches", "Y"), Value(0x401))
+    file.set(("setup.overtravel_negative", "Y"), Value(90000, "counts"))
+    with pytest.raises(SimulationError, match=r"a motion fault \(4-10\)"):
+        simulate(file, "travel", "Y", {})
+
+
+def test_a_num_jogs_at_its_reduced_speed_while_the_plc_asks_for_it() -> None:
+    """6-8: word 3 of P31 is that of linear axes, word 4 that of rotary ones."""
+    file = example("num-1060-mill")
+    file.set(("servo.reduced_speed_linear", ""), Value(300, "mm/min"))
+    file.set(("servo.reduced_speed_rotary", ""), Value(200, "deg/min"))
+    for axis, speed, unit in (("0", 300.0, "mm/min"), ("3", 200.0, "deg/min")):
+        found = simulate(file, "jog", axis, {"move.speed": "reduced", "move.hold": 0.2}, advise=False)
+        assert found.result["feedrate"] == (pytest.approx(speed), unit)
