@@ -229,13 +229,17 @@ def _shared(
 
 
 @pytest.fixture
-def window_with(user: User, _shared: Callable[[bytes], SharedWindow]) -> Iterator[Callable[..., MainWindow]]:
-    """Return what gives a window with a file of this content open, as a new one is: one of the module, in which
-    what a test did is taken back after it.
+def window_with(
+    user: User, checkout: Path, _shared: Callable[[bytes], SharedWindow]
+) -> Iterator[Callable[..., MainWindow]]:
+    """Return what gives a window with a file of this content open, or with that of a folder of examples, as a new
+    one is: one of the module, in which what a test did is taken back after it.
     """
     given: list[SharedWindow] = []
 
-    def give(content: bytes) -> MainWindow:
+    def give(content: bytes | str) -> MainWindow:
+        if isinstance(content, str):
+            content = next((checkout / "examples" / content).glob("*.amp")).read_bytes()
         shared = _shared(content)
         given.append(shared)
         window = shared.get()

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtWidgets import QComboBox
 
-from amp_studio.files import Document, fitted_axes, new_file
+from amp_studio.files import Document, content_of, fitted_axes, new_file
 from amp_studio.schema import Value
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.dialogs.axis_dialogs import AddAxisDialog, AxisDialog
@@ -20,16 +20,9 @@ from .conftest import action
 
 
 @pytest.fixture
-def opened(open_window: Callable[..., MainWindow], tmp_path: Path) -> Callable[..., MainWindow]:
+def opened(window_with: Callable[..., MainWindow]) -> Callable[..., MainWindow]:
     """Return what opens a new file of a family with some axes."""
-
-    def open_family(family: str, axes: str) -> MainWindow:
-        file = new_file(family, None, axes.split(","))
-        window = open_window()
-        window.show_workspace(Workspace(Document.create(file, tmp_path / f"{family}.amp")))
-        return window
-
-    return open_family
+    return lambda family, axes: window_with(content_of(new_file(family, None, axes.split(","))))
 
 
 def choose(dialog: AxisDialog, axis: str, other: str) -> None:
@@ -114,7 +107,7 @@ def test_what_a_family_cannot_do_is_off_and_the_reason_is_there(opened) -> None:
     assert "no parameter for the type" in off["Configure Axis Type…"]
 
 
-def test_an_action_that_works_again_has_its_own_tooltip(opened, open_window, tmp_path: Path) -> None:
+def test_an_action_that_works_again_has_its_own_tooltip(opened, tmp_path: Path) -> None:
     window = opened("57c422b", "X,Y")
     file = new_file("num", None, ["X", "Y"])
     window.show_workspace(Workspace(Document.create(file, tmp_path / "second.amp")))

@@ -181,9 +181,8 @@ def test_what_is_kept_back_is_counted_and_not_listed(delivered: MainWindow) -> N
     assert not panel.chips["warning"].isVisible()
 
 
-def test_an_empty_list_leads_to_what_is_not_set(path, open_window) -> None:
-    path.write_bytes(content_of(new_file("num", "cnc", [], "bare")))
-    window = open_window(path)
+def test_an_empty_list_leads_to_what_is_not_set(window_with) -> None:
+    window = window_with(content_of(new_file("num", "cnc", [], "bare")))
     assert "921 active parameters are not set" in window.findings.summary.text(), "one line, without the list"
     assert not window.findings.isVisible()
     assert "921 active parameters are not set." in window.findings.empty.text()
@@ -211,10 +210,9 @@ def test_several_fixes_are_chosen_from_a_list_and_undone_at_once(delivered: Main
     assert delivered.workspace.file.values == before
 
 
-def test_rows_are_as_high_as_their_words_need(path, bare: bytes, open_window, qtbot) -> None:
+def test_rows_are_as_high_as_their_words_need(window_with, bare: bytes) -> None:
     """Also when the window becomes narrower."""
-    path.write_bytes(bare)
-    wrong = open_window(path)
+    wrong = window_with(bare)
     wrong.workspace.edit("begin", {("home.position", "1"): Value(1.0, "mm")})
     wrong.show_panel("Findings")
     view, model = wrong.findings.view, wrong.findings.model

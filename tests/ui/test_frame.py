@@ -111,9 +111,8 @@ def test_the_cross_on_a_tab_closes_its_file(window: MainWindow) -> None:
     assert window.page is None
 
 
-def test_values_that_are_not_set_are_a_state_of_the_file_and_no_findings(open_window, path: Path) -> None:
-    path.write_bytes(content_of(new_file("num", "cnc", [], "bare")))
-    window = open_window(path)
+def test_values_that_are_not_set_are_a_state_of_the_file_and_no_findings(window_with) -> None:
+    window = window_with(content_of(new_file("num", "cnc", [], "bare")))
     assert window.status.not_set.text() == "921 not set"
     assert not window.status.counts["advice"].isVisible()
     assert window.workspace.count("advice") == 0

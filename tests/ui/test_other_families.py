@@ -12,7 +12,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
-from amp_studio.files import Document, Header, ParameterFile, new_file
+from amp_studio.files import Document, Header, ParameterFile, content_of, new_file
 from amp_studio.schema import Schema, Value
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
@@ -87,10 +87,9 @@ def test_the_machine_type_of_the_header_is_a_step_too(wide: MainWindow) -> None:
 
 
 def test_a_control_of_another_family_is_refused(
-    open_window: Callable[..., MainWindow], tmp_path: Path, start_control, qtbot: QtBot
+    window_with: Callable[..., MainWindow], start_control, qtbot: QtBot
 ) -> None:
-    window = open_window()
-    window.show_workspace(Workspace(Document.create(new_file("syntec"), tmp_path / "axes.amp")))
+    window = window_with(content_of(new_file("syntec")))
     page = at_control(window, start_control().address, "compare", qtbot)
     assert page.bar.text.text() == "the control is of the family 9pc, not syntec"
 
@@ -117,13 +116,12 @@ def test_a_family_to_whose_controls_no_way_is_known_is_keyed_in(wide: MainWindow
     ],
 )
 def test_a_count_of_internal_units_is_shown_with_its_length(
-    open_window: Callable[..., MainWindow], tmp_path: Path, family: str, axes: str, changes, address, texts
+    window_with: Callable[..., MainWindow], family: str, axes: str, changes, address, texts
 ) -> None:
     file = new_file(family, None, axes.split(",") if axes else [])
     for changed, number in changes.items():
         file.set(changed, None if number is None else Value(number))
-    window = open_window()
-    window.show_workspace(Workspace(Document.create(file, tmp_path / "counts.amp")))
+    window = window_with(content_of(file))
     window.edits.commit(address, texts[0])
     window.detail.show_address(address)
     assert window.detail.value.text() == texts[1]

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
@@ -102,13 +100,9 @@ def test_esc_during_a_drag_gives_the_old_value_back(window, pictures, file, whol
     assert whole() == before
 
 
-def test_a_handle_that_loses_its_place_is_still_one_step(
-    open_window: Callable, checkout: Path, tmp_path: Path
-):
+def test_a_handle_that_loses_its_place_is_still_one_step(window_with):
     """Pr461 has no printed range: a feedrate below nothing leaves no ramp to draw, and the step is there."""
-    path = tmp_path / "file.amp"
-    path.write_bytes((checkout / "examples" / "syntec-mill" / "SYNTEC_MILL.amp").read_bytes())
-    window = open_window(path)
+    window = window_with("syntec-mill")
     action(window, "Pictures").trigger()
     pictures, rapid = window.page.pictures, ("feed.rapid", "1")
     pictures.show_picture("ramps")
@@ -289,21 +283,10 @@ def test_a_read_only_file_is_looked_at_and_not_dragged(window, pictures, file, m
 
 
 @pytest.mark.parametrize(
-    "example",
-    [
-        "num-1060-mill/MILL_1060",
-        "syntec-mill/SYNTEC_MILL",
-        "57c422b-label-press/LABEL_PRESS",
-        "acromill-router/ROUTER",
-        "grblhal-router/GRBL_ROUTER",
-    ],
+    "example", ["num-1060-mill", "syntec-mill", "57c422b-label-press", "acromill-router", "grblhal-router"]
 )
-def test_every_family_has_a_page_of_pictures(
-    open_window: Callable, checkout: Path, tmp_path: Path, example: str
-):
-    path = tmp_path / "file.amp"
-    path.write_bytes((checkout / "examples" / f"{example}.amp").read_bytes())
-    window = open_window(path)
+def test_every_family_has_a_page_of_pictures(window_with, example: str):
+    window = window_with(example)
     action(window, "Pictures").trigger()
     page = window.page.pictures
     for name in list(page.head.names.buttons)[1:]:

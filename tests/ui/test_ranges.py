@@ -354,10 +354,8 @@ def test_notes_are_in_the_parameter_panel(window: MainWindow, file: ParameterFil
 # -- masks -----------------------------------------------------------------------------
 
 
-def test_the_bits_of_a_word_are_checked_below_its_cell(open_window, checkout, tmp_path) -> None:
-    path = tmp_path / "num.amp"
-    path.write_bytes((checkout / "examples" / "num-1060-mill" / "MILL_1060.amp").read_bytes())
-    window = open_window(path)
+def test_the_bits_of_a_word_are_checked_below_its_cell(window_with) -> None:
+    window = window_with("num-1060-mill")
     file = window.workspace.file
     address = file.find("P2N0")
     window.go_to(address)

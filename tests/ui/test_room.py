@@ -29,9 +29,9 @@ EXAMPLES = (
 
 
 @pytest.fixture
-def opened(checkout: Path, window_with):  # the window of an example
+def opened(window_with):  # the window of an example
     def show(folder: str, width: int = 1366, height: int = 768) -> MainWindow:
-        window = window_with(next((checkout / "examples" / folder).glob("*.amp")).read_bytes())
+        window = window_with(folder)
         resized(window, width, height)
         return window
 

@@ -4,13 +4,12 @@ printed.
 
 from __future__ import annotations
 
-from pathlib import Path
+from collections.abc import Callable
 
 import pytest
 
-from amp_studio.files import Document, ParameterFile, fitted_axes, new_file
+from amp_studio.files import ParameterFile, content_of, fitted_axes, new_file
 from amp_studio.schema import Value
-from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.dialogs.axis_dialogs import AxisDialog
 from amp_studio.ui.main_window import MainWindow
 
@@ -18,12 +17,9 @@ from .conftest import action
 
 
 @pytest.fixture
-def mill(open_window, tmp_path: Path) -> MainWindow:
+def mill(window_with: Callable[..., MainWindow]) -> MainWindow:
     """Return a window with a new file of three axes."""
-    window = open_window()
-    file = new_file("syntec", "generic", ["X", "Y", "Z"], "mill")
-    window.show_workspace(Workspace(Document.create(file, tmp_path / "mill.amp")))
-    return window
+    return window_with(content_of(new_file("syntec", "generic", ["X", "Y", "Z"], "mill")))
 
 
 @pytest.fixture

@@ -210,12 +210,9 @@ def test_the_find_box_forgets_commands_of_a_menu_that_was_made_again(
 
 
 def test_pictures_that_another_control_type_does_not_have_leave_the_page(
-    open_window: Callable[..., MainWindow], tmp_path: Path
+    window_with: Callable[..., MainWindow],
 ) -> None:
-    (example,) = [each.path for each in examples() if each.family == "grblhal"]
-    path = tmp_path / example.name
-    path.write_bytes(example.read_bytes())
-    window = open_window(path)
+    window = window_with("grblhal-router")
     action(window, "Pictures").trigger()
     page, machine = window.page.pictures, window.workspace.file.machine
     names = list(page._pictures)

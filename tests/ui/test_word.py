@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import shutil
-from pathlib import Path
+from collections.abc import Callable
 
 import pytest
 from PySide6.QtCore import Qt
@@ -13,26 +12,19 @@ from amp_studio.files.stored_text import storage_text
 from amp_studio.schema import Value
 from amp_studio.ui.main_window import MainWindow
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
 DISPLAYED = ("axes.displayed", "")
 
 
-def example(name: str, tmp_path: Path) -> Path:
-    """Return a copy of the parameter file of an example."""
-    (file,) = (EXAMPLES / name).glob("*.amp")
-    return Path(shutil.copy(file, tmp_path))
-
-
 @pytest.fixture
-def num(open_window, tmp_path: Path) -> MainWindow:
+def num(window_with: Callable[..., MainWindow]) -> MainWindow:
     """Return a window with the NUM example."""
-    return open_window(example("num-1060-mill", tmp_path))
+    return window_with("num-1060-mill")
 
 
 @pytest.fixture
-def module(open_window, tmp_path: Path) -> MainWindow:
+def module(window_with: Callable[..., MainWindow]) -> MainWindow:
     """Return a window with the example of the servo module."""
-    return open_window(example("57c422b-label-press", tmp_path))
+    return window_with("57c422b-label-press")
 
 
 def ticked(window: MainWindow) -> list[str]:
@@ -92,7 +84,7 @@ def test_bits_that_only_have_a_number_show_it(module: MainWindow) -> None:
 def test_a_point_of_a_table_is_one_row_for_both_axes(module: MainWindow) -> None:
     points = {("cam.points", axis): Value(3) for axis in "XY"}
     words = {("cam.mode", axis): Value(1) for axis in "XY"}
-    module.workspace.file.set_checked(points | words)
+    module.workspace.edit("points", points | words)
     module.go_to(("cam.time_points", "Y.2"))
     table = module.table
     row = table.index_of(("cam.time_points", "Y.2")).row()
