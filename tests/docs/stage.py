@@ -19,7 +19,6 @@ from amp_studio.schema.load import load_compiled
 from amp_studio.schema.registration import Registration, register, unregister
 from amp_studio.sim.scenarios import SCENARIOS
 from amp_studio.sim.tuning.solver import Search
-from amp_studio.sim.variations.scenario import points_of
 from tests.campaigns import CAMPAIGN
 from tests.forked import Program, start_program
 
@@ -36,10 +35,6 @@ def leave_out_what_takes_long(patch: pytest.MonkeyPatch) -> None:
         patch.setattr("amp_studio.sim.motion_check.SCENARIOS", {"step": SCENARIOS["step"]})
         patch.setattr("amp_studio.sim.scenarios.frequency.POINTS", 2)
         patch.setattr("amp_studio.sim.variations.scenario.SIDE", 2)
-        patch.setattr(
-            "amp_studio.sim.variations.scenario.points_of",
-            lambda varied, samples, seed: points_of(varied, samples and min(samples, 9), seed),
-        )
         patch.setattr("amp_studio.sim.path.program._contour", lambda plan, axes: (None, "not computed here"))
         patch.setattr("amp_studio.report.output.pdf.set_pdf", lambda source, options: (b"%PDF-1.7", ""))
         patch.setattr("amp_studio.report.build.drawings", lambda file, language: ())
