@@ -1,0 +1,36 @@
+"""The paper of a migration in German: what is lost, what to do, and questions."""
+
+import re
+
+import pytest
+
+from amp_studio.files import open_file
+from amp_studio.files.example_files import examples_folder
+from amp_studio.meaning import migrate
+from amp_studio.report.papers.migration import migration_paper
+from tests.report.test_german import FUNCTION_WORDS
+
+OF_WORDS = [
+    "Weniger sicher als vorher",
+    "Offene Fragen: ihre Schlüssel sind ausgelassen",
+    "An der Maschine zu messen",
+    "Nicht möglich",
+]
+"""Tables of sentences; the others have numbers, keys and values as the controls have them."""
+WRITTEN = re.compile(r"yes oder no|'[^']*'")
+"""Answers as they are typed."""
+
+
+@pytest.mark.parametrize(
+    ("example", "target"), [("mill-1394/MILL_1394", "grblhal"), ("syntec-mill/SYNTEC_MILL", "linuxcnc")]
+)
+def test_a_migration_states_nothing_in_english(example: str, target: str) -> None:
+    file = open_file(examples_folder() / f"{example}.amp").file
+    paper = migration_paper(migrate(file, target, {}), language="de")
+    tables = [table for table in paper.tables if table.title in OF_WORDS]
+    words = [cell for table in tables for row in table.rows for cell in row[-2:] if " " in cell]
+    names = sorted((p.name for p in file.schema.parameters.values()), key=len, reverse=True)
+    known = re.compile("|".join((*map(re.escape, names), WRITTEN.pattern)))
+    assert len(words) > 20
+    assert [text for text in words if FUNCTION_WORDS.search(known.sub("", text.replace("−", "-")))] == []
+    assert [table.title for table in tables] == OF_WORDS
