@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import re
 import shutil
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
@@ -212,12 +212,7 @@ def _read(path: Path, content: bytes) -> ProjectInfo:
     _check_version(path, data.get(_VERSION) if isinstance(data, dict) else None)
     texts = _texts(path, document)
     extra = {k: v for k, v in typed.items() if k not in (*_TEXTS, _VERSION)}
-    lacking = [key for key in ("name", "family") if key not in texts]
-    for key in extra:  # it stays in the file, unless it is one that the project lacks
-        if near := did_you_mean(str(key), lacking):
-            raise ParameterFileError(
-                path, document.line((key,)), f"{quoted(str(key))}: there is no such key{near}"
-            )
+    _refuse_mistyped(path, document, extra, [key for key in ("name", "family") if key not in texts])
     info = ProjectInfo(**{"name": "", "family": "", **texts}, extra=extra)
     try:
         _check(info)
@@ -253,6 +248,15 @@ def _amended(document: YamlDocument, wanted: Mapping[str, Any]) -> str | None:
     empty = {k: known[k] for k in wanted if k in known and not wanted[k] and not known[k]}
     entries = {k: v for k, v in {**wanted, **empty}.items() if v or k in known}
     return amended(document, known, entries | {_VERSION: str(PROJECT_FORMAT)} | own)
+
+
+def _refuse_mistyped(path: Path, document: YamlDocument, extra: Iterable[str], lacking: list[str]) -> None:
+    """Refuse an unknown key that is nearly one that the project lacks; any other stays in the file."""
+    for key in extra:
+        if near := did_you_mean(str(key), lacking):
+            raise ParameterFileError(
+                path, document.line((key,)), f"{quoted(str(key))}: there is no such key{near}"
+            )
 
 
 def _texts(path: Path, document: YamlDocument) -> dict[str, str]:

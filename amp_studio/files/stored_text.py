@@ -38,9 +38,13 @@ def storage_text(file: ParameterFile, address: Address) -> str:
         return _single_text(parameter, value, turns=file.evaluation.turns(address))
     text = write_number(stored)
     if storage is None or storage.words == 1:
-        is_number = isinstance(value.value, (int, float)) and not isinstance(value.value, bool)
-        return "" if is_number and stored == value.value else text
+        return "" if _is_as_stored(value, stored) else text
     return _words_text(file, address, stored, storage.unit or value.unit)
+
+
+def _is_as_stored(value: Value, stored: float) -> bool:
+    is_number = isinstance(value.value, (int, float)) and not isinstance(value.value, bool)
+    return is_number and stored == value.value
 
 
 def _words_text(file: ParameterFile, address: Address, stored: float, unit: str) -> str:

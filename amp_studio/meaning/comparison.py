@@ -68,9 +68,13 @@ def _rows_of_axes(machines: Sequence[MachineMeaning]) -> Iterator[MeaningRow]:
         axes = [_axis_of(machine, letter) for machine in machines]
         turns = any(axis is not None and axis.turns for axis in axes)
         for concept in OF_AXIS:
-            figures = [axis.figures.get(concept) if axis else None for axis in axes]
-            values = tuple(figure.value if figure else None for figure in figures)
+            values = tuple(_value_of(axis, concept) for axis in axes)
             yield MeaningRow(concept, letter, values, _unit(concept, turns=turns))
+
+
+def _value_of(axis: AxisMeaning | None, concept: str) -> ConceptValue | None:
+    figure = axis.figures.get(concept) if axis else None
+    return figure.value if figure else None
 
 
 def _axis_of(machine: MachineMeaning, letter: str) -> AxisMeaning | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from itertools import product
+from itertools import product, starmap
 from typing import Literal
 
 from amp_studio.drawing import Drag, FilledArea, Handle, Point, Polyline, Scale, Scene, ShapeSort, Text
@@ -253,9 +253,8 @@ def _draw_box(
                 drag = _edge_drag(figures, figure, ends, n, views[n])
                 handles[n, k] = figures.handle(figure, middle, drag)
     drawing.handles += handles.values()
-    for k, m in product((0, 1), repeat=2):
-        if (0, k) in handles and (1, m) in handles:
-            drawing.handles.append(_corner(handles[0, k], handles[1, m]))
+    along_x, along_y = ([handles[key] for key in handles if key[0] == n] for n in (0, 1))
+    drawing.handles += starmap(_corner, product(along_x, along_y))
 
 
 def _paint(row: list[_Ends], sort: ShapeSort) -> ShapeSort:

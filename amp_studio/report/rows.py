@@ -10,6 +10,7 @@ from amp_studio.schema import (
     MASKED,
     Address,
     Bit,
+    MachineSchema,
     Parameter,
     StateInfo,
     UnitError,
@@ -105,7 +106,7 @@ def row_of(
     return ReportRow(
         id=address[0],
         instance=address[1],
-        number="" if here.is_disputed(address[0]) else here.number(address) or "",
+        number=_number_of(here, address),
         name=parameter.name,
         group=schema.group_of[address[0]].name,
         place=place_of(file, address) if place is None else place,
@@ -130,6 +131,11 @@ def row_of(
         data=data,
         default_data=data_of(parameter, _converted(default, unit)),
     )
+
+
+def _number_of(here: MachineSchema, address: Address) -> str:
+    """Return the number as the manual has it; "" where it prints one by mistake, or none."""
+    return "" if here.is_disputed(address[0]) else here.number(address) or ""
 
 
 def _unit_of_entry(file: ParameterFile, address: Address) -> str:

@@ -73,9 +73,12 @@ def _of_spindle(file: ParameterFile, law: Law, scenario: Scenario) -> MotionChec
     return None if checked.verdict == "not possible" and not checked.params else checked
 
 
+def _letter_of(file: ParameterFile, axis: str | None) -> str:
+    return "" if axis is None else axis_name(file.evaluation, axis) or axis
+
+
 def _checked(file: ParameterFile, law: Law, scenario: Scenario, axis: str | None) -> MotionCheck:
-    instance = axis or ""
-    letter = axis_name(file.evaluation, instance) or instance if instance else ""
+    instance, letter = axis or "", _letter_of(file, axis)
     try:
         trace, assumed = _run(file, scenario, axis)
     except SimulationError as error:

@@ -45,29 +45,30 @@ def picture_of(trace: Trace, before: Trace | None = None, chart: str = CHARTS[0]
     """
     if before is not None and next(iter(before.columns)) != next(iter(trace.columns)):
         before = None
-    if chart != CHARTS[0] and "open_gain_db_model" in trace.columns:
-        picture = nyquist(trace, before) if chart == "nyquist" else nichols(trace, before)
-    elif "frequency_hz" in trace.columns:
-        picture = _bode(trace, before)
-    elif "inertia_share" in trace.columns:
-        picture = tuned(trace)
-    elif "radius_deviation" in trace.columns:
-        picture = _ballbar(trace, before)
-    elif trace.over:
-        picture = sweep_picture(trace)
-    elif "predicted_torque" in trace.columns:
-        picture = _fit(trace)
-    elif trace.areas:
-        picture = _plan(trace)
-    else:
-        picture = _motion(trace, before)
     return replace(
-        picture,
+        _drawn(trace, before, chart),
         title=_title(trace),
         facts=_facts(trace),
         has_alarm=bool(trace.alarms),
         assumed=tuple(a.removeprefix("ASSUMED: ") for a in trace.assumptions if a.startswith("ASSUMED")),
     )
+
+
+def _drawn(trace: Trace, before: Trace | None, chart: str) -> Picture:
+    """Return the picture of the columns that a trace has."""
+    if chart != CHARTS[0] and "open_gain_db_model" in trace.columns:
+        return nyquist(trace, before) if chart == "nyquist" else nichols(trace, before)
+    if "frequency_hz" in trace.columns:
+        return _bode(trace, before)
+    if "inertia_share" in trace.columns:
+        return tuned(trace)
+    if "radius_deviation" in trace.columns:
+        return _ballbar(trace, before)
+    if trace.over:
+        return sweep_picture(trace)
+    if "predicted_torque" in trace.columns:
+        return _fit(trace)
+    return _plan(trace) if trace.areas else _motion(trace, before)
 
 
 def _title(trace: Trace) -> str:

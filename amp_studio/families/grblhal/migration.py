@@ -59,9 +59,9 @@ class _Settings:
     def _letter(self, axis: AxisMeaning) -> str:
         """Return the letter of an axis; asked for where it has none of its kind, "" while that is open."""
         taken = [a.letter for a in self.machine.axes if a is not axis]
-        if axis.letter in LETTERS and (axis.letter in _TURNING) == axis.turns and axis.letter not in taken:
-            return axis.letter
         free = [x for x in LETTERS if (x in _TURNING) == axis.turns and x not in taken]
+        if axis.letter in free:
+            return axis.letter
         what = "turns" if axis.turns else "does not turn"
         sources = axis.figures["kind"].sources if "kind" in axis.figures else ()
         question = MigrationQuestion(

@@ -94,10 +94,10 @@ class _Migration:
     def _letter(self, axis: AxisMeaning) -> str:
         """Return the letter of an axis; LinuxCNC turns A, B and C, and no other (X44)."""
         taken = [a.letter for a in self.machine.axes if a is not axis]
-        if axis.letter in LETTERS and (axis.letter in _TURNING) == axis.turns and axis.letter not in taken:
+        free = [x for x in LETTERS if (x in _TURNING) == axis.turns and x not in taken]
+        if axis.letter in free:
             return axis.letter
         what = "turns" if axis.turns else "does not turn"
-        free = [x for x in LETTERS if (x in _TURNING) == axis.turns and x not in taken]
         source = axis.figures["kind"].sources if "kind" in axis.figures else ()
         question = MigrationQuestion(
             f"letter.{axis.letter}",

@@ -131,19 +131,12 @@ def spindle_of(machine: BoundMachine, settings: Settings) -> Spindle:
 def _geared(spindle: Spindle, settings: Settings, speed: float) -> tuple[Gear | None, list[str], list[Alarm]]:
     """Return the gear, notes, and the alarm where none has the speed."""
     notes: list[str] = []
-    given = settings.get("move.gear")
-    present = None if given is None else f"{given:g}" if isinstance(given, float) else str(given)
+    present = _name_of_gear(settings.get("move.gear"))
     if spindle.refusal:
         notes.append(spindle.refusal)
         return None, notes, [Alarm(spindle.no_gear, 0.0, spindle.refusal)]
     if spindle.clipped:
-        gear = spindle.gears[0]
-        if not gear.low <= abs(speed) <= gear.high and speed != 0.0:
-            notes.append(
-                f"{value_text(abs(speed), 'rpm')} is outside of {value_text(gear.low, 'rpm')} to"
-                f" {value_text(gear.high, 'rpm')}: the nearest end is used ({page_text(spindle.page)})."
-            )
-        return gear, notes, []
+        return spindle.gears[0], _clipped(spindle, speed), []
     found: Gear | None
     if speed == 0.0:
         found, assumption = (spindle.gear_for(spindle.gears[0].low, present)[0] or spindle.gears[0]), ""
@@ -159,6 +152,22 @@ def _geared(spindle: Spindle, settings: Settings, speed: float) -> tuple[Gear | 
         text = f"{where} {value_text(abs(speed), 'rpm', 6)} ({ranges} rpm; {page_text(spindle.page)})"
         return None, notes, [Alarm(spindle.no_gear, 0.0, text)]
     return found, notes, []
+
+
+def _clipped(spindle: Spindle, speed: float) -> list[str]:
+    """Return the note that a speed outside of the one range is taken to its nearest end."""
+    gear = spindle.gears[0]
+    if gear.low <= abs(speed) <= gear.high or speed == 0.0:
+        return []
+    allowed = f"{value_text(gear.low, 'rpm')} to {value_text(gear.high, 'rpm')}"
+    end = f"the nearest end is used ({page_text(spindle.page)})"
+    return [f"{value_text(abs(speed), 'rpm')} is outside of {allowed}: {end}."]
+
+
+def _name_of_gear(given: object) -> str | None:
+    if given is None:
+        return None
+    return f"{given:g}" if isinstance(given, float) else str(given)
 
 
 def ramp_time(before: float, after: float, gear: Gear) -> float:

@@ -194,12 +194,12 @@ class DifferenceTable(QTreeWidget):
             item.setFont(column, font("text", own=is_taken))
             item.setForeground(column, colour("text" if is_taken else "dim"))
         if row.is_fixed:
-            item.setText(MIND, self.tr("stays") if self._is_narrow else self.tr("stays as it is"))
+            item.setText(MIND, self._by_width(self.tr("stays"), self.tr("stays as it is")))
         elif not row.takes_file:
-            item.setText(MIND, self.tr("kept") if self._is_narrow else self.tr("the control's value stays"))
+            item.setText(MIND, self._by_width(self.tr("kept"), self.tr("the control's value stays")))
             item.setIcon(MIND, icon("circle", "panel"))
         elif row.dangers:
-            words = self.tr("danger") if self._is_narrow else self.tr("danger, page {page}")
+            words = self._by_width(self.tr("danger"), self.tr("danger, page {page}"))
             item.setText(MIND, words.format(page=row.dangers[0].page))
             item.setIcon(MIND, severity_icon("error"))
         else:
@@ -208,6 +208,9 @@ class DifferenceTable(QTreeWidget):
         item.setData(
             0, Qt.ItemDataRole.AccessibleTextRole, f"{item.text(NUMBER)} {item.text(NAME)}, {spoken}"
         )
+
+    def _by_width(self, short: str, whole: str) -> str:
+        return short if self._is_narrow else whole
 
     # -- sides -------------------------------------------------------------------
 

@@ -269,18 +269,15 @@ class FindingsPanel(QWidget):
         or the one that took its place.
         """
         workspace = self._workspace
-        waiting = [finding for finding in workspace.findings if self._is_withheld(finding)]
         reached = [finding for finding in workspace.findings if not self._is_withheld(finding)]
         suppressed = workspace.validator.suppressed
-        listed = [finding for finding in reached if self._is_listed(finding)]
+        listed = [*filter(self._is_listed, reached)]
         if self.suppressed.isChecked():
             listed += map(self._suppressed_finding, suppressed)
-        self._count(reached, len(waiting), len(suppressed))
+        self._count(reached, len(workspace.findings) - len(reached), len(suppressed))
         self._sum_up()
         self._delegate.may_edit = workspace.may_edit
-        opened = {
-            g.key for n, g in enumerate(self.model.groups) if self.view.isExpanded(self.model.index(n, 0))
-        }
+        opened = self._opened()
         current = self.view.currentIndex()
         group, finding = ("", None)
         if current.isValid():
@@ -294,6 +291,11 @@ class FindingsPanel(QWidget):
         self.setFocusProxy(self.view if self.model.groups else self.empty)
         if not self.model.groups:
             self._say_why_empty(len(reached))
+
+    def _opened(self) -> set[str]:
+        """Return the keys of the groups that are folded out."""
+        groups = enumerate(self.model.groups)
+        return {group.key for n, group in groups if self.view.isExpanded(self.model.index(n, 0))}
 
     def _expand(self, opened: set[str]) -> None:
         for n, group in enumerate(self.model.groups):

@@ -180,20 +180,22 @@ class DetailPage(Translated):
             lines.append(f'<p><a href="{CALCULATE}">{self.tr("Calculate…")}</a></p>')
         return "".join(lines)
 
+    def _finding_line(self, finding: Finding) -> str:
+        source = html.escape(worded(finding.cited, family_of_rule(finding.rule)))
+        cited = f' <span style="color:{colour("dim").name()}">{source}</span>' if source else ""
+        if self._workspace.is_deferred(finding):
+            mark = f"<b>{self.tr('As delivered:')}</b>"
+        else:
+            name = worded(severity_name(finding.severity)).capitalize()
+            mark = f"{severity_html(finding.severity)} <b>{name}:</b>"
+        return f"<p>{mark} {html.escape(finding_in_words(finding))}{cited}</p>"
+
     def _rules(self, address: Address) -> tuple[str, str]:
         """Return the title and the rules: those that are not met with what is wrong, then those that are."""
-        workspace, lines = self._workspace, []
+        workspace, lines = self._workspace, list[str]()
         dim = colour("dim").name()
         broken = self.findings(address)
-        for finding in broken:
-            source = html.escape(worded(finding.cited, family_of_rule(finding.rule)))
-            cited = f' <span style="color:{dim}">{source}</span>' if source else ""
-            if workspace.is_deferred(finding):
-                mark = f"<b>{self.tr('As delivered:')}</b>"
-            else:
-                name = worded(severity_name(finding.severity)).capitalize()
-                mark = f"{severity_html(finding.severity)} <b>{name}:</b>"
-            lines.append(f"<p>{mark} {html.escape(finding_in_words(finding))}{cited}</p>")
+        lines += map(self._finding_line, broken)
         rules = workspace.validator.rules_of(address)
         unmet = {finding.rule for finding in broken}
         met = [rule for rule in rules if rule.id not in unmet]

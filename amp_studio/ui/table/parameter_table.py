@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
-from itertools import groupby
+from itertools import chain, groupby
 from typing import Any
 
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, Qt, Signal
@@ -173,7 +173,8 @@ class ParameterTable(QAbstractTableModel):
         if file.machine != self._machine:
             self._machine, self._layouts, self._needed = file.machine, {}, None
         if self._needed is None:
-            self._needed = dict.fromkeys(c for p in self.asked for row in self._layout(p) for c in row.cells)
+            rows = chain.from_iterable(map(self._layout, self.asked))
+            self._needed = dict.fromkeys(chain.from_iterable(row.cells for row in rows))
         columns = list(self._needed)
         if not self.shows_every_axis and file.schema.family.fits_axes:
             listed = set(shown_axes(file))

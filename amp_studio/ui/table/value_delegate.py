@@ -244,24 +244,26 @@ class ValueDelegate(QStyledItemDelegate):
 
     def eventFilter(self, editor: QObject, event: QEvent) -> bool:
         if isinstance(editor, ChoiceBox):
-            if event.type() == QEvent.Type.FocusOut and editor.view().isVisible():
-                return False  # the open list takes the focus; the editor must stay
-            keys = (Qt.Key.Key_Return, Qt.Key.Key_Enter)
-            if event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent) and event.key() in keys:
-                self.commitData.emit(
-                    editor
-                )  # Qt would do so after the event, when the list may have closed it
-                self._close(editor)
-                return True
-        elif isinstance(editor, CellEditor) and editor.is_gone:
+            return self._filter_of_choice(editor, event)
+        if isinstance(editor, CellEditor) and editor.is_gone:
             return False
-        elif isinstance(editor, CellEditor) and event.type() == QEvent.Type.KeyPress:
+        if isinstance(editor, CellEditor) and event.type() == QEvent.Type.KeyPress:
             assert isinstance(event, QKeyEvent)
             if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
                 self.ended.emit(event.modifiers().value, editor)
                 return True
             if event.key() in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
                 return not self.take(editor) or super().eventFilter(editor, event)
+        return super().eventFilter(editor, event)
+
+    def _filter_of_choice(self, editor: ChoiceBox, event: QEvent) -> bool:
+        if event.type() == QEvent.Type.FocusOut and editor.view().isVisible():
+            return False  # the open list takes the focus; the editor must stay
+        keys = (Qt.Key.Key_Return, Qt.Key.Key_Enter)
+        if event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent) and event.key() in keys:
+            self.commitData.emit(editor)  # Qt would do so after the event, when the list may have closed it
+            self._close(editor)
+            return True
         return super().eventFilter(editor, event)
 
     def take(self, editor: CellEditor) -> bool:
