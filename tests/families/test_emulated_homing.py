@@ -17,7 +17,8 @@ from amp_studio.families.servo57c422b.lines.content import (
     written_content,
 )
 from amp_studio.files import ParameterFile
-from amp_studio.sim import simulate
+from amp_studio.schema import Value
+from amp_studio.sim import FileMachine, bind_axis, law_of, simulate
 from tests.families.acromill.lines.bench import CardBench
 from tests.families.grblhal.test_emulated_motion import Bench as GrblBench
 from tests.families.ninepc.test_emulated_machine_keys import Bench as PanelBench
@@ -108,3 +109,30 @@ def test_a_grbl_reports_the_place_of_the_simulation(tmp_path: Path) -> None:
     assert found == [
         pytest.approx(stop_of(file, axis), abs=0.0125) for axis in "XYZ"
     ]  # a step of 80 for 1 mm
+
+
+@pytest.mark.parametrize(
+    ("name", "axis", "limit", "value", "speed"),
+    [
+        ("mill-1394", "1", "servo.excess_error", Value(1.0, "mm"), "highest"),
+        ("num-1060-mill", "0", "servo.max_following_error", Value(500, "iu"), "normal"),
+    ],
+)
+def test_a_following_error_stops_both_with_the_same_words_and_they_run_out_alike(
+    name: str, axis: str, limit: str, value: Value, speed: str
+) -> None:
+    """A drive that is off lets the axis run on: an emulated axis froze half a second after the fault."""
+    file = example(name)
+    file.set((limit, axis), value)
+    trace = simulate(file, "jog", axis, {"move.speed": speed}, advise=False)
+    machine = FileMachine(law_of(file.schema.family.family), bind_axis)
+    machine.take(file)
+    machine.jog(axis, 1.0, speed)
+    left = float(trace.columns["time_s"][-1])
+    while left > 0.0:
+        machine.advance(min(0.1, left))
+        left -= 0.1
+    stopped = next(machine.axes())
+    assert stopped.alarm == (trace.alarms[0].code, trace.alarms[0].message)
+    scan = abs(trace.columns["velocity"][-1]) / 60.0 * 0.02  # what it goes on in a slice
+    assert stopped.position == pytest.approx(trace.columns["position"][-1], abs=scan + 1e-4)

@@ -48,8 +48,7 @@ def _measurement(machine: BoundMachine, axis: AxisLaw, letter: str) -> MachineTe
         MachineTestStep(
             "E-stop pressed, control on, utility 5: declare the axis in P2, P25 and P26, and none in P3;"
             f" enter P11 ({multi:g} / {divi:g}), P34 and P36; leave utility 5",
-            f"no error 210 to 241 on the AXIS page, here {210 + int(axis.axis)} for {letter}; only the"
-            " measurement is shown",
+            "no error 210 to 241 on the AXIS page, where only the measurement is shown",
         ),
         MachineTestStep(
             f"Turn axis {letter} by hand in both directions",
@@ -81,7 +80,7 @@ def _servo_loop(machine: BoundMachine, axis: AxisLaw, letter: str) -> MachineTes
         ),
         MachineTestStep(
             f"Declare axis {letter} in P3 alone and switch the control on",
-            f"the axis does not move, and error {40 + int(axis.axis)} does not come; else switch off and"
+            f"the axis does not move, and no error 40 to 71 comes; else switch off and"
             f" change bit {axis.axis} of P10",
         ),
         MachineTestStep(
@@ -249,7 +248,7 @@ def _of_speed(machine: BoundMachine, axis: AxisLaw, letter: str, speed: float) -
     return (
         MachineTestStep(
             f"Home axis {letter}, potentiometer at 100 %, mode AUTO, and press CYCLE",
-            f"error {40 + int(axis.axis)} does not come; else look at P56",
+            "no error 40 to 71 comes; else look at P56",
         ),
         MachineTestStep(
             "Read the ERROR column of the AXIS page at the steady speed",

@@ -196,6 +196,7 @@ class SimulatedAxis:
         """Stop at a limit, and note what the law stopped for."""
         if self._moving.stop_number > 0 and self.alarm is None:
             self.alarm, self.is_enabled = self.law.alarms.get(self._moving.stop_number), False
+            self._left = COAST  # without its drive it runs out, as after an E-stop
         travel = self.travel
         if travel is None or not self.is_enabled or self.alarm is not None or not self.is_busy:
             return
