@@ -28,7 +28,7 @@ def test_a_family_with_fixed_axes_shows_it_before_ok(dialog) -> None:
     new = dialog("57c422b")
     assert not new.form.editors["axes"].isEnabled()
     assert (
-        new.form.answer("note")
+        new.form.answer("hint")
         == "Reliance 57C422B 2-Axis Servo Module always has the axes X and Y (page 4-1)."
     )
     assert new.ok.isEnabled()
@@ -65,9 +65,9 @@ def test_axes_that_cannot_be_are_refused_while_they_are_typed(dialog, family: st
 
 def test_where_the_axes_are_written_is_shown_with_the_page(dialog) -> None:
     new = dialog("num")
-    assert "Axis Assignment to a Group, Number of CNC Axis Groups, Measured Axes" in new.form.answer("note")
-    assert "(page 4-24)" in new.form.answer("note")
-    assert "X.2 is X of group 2" in new.form.answer("note")
+    assert "Axis Assignment to a Group, Number of CNC Axis Groups, Measured Axes" in new.form.answer("hint")
+    assert "(page 4-24)" in new.form.answer("hint")
+    assert "X.2 is X of group 2" in new.form.answer("hint")
 
 
 def test_another_family_changes_what_is_offered(dialog) -> None:
@@ -87,13 +87,13 @@ def test_a_file_like_an_example_has_its_values_but_not_its_notes(dialog) -> None
     example = next(e for e in examples() if e.family == "9pc")
     new.form.set_answer("like", example.path)
     assert not new.form.editors["axes"].isEnabled()
-    assert example.path.name in new.form.answer("note")
+    assert example.path.name in new.form.answer("hint")
     new.form.set_answer("name", "MINE")
     made = new.make()
     assert (made.header.name, made.header.notes) == ("MINE", "")
     assert made.values == new_like(on_disk(example.path), "MINE").values
     assert not [a for a in made.values if a[0] == "password.character"], "passwords stay with their machine"
-    assert "Home Calibration" in new.form.answer("note"), "it is named what is not taken over"
+    assert "Home Calibration" in new.form.answer("hint"), "it is named what is not taken over"
 
 
 def test_a_file_like_one_of_mine(dialog, path: Path, user: User) -> None:
