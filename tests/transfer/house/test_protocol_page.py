@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import math
 import re
+import socket
 import struct
 import zlib
 from collections.abc import Callable, Iterator
@@ -203,3 +205,72 @@ def test_the_numbers_of_the_page_are_those_of_the_program(page: str) -> None:
 
 
 # -- the other end, from the page alone ------------------------------------------------------------
+
+
+class PageClient:
+    """A client written from the page, sharing no code with the program: one piece at a time."""
+
+    def __init__(self, host: str, port: int) -> None:
+        self.socket = socket.create_connection((host, port), timeout=60)
+        self.socket.sendall(b"\x00")
+        self.number = 0
+
+    def ask(self, kind: int, payload: bytes = b"") -> tuple[int, bytes]:
+        self.number += 1
+        body = struct.pack("<BH", kind, self.number) + payload
+        body += struct.pack("<I", zlib.crc32(body))
+        groups = [b""]
+        for run in (body + b"\x00").split(b"\x00")[:-1]:
+            whole = len(run) // 254 * 254
+            groups += [b"\xff" + run[at : at + 254] for at in range(0, whole, 254)]
+            groups.append(bytes([len(run) - whole + 1]) + run[whole:])
+        self.socket.sendall(b"".join(groups) + b"\x00")
+        return self.answer()
+
+    def answer(self) -> tuple[int, bytes]:
+        encoded = b""
+        while (byte := self.socket.recv(1)) != b"\x00":
+            assert byte, "the control has hung up"
+            encoded += byte
+        body, at = b"", 0
+        while at < len(encoded):
+            code = encoded[at]
+            body += encoded[at + 1 : at + code]
+            at += code
+            if code != 255 and at < len(encoded):
+                body += b"\x00"
+        assert struct.unpack("<I", body[-4:])[0] == zlib.crc32(body[:-4])
+        kind, number = struct.unpack("<BH", body[:3])
+        assert number == self.number
+        return kind, body[3:-4]
+
+
+def test_a_client_written_from_the_page_alone_downloads(emulate: Callable[..., Any], tmp_path: Path) -> None:
+    old, new = b"old image\n", bytes(range(256)) * 7
+    emulated = emulate(tmp_path, initial=old.decode())
+    client = PageClient("127.0.0.1", int(emulated.address.rsplit(":", 1)[1]))
+
+    kind, welcome = client.ask(0x01, b"\x01" + b"\x09\x08\x07\x06" + b"\x04page")
+    assert (kind, welcome[:5]) == (0x81, b"\x01\x09\x08\x07\x06")
+    texts, at = [], 5
+    for _ in range(4):
+        texts.append(welcome[at + 1 : at + 1 + welcome[at]].decode())
+        at += 1 + welcome[at]
+    flags, incarnation, size, digest, _, chunk = struct.unpack("<BII32sBH", welcome[at:])
+    assert texts == ["9pc", "s1", "CNC_1", "3.05"]
+    assert (flags, size, digest) == (1 + 2 + 8, len(old), hashlib.sha256(old).digest())
+
+    assert client.ask(0x06) == (0x87, struct.pack("<I", len(old)) + digest)
+    assert client.ask(0x07, struct.pack("<IH", 0, len(old))) == (0x04, struct.pack("<I", 0) + old)
+
+    transfer, target = b"sixteen bytes id", hashlib.sha256(new).digest()
+    opening = transfer + struct.pack("<I", len(new)) + target + digest + b"\x02s1"
+    assert client.ask(0x03, opening) == (0x83, struct.pack("<I", 0))
+    for start in range(0, len(new), chunk):
+        kind, reached = client.ask(0x04, struct.pack("<I", start) + new[start : start + chunk])
+        assert (kind, reached) == (0x84, struct.pack("<I", min(start + chunk, len(new))))
+    kind, committed = client.ask(0x05, transfer + target)
+    assert (kind, committed) == (0x86, transfer + target + struct.pack("<I?", incarnation, True))
+    assert emulated.hear() == "restarted 2"
+    assert (tmp_path / "active.img").read_bytes() == new
+    client.socket.close()

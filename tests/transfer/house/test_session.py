@@ -8,7 +8,9 @@ from typing import Any
 
 import pytest
 
+from amp_studio.transfer.emulated.faults import Faults
 from amp_studio.transfer.errors import CancelledError
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.house.frame import encode_frame
 from amp_studio.transfer.house.message import Ack, Flags, pack
 from tests.transfer.images import NEW, OLD, send, sha
@@ -37,6 +39,28 @@ def test_an_image_goes_there_and_comes_back(rig: Callable[..., Any], control: Ca
     assert made.control.memory.read("previous.img") == OLD
 
 
+def test_progress_is_reported_to_the_last_byte(rig: Callable[..., Any], control: Callable[..., Any]) -> None:
+    reported: list[tuple[str, int, int]] = []
+    session = rig(control=control()).session()
+    session.fetch(Exchange(lambda *step: reported.append(step)))
+    send(session, progress=lambda *step: reported.append(step))
+    for stage, total in (("upload", len(OLD)), ("download", len(NEW)), ("commit", 1)):
+        steps = [done for name, done, _ in reported if name == stage]
+        assert steps == sorted(steps)
+        assert steps[-1] == total
+        assert {of for name, _, of in reported if name == stage} == {total}
+
+
+def test_an_empty_image_is_an_image_too(rig: Callable[..., Any], new_control: Callable[..., Any]) -> None:
+    session = rig(control=new_control(initial=b"")).session()
+    assert session.fetch() == b""
+    send(session, NEW, b"")
+    session.wait_restarted(1, 10)
+    send(session, b"", NEW)
+    session.wait_restarted(2, 10)
+    assert session.fetch() == b""
+
+
 # -- cancel and restart ----------------------------------------------------------------------------
 
 
@@ -59,6 +83,20 @@ def test_a_cancel_in_the_middle_leaves_the_old_image_and_nothing_staged(
     assert made.control.image == OLD
     assert not [name for name in made.control.memory.names() if name.startswith("staged-")]
     assert made.clock.now - cancelled_at[0] < 0.6
+
+
+def test_a_cancel_of_an_upload_and_of_a_waiting_session(
+    rig: Callable[..., Any], control: Callable[..., Any]
+) -> None:
+    cancel = threading.Event()
+    cancel.set()
+    made = rig(control=control())
+    with pytest.raises(CancelledError):
+        made.session().fetch(Exchange(cancel=cancel))
+    made = rig(Faults(silent=True), control=control())
+    with pytest.raises(CancelledError):
+        made.session().hello(Exchange(cancel=cancel))
+    assert made.clock.now < 0.2
 
 
 def test_a_cancel_after_the_commit_was_asked_for_comes_too_late(

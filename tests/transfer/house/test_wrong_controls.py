@@ -12,6 +12,7 @@ from amp_studio.transfer.client.exchange import upload
 from amp_studio.transfer.emulated.faults import Faults
 from amp_studio.transfer.emulated.responder import Responder
 from amp_studio.transfer.errors import (
+    ControlBusyError,
     ControlFullError,
     ControlSilentError,
     ImageChangedError,
@@ -24,9 +25,21 @@ from amp_studio.transfer.errors import (
     TransferError,
     WrongFamilyError,
 )
-from amp_studio.transfer.exchange import Replacement
+from amp_studio.transfer.exchange import Exchange, Replacement
 from amp_studio.transfer.house.driver import HouseDriver
-from amp_studio.transfer.house.message import Ack, Code, Data, Gap, Hello, Message, OpenUpload, Read, Refused
+from amp_studio.transfer.house.frame import Frame, encode_frame
+from amp_studio.transfer.house.message import (
+    Ack,
+    Code,
+    Data,
+    Gap,
+    Hello,
+    Message,
+    OpenUpload,
+    Read,
+    Refused,
+    pack,
+)
 from amp_studio.transfer.links.link import LinkError
 from tests.transfer.images import NEW, OLD, send
 
@@ -79,6 +92,22 @@ def test_another_control_after_the_commit_was_asked_for_leaves_the_end_unknown(
     assert caught.value.at_control == "unknown"
 
 
+def test_a_line_begins_with_the_end_of_whatever_was_there_before(
+    rig: Callable[..., Any], control: Callable[..., Any]
+) -> None:
+    made = rig(control=control())
+    connect = made.modem.connect
+
+    def after_garbage() -> Any:
+        link = connect()
+        link.write(b"half a frame")
+        return link
+
+    made.modem.connect = after_garbage
+    made.session().hello()
+    assert made.clock.now == 0, "the first Hello was understood"
+
+
 @pytest.mark.parametrize(
     ("prepare", "kind"),
     [
@@ -115,6 +144,15 @@ def test_another_schema_is_refused_by_the_control_too(
         rig(control=control()).session().send(Replacement(NEW, OLD, "s2"))
 
 
+def test_a_full_control_is_shown_to_be_full_on_a_dirty_line_too(
+    rig: Callable[..., Any], control: Callable[..., Any]
+) -> None:
+    made = rig(Faults(corrupt_every=211), control=control())
+    made.control.memory.full_at = 100
+    with pytest.raises(ControlFullError, match="cannot store"):
+        send(made.session())
+
+
 def test_estop_released_before_the_commit(rig: Callable[..., Any], control: Callable[..., Any]) -> None:
     made = rig(control=control())
 
@@ -143,6 +181,48 @@ def test_a_control_that_has_lost_what_was_staged_gets_it_again(
     assert made.control.image == NEW
 
 
+def test_a_control_that_begins_again_unnoticed_is_asked_again(
+    rig: Callable[..., Any], new_control: Callable[..., Any]
+) -> None:
+    """On a serial line nobody sees the other end go: it just does not know of anything open any more."""
+    made = rig(control=new_control(initial=OLD * 5))
+    session = made.session()
+    session.hello()
+    forgotten, reached = [], []
+
+    def forget(stage: str, done: int, total: int) -> None:
+        reached.append(done)
+        if done > total // 3 and stage not in forgotten:
+            forgotten.append(stage)
+            responder = session._line._talk.link._link._responder
+            responder._copy = responder._transfer = None
+
+    assert session.fetch(Exchange(forget)) == OLD * 5
+    assert reached == sorted(reached), "nothing was read twice"
+    reached.clear()
+    send(session, NEW * 3, OLD * 5, progress=forget)
+    assert forgotten == ["upload", "download", "commit"]
+    assert made.control.image == NEW * 3
+    assert made.modem.lines == 1
+
+
+def test_staged_bytes_that_rot_are_noticed_and_sent_again(
+    rig: Callable[..., Any], control: Callable[..., Any]
+) -> None:
+    made = rig(control=control())
+    rotten = []
+
+    def rot(stage: str, done: int, total: int) -> None:
+        if stage == "commit" and done == 0 and not rotten:
+            (part,) = made.control.memory.folder.glob("staged-*.part")
+            part.write_bytes(b"?" * len(NEW))
+            rotten.append(part)
+
+    send(made.session(), progress=rot)
+    assert rotten
+    assert made.control.image == NEW
+
+
 @pytest.mark.parametrize(("there", "at_control"), [(b"somebody's\n", "unknown"), (NEW, "new")])
 def test_a_download_by_another_client_while_the_line_was_cut_is_not_claimed(
     rig: Callable[..., Any],
@@ -166,6 +246,40 @@ def test_a_download_by_another_client_while_the_line_was_cut_is_not_claimed(
     with pytest.raises(ImageChangedError) as caught:
         send(rig(control=control()).session())
     assert caught.value.at_control == at_control
+
+
+class OnlyInOrder(Responder):
+    """A control that keeps no early pieces, as the page allows."""
+
+    def _data(self, data: Data) -> Message:
+        staged = self.control.staged_size
+        return Gap(staged) if data.offset > staged else super()._data(data)
+
+
+def test_a_control_that_keeps_nothing_early_is_served_too(
+    rig: Callable[..., Any], control: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tests.transfer.null_modem.Responder", OnlyInOrder)
+    made = rig(Faults(corrupt_every=307), control=control(), bytes_per_second=11_520)
+    send(made.session())
+    assert made.control.image == NEW
+
+
+class Stuck(Responder):
+    """A control that answers everything and gets nowhere."""
+
+    def _data(self, data: Data) -> Message:
+        return Gap(0)
+
+
+def test_a_control_that_gets_nowhere_is_given_up(
+    rig: Callable[..., Any], control: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tests.transfer.null_modem.Responder", Stuck)
+    made = rig(control=control(), bytes_per_second=11_520)
+    with pytest.raises(ControlSilentError):
+        send(made.session())
+    assert made.control.image == OLD
 
 
 class Wrong(Responder):
@@ -212,18 +326,31 @@ def test_a_control_that_does_not_keep_to_the_protocol_is_not_believed(
     assert made.clock.now < 120
 
 
-class Stuck(Responder):
-    """A control that answers everything and gets nowhere."""
-
-    def _data(self, data: Data) -> Message:
-        return Gap(0)
-
-
-def test_a_control_that_gets_nowhere_is_given_up(
+def test_messages_of_a_later_version_are_passed_over(
     rig: Callable[..., Any], control: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("tests.transfer.null_modem.Responder", Stuck)
-    made = rig(control=control(), bytes_per_second=11_520)
-    with pytest.raises(ControlSilentError):
+    class Talkative(Responder):
+        def receive(self, data: bytes) -> bytes:
+            return encode_frame(Frame(0xE0, 1, b"news")) + super().receive(data)
+
+    monkeypatch.setattr("tests.transfer.null_modem.Responder", Talkative)
+    assert rig(control=control()).session().fetch() == OLD
+
+
+class Busy(Responder):
+    """A control that another client has."""
+
+    def receive(self, data: bytes) -> bytes:
+        return encode_frame(pack(Refused(Code.BUSY, "another client has the control"), 0))
+
+
+def test_a_busy_control_is_shown_to_be_busy(
+    rig: Callable[..., Any], control: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tests.transfer.null_modem.Responder", Busy)
+    made = rig(control=control())
+    with pytest.raises(ControlBusyError, match="another client"):
+        made.session().hello()
+    with pytest.raises(ControlBusyError, match="another client"):
         send(made.session())
-    assert made.control.image == OLD
+    assert 20 <= made.clock.now < 30, "it was tried again until patience ended"
