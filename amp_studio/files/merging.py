@@ -298,7 +298,8 @@ class Merge:
             setattr(file.header, name, text)
             file.evaluation.forget()  # conditions may name the model of the control
         else:
-            entries = {key: entry for key, entry in getattr(file.header, name).items() if key != inner}
+            entries = dict(getattr(file.header, name))
+            entries.pop(inner, None)
             if name == EXTRA:  # as it is, whatever kind it is of
                 source = self._sources()[self.initial if isinstance(choice, Typed) else choice]
                 if inner in source.header.extra:

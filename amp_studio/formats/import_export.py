@@ -97,8 +97,7 @@ def import_file(
     chosen = _format_for_reading(content, family, format_key)
     text = _decoded(content, chosen)
     schema = load_schema(family or _only_family(chosen, text))
-    if machine and machine not in schema.machines:
-        raise FormatError(unknown_name("machine type", machine, (m.key for m in schema.family.machines)))
+    _refuse_unknown_machine(schema, machine)
     read = chosen.read(text, schema, ReadOptions(keep_unknown, machine, listing, _beside(path)))
     read.machine = read.machine or machine
     for message in read.notes:
@@ -108,6 +107,11 @@ def import_file(
         notify(question)
     take_account(account_of_import(file, read))
     return file
+
+
+def _refuse_unknown_machine(schema: Schema, machine: str) -> None:
+    if machine and machine not in schema.machines:
+        raise FormatError(unknown_name("machine type", machine, (m.key for m in schema.family.machines)))
 
 
 def _machine_of_report(

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 
 _SECTION = re.compile(r"[ \t\r]*\[([^\]]*)\]")
 _KEY = re.compile(r"[ \t\r]*([^\s=;#\[][^\s=]*)[ \t\r]*=[ \t\r]*")
+_CONTENT = re.compile(r"\s*[^\s#;]")
 _INCLUDE = re.compile(r"#INCLUDE[ \t]+(\S.*?)[ \t\r]*$")
 _MOST_INCLUDES = 50
 _MOST_LINES = 20
@@ -114,12 +115,7 @@ class _Reader:
             self._begin(found[1], file, at)
         elif (found := _KEY.match(row)) and self._section is not None:
             self._entry(found, file, rows, at, count)
-        if (
-            not file
-            and self._section is not None
-            and not self._is_again
-            and (row.strip() and row.lstrip()[0] not in "#;")
-        ):
+        if not file and self._section is not None and not self._is_again and _CONTENT.match(row):
             self.last[self._section] = at + count - 1
 
     def _include(self, name: str) -> None:

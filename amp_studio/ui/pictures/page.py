@@ -165,22 +165,22 @@ class PicturesPage(QWidget):
         is_row = self.height() < LOW
         for n, card in enumerate(seen):
             card.small = several
-            if is_large:
-                place = (0, 0, max(len(seen) - 1, 1), 1) if n == 0 else (n - 1, 1, 1, 1)
-            else:
-                place = (0, n, 1, 1) if is_row else (n, 0, 1, 1)
-            self.grid.addWidget(card, *place)
+            self.grid.addWidget(card, *_place_in_grid(n, len(seen), is_large=is_large, is_row=is_row))
             card.show_notes()
+        self._stretch(len(seen), is_large=is_large, is_row=is_row)
+        for card in self.cards.values():
+            card.setVisible(card in seen)
+        self._seen = seen
+
+    def _stretch(self, count: int, *, is_large: bool, is_row: bool) -> None:
+        """Divide the room among the cards of a row or a column, or the large one and those beside it."""
         for column in range(1 + SIDE):
-            used = column < len(seen)
+            used = column < count
             self.grid.setColumnStretch(column, int(used if is_row else column == 0))
             self.grid.setRowStretch(column, int(used and not is_row))
         if is_large:
             self.grid.setColumnStretch(0, 6)
-            self.grid.setColumnStretch(1, 5 if several else 0)
-        for card in self.cards.values():
-            card.setVisible(card in seen)
-        self._seen = seen
+            self.grid.setColumnStretch(1, 5 if count > 1 else 0)
 
     def minimumSizeHint(self) -> QSize:
         """Return room for one picture: more of them go where there is no room."""
@@ -330,3 +330,10 @@ def _handle_of(scene: Scene, address: Address) -> int | None:
     """Return the place of the handle that moves one value alone."""
     owns = ([drag.address for drag in handle.drags] for handle in scene.handles)
     return next((n for n, own in enumerate(owns) if own == [address]), None)
+
+
+def _place_in_grid(n: int, count: int, *, is_large: bool, is_row: bool) -> tuple[int, int, int, int]:
+    """Return row, column and their numbers for the ``n``-th card."""
+    if is_large:
+        return (0, 0, max(count - 1, 1), 1) if n == 0 else (n - 1, 1, 1, 1)
+    return (0, n, 1, 1) if is_row else (n, 0, 1, 1)

@@ -4,7 +4,7 @@ It follows the disk.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
@@ -205,19 +205,16 @@ class ProjectTree(QWidget):
         if kind != "file":
             return
         page, summary = self._window.page_of(path), self._window.summaries.of(path)
-        if page is not None:
-            counts = {s: page.workspace.count(s) for s in _SEVERITIES}
-        else:
-            counts = dict(summary.counts) if isinstance(summary, FileSummary) else {}
-        unsaved = page is not None and page.workspace.is_dirty
-        item.setData(0, PICTURE, ("circle-fill", "chg") if unsaved else ("file", "text" if page else "dim"))
-        item.setData(0, COUNTS, tuple((s, counts[s]) for s in _SEVERITIES if counts.get(s)))
-        item.setData(0, TOKEN, "text" if page is not None else "dim")
+        counts = _counts_of(page, summary)
+        unsaved, tone = page is not None and page.workspace.is_dirty, "dim" if page is None else "text"
+        item.setData(0, PICTURE, ("circle-fill", "chg") if unsaved else ("file", tone))
+        item.setData(0, COUNTS, counts)
+        item.setData(0, TOKEN, tone)
         words = [
             item.text(0),
             self.tr("open") if page else "",
             self.tr("not saved") if unsaved else "",
-            *(f"{counts[s]} {s}" for s in _SEVERITIES if counts.get(s)),
+            *(f"{count} {severity}" for severity, count in counts),
         ]
         if isinstance(summary, str) and page is None:
             item.setData(0, RIGHT, self.tr("cannot be read"))
@@ -333,3 +330,11 @@ def _changed(path: Path) -> str:
         return _words(datetime.fromtimestamp(path.stat().st_mtime, UTC))
     except (OSError, OverflowError, ValueError):
         return ""
+
+
+def _counts_of(page: FilePage | None, summary: FileSummary | str | None) -> tuple[tuple[str, int], ...]:
+    """Return how many findings an open file has now, another one when it was last checked."""
+    counts: Mapping[str, int] = summary.counts if isinstance(summary, FileSummary) else {}
+    if page is not None:
+        counts = {severity: page.workspace.count(severity) for severity in _SEVERITIES}
+    return tuple((severity, counts[severity]) for severity in _SEVERITIES if counts.get(severity))

@@ -305,6 +305,15 @@ class ShownValues(Translated):
             return look
         look.is_own = not file.is_default(address)
         look.is_number = parameter.type in ("real", "integer", "format") and not parameter.choices
+        self._put_text(look, address, value)
+        used = self.effective.get(address)
+        if used is not None:
+            look.text += f" → {self.text(address, used)}"
+        return look
+
+    def _put_text(self, look: CellLook, address: Address, value: Value) -> None:
+        """Put the text of a value into its look: masked, the bits of a word, or in the chosen unit system."""
+        parameter = self.workspace.file.schema.parameters[address[0]]
         if parameter.secret and not self.workspace.secrets:
             look.text = self.text(address, value)
         elif parameter.bits and isinstance(value.value, int):
@@ -313,10 +322,6 @@ class ShownValues(Translated):
             here = self.in_units(address, value)
             assert here is not None
             _show_plain(look, parameter, here if look.is_own else as_written(here))
-        used = self.effective.get(address)
-        if used is not None:
-            look.text += f" → {self.text(address, used)}"
-        return look
 
 
 def _show_word(look: CellLook, parameter: Parameter, word: int) -> None:
