@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 from PySide6.QtCore import QSettings, Qt, QTimer
-from PySide6.QtGui import QAction
+from PySide6.QtGui import QAction, QGuiApplication
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import (
     QAbstractButton,
@@ -123,9 +123,13 @@ class User:
 
 
 @pytest.fixture(autouse=True, scope="session")
-def _english(qapp: QApplication) -> None:
-    """Give the program its forms of numbers: ``1 value``, ``2 values``."""
+def _english(qapp: QApplication) -> Iterator[None]:
+    """Give the program its forms of numbers: ``1 value``, ``2 values``. Leave nothing in the clipboard: what is
+    in it when Python ends is deleted without Python, which is a segmentation fault.
+    """
     speak("en")
+    yield
+    QGuiApplication.clipboard().clear()
 
 
 @pytest.fixture
