@@ -114,7 +114,9 @@ class StepTables:
         numbers = [v.value for v in (*values, file.values[first]) if isinstance(v.value, int | float)]
         if len({value.unit for value in (*values, file.values[first])}) != 1 or len(numbers) != 3:
             return
-        if motion.stroke > numbers[1] - numbers[0] > 0:
+        travel = numbers[1] - numbers[0]
+        # The sums of one direction bound the stroke, and cost nothing: a cam may have 3,830 steps.
+        if 0 < travel < max(motion.forward, motion.backward) and motion.stroke > travel:
             parameters = file.schema.parameters
             stroke, low, high = (
                 show_value(parameters[name], value)
