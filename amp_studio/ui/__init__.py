@@ -37,6 +37,7 @@ def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
         print(f"amp-studio: {MISSING}", file=sys.stderr, flush=True)
         return 2
     from PySide6.QtCore import QTimer
+    from PySide6.QtGui import QGuiApplication
     from PySide6.QtWidgets import QApplication
 
     from .base.task import Task
@@ -66,6 +67,12 @@ def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
     QTimer.singleShot(0, window, begin)  # in the program's loop: who ends it while a file is opened ends it
     code = int(application.exec())
     Task.end_all()  # a system that ends the program without closing its window leaves them running
+    clipboard = QGuiApplication.clipboard()
+    # A platform without a clipboard has one for this process, which it does not call its own.
+    if clipboard.ownsClipboard() or QGuiApplication.platformName() == "offscreen":
+        # What Python has put there, Qt deletes after the end of Python, with a segmentation fault where the
+        # platform has not handed it on: a text alone is Qt's own.
+        clipboard.setText(clipboard.text())
     return code
 
 

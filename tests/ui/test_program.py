@@ -87,10 +87,13 @@ def test_a_start_loads_nothing_that_it_does_not_show_and_ends_without_a_word_of_
 def test_a_fault_of_the_program_itself_is_reported_in_a_sentence(path: Path) -> None:
     code = """
 import sys
-from PySide6.QtCore import QTimer
+from PySide6.QtCore import QMimeData, QTimer
 from PySide6.QtWidgets import QApplication, QMessageBox
 from amp_studio.ui import main
 application = QApplication([])
+copied = QMimeData()  # as cells are copied: deleted after Python's end it would end in a fault
+copied.setText("1")
+application.clipboard().setMimeData(copied)
 def told(box):
     print(box.text().splitlines()[0])
     application.exit(0)
