@@ -94,6 +94,7 @@ application = QApplication([])
 copied = QMimeData()  # as cells are copied: deleted after Python's end it would end in a fault
 copied.setText("1")
 application.clipboard().setMimeData(copied)
+del copied
 def told(box):
     print(box.text().splitlines()[0])
     application.exit(0)
