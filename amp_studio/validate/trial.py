@@ -115,7 +115,8 @@ class Trials:
         old, new = self._original.values.get(setting.address), setting.value
         if old is None or not dimension(old.unit).endswith(_MOTIONS) or not old.value:
             return None
-        return abs(canonical(float(new.value), new.unit) / canonical(float(old.value), old.unit))
+        before = canonical(float(old.value), old.unit)
+        return abs(canonical(float(new.value), new.unit) / before) if before else None
 
     def too_many(self, filed: Mapping[FindingPlace, tuple[object, Finding]]) -> frozenset[FindingPlace]:
         """Return the findings that have a fix too many: trying it would ask a builder's rules for too long.

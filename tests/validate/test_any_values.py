@@ -255,6 +255,13 @@ def test_a_file_of_chance_is_told_explained_and_fixed(seed: int, name: str, a_ma
     assert list(map(repr, validator.findings())) == list(map(repr, Validator(file).run()))
 
 
+def test_a_speed_that_is_zero_in_its_canonical_unit_has_fixes(a_machine) -> None:
+    """The least number of all in deg/min/s is no deg/s2: the part of it that a fix leaves was divided by 0."""
+    file = a_machine("mill")
+    file.values["jog.speed_third", "3"] = Value(5e-324, "deg/min/s")
+    assert any(("jog.speed_third", "3") in finding.addresses for finding in Validator(file).run())
+
+
 @pytest.mark.parametrize("name", some(MACHINES, 2))
 def test_a_fix_of_a_range_is_allowed_itself(name: str, a_machine) -> None:
     file = a_machine(name)
