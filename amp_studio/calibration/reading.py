@@ -189,8 +189,8 @@ def _heads(
 def _units(line: tuple[int, str], separator: str, width: int) -> list[str]:
     """Return the units of a line that contains nothing else; none for any other line."""
     cells = [unit_of(cell) for cell in (split(line[1], separator, line[0]) if separator else line[1].split())]
-    found = [unit for unit in cells if unit is not None]
-    return found if len(found) == len(cells) == width and any(found) else []
+    units = [unit for unit in cells if unit is not None]
+    return units if len(units) == len(cells) == width and any(units) else []
 
 
 def _words(line: str, width: int) -> list[str]:

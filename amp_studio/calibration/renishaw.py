@@ -35,13 +35,13 @@ def read(text: str, usual_unit: str) -> RawTable:
         words = line.strip()
         if not words:
             continue
-        if found := _SECTION.fullmatch(words):
-            section, entry = found[1], ""
-        elif found := _ENTRY.fullmatch(words):
-            entry = found[1].casefold()
-            facts[entry] = found[2]
+        if match := _SECTION.fullmatch(words):
+            section, entry = match[1], ""
+        elif match := _ENTRY.fullmatch(words):
+            entry = match[1].casefold()
+            facts[entry] = match[2]
             if entry == "targets":
-                targets += _targets(found[2], n)
+                targets += _targets(match[2], n)
         elif section == "TARGET DATA" and entry == "targets":
             targets += _targets(words, n)
         elif section == "DEVIATIONS" and entry == "run target data":
@@ -73,10 +73,10 @@ def _targets(words: str, n: int) -> list[Fraction]:
 
 
 def _point(words: str, n: int) -> tuple[int, int, Fraction]:
-    found = _POINT.fullmatch(words)
-    if found is None or int(found[2]) < 1:
+    match = _POINT.fullmatch(words)
+    if match is None or int(match[2]) < 1:
         raise MeasurementError(f"'{words[:40]}' is not run, target and deviation", n)
-    return int(found[1]), int(found[2]), Fraction(found[3])
+    return int(match[1]), int(match[2]), Fraction(match[3])
 
 
 def _check_counts(facts: dict[str, str], targets: int, runs: int) -> None:

@@ -160,8 +160,8 @@ def _with_signed(verb: Verb, words: Sequence[str]) -> list[str]:
 def _in_plain_words(message: str) -> str:
     """Return a message of argparse in plain words; one that is not known stays as it is."""
     for pattern, plain in _PLAIN:
-        if found := re.fullmatch(pattern, message, re.DOTALL):
-            return found.expand(plain)
+        if match := re.fullmatch(pattern, message, re.DOTALL):
+            return match.expand(plain)
     return message
 
 

@@ -50,16 +50,16 @@ def _with_owner_of(was: os.stat_result, handle: int) -> os.stat_result:
     return os.fstat(handle)
 
 
-def _owners(found: os.stat_result) -> str:
+def _owners(status: os.stat_result) -> str:
     """Return owner and group by name where they have one."""
     import grp
     import pwd
 
-    names = [str(found.st_uid), str(found.st_gid)]
+    names = [str(status.st_uid), str(status.st_gid)]
     with contextlib.suppress(KeyError):
-        names[0] = pwd.getpwuid(found.st_uid).pw_name
+        names[0] = pwd.getpwuid(status.st_uid).pw_name
     with contextlib.suppress(KeyError):
-        names[1] = grp.getgrgid(found.st_gid).gr_name
+        names[1] = grp.getgrgid(status.st_gid).gr_name
     return ":".join(names)
 
 

@@ -183,7 +183,7 @@ def _references(
     file: ParameterFile, wanted: Mapping[Address, Value | None], order: Mapping[str, str]
 ) -> list[tuple[Address, str]]:
     """Return the choices that name an axis which moves, with the choice that names it afterwards."""
-    found = []
+    references = []
     for parameter_id, keys in _choices_of_axes(file.schema).items():
         axes = {key: axis for axis, key in keys.items()}
         for instance in file.machine_schema.instances(file.schema.parameters[parameter_id]):
@@ -191,8 +191,8 @@ def _references(
             value = wanted.get(address, file.get(address))
             axis = axes.get(str(value.value)) if value else None
             if axis is not None and axis in order and order[axis] in keys:
-                found.append((address, keys[order[axis]]))
-    return found
+                references.append((address, keys[order[axis]]))
+    return references
 
 
 @lru_cache(maxsize=16)

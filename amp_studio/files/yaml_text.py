@@ -145,8 +145,8 @@ class _Editor:
     def __init__(self, document: YamlDocument, sections: Sequence[str]) -> None:
         self.document, self.sections = document, sections
         self.spans = document.spans or {}
-        found = _BREAK.search(document.text)
-        self.line_end = found[0] if found else "\n"
+        match = _BREAK.search(document.text)
+        self.line_end = match[0] if match else "\n"
         self.edits: list[tuple[int, int, str]] = []
 
     def is_flow(self, path: KeyPath) -> bool:
@@ -251,8 +251,8 @@ class _Editor:
         text = self.document.text
         if at and text[at - 1] in "\r\n":
             return at
-        found = _BREAK.search(text, at)
-        return found.end() if found else len(text)
+        match = _BREAK.search(text, at)
+        return match.end() if match else len(text)
 
 
 def without_stray_tabs(content: bytes) -> bytes:

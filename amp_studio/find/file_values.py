@@ -71,16 +71,16 @@ class FileValues:
         """Return the addresses with a number in the unit it was entered in, or with the same length, time,
         … in another.
         """
-        found: list[Address] = []
+        matching: list[Address] = []
         for (value, unit), addresses in self._numbers.items():
-            wanted = number.value
+            sought = number.value
             if number.unit is not None and unit != number.unit:
                 if dimension(unit) != dimension(number.unit):
                     continue
-                wanted = convert(number.value, number.unit, unit)
-            if abs(value - wanted) <= 1e-9 * abs(wanted):
-                found += addresses
-        return found
+                sought = convert(number.value, number.unit, unit)
+            if abs(value - sought) <= 1e-9 * abs(sought):
+                matching += addresses
+        return matching
 
     def entries(self, file: ParameterFile) -> Iterator[Entry]:
         """Yield texts of the file and notes of people, to be searched by word."""

@@ -90,9 +90,9 @@ class Finder:
         query, axis = self._axis(query)
         hits += self._numbered(query) + self._valued(query)
         for index in (index_of(self.schema, self.machine), self._texts, self._commands):
-            found = index.search(query, most)
+            match = index.search(query, most)
             # A choice of which only the parameter was named is no more than that parameter.
-            hits += [self._hit(m) for m in found if m.entry.kind != "choice" or "choice" in m.where]
+            hits += [self._hit(m) for m in match if m.entry.kind != "choice" or "choice" in m.where]
         hits += self._found_by_synonym(query, most)
         best = _best_of_each(hits)
         least = _TAIL * max((hit.score for hit in best if hit.score < _EXACT - 1), default=0.0)

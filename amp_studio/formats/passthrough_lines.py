@@ -28,17 +28,17 @@ class PassthroughLine:
     kept_as: str = ""
 
 
-def keep_lines(found: TextRead, kind: str, rows: Sequence[PassthroughLine], *, always: bool = False) -> None:
+def keep_lines(result: TextRead, kind: str, rows: Sequence[PassthroughLine], *, always: bool = False) -> None:
     """Keep the lines of a script where one of them is not understood, or ``always``;
     ``kind`` is a word for its format.
     """
     unknown = {f"{kind} line {row.kept_as}": row.text for row in rows if row.kept_as}
     if unknown or always:
-        found.unknown = unknown
-        found.unknown_lines = {
+        result.unknown = unknown
+        result.unknown_lines = {
             f"{kind} line {row.kept_as}": n for n, row in enumerate(rows, 1) if row.kept_as
         }
-        found.extra[f"{kind}_script"] = {"lines": [_row_text(row) for row in rows]}
+        result.extra[f"{kind}_script"] = {"lines": [_row_text(row) for row in rows]}
 
 
 def lines_kept(file: ParameterFile, kind: str) -> list[str] | None:
@@ -52,11 +52,11 @@ def lines_kept(file: ParameterFile, kind: str) -> list[str] | None:
     lines = entry.get("lines") if isinstance(entry, dict) else None
     rows = []
     for line in lines if isinstance(lines, list) else []:
-        found = re.fullmatch(r"\{line (.*)\}", str(line))
-        if found is None:
+        match = re.fullmatch(r"\{line (.*)\}", str(line))
+        if match is None:
             rows.append(str(line))
-        elif found[1] in unknown:
-            rows.append(unknown.pop(found[1]))
+        elif match[1] in unknown:
+            rows.append(unknown.pop(match[1]))
     if unknown:
         lost = f"{start}{next(iter(unknown))}"
         raise FormatError(

@@ -214,10 +214,10 @@ def _cell_text(cell: str, number: str | None) -> str:
     """
     if number is None or not re.fullmatch(r"[-+]?[0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?", number):
         return cell
-    found = _SHOWN_NUMBER.match(cell)
-    if found is None:
+    match = _SHOWN_NUMBER.match(cell)
+    if match is None:
         return cell
-    unit = cell[found.end() :].strip()
+    unit = cell[match.end() :].strip()
     if re.match(r"[%\d:/.-]", unit):
         return cell
     return f"{number} {unit}" if unit else number

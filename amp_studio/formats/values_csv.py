@@ -88,7 +88,7 @@ def _has_instance(schema: Schema, parameter: Parameter, instance: str) -> bool:
 
 
 def _read_row(
-    found: TextRead, schema: Schema, heads: list[str], cells: list[str], line: int, keep_unknown: bool
+    result: TextRead, schema: Schema, heads: list[str], cells: list[str], line: int, keep_unknown: bool
 ) -> None:
     """Take one row of a table; raises FormatError with line and column."""
     if len(cells) != len(heads):
@@ -102,21 +102,21 @@ def _read_row(
     if parameter is None or not _has_instance(schema, parameter, address[1]):
         if not keep_unknown:
             raise FormatError(f"{schema.family.name} has no {short(written(address))}", line, column)
-        _keep_unknown(found, written(address), text, line, column)
+        _keep_unknown(result, written(address), text, line, column)
         return
-    if address in found.values:
+    if address in result.values:
         raise FormatError(f"{written(address)} occurs twice", line, column)
     if not row["value"].strip() and not is_text:
         return
     if is_mask(parameter, row["value"]):
-        found.notes.append(f"{written(address)} is a secret that this table does not contain; it is not set")
+        result.notes.append(f"{written(address)} is a secret that this table does not contain; it is not set")
         return
     try:
-        found.values[address] = read_stored(schema, parameter, text)
+        result.values[address] = read_stored(schema, parameter, text)
     except InvalidValueError as error:
         raise FormatError(f"{written(address)}: {error}", line, heads.index("value") + 1) from None
     if note := row.get(_NOTE, "").strip():
-        found.value_notes[written(address)] = _checked_note(note, address, line, heads)
+        result.value_notes[written(address)] = _checked_note(note, address, line, heads)
 
 
 def _checked_note(note: str, address: Address, line: int, heads: list[str]) -> str:
@@ -125,12 +125,12 @@ def _checked_note(note: str, address: Address, line: int, heads: list[str]) -> s
     return note
 
 
-def _keep_unknown(found: TextRead, name: str, text: str, line: int, column: int) -> None:
+def _keep_unknown(result: TextRead, name: str, text: str, line: int, column: int) -> None:
     """Keep a value that the family does not have; raises FormatError where it occurs twice."""
-    if name in found.unknown:
+    if name in result.unknown:
         raise FormatError(f"{short(name)} occurs twice", line, column)
-    found.unknown[name] = text
-    found.unknown_lines[name] = line
+    result.unknown[name] = text
+    result.unknown_lines[name] = line
 
 
 FORMAT = TextFormat(

@@ -148,17 +148,17 @@ def _handles(figures: ValueReader, roles: GearRoles, gear: _Gear, across: float,
     low, high, output, output_low, limit = gear.figures
     if roles.scaling and high is not None:
         return [_scaling_handle(figures, high, gear, roles.full or 10.0)]
-    found: list[Handle] = []
+    handles: list[Handle] = []
     if high is not None:
-        found.append(figures.handle(high, (gear.high, gear.output), figures.drag(high, "x", across)))
+        handles.append(figures.handle(high, (gear.high, gear.output), figures.drag(high, "x", across)))
     if limit is not None and limit.number:  # 0 is the highest speed
         at = (limit.number, gear.output * limit.number / gear.high if gear.high else 0.0)
-        found.append(figures.handle(limit, at, figures.drag(limit, "x", across), second=True))
+        handles.append(figures.handle(limit, at, figures.drag(limit, "x", across), second=True))
     if low is not None:
-        found.append(figures.handle(low, (gear.low, gear.output_low), figures.drag(low, "x", across)))
+        handles.append(figures.handle(low, (gear.low, gear.output_low), figures.drag(low, "x", across)))
     if output is not None:
-        found += _output_handles(figures, gear, output, output_low, top)
-    return found
+        handles += _output_handles(figures, gear, output, output_low, top)
+    return handles
 
 
 def _scaling_handle(figures: ValueReader, scaling: DrawnValue, gear: _Gear, full: float) -> Handle:

@@ -103,7 +103,7 @@ class LoopDiagram:
         """Return the parameters of a block with their values, and the signal behind it: by their numbers, one
         alone with its name.
         """
-        found = []
+        lines = []
         machine = self._figures.file.machine_schema
         for parameter in block.params:
             figure = self._figures.figure(parameter, self._axis, quiet=True)
@@ -113,11 +113,11 @@ class LoopDiagram:
                 sort: ShapeSort = "error" if figure.wrong else "dim" if figure.inactive else "ink"
                 is_alone = len(block.params) == 1 and not block.signal
                 label = figure.label if is_alone else machine.number(figure.address) or name
-                found.append(Text((NAMES, 0.0), label, text, "left", figure.address, sort))
+                lines.append(Text((NAMES, 0.0), label, text, "left", figure.address, sort))
         if (signal := self._signals.get(block.signal)) is not None:
             name = block.signal.replace("_", " ").removeprefix("steady ")
-            found.append(Text((NAMES, 0.0), name, value_text(*signal), "left", sort="now"))
-        return found
+            lines.append(Text((NAMES, 0.0), name, value_text(*signal), "left", sort="now"))
+        return lines
 
     def _box(self, block: LoopBlock, texts: list[Text], bottom: float, top: float) -> None:
         self.shapes.areas.append(FilledArea(LEFT, bottom, RIGHT, top, "overlap"))

@@ -285,17 +285,17 @@ def _way(ramp: Ramp, speed: float) -> float:
 
 def sampled(pieces: Sequence[Piece]) -> list[Point]:
     """Return (time, velocity) along pieces, from rest to rest."""
-    found: list[Point] = [(0.0, 0.0)]
+    points: list[Point] = [(0.0, 0.0)]
     start = 0.0
     for piece in pieces:
         straight = piece.kind == 0.0 and piece.jerk == 0.0
         count = 1 if straight else SAMPLES
-        found += [
+        points += [
             (start + piece.duration * k / count, piece.velocity_after(piece.duration * k / count))
             for k in range(count + 1)
         ]
         start += piece.duration
-    return [*found, (start, 0.0)]
+    return [*points, (start, 0.0)]
 
 
 # -- the handles ---------------------------------------------------------------------

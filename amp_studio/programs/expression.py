@@ -45,11 +45,11 @@ def worth(text: str, parameters: Mapping[int, float]) -> float:
     tokens, place = [], 0
     upper = text.upper().rstrip()
     while place < len(upper):
-        found = _TOKEN.match(upper, place)
-        if found is None:
+        match = _TOKEN.match(upper, place)
+        if match is None:
             raise ProgramBlockError(f"{quoted(text)} is no expression")
-        tokens.append(found[1])
-        place = found.end()
+        tokens.append(match[1])
+        place = match.end()
     reading = _Reading(tokens, text, parameters)
     value = reading.level(0, 0)
     if reading.place < len(tokens):

@@ -92,16 +92,16 @@ class ProgramFlow:
         """Do a branch or an assignment; return whether the line is one."""
         if _RETURN.fullmatch(line):
             self._return()
-        elif (found := _BRANCH.fullmatch(line)) is not None:
+        elif (match := _BRANCH.fullmatch(line)) is not None:
             self._notes += [
                 sentence(each.assumed)
                 for each in self._facts.statements
                 if each.assumed and re.match(each.pattern, line)
             ]
-            if found[1] is None or worth(found[1], self._parameters) != 0.0:
-                self._branch(found[2], int(found[3]))
-        elif (found := _SETS.fullmatch(line)) is not None:
-            self._set(int(found[1]), worth(found[2], self._parameters))
+            if match[1] is None or worth(match[1], self._parameters) != 0.0:
+                self._branch(match[2], int(match[3]))
+        elif (match := _SETS.fullmatch(line)) is not None:
+            self._set(int(match[1]), worth(match[2], self._parameters))
         else:
             return TAKES_IN.fullmatch(line) is not None
         return True
@@ -200,8 +200,8 @@ class ProgramFlow:
 
 def _labels(lines: Sequence[str]) -> dict[int, int]:
     """Return number of a block -> its line from 0, the first of each number."""
-    found: dict[int, int] = {}
+    labels: dict[int, int] = {}
     for n, line in enumerate(lines):
         if (label := _LABEL.match(line.upper())) is not None and len(label[1]) < 12:
-            found.setdefault(int(label[1]), n)
-    return found
+            labels.setdefault(int(label[1]), n)
+    return labels

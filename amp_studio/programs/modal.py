@@ -127,7 +127,7 @@ class ModalCodes:
 
     def _codes_of(self, written: tuple[str, ...]) -> BlockCodes:
         """Return what the codes of a block do in the present modal state."""
-        found: list[KnownCode] = []
+        codes: list[KnownCode] = []
         active = dict(self.now.active)
         groups: set[str] = set()
         for each in written:
@@ -140,11 +140,11 @@ class ModalCodes:
                     raise BlockError(f"{each} and another code of the group {known.group.name}", "two-codes")
                 groups.add(known.group.key)
                 active[known.group.key] = code
-            found.append(known)
+            codes.append(known)
         modal = self._state_of(active)
-        self._refuse_motion_in_cycle(found, modal)
+        self._refuse_motion_in_cycle(codes, modal)
         is_inch = self.now.is_inch if self._path.feed_first else modal.is_inch
-        return BlockCodes(tuple(found), modal, is_inch, _once(found), **_effects(found))
+        return BlockCodes(tuple(codes), modal, is_inch, _once(codes), **_effects(codes))
 
     def _simulated(self, code: str, written: str) -> KnownCode | None:
         """Return what a code is; None where it moves nothing, and a BlockError where it is not simulated."""

@@ -106,8 +106,8 @@ class Language:
             if (figures := sentence.found(english)) is not None:
                 return sentence.own.format_map({name: part(text) for name, text in figures.items()})
         for pattern, own in self.title_patterns:
-            if found := pattern.fullmatch(english):
-                return own.format(*map(part, found.groups()))
+            if match := pattern.fullmatch(english):
+                return own.format(*map(part, match.groups()))
         return self._phrase(english, part)
 
     def _phrase(self, english: str, part: Callable[[str], str]) -> str | None:
@@ -115,8 +115,8 @@ class Language:
         if known is not None:
             return known
         for pattern, own in self.patterns:
-            if found := pattern.fullmatch(english):
-                return own.format(*map(part, found.groups("0")))
+            if match := pattern.fullmatch(english):
+                return own.format(*map(part, match.groups("0")))
         return None
 
     def finding(self, finding: Finding) -> str:
@@ -165,8 +165,8 @@ class Language:
         if known is not None:
             return known
         for pattern, own in self.message_patterns:
-            if found := pattern.fullmatch(english):
-                return own.format(*map(self.message, found.groups()))
+            if match := pattern.fullmatch(english):
+                return own.format(*map(self.message, match.groups()))
         return english
 
     def drawing(self, svg: str) -> str:
@@ -228,7 +228,7 @@ def language_of(code: str, family: str = "", *more: str) -> Language:
 
 def _sentences(texts: dict[str, str]) -> tuple[SentencePattern, ...]:
     """Return sentences (English -> own), the one with the most words beside its names first."""
-    found = []
+    sentences = []
     for english, own in texts.items():
         parts = re.split(r"\{([a-z_]+)\}", english)  # words, a name, words, a name, words
         words = parts[::2]
@@ -237,8 +237,10 @@ def _sentences(texts: dict[str, str]) -> tuple[SentencePattern, ...]:
             again = part in parts[1:n:2]
             name = f"(?P={part})" if again else f"(?P<{part}>.+?)"
             pattern += name if n % 2 else re.escape(part)
-        found.append((sum(map(len, words)), SentencePattern(max(words, key=len), re.compile(pattern), own)))
-    return tuple(sentence for _, sentence in sorted(found, key=lambda each: -each[0]))
+        sentences.append(
+            (sum(map(len, words)), SentencePattern(max(words, key=len), re.compile(pattern), own))
+        )
+    return tuple(sentence for _, sentence in sorted(sentences, key=lambda each: -each[0]))
 
 
 def _own(code: str, section: TextSection) -> dict[str, str]:

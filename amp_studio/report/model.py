@@ -267,8 +267,8 @@ def _decoded(rows: Sequence[ReportRow]) -> Iterator[DecodedWord]:
 
 
 def _reasons(rows: Iterable[ReportRow]) -> tuple[tuple[str, str], ...]:
-    found = {row.state_mark: row.why for row in rows if row.state_mark}
-    return tuple(sorted(found.items(), key=lambda item: (item[0][0], int(item[0][1:]))))
+    reasons = {row.state_mark: row.why for row in rows if row.state_mark}
+    return tuple(sorted(reasons.items(), key=lambda item: (item[0][0], int(item[0][1:]))))
 
 
 @dataclass(frozen=True, slots=True)

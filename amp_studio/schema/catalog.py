@@ -64,8 +64,8 @@ class Schema:
     def _further(self) -> FurtherFacts:
         if not self.further_text:
             return FurtherFacts.model_construct()
-        found: FurtherFacts = text_record(self.further_text)
-        return found
+        facts: FurtherFacts = text_record(self.further_text)
+        return facts
 
     @cached_property
     def errata(self) -> dict[str, Erratum]:

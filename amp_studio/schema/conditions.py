@@ -184,13 +184,13 @@ class Conditions:
         return found
 
     def _after(self, before: Answers, changed: Iterable[Address]) -> Answers:
-        found = Answers(dict(before.conditions), dict(before.states))
+        answers = Answers(dict(before.conditions), dict(before.states))
         for address in changed:
             for asked in tuple(self.readers.get(address, ())):  # another thread may be opening another file
-                found.conditions.pop(asked, None)
+                answers.conditions.pop(asked, None)
                 for plan in tuple(self.plans_asking.get(asked, ())):
-                    found.states.pop(plan, None)
-        return found
+                    answers.states.pop(plan, None)
+        return answers
 
     # -- what is read ----------------------------------------------------------
 

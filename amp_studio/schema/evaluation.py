@@ -216,18 +216,18 @@ class Evaluation:
         """Return the instance that a text means (see ``addressing``);
         raises UnknownParameterError with one clear sentence.
         """
-        found = resolve_address(self, text)
-        if found.bit is not None:
+        resolved = resolve_address(self, text)
+        if resolved.bit is not None:
             raise UnknownParameterError(f"{quoted(text.strip())} is a bit, and the whole word is wanted")
-        return found.address
+        return resolved.address
 
     def find_bit(self, text: str) -> tuple[Address, int | None]:
         """Return the instance a person means and, where he names a bit of a word (``P3N0.5``), its number.
 
         Raises UnknownParameterError.
         """
-        found = resolve_address(self, text)
-        return found.address, found.bit
+        resolved = resolve_address(self, text)
+        return resolved.address, resolved.bit
 
     def least_hidden(self, claims: list[Address]) -> list[Address]:
         """Return, of parameters that are all hidden, those that the fewest conditions hide."""

@@ -284,13 +284,13 @@ def _valid(path: Path, document: YamlDocument, data: Any, model: type[T], family
         raise DatabaseError(path, 1, "is too deep") from None
 
 
-def _error_of(path: Path, document: YamlDocument, found: list[Slip]) -> DatabaseError:
+def _error_of(path: Path, document: YamlDocument, slips: list[Slip]) -> DatabaseError:
     """Return all that is wrong with the first entry of a file in which something is, as one error."""
-    found = sorted(found, key=lambda slip: document.line(slip[0]))
-    entry, name = _entry(document.data, found[0][0])
-    first = document.line(found[0][0])
+    slips = sorted(slips, key=lambda slip: document.line(slip[0]))
+    entry, name = _entry(document.data, slips[0][0])
+    first = document.line(slips[0][0])
     messages = []
-    for place, what in found:
+    for place, what in slips:
         if _entry(document.data, place)[0] == entry:
             line = document.line(place)
             keys = [short(key) for key in place[len(entry) :] if isinstance(key, str)]

@@ -142,8 +142,8 @@ class MachineSchema:
     def _words(self) -> dict[str, list[Address]]:
         words: dict[str, list[Address]] = {}
         for address, number in self._numbers.items():
-            if found := re.fullmatch(r"([a-z]*)([0-9]+)[a-z]+[0-9]+", number.casefold()):
-                for head in {found[1] + found[2], found[2]}:
+            if match := re.fullmatch(r"([a-z]*)([0-9]+)[a-z]+[0-9]+", number.casefold()):
+                for head in {match[1] + match[2], match[2]}:
                     words.setdefault(head, []).append(address)
         return words
 

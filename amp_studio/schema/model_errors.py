@@ -35,7 +35,7 @@ def _slips(error: ValidationError, data: object, model: type[Model]) -> list[Sli
     """Return what is wrong; a key that is mistyped is not missing as well."""
     wrong = error.errors(include_url=False)
     missing = [each["loc"] for each in wrong if each["type"] == "missing"]
-    found: dict[KeyPath, str] = {}
+    slips: dict[KeyPath, str] = {}
     supposed: set[KeyPath] = set()
     for each in wrong:
         place = each["loc"]
@@ -44,11 +44,11 @@ def _slips(error: ValidationError, data: object, model: type[Model]) -> list[Sli
             lacking = [str(at[-1]) for at in missing if at[:-1] == record]
             supposed |= {(*record, name) for name in lacking if did_you_mean(key, [name])}
             known = lacking if did_you_mean(key, lacking) else list(_keys_at(model, record))
-            found.setdefault(place, f"there is no such key{did_you_mean(key, known)}")
+            slips.setdefault(place, f"there is no such key{did_you_mean(key, known)}")
         elif each["type"] != "missing":
-            found.setdefault(_in_data(place, data), _sentence(each))
-    found |= {at: "is missing" for at in missing if at not in supposed}
-    return [(place, " ".join(what.split())[:_LONGEST]) for place, what in found.items()]
+            slips.setdefault(_in_data(place, data), _sentence(each))
+    slips |= {at: "is missing" for at in missing if at not in supposed}
+    return [(place, " ".join(what.split())[:_LONGEST]) for place, what in slips.items()]
 
 
 def _keys_at(kind: Any, place: KeyPath) -> Iterable[str]:

@@ -67,9 +67,9 @@ def read_table_text(path: Path) -> str:
         return content.decode("cp1252", errors="replace")  # a degree sign of an older program
 
 
-def demand_file(found: os.stat_result) -> None:
+def demand_file(status: os.stat_result) -> None:
     """Raise OSError for what is not a file."""
-    kind = stat.S_IFMT(found.st_mode)
+    kind = stat.S_IFMT(status.st_mode)
     if kind != stat.S_IFREG:
         number = errno.EISDIR if kind == stat.S_IFDIR else errno.EINVAL
         raise OSError(number, _KINDS.get(kind, "Is not a file"))

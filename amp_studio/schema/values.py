@@ -70,15 +70,15 @@ def _digits(text: str) -> tuple[str, str]:
     if len(text) > LONGEST_NUMBER:
         raise InvalidValueError(f"{quoted(text)} is too long for a number")
     text = text.replace(_MINUS, "-")
-    found = _NUMBER.match(text)
-    if not found:
+    match = _NUMBER.match(text)
+    if not match:
         raise InvalidValueError(f"{quoted(text.strip())} is not a number")
-    digits, exponent, rest = found.groups()
+    digits, exponent, rest = match.groups()
     if _GROUPED.fullmatch(digits):
         digits = re.sub("[ '_]", "", digits)
     elif " " in digits:  # "3000 1/min": what comes after the blank is no part of the number
         digits, _, tail = digits.partition(" ")
-        exponent, rest = "", tail + text[found.end(1) :]
+        exponent, rest = "", tail + text[match.end(1) :]
     number = _decimal(digits, exponent)
     # No exponent makes more of zero; Decimal would not take one of twenty digits.
     return (number if _NOT_ZERO.match(number) else number.lower().partition("e")[0]), rest
@@ -300,13 +300,13 @@ def _read_format(parameter: Parameter, text: str) -> Value:
     """Read a word format, digits before and behind the point:
     6.0 and 3.10 are no fractions and stay as they are.
     """
-    found = re.fullmatch(r"([0-9]{1,2})[.,]([0-9]{1,2})", text)
-    if not found:
+    match = re.fullmatch(r"([0-9]{1,2})[.,]([0-9]{1,2})", text)
+    if not match:
         raise InvalidValueError(
             f"{quoted(text)} is not a format: {parameter.name} takes digits before and behind the point,"
             " as 3.4"
         )
-    return Value(f"{int(found[1])}.{int(found[2])}")
+    return Value(f"{int(match[1])}.{int(match[2])}")
 
 
 def digits_of(form: str) -> tuple[int, int]:

@@ -156,8 +156,8 @@ def _plain_lines(text: str, scalar: Callable[[str], Any]) -> YamlDocument | None
 
 def _entry(line: str) -> tuple[str | None, str, str | None, str | None] | None:
     """Return indent, key, quoted value and plain value of a line."""
-    found = _LINE.fullmatch(line)
-    return None if found is None else (found[1], found[2], found[3], found[4])
+    match = _LINE.fullmatch(line)
+    return None if match is None else (match[1], match[2], match[3], match[4])
 
 
 _remembered_entry = lru_cache(maxsize=32_768)(_entry)

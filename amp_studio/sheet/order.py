@@ -37,12 +37,12 @@ def safe_order(start: Interim, steps: Sequence[NewValue], allowed: Collection[Ha
     place = {step: n for n, step in enumerate(steps)}
     budget = _Budget(_TRIES + _TRIES_A_VALUE * len(steps))
     queues = [_ordered(start, group, allowed, budget) for group in _groups(start, steps)]
-    found: list[NewValue] = []
+    values: list[NewValue] = []
     while queues:
         first = min(queues, key=lambda queue: place[queue[0]])
-        found.append(first.pop(0))
+        values.append(first.pop(0))
         queues = [queue for queue in queues if queue]
-    return found
+    return values
 
 
 def bad(

@@ -88,7 +88,7 @@ def _delimiter(line: str) -> str:
 
 
 def _of_table(lines: list[str], delimiter: str) -> list[ScreenReading]:
-    found: list[ScreenReading] = []
+    readings: list[ScreenReading] = []
     reader = csv.reader(io.StringIO("\n".join(lines)), delimiter=delimiter)
     head: list[str] | None = None
     for row in _rows(reader):
@@ -98,8 +98,8 @@ def _of_table(lines: list[str], delimiter: str) -> list[ScreenReading]:
         cells = dict(zip(head, row, strict=False))
         if screen_text := cells.get(_SHOWN_HEAD, "").strip().removeprefix("'"):
             number = cells.get(_NUMBER_HEAD, "").strip().removeprefix("'")
-            found.append(ScreenReading(number, screen_text, reader.line_num))
-    return found
+            readings.append(ScreenReading(number, screen_text, reader.line_num))
+    return readings
 
 
 def _rows(reader: Iterator[list[str]]) -> Iterator[list[str]]:

@@ -146,5 +146,5 @@ def _parameters(file: ParameterFile, law: Law, trace: Trace) -> tuple[str, ...]:
         "jog": ("feedrate", "acceleration"),
     }
     wanted = by_scenario.get(trace.scenario, ("position_gain", "velocity_gain", "feedrate", "acceleration"))
-    found = [sources[name].parameter for name in wanted if name in sources]
-    return tuple(dict.fromkeys(found))
+    parameters = [sources[name].parameter for name in wanted if name in sources]
+    return tuple(dict.fromkeys(parameters))

@@ -101,8 +101,8 @@ _NAMED = {
 
 
 def _facts(trace: Trace) -> tuple[str, ...]:
-    found = [words.format(_figure_of(trace, name)) for name, words in _NAMED.items() if _has(trace, name)]
-    return (*(f"{a.code} at {value_text(a.time_s, 's')}" for a in trace.alarms), *found)
+    facts = [words.format(_figure_of(trace, name)) for name, words in _NAMED.items() if _has(trace, name)]
+    return (*(f"{a.code} at {value_text(a.time_s, 's')}" for a in trace.alarms), *facts)
 
 
 def _has(trace: Trace, name: str) -> bool:

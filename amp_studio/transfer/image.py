@@ -129,8 +129,8 @@ def _record(number: int, line: str) -> tuple[str, str]:
     """Return address and value of a line; raises ImageError."""
     parts = line.split("\t")
     if len(parts) != 3:
-        found = _ADDRESS.search(line)
-        entry = f" ({_short(found[0])})" if found else ""
+        match = _ADDRESS.search(line)
+        entry = f" ({_short(match[0])})" if match else ""
         raise ImageError(f"line {number} of the control image{entry} is not number, address and value")
     return parts[1], parts[2]
 
@@ -146,8 +146,8 @@ def _whole_lines(image: bytes) -> list[str]:
         raise ImageError("this is not a control image")
     if len(lines) < 8 or lines[-1] != "" or not lines[-2].startswith("end "):
         raise ImageError("the control image has been cut off")
-    if found := _CONTROL_CHARACTER.search(text):
-        number = text.count("\n", 0, found.start()) + 1
+    if match := _CONTROL_CHARACTER.search(text):
+        number = text.count("\n", 0, match.start()) + 1
         raise ImageError(f"line {number} of the control image contains a control character")
     return lines
 

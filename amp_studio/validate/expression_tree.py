@@ -271,13 +271,13 @@ class _ExpressionParser:
 
     def _listed(self, closing: str) -> tuple[Node, ...]:
         """Read expressions with commas between them, up to a closing bracket."""
-        found: list[Node] = []
+        nodes: list[Node] = []
         while not self._accept(closing):
-            found.append(self._expression())
+            nodes.append(self._expression())
             if not self._accept(","):
                 self._need(closing, "")
                 break
-        return tuple(found)
+        return tuple(nodes)
 
     def _primary(self) -> Node:
         token = self._next

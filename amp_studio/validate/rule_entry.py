@@ -43,20 +43,20 @@ def entry_model(data: Any, model: type[T]) -> tuple[T | None, list[Slip]]:
     """
     if not isinstance(data, dict):
         return None, [((), "must be a mapping: lines of a key, a colon and what it is")]
-    found: list[Slip] = [
+    slips: list[Slip] = [
         ((key,), f"is too long: {len(data[key]):,}, and {most:,} are the most")
         for key, most in MOST.items()
         if isinstance(data.get(key), Sized) and len(data[key]) > most
     ]
-    long = _heads(found)
+    long = _heads(slips)
     data = {key: value for key, value in data.items() if key not in long}
     from amp_studio.schema import read_model  # most files have no rules beside them, and need no pydantic
 
     try:
-        return read_model(model, data), found
+        return read_model(model, data), slips
     except ModelError as error:
-        found += [slip for slip in error.slips if long.isdisjoint(slip[0][:1])]
-        return _left(data, _heads(error.slips), model), found
+        slips += [slip for slip in error.slips if long.isdisjoint(slip[0][:1])]
+        return _left(data, _heads(error.slips), model), slips
 
 
 def _heads(slips: Iterable[Slip]) -> set[str | int]:

@@ -203,22 +203,24 @@ class _RuleFileReader:
             self._fault(entry, place, what)
         return None if slips else found
 
-    def _is_of_another_family(self, found: Suppression) -> bool:
+    def _is_of_another_family(self, suppression: Suppression) -> bool:
         """Return whether a suppression is about a rule, or parameters, that only another family has."""
-        if found.rule in self._rules or found.rule in _ids(self._schema):
+        if suppression.rule in self._rules or suppression.rule in _ids(self._schema):
             return False
-        if found.rule in GENERAL_RULES:
-            return bool(found.params) and all(_is_elsewhere(text, self._schema) for text in found.params)
+        if suppression.rule in GENERAL_RULES:
+            return bool(suppression.params) and all(
+                _is_elsewhere(text, self._schema) for text in suppression.params
+            )
         others = {*self._families} - {self._schema.family.family}
-        return found.rule in self._lines or found.rule.partition(".")[0] in others
+        return suppression.rule in self._lines or suppression.rule.partition(".")[0] in others
 
-    def _suppression_slips(self, found: Suppression) -> list[tuple[KeyPath, str]]:
+    def _suppression_slips(self, suppression: Suppression) -> list[tuple[KeyPath, str]]:
         """Return what a suppression names that there is not."""
         known = [*self._rules, *_ids(self._schema), *GENERAL_RULES]
-        if found.rule in known:
-            return list(self._unknown_params(found))
-        near = did_you_mean(found.rule, [*self._lines, *_ids(self._schema), *GENERAL_RULES])
-        return [(("rule",), f"{quoted(found.rule)} is no rule{near}")]
+        if suppression.rule in known:
+            return list(self._unknown_params(suppression))
+        near = did_you_mean(suppression.rule, [*self._lines, *_ids(self._schema), *GENERAL_RULES])
+        return [(("rule",), f"{quoted(suppression.rule)} is no rule{near}")]
 
     def _unknown_params(self, suppression: Suppression) -> Iterator[Slip]:
         for n, text in enumerate(suppression.params):
@@ -227,10 +229,10 @@ class _RuleFileReader:
                 yield ("params", n), f"{quoted(text)} is no parameter of {self._schema.family.family}{near}"
 
 
-def _further(found: list[Slip], before: list[Slip]) -> list[Slip]:
+def _further(slips: list[Slip], before: list[Slip]) -> list[Slip]:
     """Return what is wrong besides what is known to be: a key that cannot be used is not checked again."""
     wrong = {place[0] for place, _ in before if place}
-    return [(place, what) for place, what in found if (place[:1] or ("",))[0] not in wrong]
+    return [(place, what) for place, what in slips if (place[:1] or ("",))[0] not in wrong]
 
 
 def _named(data: object) -> str:

@@ -68,7 +68,7 @@ def difference_json(file: ParameterFile, difference: Difference, secrets: bool) 
 
 def print_comparison(
     file: ParameterFile,
-    found: Comparison,
+    comparison: Comparison,
     secrets: bool,
     other: tuple[ParameterFile, Sequence[Difference]] | None = None,
 ) -> None:
@@ -76,17 +76,17 @@ def print_comparison(
 
     ``file`` is one of the two sides, ``other`` is the second side with what only its schema has.
     """
-    for difference in found.differences:
+    for difference in comparison.differences:
         print_difference(file, difference, secrets)
     second, of_second = other or (file, ())
     for difference in of_second:
         print_difference(second, difference, secrets)
-    if found.differences or of_second:
-        print_dangers((file, found.differences), (second, of_second))
+    if comparison.differences or of_second:
+        print_dangers((file, comparison.differences), (second, of_second))
     more = len(of_second)
     print(
-        f"{len(found.differences) + more} differ, {found.same} are the same, {found.not_set_in_a + more} not"
-        f" set in A, {found.not_set_in_b} not set in B"
+        f"{len(comparison.differences) + more} differ, {comparison.same} are the same,"
+        f" {comparison.not_set_in_a + more} not set in A, {comparison.not_set_in_b} not set in B"
     )
 
 

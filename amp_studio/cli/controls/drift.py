@@ -93,15 +93,15 @@ def _difference_lines(each: Drift, secrets: bool) -> Iterator[str]:
         yield each.text
 
 
-def _print(found: Sequence[Drift], counts: dict[str, int], secrets: bool) -> None:
-    wide = max(len(each.known.address) for each in found)
-    for each in found:
+def _print(drifts: Sequence[Drift], counts: dict[str, int], secrets: bool) -> None:
+    wide = max(len(each.known.address) for each in drifts)
+    for each in drifts:
         text = "" if each.result == "same" else f"  {each.since or each.text}"
         print(f"{each.known.address:{wide}}  {each.result:11}  {each.known.path}{text}")
         for line in _difference_lines(each, secrets):
             print(f"{'':{wide}}  {line}")
     words = (f"{count} {word}" for word, count in counts.items() if count)
-    print(f"{counted(len(found), 'control')}: {', '.join(words)}")
+    print(f"{counted(len(drifts), 'control')}: {', '.join(words)}")
 
 
 def _rows(listed: Sequence[tuple[ParameterFile, Difference]], secrets: bool) -> list[tuple[str, str, str]]:
@@ -114,16 +114,16 @@ def _rows(listed: Sequence[tuple[ParameterFile, Difference]], secrets: bool) -> 
     return rows
 
 
-def _paper(found: Sequence[Drift], secrets: bool) -> Paper:
+def _paper(drifts: Sequence[Drift], secrets: bool) -> Paper:
     rows = [
-        (each.known.address, str(each.known.path), each.result, each.since or each.text) for each in found
+        (each.known.address, str(each.known.path), each.result, each.since or each.text) for each in drifts
     ]
     tables = [
         PaperTable(
             "Controls", ("Address", "File", "Result", "How it ended"), tuple(rows), (3.0, 3.0, 1.5, 5.0)
         )
     ]
-    for each in found:
+    for each in drifts:
         if values := _rows(_differences(each), secrets):
             heads = ("Parameter", "In the file", "In the control")
             tables.append(PaperTable(each.known.address, heads, tuple(values), (5.0, 3.4, 3.4)))

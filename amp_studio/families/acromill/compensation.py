@@ -44,7 +44,7 @@ class BallscrewTable:
         letter = _letter(file, axis)
         if not is_ballscrew_table(letter, text):
             raise CalibrationError(f"the ballscrew table of the axis is no table for {letter} (page 107)")
-        figures = [Fraction(found[1]) for word in text.split() if (found := _WORD.fullmatch(word))]
+        figures = [Fraction(match[1]) for word in text.split() if (match := _WORD.fullmatch(word))]
         first = self._first(file, axis, len(figures))
         size, home, count = _unit(file), _home(file, axis), len(figures)
         return CalibrationTable(

@@ -69,9 +69,9 @@ class GrblContent:
         ``said("DRIVER")`` is ``Simulator``.
         """
         for line in self.identity:
-            found = _NAMED.fullmatch(line)
-            if found and found[1] == name:
-                return found[2]
+            match = _NAMED.fullmatch(line)
+            if match and match[1] == name:
+                return match[2]
         return ""
 
     @property
@@ -138,8 +138,8 @@ def _sections(data: bytes) -> dict[str, list[str]]:
         raise ImageError("this is not a copy of Grbl settings")
     if lines[-1] != "" or lines[-2] != f"end {len(lines) - 2}":
         raise ImageError("the copy of the settings has been cut off")
-    if found := _CONTROL_CHARACTER.search(text):
-        number = text.count("\n", 0, found.start()) + 1
+    if match := _CONTROL_CHARACTER.search(text):
+        number = text.count("\n", 0, match.start()) + 1
         raise ImageError(f"line {number} of the copy of the settings contains a control character")
     sections: dict[str, list[str]] = {}
     here = None
@@ -161,15 +161,15 @@ def _sections(data: bytes) -> dict[str, list[str]]:
 
 def _numbered(lines: Iterable[str], form: re.Pattern[str], what: str) -> Iterable[tuple[int, str]]:
     for line in lines:
-        found = form.fullmatch(line)
-        if found is None:
+        match = form.fullmatch(line)
+        if match is None:
             raise ImageError(f"the copy of the settings contains '{line[:60]}', which is not {what}")
-        yield int(found[1]), found[2]
+        yield int(match[1]), match[2]
 
 
 def _named(lines: Iterable[str]) -> Iterable[tuple[str, str]]:
     for line in lines:
-        found = _NAMED.fullmatch(line)
-        if found is None or found[1] not in OFFSETS:
+        match = _NAMED.fullmatch(line)
+        if match is None or match[1] not in OFFSETS:
             raise ImageError(f"the copy of the settings contains '{line[:60]}', which is not an offset")
-        yield found[1], found[2]
+        yield match[1], match[2]

@@ -106,8 +106,8 @@ class Description:
     @property
     def max_step_rate(self) -> float | None:
         """Steps in a second that the driver can make, where it has a limit."""
-        found = re.fullmatch(r"([0-9]{1,9}) Hz", self.facts.get("MAX STEP RATE", ""))
-        return float(found[1]) if found else None
+        match = re.fullmatch(r"([0-9]{1,9}) Hz", self.facts.get("MAX STEP RATE", ""))
+        return float(match[1]) if match else None
 
 
 def description_lines(content: bytes) -> list[str]:
@@ -160,11 +160,11 @@ def read_description(content: bytes) -> Description:
     return found
 
 
-def _read_fact(found: Description, tag: str, rest: str) -> None:
-    found.facts[tag] = _text(rest)
+def _read_fact(description: Description, tag: str, rest: str) -> None:
+    description.facts[tag] = _text(rest)
 
 
-def _read_axes(found: Description, _tag: str, rest: str) -> None:
+def _read_axes(description: Description, _tag: str, rest: str) -> None:
     count, _, letters = rest.partition(":")
     if (
         not re.fullmatch("[A-Z]{1,9}", letters)
@@ -174,16 +174,16 @@ def _read_axes(found: Description, _tag: str, rest: str) -> None:
         raise DescriptionError(
             f"'AXS:{short(rest)}' are no axes: their number and letters are wanted, as 3:XYZ"
         )
-    found.axes = letters
+    description.axes = letters
 
 
-def _read_group(found: Description, _tag: str, rest: str) -> None:
+def _read_group(description: Description, _tag: str, rest: str) -> None:
     number, parent, name = _parts(rest, 3, "a group of settings")
     group = SettingGroup(_number(number, rest), _number(parent, rest), _text(name) or f"Group {number}")
-    _keep(found.groups, group.number, group, _MOST_GROUPS, "group")
+    _keep(description.groups, group.number, group, _MOST_GROUPS, "group")
 
 
-def _read_setting(found: Description, _tag: str, rest: str) -> None:
+def _read_setting(description: Description, _tag: str, rest: str) -> None:
     number, group, name, unit, kind, form, least, most, restart, zero = _parts(rest, 10, "a setting")
     if not re.fullmatch("[0-9]", kind):
         raise DescriptionError(f"the setting '{short(rest)}' has the type {short(kind)}, which is not known")
@@ -206,17 +206,17 @@ def _read_setting(found: Description, _tag: str, rest: str) -> None:
         raise DescriptionError(f"${number} has {count} bits, and {_MOST_LABELS} are the most")
     if setting.type == CHOICE and count > _MOST_CHOICES:
         raise DescriptionError(f"${number} has {count} choices, and {_MOST_CHOICES} are the most")
-    _keep(found.settings, setting.number, setting, _MOST_SETTINGS, "setting")
+    _keep(description.settings, setting.number, setting, _MOST_SETTINGS, "setting")
 
 
-def _read_help(found: Description, _tag: str, rest: str) -> None:
+def _read_help(description: Description, _tag: str, rest: str) -> None:
     number, _, text = rest.partition("|")
-    _keep(found.helps, _number(number, rest), _lines(text), _MOST_SETTINGS, "help of setting")
+    _keep(description.helps, _number(number, rest), _lines(text), _MOST_SETTINGS, "help of setting")
 
 
-def _read_code(found: Description, tag: str, rest: str) -> None:
+def _read_code(description: Description, tag: str, rest: str) -> None:
     number, _, text = _parts(rest, 3, "a code")
-    codes = found.alarms if tag == "ALARMCODE" else found.errors
+    codes = description.alarms if tag == "ALARMCODE" else description.errors
     _keep(codes, _number(number, rest), _text(text), _MOST_CODES, "code")
 
 
@@ -272,9 +272,9 @@ def _text(text: str) -> str:
     return plain[:_LONGEST].strip()
 
 
-def _axes_of_groups(found: Description) -> str:
+def _axes_of_groups(description: Description) -> str:
     """Return the letters of the groups ``X-axis``, ``Y-axis`` … in their order,
     of a control that lists no axes.
     """
-    letters = (g.name[0] for _, g in sorted(found.groups.items()) if re.fullmatch("[A-Z]-axis", g.name))
+    letters = (g.name[0] for _, g in sorted(description.groups.items()) if re.fullmatch("[A-Z]-axis", g.name))
     return "".join(dict.fromkeys(letters))[:9]

@@ -260,8 +260,8 @@ class GrblLine:
         if line.startswith("[MSG:"):
             self.messages = [*self.messages[-MESSAGES:], visible(line[5:].removesuffix("]"))[:200]]
             return True
-        if found := _ALARM.fullmatch(line):
-            self.alarm = int(found[1])
+        if match := _ALARM.fullmatch(line):
+            self.alarm = int(match[1])
             return True
         return line.startswith("<")
 

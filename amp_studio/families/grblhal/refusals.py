@@ -41,8 +41,8 @@ _CODE = re.compile(r"\[ERRORCODE:(\d+)\|[^|]*\|(.*)\]")
 def refusal_text(refusal: GrblRefusalError, names: Mapping[int, str], content: GrblContent | None) -> str:
     """Return a sentence about a refusal, with the name of the setting."""
     why = TEXTS.get(refusal.code) or _own_text(refusal.code, content)
-    found = re.match(r"\$(\d+)=", refusal.command)
-    name = names.get(int(found[1]), "") if found else ""
+    match = re.match(r"\$(\d+)=", refusal.command)
+    name = names.get(int(match[1]), "") if match else ""
     command = visible(refusal.command[:80])
     named = f"{command} ({name})" if name else command
     return f"the control refuses {named}: {why} (error {refusal.code})"
@@ -51,7 +51,7 @@ def refusal_text(refusal: GrblRefusalError, names: Mapping[int, str], content: G
 def _own_text(code: int, content: GrblContent | None) -> str:
     """Return the text that the control's own list has for a code."""
     for line in content.enumerations.get("$EE", ()) if content else ():
-        found = _CODE.fullmatch(line)
-        if found and int(found[1]) == code and found[2]:
-            return visible(found[2])[:200].rstrip(".")
+        match = _CODE.fullmatch(line)
+        if match and int(match[1]) == code and match[2]:
+            return visible(match[2])[:200].rstrip(".")
     return "it gives no reason"

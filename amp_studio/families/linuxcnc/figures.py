@@ -61,8 +61,8 @@ def is_rotary_axis(instance: str) -> bool:
 
 def number_in(parameter: Parameter, text: str) -> str:
     """Return the number at the start of a text, "" where there is none."""
-    found = (_REAL if parameter.type == "real" else _WHOLE).match(text)
-    return found[0] if found else ""
+    match = (_REAL if parameter.type == "real" else _WHOLE).match(text)
+    return match[0] if match else ""
 
 
 def read_figure(parameter: Parameter, text: str, unit: str) -> Value:
@@ -100,12 +100,12 @@ def _read_choice(parameter: Parameter, text: str) -> Value:
             return Value(_BOOLEAN[word] == "yes")
     elif word in labels:
         return Value(labels[word])
-    elif parameter.id == UNITS and (found := _REAL.match(text)):
-        size = float(found[0])
+    elif parameter.id == UNITS and (match := _REAL.match(text)):
+        size = float(match[0])
         if size == 1.0 or _INCH[0] < size < _INCH[1]:
             return Value("metric" if size == 1.0 else "inch")
-    elif is_number and (found := _WHOLE.match(text)) and str(_whole(found[0])) in labels:
-        return Value(labels[str(_whole(found[0]))])
+    elif is_number and (match := _WHOLE.match(text)) and str(_whole(match[0])) in labels:
+        return Value(labels[str(_whole(match[0]))])
     raise InvalidValueError(f"it is not one of {', '.join(c.label for c in choices)}")
 
 

@@ -15,6 +15,6 @@ def references(text: str) -> Iterator[tuple[int, str, str]]:
     """Yield line, ``[JOINT_0]P``, and the pin or signal that the line sets to it; "" for another use."""
     for number, row in enumerate(text.splitlines(), 1):
         line = row.split("#")[0]
-        found = _SET.match(line)
+        match = _SET.match(line)
         for each in _REFERENCE.finditer(line):
-            yield number, f"[{each[1]}]{each[2]}", (found[1] or found[2]) if found else ""
+            yield number, f"[{each[1]}]{each[2]}", (match[1] or match[2]) if match else ""

@@ -108,13 +108,13 @@ class _Reader:
 
     def _line(self, file: str, rows: Sequence[str], at: int, count: int) -> None:
         row = rows[at]
-        if found := _INCLUDE.match(row):
+        if match := _INCLUDE.match(row):
             if not file:  # the start script looks for them in the configuration alone
-                self._include(found[1])
-        elif found := _SECTION.match(row):
-            self._begin(found[1], file, at)
-        elif (found := _KEY.match(row)) and self._section is not None:
-            self._entry(found, file, rows, at, count)
+                self._include(match[1])
+        elif match := _SECTION.match(row):
+            self._begin(match[1], file, at)
+        elif (match := _KEY.match(row)) and self._section is not None:
+            self._entry(match, file, rows, at, count)
         if not file and self._section is not None and not self._is_again and _CONTENT.match(row):
             self.last[self._section] = at + count - 1
 
@@ -130,24 +130,24 @@ class _Reader:
         self._is_again = section in self._sections
         self._sections.setdefault(section, _place(file, at))
 
-    def _entry(self, found: re.Match[str], file: str, rows: Sequence[str], at: int, count: int) -> None:
+    def _entry(self, match: re.Match[str], file: str, rows: Sequence[str], at: int, count: int) -> None:
         assert self._section is not None
         first = (
-            found.string[found.end() :].rstrip("\r")
+            match.string[match.end() :].rstrip("\r")
             if count == 1
-            else found.string[found.end() :].rstrip("\r")[:-1]
+            else match.string[match.end() :].rstrip("\r")[:-1]
         )
         more = [row.rstrip("\r").removesuffix("\\") for row in rows[at + 1 : at + count]]
         value = "".join((first, *more)).strip(" \t\r")
-        end = found.end() + (len(first.rstrip(" \t\r")) if count == 1 else len(first))
-        where = (self._section, found[1])
+        end = match.end() + (len(first.rstrip(" \t\r")) if count == 1 else len(first))
+        where = (self._section, match[1])
         shadow = ""
         if self._is_again:
             shadow = f"the section is in {self._sections[self._section]} already, and only that one is read"
         elif where in self._seen:
             before = self._seen[where]
             shadow = f"{_place(before.file, before.line)} comes first and counts"
-        entry = IniEntry(self._section, found[1], value, file, at, count, found.end(), end, shadow)
+        entry = IniEntry(self._section, match[1], value, file, at, count, match.end(), end, shadow)
         self._seen.setdefault(where, entry)
         if value or shadow:  # without a value it is as if it were not there (F465), and so are those after it
             self.entries.append(entry)

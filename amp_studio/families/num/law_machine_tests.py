@@ -218,14 +218,14 @@ def _speeds(machine: BoundMachine, axis: AxisLaw, letter: str) -> list[MachineTe
     middle = 0.0 if ROOM * high >= half and ROOM * low <= -half else 0.5 * (low + high)
     ends = (middle + half, middle - half)
     way = abs(ends[0] - ends[1])
-    found = []
+    speeds = []
     for name, share in (("slow", SLOW), ("fast", 1.0)):
         speed = feed * share
         if rate and way < (speed / 60.0) ** 2 / rate:
             refusal = (
                 f"The travel of axis {letter} is too short to reach {value_text(speed, f'{axis.unit}/min')}."
             )
-            found.append(MachineTest(name, title.format(f"{share * 100:g}"), "11-3", refusal=refusal))
+            speeds.append(MachineTest(name, title.format(f"{share * 100:g}"), "11-3", refusal=refusal))
             continue
         lines = (
             f"N10 G9 {letter}{_word(ends[0])} F{_word(speed)}",
@@ -233,12 +233,12 @@ def _speeds(machine: BoundMachine, axis: AxisLaw, letter: str) -> list[MachineTe
             "N20 G79 N10",
             "N25 M02",
         )
-        found.append(
+        speeds.append(
             MachineTest(
                 name, title.format(f"{share * 100:g}"), "11-3", lines, _of_speed(machine, axis, letter, speed)
             )
         )
-    return found
+    return speeds
 
 
 def _of_speed(machine: BoundMachine, axis: AxisLaw, letter: str, speed: float) -> tuple[MachineTestStep, ...]:

@@ -163,10 +163,10 @@ def _doubts(
     most: float | None,
     settings: dict[Address, Value | None],
 ) -> list[str]:
-    found = []
+    doubts = []
     inside = max((abs(cam_jump(a, b, step * 1000.0)) for a, b in itertools.pairwise(steps)), default=0.0)
     if most is not None and inside > most:
-        found.append(
+        doubts.append(
             f"The cam asks for {inside:g} counts/s2; registers 21 to 24 allow {most:g} for other moves (4-14)"
         )
     if _mode(file, axis) >> CONTINUOUS_BIT & 1:
@@ -174,13 +174,13 @@ def _doubts(
         back = int(given.value) if given else int(_number(file, ids.loop_back, axis) or 0.0)
         jump = abs(cam_jump(steps[-1], steps[min(back, len(steps) - 1)], step * 1000.0))
         if most is not None and jump > most:
-            found.append(
+            doubts.append(
                 f"From the last point to loop back point {back} the speed jumps with {jump:g} counts/s2;"
                 f" registers 21 to 24 allow {most:g} (4-56)"
             )
         if sum(steps):
-            found.append(f"The axis is {sum(steps):+d} counts further after each cycle (4-56)")
-    return found
+            doubts.append(f"The axis is {sum(steps):+d} counts further after each cycle (4-56)")
+    return doubts
 
 
 def _number(file: ParameterFile, parameter: str, instance: str) -> float | None:

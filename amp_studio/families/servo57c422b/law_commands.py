@@ -88,7 +88,7 @@ def run_procedure(axis: AxisLaw, settings: Settings) -> Trace:
         raise SimulationError(f"Unknown tune command '{which}'. Known: {', '.join(_TUNES)}", "tune.command")
     left, move_settings = _TUNES[which](module)
     trace = STEP.run(left.axis, move_settings)
-    found: dict[str, Figure] = {
+    figures: dict[str, Figure] = {
         _figure(parameter): (value, _unit(parameter)) for parameter, value in left.registers.items()
     }
     wanted = (
@@ -101,7 +101,7 @@ def run_procedure(axis: AxisLaw, settings: Settings) -> Trace:
     return replace(
         trace,
         scenario="procedure",
-        result={**found, **trace.result},
+        result={**figures, **trace.result},
         recommendations=wanted,
         assumptions=(_SEARCH[which], *trace.assumptions),
     )
@@ -285,9 +285,14 @@ def run_backlash(axis: AxisLaw, settings: Settings) -> Trace:
         start, position = start + end_of(part) + _PAUSE, position + way
         rows[-7] = _PAUSE
     rows[-7] = math.inf
-    found: dict[str, Figure] = {f"move_{k}": (float(way), "counts") for k, way in enumerate(moves, 1)}
+    figures: dict[str, Figure] = {f"move_{k}": (float(way), "counts") for k, way in enumerate(moves, 1)}
     return _run(
-        axis, "backlash", rows, start, found, "A stop of 0.1 s between the moves: its length is not printed."
+        axis,
+        "backlash",
+        rows,
+        start,
+        figures,
+        "A stop of 0.1 s between the moves: its length is not printed.",
     )
 
 
@@ -303,12 +308,12 @@ def _followed(
     axis: AxisLaw,
     scenario: str,
     positions: Sequence[float],
-    found: dict[str, Figure],
+    figures: dict[str, Figure],
     assumption: str,
     rest: float = _PAUSE,
 ) -> Trace:
     profile = profile_of(pieces_of(positions), positions[-1] if positions else 0.0)
-    return _run(axis, scenario, profile, end_of(profile), found, assumption, rest)
+    return _run(axis, scenario, profile, end_of(profile), figures, assumption, rest)
 
 
 def _run(
@@ -316,7 +321,7 @@ def _run(
     scenario: str,
     profile: list[float],
     end: float,
-    found: dict[str, Figure],
+    figures: dict[str, Figure],
     assumption: str,
     rest: float = _PAUSE,
 ) -> Trace:
@@ -324,7 +329,7 @@ def _run(
     columns = motion.columns
     peak = float(np.abs(columns["following_error"][:: motion.rows_per_servo_period]).max())
     result: dict[str, Figure] = {
-        **found,
+        **figures,
         "time": (end, "s"),
         "peak_following_error": (peak, "counts"),
         "peak_output": (float(np.abs(columns["output"]).max()), "V"),

@@ -41,7 +41,7 @@ def _danger_table(dangers: Sequence[Danger], words: Language) -> PaperTable:
 
 def differences_paper(
     file: ParameterFile,
-    found: Comparison,
+    comparison: Comparison,
     names: tuple[str, str],
     facts: Sequence[tuple[str, str]] = (),
     date: datetime | None = None,
@@ -54,12 +54,12 @@ def differences_paper(
     ``more`` are the other side and what only its schema has; ``language`` is a code of ``language_codes``.
     """
     other, only_there = more or (None, ())
-    tables = list(_by_group(file, found.differences, language))
+    tables = list(_by_group(file, comparison.differences, language))
     if other:
         tables += _by_group(other, only_there, language)
-    count = len(found.differences) + len(only_there)
+    count = len(comparison.differences) + len(only_there)
     words = language_of(language, file.schema.family.family)
-    if dangers := dangers_of_change(file, found.differences, words):
+    if dangers := dangers_of_change(file, comparison.differences, words):
         tables.insert(0, _danger_table(dangers, words))
     known = {title for title, _ in facts}
     sides = zip("AB", names, (file, other), strict=True)
@@ -68,9 +68,9 @@ def differences_paper(
         *own,
         *facts,
         ("Differ", str(count)),
-        ("The same", str(found.same)),
-        ("Not set in A", str(found.not_set_in_a)),
-        ("Not set in B", str(found.not_set_in_b)),
+        ("The same", str(comparison.same)),
+        ("Not set in A", str(comparison.not_set_in_a)),
+        ("Not set in B", str(comparison.not_set_in_b)),
     ]
     title = file.header.name or names[0]
     return Paper(

@@ -46,27 +46,27 @@ class Homed:
         self.alarm, self.why, self.home, self.coordinate = failure.code, failure.message, None, None
 
 
-def home_axis(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Homed) -> Orders:
-    """Yield the orders of a homing from where the axis is at rest; ``found`` is filled on the way."""
+def home_axis(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: Homed) -> Orders:
+    """Yield the orders of a homing from where the axis is at rest; ``homed`` is filled on the way."""
     if homing.scale is not None:
-        yield from _coded(axis, homing, homing.scale, ramp, around, found)
+        yield from _coded(axis, homing, homing.scale, ramp, around, homed)
         return
     edge = 0.0
     if homing.approach:
-        edge = yield from _onto(axis, homing, ramp, around, found)
-        if found.alarm or axis.is_over:
+        edge = yield from _onto(axis, homing, ramp, around, homed)
+        if homed.alarm or axis.is_over:
             return
     if homing.leave == 0.0:
-        found.marker = found.home = axis.measured
-        found.coordinate = homing.coordinate
+        homed.marker = homed.home = axis.measured
+        homed.coordinate = homing.coordinate
         return
-    yield from _off(axis, homing, ramp, around, found, edge)
+    yield from _off(axis, homing, ramp, around, homed, edge)
 
 
 EdgeFound = Generator[Order, Seen | None, float]
 
 
-def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Homed) -> EdgeFound:
+def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: Homed) -> EdgeFound:
     """Go onto the switch; returns the edge over which it is left."""
     sign, edge = math.copysign(1.0, homing.approach), around.switch
     end = edge + sign * around.length
@@ -83,11 +83,11 @@ def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: H
         if seen is None:
             if not axis.is_over:
                 yield from _failed(
-                    homing, "switch", ramp, found, "No switch comes before the axis is at the end of its way"
+                    homing, "switch", ramp, homed, "No switch comes before the axis is at the end of its way"
                 )
             return edge
         if homing.through:
-            found.left = seen
+            homed.left = seen
             return edge
     # A control that looks at the following error a moment after the stop does not wait until the axis
     # is in position.
@@ -95,75 +95,75 @@ def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: H
     if math.isfinite(homing.rest_window):
         yield PauseOrder(REST_AFTER)
         if not axis.is_over and abs(axis.position - axis.measured) > homing.rest_window:
-            yield from _failed(homing, "moving", ramp, found, "The axis does not come to rest on the switch")
+            yield from _failed(homing, "moving", ramp, homed, "The axis does not come to rest on the switch")
             return edge
     if homing.pause:
         yield PauseOrder(homing.pause)
     if axis.is_over:
         return edge
-    found.overrun = axis.passed(edge, sign)
+    homed.overrun = axis.passed(edge, sign)
     if homing.again:
-        yield from _again(axis, homing, ramp, around, found, edge)
+        yield from _again(axis, homing, ramp, around, homed, edge)
         return edge
     # Back over the edge it came from; only an axis that goes on needs the other one, and a switch long
     # enough.
     if math.copysign(1.0, homing.leave) != sign:
         return edge
-    if found.overrun > around.length:
+    if homed.overrun > around.length:
         text = (
             f"The axis passed the whole switch of {value_text(around.length, axis.axis.unit)} before "
             "it stopped:"
             f" it is too fast for it ({page_text(homing.page)})"
         )
-        yield from _failed(homing, "fast", ramp, found, text)
+        yield from _failed(homing, "fast", ramp, homed, text)
     return end
 
 
-def _again(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Homed, edge: float) -> Orders:
+def _again(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: Homed, edge: float) -> Orders:
     """Back off, come onto the switch slowly and stop there at once, as often as asked."""
     sign, back = math.copysign(1.0, homing.approach), homing.pull_off
     for _ in range(homing.passes):
         yield MoveOrder(axis.position - sign * back, abs(homing.approach), ramp)
         if around.is_stuck or sign * (axis.load - edge) >= 0.0:
             off = f"The switch does not go off within {value_text(back, axis.axis.unit)}"
-            yield from _failed(homing, "stuck", ramp, found, off)
+            yield from _failed(homing, "stuck", ramp, homed, off)
             return
-        found.left = yield GoOrder(sign * abs(homing.again), ramp, Watch(edge, sign), LOCATE * back)
-        if found.left is None:
-            yield from _failed(homing, "switch", ramp, found, "The switch does not come on again")
+        homed.left = yield GoOrder(sign * abs(homing.again), ramp, Watch(edge, sign), LOCATE * back)
+        if homed.left is None:
+            yield from _failed(homing, "switch", ramp, homed, "The switch does not come on again")
             return
         yield StopOrder(Ramp())
 
 
-def _off(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Homed, edge: float) -> Orders:
+def _off(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: Homed, edge: float) -> Orders:
     """Leave the switch over ``edge``, go to the marker and to the home position."""
-    if homing.approach and found.left is None:
-        yield from _left(axis, homing, ramp, around, found, edge)
-        if found.left is None:
+    if homing.approach and homed.left is None:
+        yield from _left(axis, homing, ramp, around, homed, edge)
+        if homed.left is None:
             return
-    start = found.left.measured if found.left else axis.measured
+    start = homed.left.measured if homed.left else axis.measured
     if homing.marker == "nearest":
         yield StopOrder(ramp)
         if not around.has_markers:
-            yield from _failed(homing, "marker", ramp, found, "No marker is near the end of the switch")
+            yield from _failed(homing, "marker", ramp, homed, "No marker is near the end of the switch")
             return
-        found.marker = around.marker + homing.turn * round((start - around.marker) / homing.turn)
+        homed.marker = around.marker + homing.turn * round((start - around.marker) / homing.turn)
     elif homing.marker == "next":
-        yield from _next_marker(axis, homing, ramp, around, found, start)
-        if found.marker is None:
+        yield from _next_marker(axis, homing, ramp, around, homed, start)
+        if homed.marker is None:
             return
     elif homing.again:
-        found.marker = axis.position
+        homed.marker = axis.position
     else:
-        found.marker = start
+        homed.marker = start
         yield StopOrder(ramp)
-    found.home = found.marker + homing.offset
+    homed.home = homed.marker + homing.offset
     if homing.final:
-        yield MoveOrder(found.home, homing.final, ramp)
-    found.coordinate = homing.coordinate
+        yield MoveOrder(homed.home, homing.final, ramp)
+    homed.coordinate = homing.coordinate
 
 
-def _left(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Homed, edge: float) -> Orders:
+def _left(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: Homed, edge: float) -> Orders:
     """Leave the switch; ``found.left`` stays None where it does not go off."""
     sign, stuck = math.copysign(1.0, homing.leave), homing.failures.get("stuck")
     reach = min(_way(axis, around, sign, homing.turn), stuck.reach if stuck else math.inf)
@@ -173,13 +173,13 @@ def _left(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: H
     if not around.is_stuck and stuck and abs(axis.position - edge) > stuck.reach:
         way = stuck.reach
     place = sign * math.inf if around.is_stuck else edge
-    found.left = yield GoOrder(homing.leave, ramp, Watch(place, sign), way)
-    if found.left is None and not axis.is_over:
-        yield from _failed(homing, "stuck", ramp, found, "The axis does not leave the switch")
+    homed.left = yield GoOrder(homing.leave, ramp, Watch(place, sign), way)
+    if homed.left is None and not axis.is_over:
+        yield from _failed(homing, "stuck", ramp, homed, "The axis does not leave the switch")
 
 
 def _next_marker(
-    axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Homed, start: float
+    axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: Homed, start: float
 ) -> Orders:
     """Go on to the next marker and stop; ``found.marker`` stays None where none comes."""
     sign, turn, missing = math.copysign(1.0, homing.leave), homing.turn, homing.failures.get("marker")
@@ -192,14 +192,14 @@ def _next_marker(
     place = marker if around.has_markers and sign * (marker - start) <= far else sign * math.inf
     speed = math.copysign(homing.search or abs(homing.leave), homing.leave)
     if (yield GoOrder(speed, ramp, Watch(place, sign, device=True), far)) is not None:
-        found.marker = marker
+        homed.marker = marker
         yield StopOrder(ramp)
     elif not axis.is_over:
-        yield from _failed(homing, "marker", ramp, found, "No marker comes")
+        yield from _failed(homing, "marker", ramp, homed, "No marker comes")
 
 
 def _coded(
-    axis: MovingAxis, homing: Homing, scale: CodedScale, ramp: Ramp, around: Around, found: Homed
+    axis: MovingAxis, homing: Homing, scale: CodedScale, ramp: Ramp, around: Around, homed: Homed
 ) -> Orders:
     """Pass three markers of a coded scale, stop, take its position, and go to the home position (5-5,
     5-14).
@@ -215,15 +215,15 @@ def _coded(
     if seen is None:
         if not axis.is_over:
             yield from _failed(
-                homing, "marker", ramp, found, f"The axis does not pass {scale.markers} markers in a row"
+                homing, "marker", ramp, homed, f"The axis does not pass {scale.markers} markers in a row"
             )
         return
-    found.marker = place
+    homed.marker = place
     yield StopOrder(ramp)
-    found.home = homing.coordinate - scale.zero - around.scale
+    homed.home = homing.coordinate - scale.zero - around.scale
     if homing.final:
-        yield MoveOrder(found.home, homing.final, ramp)
-    found.coordinate = homing.coordinate
+        yield MoveOrder(homed.home, homing.final, ramp)
+    homed.coordinate = homing.coordinate
 
 
 def markers_ahead(scale: CodedScale, here: float, sign: float) -> list[float]:
@@ -249,7 +249,7 @@ def _way(axis: MovingAxis, around: Around, sign: float, turn: float) -> float:
     return abs(around.switch - axis.position) + 2.0 * turn if math.isfinite(around.switch) else FAR * turn
 
 
-def _failed(homing: Homing, which: str, ramp: Ramp, found: Homed, text: str) -> Orders:
+def _failed(homing: Homing, which: str, ramp: Ramp, homed: Homed, text: str) -> Orders:
     """StopOrder, and note the alarm of the control for it."""
     yield StopOrder(ramp)
-    found.fail(homing.failures.get(which, Failure("HOME", f"{text}: no alarm is printed for it")))
+    homed.fail(homing.failures.get(which, Failure("HOME", f"{text}: no alarm is printed for it")))

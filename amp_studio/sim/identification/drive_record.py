@@ -314,11 +314,11 @@ def _torque_unit(text: str) -> tuple[str, float] | None:
 
 def torque_figure(text: str) -> tuple[float, str]:
     """Read a torque with its unit, ``0.056 A``; raises SimulationError."""
-    found = re.fullmatch(rf"({_NUMBER.pattern})\s*(\D+)", text.strip().replace(",", "."))
-    unit = _torque_unit(found[2]) if found else None
-    if found is None or unit is None or not 0.0 < float(found[1]) * unit[1] < np.inf:
+    match = re.fullmatch(rf"({_NUMBER.pattern})\s*(\D+)", text.strip().replace(",", "."))
+    unit = _torque_unit(match[2]) if match else None
+    if match is None or unit is None or not 0.0 < float(match[1]) * unit[1] < np.inf:
         raise SimulationError(f"'{text[:40]}' is no torque above 0 with its unit: 0.056 A, 0.02 Nm")
-    return float(found[1]) * unit[1], unit[0]
+    return float(match[1]) * unit[1], unit[0]
 
 
 # -- numbers -----------------------------------------------------------------------------------------

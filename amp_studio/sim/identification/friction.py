@@ -197,12 +197,12 @@ def _mean(values: Series, side: float) -> Series:
 
 
 def _widths(rows: int) -> list[int]:
-    found = [1]
+    widths = [1]
     # A filter of three boxes is three widths long; a tenth of the record is the longest that leaves
     # enough rows.
-    while 3 * found[-1] < rows // 10:
-        found.append(max(found[-1] + 1, round(1.5 * found[-1])))
-    return found
+    while 3 * widths[-1] < rows // 10:
+        widths.append(max(widths[-1] + 1, round(1.5 * widths[-1])))
+    return widths
 
 
 def _box(values: Series, width: int) -> Series:

@@ -86,36 +86,36 @@ def _of_record(
     return response_of_record(float(time[1] - time[0]), driven, moved, by[1]), by[0]
 
 
-def _trace(found: FrequencyResponse, fitted: PlantFit, bound: AxisLaw, path: Path, letter: str) -> Trace:
+def _trace(response: FrequencyResponse, fitted: PlantFit, bound: AxisLaw, path: Path, letter: str) -> Trace:
     columns = {
-        "frequency_hz": found.frequency,
-        "plant_gain_db": _db(found.response),
-        "plant_phase_deg": _phase(found.response),
+        "frequency_hz": response.frequency,
+        "plant_gain_db": _db(response.response),
+        "plant_phase_deg": _phase(response.response),
         "plant_gain_db_model": _db(fitted.model),
         "plant_phase_deg_model": _phase(fitted.model),
     }
     units = {"frequency_hz": "Hz", **{name: "dB" if "gain" in name else "deg" for name in list(columns)[1:]}}
-    if found.coherence is not None:
-        columns["coherence"], units["coherence"] = found.coherence, ""
+    if response.coherence is not None:
+        columns["coherence"], units["coherence"] = response.coherence, ""
     side = "the load" if fitted.at_load else "the motor"
     return Trace(
         scenario=IDENTIFY,
         axis=bound.axis,
         letter=letter,
         model=(
-            f"{path.name}: {len(found.frequency)} frequencies from"
-            f" {value_text(float(found.frequency[0]), 'Hz', 3)} to "
-            f"{value_text(float(found.frequency[-1]), 'Hz', 3)},"
+            f"{path.name}: {len(response.frequency)} frequencies from"
+            f" {value_text(float(response.frequency[0]), 'Hz', 3)} to "
+            f"{value_text(float(response.frequency[-1]), 'Hz', 3)},"
             f" the {fitted.quantity} of {side}"
         ),
         columns=columns,
         units=units,
-        result=_result(found, fitted, bound),
+        result=_result(response, fitted, bound),
         alarms=(),
         recommendations=_notches(fitted.pairs),
         assumptions=_assumed(fitted, bound),
         limits={},
-        doubts=tuple(_doubts(found, fitted)),
+        doubts=tuple(_doubts(response, fitted)),
     )
 
 
@@ -128,7 +128,7 @@ def _phase(response: Response) -> np.ndarray:
     return np.asarray(phase - 360.0 * round((float(phase[0]) + 90.0) / 360.0))
 
 
-def _result(found: FrequencyResponse, fitted: PlantFit, bound: AxisLaw) -> dict[str, Figure]:
+def _result(response: FrequencyResponse, fitted: PlantFit, bound: AxisLaw) -> dict[str, Figure]:
     torque = torque_unit(bound)
     scales = {
         "acceleration_per_output": (1.0, f"{bound.unit}/s2"),
@@ -149,10 +149,10 @@ def _result(found: FrequencyResponse, fitted: PlantFit, bound: AxisLaw) -> dict[
         )
         result[f"antiresonance_{n}"] = (pair.antiresonance, "Hz")
     result["misfit"] = (100.0 * fitted.misfit, "%")
-    result["frequencies"] = (float(len(found.frequency)), "")
-    result["left_out"] = (float(found.left_out), "")
-    if found.coherence is not None:
-        result["least_coherence"] = (float(found.coherence.min()), "")
+    result["frequencies"] = (float(len(response.frequency)), "")
+    result["left_out"] = (float(response.left_out), "")
+    if response.coherence is not None:
+        result["least_coherence"] = (float(response.coherence.min()), "")
     return result
 
 
@@ -204,12 +204,12 @@ def _assumed(fitted: PlantFit, bound: AxisLaw) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def _doubts(found: FrequencyResponse, fitted: PlantFit) -> list[str]:
+def _doubts(response: FrequencyResponse, fitted: PlantFit) -> list[str]:
     doubts = []
     if not fitted.sure:
         doubts.append(f"Another motion than the {fitted.quantity} would fit about as well: give --response")
-    if found.left_out:
-        doubts.append(f"{found.left_out} frequencies were left out, their coherence is below 0.8")
+    if response.left_out:
+        doubts.append(f"{response.left_out} frequencies were left out, their coherence is below 0.8")
     if fitted.misfit > DOUBTFUL_MISFIT:
         doubts.append(
             f"{value_text(100.0 * fitted.misfit, '%', 2)} of the response are left on average; look "

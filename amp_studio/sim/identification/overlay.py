@@ -105,14 +105,14 @@ def trigger_of(text: str, before: float = 0.0) -> Trigger:
     """Return a trigger as it is written, ``velocity>100``: the level is in the unit of the trace;
     raises SimulationError.
     """
-    found = re.fullmatch(r"\s*([a-z _]+?)\s*([<>])\s*([+-]?[0-9]*[.,]?[0-9]+)\s*", text)
-    signal = found[1].replace(" ", "_") if found else ""
-    if found is None or signal not in SIGNALS:
+    match = re.fullmatch(r"\s*([a-z _]+?)\s*([<>])\s*([+-]?[0-9]*[.,]?[0-9]+)\s*", text)
+    signal = match[1].replace(" ", "_") if match else ""
+    if match is None or signal not in SIGNALS:
         known = ", ".join(SIGNALS)
         raise SimulationError(f"'{text[:40]}' is no trigger: velocity>100, with one of {known}")
     if before < 0.0:
         raise SimulationError(f"{before:g} s ahead of the trigger: it must be 0 or more")
-    return Trigger(signal, found[2] == ">", float(found[3].replace(",", ".")), before)
+    return Trigger(signal, match[2] == ">", float(match[3].replace(",", ".")), before)
 
 
 def laid_over(trace: Trace, path: Path, trigger: Trigger | None = None) -> Trace:

@@ -116,7 +116,7 @@ class _Shape:
         return np.array(rows)
 
 
-def fit_plant(found: FrequencyResponse, quantity: str | None = None) -> PlantFit:
+def fit_plant(response: FrequencyResponse, quantity: str | None = None) -> PlantFit:
     """Return the machine of a response; ``quantity`` None finds out which of QUANTITIES it is of.
 
     Raises SimulationError for a response that such a machine does not have.
@@ -125,18 +125,18 @@ def fit_plant(found: FrequencyResponse, quantity: str | None = None) -> PlantFit
         (shape, fitted)
         for name in QUANTITIES
         if quantity in (None, name)
-        for shape, fitted in _fits(found, name)
-        if _is_inside(shape, fitted, float(found.frequency[0]))
-        if quantity is not None or _corner(fitted) < MOST_CORNER * found.frequency[-1]
+        for shape, fitted in _fits(response, name)
+        if _is_inside(shape, fitted, float(response.frequency[0]))
+        if quantity is not None or _corner(fitted) < MOST_CORNER * response.frequency[-1]
     ]
-    count = 2 * len(found.frequency)
+    count = 2 * len(response.frequency)
     if not fits:
         raise SimulationError(
             "The response has no frequencies at which inertia decides: measure up to higher ones"
         )
     fits.sort(key=lambda each: _criterion(each[1], count))
     shape, fitted = fits[0]
-    weights = float(np.mean(found.weights**2))
+    weights = float(np.mean(response.weights**2))
     misfit = math.sqrt(fitted.cost / count / weights)
     if misfit > LEAST_FIT:
         raise SimulationError(
@@ -145,7 +145,7 @@ def fit_plant(found: FrequencyResponse, quantity: str | None = None) -> PlantFit
         )
     others = [other.cost for each, other in fits if each.quantity != shape.quantity]
     sure = all(cost > WORSE * fitted.cost + 1e-9 for cost in others)
-    s = _rates(found)
+    s = _rates(response)
     return PlantFit(
         shape.quantity,
         shape.at_load,
@@ -164,8 +164,8 @@ def _corner(fitted: LeastSquares) -> float:
     )
 
 
-def _rates(found: FrequencyResponse) -> Response:
-    return np.asarray(2j * np.pi * found.frequency, dtype=np.complex128)
+def _rates(response: FrequencyResponse) -> Response:
+    return np.asarray(2j * np.pi * response.frequency, dtype=np.complex128)
 
 
 def _is_inside(shape: _Shape, fitted: LeastSquares, lowest: float) -> bool:
@@ -177,11 +177,11 @@ def _criterion(fitted: LeastSquares, count: int) -> float:
     return count * math.log(fitted.cost + 1e-20) + len(fitted.parameters) * math.log(count)
 
 
-def _fits(found: FrequencyResponse, quantity: str) -> Iterator[tuple[_Shape, LeastSquares]]:
+def _fits(response: FrequencyResponse, quantity: str) -> Iterator[tuple[_Shape, LeastSquares]]:
     """Yield fits of one quantity with more and more pairs, on both sides of the machine."""
-    s, count = _rates(found), 2 * len(found.frequency)
+    s, count = _rates(response), 2 * len(response.frequency)
     rigid = _Shape(quantity, False, 0)
-    first = _best(found, s, rigid, [_start(found, s, rigid, ())])
+    first = _best(response, s, rigid, [_start(response, s, rigid, ())])
     yield rigid, first
     for at_load in (False, True):
         shape, best = rigid, first
@@ -189,7 +189,7 @@ def _fits(found: FrequencyResponse, quantity: str) -> Iterator[tuple[_Shape, Lea
             if count < 4 * (3 + 4 * pairs):
                 break
             more = _Shape(quantity, at_load, pairs)
-            fitted = _best(found, s, more, _starts(found, s, more, best.parameters))
+            fitted = _best(response, s, more, _starts(response, s, more, best.parameters))
             if _criterion(fitted, count) >= _criterion(best, count):
                 break
             shape, best = more, fitted
@@ -197,34 +197,34 @@ def _fits(found: FrequencyResponse, quantity: str) -> Iterator[tuple[_Shape, Lea
             yield shape, best
 
 
-def _residual(found: FrequencyResponse, s: Response, shape: _Shape, parameters: Series) -> Series:
+def _residual(response: FrequencyResponse, s: Response, shape: _Shape, parameters: Series) -> Series:
     with np.errstate(all="ignore"):
-        rest = np.log(found.response / shape.response(parameters, s))
+        rest = np.log(response.response / shape.response(parameters, s))
     rest = np.where(np.isfinite(rest), rest, 1e3)
-    return np.concatenate([found.weights * rest.real, found.weights * rest.imag])
+    return np.concatenate([response.weights * rest.real, response.weights * rest.imag])
 
 
-def _slopes(found: FrequencyResponse, s: Response, shape: _Shape, parameters: Series) -> Matrix:
+def _slopes(response: FrequencyResponse, s: Response, shape: _Shape, parameters: Series) -> Matrix:
     with np.errstate(all="ignore"):
         rows = shape.slopes(parameters, s)
-    weighed = np.where(np.isfinite(rows), rows, 0.0) * -found.weights
+    weighed = np.where(np.isfinite(rows), rows, 0.0) * -response.weights
     return np.concatenate([weighed.real, weighed.imag], axis=1).T
 
 
-def _best(found: FrequencyResponse, s: Response, shape: _Shape, starts: Sequence[Series]) -> LeastSquares:
+def _best(response: FrequencyResponse, s: Response, shape: _Shape, starts: Sequence[Series]) -> LeastSquares:
     fits = [
-        fit(lambda p: _residual(found, s, shape, p), start, lambda p: _slopes(found, s, shape, p))
+        fit(lambda p: _residual(response, s, shape, p), start, lambda p: _slopes(response, s, shape, p))
         for start in starts
     ]
     return min(fits, key=lambda each: each.cost)
 
 
-def _start(found: FrequencyResponse, s: Response, shape: _Shape, pairs: Sequence[float]) -> Series:
+def _start(response: FrequencyResponse, s: Response, shape: _Shape, pairs: Sequence[float]) -> Series:
     """Return parameters whose size and delay fit best to the pairs: both are linear in the logarithm."""
     there = np.array([0.0, 1e-3, 0.0, *pairs])
-    ratio = found.response / shape.response(there, s)
-    size = float(np.average(np.log(np.abs(ratio)), weights=found.weights**2))
-    phase, omega, weights = np.unwrap(np.angle(ratio)), s.imag, found.weights**2
+    ratio = response.response / shape.response(there, s)
+    size = float(np.average(np.log(np.abs(ratio)), weights=response.weights**2))
+    phase, omega, weights = np.unwrap(np.angle(ratio)), s.imag, response.weights**2
     phase -= 2.0 * np.pi * np.round(phase[0] / (2.0 * np.pi))
     there[0], there[2] = (
         size,
@@ -233,14 +233,14 @@ def _start(found: FrequencyResponse, s: Response, shape: _Shape, pairs: Sequence
     return there
 
 
-def _starts(found: FrequencyResponse, s: Response, shape: _Shape, known: Series) -> list[Series]:
+def _starts(response: FrequencyResponse, s: Response, shape: _Shape, known: Series) -> list[Series]:
     """Return the starts with one pair more that fit best as they are."""
     tried = []
     for rate in np.geomspace(s.imag[1], s.imag[-1] * 1.2, PLACES):
         for ratio in RATIOS:
             pairs = [*known[3:], math.log(rate), math.log(ratio), math.log(DAMPING), math.log(DAMPING)]
-            start = _start(found, s, shape, pairs)
-            rest = _residual(found, s, shape, start)
+            start = _start(response, s, shape, pairs)
+            rest = _residual(response, s, shape, start)
             tried.append((float(rest @ rest), start))
     return [start for _, start in sorted(tried, key=lambda each: each[0])[:STARTS]]
 

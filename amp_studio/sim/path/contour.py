@@ -158,5 +158,5 @@ def _share(place: PathRows, begins: PathRows, ends: PathRows, way: PathRows) -> 
 
 def _apart(one: PathRows, other: PathRows) -> PathRows:
     """Return the distances of points, (n,)."""
-    found: PathRows = np.sqrt(((one - other) ** 2).sum(axis=1))
-    return found
+    rows: PathRows = np.sqrt(((one - other) ** 2).sum(axis=1))
+    return rows

@@ -221,8 +221,8 @@ def _flat(points: PathRows, *, tilted: bool) -> PathRows:
     wide = np.zeros((len(points), 3))
     count = min(points.shape[1], 3)
     wide[:, :count] = points[:, :count]
-    found: PathRows = wide @ np.array(TILT) if tilted else wide[:, :2]
-    return found
+    rows: PathRows = wide @ np.array(TILT) if tilted else wide[:, :2]
+    return rows
 
 
 def _span(values: PathRows) -> tuple[float, float]:

@@ -61,17 +61,17 @@ def typed_steps(file: ParameterFile, text: str) -> list[dict[Address, Value]]:
     FROM and TO are numbers, or both shares as -20%. Raises SimulationError.
     """
     param, _, wanted = text.partition("=")
-    found = _STEPS.fullmatch(wanted.strip())
-    if found is None or bool(found[2]) != bool(found[4]):
+    match = _STEPS.fullmatch(wanted.strip())
+    if match is None or bool(match[2]) != bool(match[4]):
         raise SimulationError(
             f"{quoted(text)} is not PARAM=FROM:TO:STEPS, as 1210=200:800:4 or 1210=-20%:+20%"
         )
-    first, last, count = float(found[1]), float(found[3]), int(found[5] or 5)
+    first, last, count = float(match[1]), float(match[3]), int(match[5] or 5)
     if not 2 <= count <= MOST_STEPS:
         raise SimulationError(f"{quoted(text)} has {count} steps; it takes 2 to {MOST_STEPS}")
     steps = [first + (last - first) * n / (count - 1) for n in range(count)]
-    sign = "+" if found[2] else ""
-    return [typed_values(file, [f"{param}={each:{sign}.9g}{'%' if found[2] else ''}"]) for each in steps]
+    sign = "+" if match[2] else ""
+    return [typed_values(file, [f"{param}={each:{sign}.9g}{'%' if match[2] else ''}"]) for each in steps]
 
 
 def _unit(file: ParameterFile, address: Address) -> str:

@@ -217,39 +217,39 @@ def _scattered(around: Around, homing: Homing, settings: Settings) -> list[Aroun
     return [replace(around, switch=around.switch + scatter * share) for share in shares]
 
 
-def _compare(homing: Homing, found: Homed, others: Sequence[Homed]) -> None:
+def _compare(homing: Homing, homed: Homed, others: Sequence[Homed]) -> None:
     """Have the control compare the turn between switch and marker with that of the first homing,
     where it does.
     """
-    failure, first = homing.failures.get("scatter"), _grid(homing, found)
+    failure, first = homing.failures.get("scatter"), _grid(homing, homed)
     for other in others:
         again = _grid(homing, other)
         if failure and first is not None and again is not None and abs(again - first) > failure.reach * 100.0:
-            found.fail(failure)
+            homed.fail(failure)
             return
 
 
-def _grid(homing: Homing, found: Homed) -> float | None:
+def _grid(homing: Homing, homed: Homed) -> float | None:
     """Return the way from switch to marker in % of a turn."""
-    if homing.marker == "none" or found.marker is None or found.left is None:
+    if homing.marker == "none" or homed.marker is None or homed.left is None:
         return None
-    return abs(found.marker - found.left.measured) / homing.turn * 100.0
+    return abs(homed.marker - homed.left.measured) / homing.turn * 100.0
 
 
-def _doubts(axis: AxisLaw, homing: Homing, around: Around, found: Homed) -> list[str]:
+def _doubts(axis: AxisLaw, homing: Homing, around: Around, homed: Homed) -> list[str]:
     """Return what is doubtful about this homing."""
     notes = []
-    if homing.marker == "nearest" and found.left and found.marker is not None:
-        away = abs(found.marker - found.left.measured) / homing.turn
+    if homing.marker == "nearest" and homed.left and homed.marker is not None:
+        away = abs(homed.marker - homed.left.measured) / homing.turn
         if away > DOUBTFUL:
             notes.append(
                 f"The marker is {value_text(away, digits=2)} turns from where the switch goes off: "
                 f"half a turn away it may be another one each time ({page_text(homing.page)}). "
                 "Move the switch or the encoder."
             )
-    if found.overrun is not None and found.overrun > around.length and not found.alarm:
+    if homed.overrun is not None and homed.overrun > around.length and not homed.alarm:
         notes.append(
-            f"ASSUMED: the axis runs {value_text(found.overrun, axis.unit)} over a switch of"
+            f"ASSUMED: the axis runs {value_text(homed.overrun, axis.unit)} over a switch of"
             f" {value_text(around.length, axis.unit)}, stops behind it and comes back over it; the "
             "control waits"
             " until it goes off again."
@@ -257,34 +257,34 @@ def _doubts(axis: AxisLaw, homing: Homing, around: Around, found: Homed) -> list
     return notes
 
 
-def _on_the_way(axis: AxisLaw, homing: Homing, found: Homed) -> dict[str, Figure]:
+def _on_the_way(axis: AxisLaw, homing: Homing, homed: Homed) -> dict[str, Figure]:
     """Return the figures of switch and marker, as far as the sequence has them."""
     u = axis.unit
     figures: dict[str, Figure] = {}
     if homing.approach:
         figures["approach_feedrate"] = (abs(homing.approach) * 60.0, f"{u}/min")
         if not homing.through:
-            figures["switch_overrun"] = (found.overrun, u)
+            figures["switch_overrun"] = (homed.overrun, u)
     if homing.leave:
         figures["leave_feedrate"] = (abs(homing.leave) * 60.0, f"{u}/min")
     if homing.marker != "none" and homing.scale is None and homing.leave:
-        from_end = None if found.marker is None or found.left is None else found.marker - found.left.measured
+        from_end = None if homed.marker is None or homed.left is None else homed.marker - homed.left.measured
         figures["marker_distance"] = (from_end, u)
-        figures["home_grid"] = (_grid(homing, found), "%")
+        figures["home_grid"] = (_grid(homing, homed), "%")
     return figures
 
 
 def _figures(
-    axis: AxisLaw, homing: Homing, found: Homed, others: Sequence[Homed], motion: Motion, alarmed: bool
+    axis: AxisLaw, homing: Homing, homed: Homed, others: Sequence[Homed], motion: Motion, alarmed: bool
 ) -> dict[str, Figure]:
     """Return the named figures; none of the home position where it was not reached."""
     u, columns = axis.unit, motion.columns
-    reached = found.home is not None and not alarmed
-    figures = _on_the_way(axis, homing, found)
-    off = None if not reached or found.home is None else float(columns["position"][-1]) - found.home
+    reached = homed.home is not None and not alarmed
+    figures = _on_the_way(axis, homing, homed)
+    off = None if not reached or homed.home is None else float(columns["position"][-1]) - homed.home
     figures |= {
         "home_position": (homing.coordinate if reached else None, u),
-        "home_from_start": (found.home if reached else None, u),
+        "home_from_start": (homed.home if reached else None, u),
         "stop_position": (None if off is None else homing.coordinate + off, u),
         "time": (found.ended if reached else None, "s"),
         "peak_following_error": (float(np.abs(columns["following_error"][motion.driven]).max()), u),
@@ -292,7 +292,7 @@ def _figures(
     if homing.order is not None:
         figures["home_order"] = (float(homing.order), "")
     if others:
-        places = [each.home for each in (found, *others) if each.home is not None]
+        places = [each.home for each in (homed, *others) if each.home is not None]
         whole = reached and len(places) == len(others) + 1
         figures["repeatability"] = (max(places) - min(places) if whole else None, u)
     return figures

@@ -84,9 +84,9 @@ def _following(trial: Trial, solved: Solved) -> list[Recommendation]:
     """Return what has to follow the gains: feed-forward and limits of the following error;
     nothing for an axis that runs away.
     """
-    found: list[Recommendation] = []
+    recommendations: list[Recommendation] = []
     if not (solved.after.loops.stable and solved.after.loops.inner_stable):
-        return found
+        return recommendations
     for each in solved.after.axis.follow(solved.after.axis):
         now = trial.value(each.parameter)
         if (
@@ -94,8 +94,8 @@ def _following(trial: Trial, solved: Solved) -> list[Recommendation]:
             or now.unit != each.unit
             or not math.isclose(float(now.value), each.value, rel_tol=1e-9)
         ):
-            found.append(each)
-    return found
+            recommendations.append(each)
+    return recommendations
 
 
 def _figures(solved: Solved) -> dict[str, Figure]:

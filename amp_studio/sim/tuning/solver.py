@@ -199,7 +199,7 @@ class Solved:
 
 def gains_of(trial: Tried) -> list[Gain]:
     """Return the gains of an axis, from the inner loop outwards, that have a value and move its loops."""
-    found: list[Gain] = []
+    gains: list[Gain] = []
     for name in trial.axis.gains:
         source = trial.axis.sources.get(name)
         value = trial.value(source.parameter) if source else None
@@ -211,7 +211,7 @@ def gains_of(trial: Tried) -> list[Gain]:
         # The sign of a gain is the wiring of a feedback: a search over both signs would try a loop that runs
         # away, so only the size is sought, on the side of zero where it is. An integral gain of the other
         # sign than the gain before it pushes away from the target: that one's sign is right for both.
-        sign = found[-1].sign if is_integral and found else math.copysign(1.0, present or 1.0)
+        sign = gains[-1].sign if is_integral and gains else math.copysign(1.0, present or 1.0)
         most = min(LARGEST if high is None else high, source.largest) if sign > 0.0 else -(low or -LARGEST)
         least = max(low or 0.0, 0.0) if sign > 0.0 else 0.0
         whole = source.whole or isinstance(value.value, int)
@@ -229,8 +229,8 @@ def gains_of(trial: Tried) -> list[Gain]:
             is_integral and least == 0.0,
         )
         if _moves(trial, gain):
-            found.append(gain)
-    return found
+            gains.append(gain)
+    return gains
 
 
 def _moves(trial: Tried, gain: Gain) -> bool:
@@ -297,12 +297,12 @@ class Search:
         return self._best[key]
 
     def _sought(self, levels: Sequence[Level], level: int) -> GainPoint | None:
-        found: list[GainPoint] = []
-        self._outwards((), levels, level, found)
-        if not found:
+        points: list[GainPoint] = []
+        self._outwards((), levels, level, points)
+        if not points:
             return None
         # The point itself breaks a tie, so that the same axis always gets the same gains.
-        ranked = sorted(found, key=lambda point: (self.yields(point), point))
+        ranked = sorted(points, key=lambda point: (self.yields(point), point))
         # The way of steps ends at the nearest hill: several starts, one for each innermost gain, find
         # the highest.
         starts = {point[0]: point for point in reversed(ranked)}  # the best with each innermost gain
@@ -342,7 +342,7 @@ class Search:
         return min(usable)[1] if usable else None
 
     def _outwards(
-        self, inner: GainPoint, levels: Sequence[Level], level: int, found: list[GainPoint]
+        self, inner: GainPoint, levels: Sequence[Level], level: int, points: list[GainPoint]
     ) -> None:
         """Collect points with these inner gains and the largest gains outside of them."""
         index = len(inner)
@@ -359,9 +359,9 @@ class Search:
         for value in dict.fromkeys(values):
             point = (*inner, value)
             if len(point) < len(self.gains):
-                self._outwards(point, levels, level, found)
+                self._outwards(point, levels, level, points)
             elif self.keeps(point, levels, level):
-                found.append(point)
+                points.append(point)
 
     def _largest(self, inner: GainPoint, levels: Sequence[Level], level: int) -> float | None:
         """Return the largest value of the next gain that keeps the level with the least

@@ -226,9 +226,9 @@ def _axes(job: SweepJob) -> Axes:
     return Axes(job)
 
 
-def refuse_impossible(job: SweepJob, points: Matrix, found: Matrix) -> None:
+def refuse_impossible(job: SweepJob, points: Matrix, matrix: Matrix) -> None:
     """Raise SimulationError with the reason of the first point where none makes an axis."""
-    if len(points) and not np.isfinite(found).any():
+    if len(points) and not np.isfinite(matrix).any():
         _axes(job).refuse(points[0].tolist())
 
 

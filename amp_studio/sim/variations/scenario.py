@@ -210,10 +210,10 @@ def _two_gains(trial: Trial, also: Mapping[str, float]) -> tuple[Varied, ...]:
     return tuple(found)
 
 
-def _trace(job: SweepJob, trial: Trial, points: Matrix, found: Matrix, figure: str) -> Trace:
+def _trace(job: SweepJob, trial: Trial, points: Matrix, matrix: Matrix, figure: str) -> Trace:
     axis = bound_at_present(job)
     columns: dict[str, Series] = {each.name: points[:, n] for n, each in enumerate(job.varied)}
-    columns |= {name: found[:, n] for n, name in enumerate(job.columns)}
+    columns |= {name: matrix[:, n] for n, name in enumerate(job.columns)}
     columns["safe"] = _safe(job, columns)
     units = {each.name: each.unit or setting_unit(axis, each.name) for each in job.varied}
     units |= {name: unit for name, unit in _units(axis).items() if name in columns} | {"safe": ""}

@@ -126,21 +126,21 @@ def _is_device(text: str) -> bool:
 
 
 def _network(text: str, kind: str) -> Endpoint:
-    found = re.fullmatch(
+    match = re.fullmatch(
         kind + r"://(?:\[([0-9A-Fa-f:.%\w]+)\]|([^\[\]:/?#\s]+)):(\d{1,5})/?",
         text.partition("?")[0],
         re.ASCII,
     )
-    if found is None:
+    if match is None:
         name = {"tcp": "TCP", "tls": "TLS", "rfc2217": "RFC 2217"}[kind]
         raise ValueError(
             f"{quoted(text)} is no {name} address: write {kind}://host:port, for example"
             f" {kind}://192.168.0.5:7090"
         )
-    port = int(found[3])
+    port = int(match[3])
     if port > 65_535:
         raise ValueError(f"{quoted(text)} names port {port}, and ports end at 65535")
-    host = found[1] or found[2]
+    host = match[1] or match[2]
     if kind == "tcp":
         return Endpoint("tcp", host=host, port=port, **_options(text, "a TCP connection", ("protocol",)))
     if kind == "tls":

@@ -57,10 +57,10 @@ def prove(
     Returns what the control has sent behind its proof: a greeting of its protocol, for one.
     """
     challenge = _line(link, seconds, look)
-    found = CHALLENGE.fullmatch(challenge)
-    if found is None:
+    match = CHALLENGE.fullmatch(challenge)
+    if match is None:
         raise PasswordError(str(place), "it asks for no password, and one is set for it: nothing was sent")
-    key, nonce = key_of(password, bytes.fromhex(found[1].decode())), secrets.token_hex(32).encode()
+    key, nonce = key_of(password, bytes.fromhex(match[1].decode())), secrets.token_hex(32).encode()
     link.write(b"PROOF " + nonce + b" " + proof_of(key, b"client", challenge, certificate, nonce) + b"\n")
     answer, end, rest = _line(link, seconds, look).partition(b"\n")
     answer += end
@@ -167,17 +167,17 @@ class Gate:
 
     def answer(self, host: str, challenge: bytes, proof: bytes, certificate: bytes) -> tuple[bytes, bool]:
         """Return the answer to a proof, and whether the link may be used."""
-        found = PROOF.fullmatch(proof)
-        if found is None:
+        match = PROOF.fullmatch(proof)
+        if match is None:
             return WRONG, False  # no guess: who does not know of passwords speaks another protocol
         count, again_at = self._wrong.get(host, (0, 0.0))
         left = again_at - self._clock()
         if left > 0:  # a right one too: who guesses does not learn it
             return b"LATER %d\n" % max(1, round(left)), False
-        if hmac.compare_digest(found[2], proof_of(self._key, b"client", challenge, certificate, found[1])):
+        if hmac.compare_digest(match[2], proof_of(self._key, b"client", challenge, certificate, match[1])):
             self._wrong.pop(host, None)
             return (
-                b"WELCOME " + proof_of(self._key, b"server", challenge, certificate, found[1]) + b"\n",
+                b"WELCOME " + proof_of(self._key, b"server", challenge, certificate, match[1]) + b"\n",
                 True,
             )
         self._wrong.pop(host, None)

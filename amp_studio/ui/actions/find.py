@@ -153,14 +153,14 @@ class FindSearch(Translated):
         """Return messages of the controls of every family, for who has no file open;
         loaded in a thread at the first question.
         """
-        found = []
+        messages = []
         for finder in self._every_finder():
             family = finder.schema.family
             for hit in finder.find(query, _MOST):
                 if hit.kind == "message":
                     detail = f"{family.name}, {hit.detail}"
-                    found.append(replace(hit, key=f"{family.family}:{hit.key}", detail=detail))
-        return found
+                    messages.append(replace(hit, key=f"{family.family}:{hit.key}", detail=detail))
+        return messages
 
     def _every_finder(self) -> tuple[Finder, ...]:
         """Return a finder of each family; loaded in a thread at the first question,

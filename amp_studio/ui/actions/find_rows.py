@@ -100,8 +100,8 @@ def _row(hit: Hit, action: QAction | None, family: str) -> FindRow:
 
 def _in_words(reason: str) -> str:
     """Return why something was found in the language of the window; what was found stays as it is."""
-    if found := _TYPED.fullmatch(reason):
-        return tr("'{typed}' as '{found}'").format(typed=found[1], found=found[2])
+    if match := _TYPED.fullmatch(reason):
+        return tr("'{typed}' as '{found}'").format(typed=match[1], found=match[2])
     head, colon, rest = reason.partition(": ")
     return f"{worded(head)}{colon}{rest}"
 

@@ -37,14 +37,14 @@ def go_on(window: StudioWindow) -> None:
     _show_passed(window, page, here, found)
 
 
-def _show_passed(window: StudioWindow, page: FilePage, here: Address | None, found: Address) -> None:
+def _show_passed(window: StudioWindow, page: FilePage, here: Address | None, address: Address) -> None:
     """Name the steps between two values in which nothing is open but the user has not been either."""
     steps = step_of(page.workspace.file.schema)
     first = steps[here[0]].number if here else 0
     family = page.workspace.file.schema.family.family
     passed = [
         worded(each.step.title, family)
-        for each in page.workspace.progress.steps[first : steps[found[0]].number - 1]
+        for each in page.workspace.progress.steps[first : steps[address[0]].number - 1]
         if each.state == "not begun"
     ]
     if passed:

@@ -24,8 +24,8 @@ def written(figure: str) -> str:
     return _POWER.sub(_power, _POINT.sub(tr(".", "decimal sign"), figure))
 
 
-def _power(found: re.Match[str]) -> str:
-    return "\u202f×\u202f10" + (found[1].strip("+") + found[2]).translate(_RAISED)
+def _power(match: re.Match[str]) -> str:
+    return "\u202f×\u202f10" + (match[1].strip("+") + match[2]).translate(_RAISED)
 
 
 def sentence(text: str) -> str:

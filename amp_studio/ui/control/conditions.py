@@ -42,21 +42,21 @@ def conditions_of(session: ControlSession | None, file: ParameterFile) -> list[C
             ControlCondition(tr("Not connected"), state),
             *(ControlCondition(text, None) for text in waits),
         ]
-    found = [ControlCondition(tr("Connected"), not session.error, worded(seen.control.revision))]
-    found.append(_same_machine(session, file))
+    conditions = [ControlCondition(tr("Connected"), not session.error, worded(seen.control.revision))]
+    conditions.append(_same_machine(session, file))
     age = _age(session.asked_at)
     if session.in_estop is None:
-        found.append(ControlCondition(tr("No E-stop needed"), True))
+        conditions.append(ControlCondition(tr("No E-stop needed"), True))
     else:
         text = tr("E-stop is pressed") if session.in_estop else tr("E-stop is not pressed")
-        found.append(ControlCondition(text, session.in_estop, age))
-    found.append(
+        conditions.append(ControlCondition(text, session.in_estop, age))
+    conditions.append(
         ControlCondition(
             tr("Password accepted") if session.needs_password else tr("No password needed"), True
         )
     )
     if seen.abilities.lasting_states:
-        found.append(
+        conditions.append(
             ControlCondition(
                 tr("A write lasts in {states}").format(
                     states=", ".join(map(worded, seen.abilities.lasting_states))
@@ -64,7 +64,7 @@ def conditions_of(session: ControlSession | None, file: ParameterFile) -> list[C
                 True,
             )
         )
-    return found
+    return conditions
 
 
 def _same_machine(session: ControlSession, file: ParameterFile) -> ControlCondition:

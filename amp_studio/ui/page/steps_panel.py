@@ -230,14 +230,14 @@ class StepsPanel(QWidget):
     def _figures(self, each: StepProgress) -> list[str]:
         """Return how far a step is, in words."""
         defaults = each.active - each.own - len(each.open)
-        found = [self._state_name(each.state)]
-        found += (
+        figures = [self._state_name(each.state)]
+        figures += (
             [self.tr("{set} of {total} set").format(set=each.set, total=each.total)] if each.total else []
         )
-        found += [self.tr("%n at the default", "", defaults)] if defaults else []
+        figures += [self.tr("%n at the default", "", defaults)] if defaults else []
         if each.ticked:
-            found.append(self.tr("ticked {when}").format(when=with_local_times(each.ticked)))
-        return found
+            figures.append(self.tr("ticked {when}").format(when=with_local_times(each.ticked)))
+        return figures
 
     def _state_name(self, state: StepState) -> str:
         names = {

@@ -175,10 +175,10 @@ def as_written(default: Value) -> Value:
 
 def grouped(figure: str) -> str:
     """Return a number with its digits in groups of three from five digits on: ``2 097 152``."""
-    found = _WHOLE.fullmatch(figure)
-    if found is None:
+    match = _WHOLE.fullmatch(figure)
+    if match is None:
         return figure
-    sign, whole, rest = found.groups()
+    sign, whole, rest = match.groups()
     head = len(whole) % 3
     groups = [whole[:head]] * bool(head) + [whole[n : n + 3] for n in range(head, len(whole), 3)]
     return sign + THIN.join(groups) + rest

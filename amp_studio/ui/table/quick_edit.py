@@ -51,13 +51,13 @@ class QuickEdit(QDialog):
     def look_up(self) -> None:
         """Find the parameter with this number and show its value."""
         try:
-            found = resolve_address(self._workspace.file.evaluation, self.number.text())
+            resolved = resolve_address(self._workspace.file.evaluation, self.number.text())
         except UnknownParameterError as error:
             self._offer(None)
             self.name.setText(f"{error}.")
             self.number.selectAll()
             return
-        self._offer(found.address, found.remark(self._workspace.file.schema))
+        self._offer(resolved.address, resolved.remark(self._workspace.file.schema))
 
     def _offer(self, address: Address | None, hint: str = "") -> None:
         if self.editor is not None:

@@ -408,10 +408,10 @@ def _worded_examples() -> tuple[Example, ...]:
 
 
 def _all_families() -> list[_Family]:
-    found = [load_schema(key) for key in family_ids()]
+    families = [load_schema(key) for key in family_ids()]
     return [
         _Family(
             s.family.family, s.family.name, s.family.short or s.family.name, s.family.what, len(s.parameters)
         )
-        for s in found
+        for s in families
     ]

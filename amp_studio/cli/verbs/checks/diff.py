@@ -85,7 +85,7 @@ def run(options: Options) -> int:
 def _write_paper(
     options: Options,
     a: ParameterFile,
-    found: Comparison,
+    comparison: Comparison,
     name: str,
     digests: tuple[str | None, str | None],
     more: tuple[ParameterFile, list[Difference]],
@@ -98,7 +98,7 @@ def _write_paper(
         if digest is not None
     ]
     write_paper(
-        differences_paper(a, found, (options.a, name), facts, more=more, language=options.language),
+        differences_paper(a, comparison, (options.a, name), facts, more=more, language=options.language),
         options.output,
         notify=print_remark,
     )

@@ -132,13 +132,13 @@ def _settle(merge: Merge, texts: list[str]) -> None:
         if not equals:
             merge.take(side, merge.conflicts)
             continue
-        found = resolve_address(merge.a.evaluation, param.strip())
-        if found.bit is not None:
-            label = field_at(merge.a.schema.parameters[found.address[0]], found.bit).label
+        resolved = resolve_address(merge.a.evaluation, param.strip())
+        if resolved.bit is not None:
+            label = field_at(merge.a.schema.parameters[resolved.address[0]], resolved.bit).label
             raise UsageError(
                 f"{param.strip()} is one field ({label}) of a value: a side is taken for all of it"
             )
-        rows = [row for row in merge.rows if row.id.part == "value" and row.address == found.address]
+        rows = [row for row in merge.rows if row.id.part == "value" and row.address == resolved.address]
         if not any(row.kind != "same" for row in rows):
             print_remark(f"{param.strip()} is the same on all sides")
         merge.take(side, rows)

@@ -72,16 +72,16 @@ def run(options: Options) -> int:
     return 0
 
 
-def _lines(found: ControlLook, axes: Sequence[str], readable: str) -> Iterator[str]:
+def _lines(look: ControlLook, axes: Sequence[str], readable: str) -> Iterator[str]:
     """Yield what a control is and contains, in words; ``readable`` is how much of it can be read."""
-    control, abilities = found.identity, found.abilities
+    control, abilities = look.identity, look.abilities
     name, revision = control.name or "A control", control.revision or "unknown"
     yield f"{name} of the family {control.family}, revision {revision}"
     yield f"protocol {control.protocol}" + ("" if abilities.can_send else ", which takes no download")
     if abilities.can_send:
         yield abilities.lasting_text()
     yield f"axes {', '.join(axes)}" if axes else "axes unknown"
-    yield f"{len(found.content)} bytes, {readable}"
-    yield f"sha256 {found.sha256}"
+    yield f"{len(look.content)} bytes, {readable}"
+    yield f"sha256 {look.sha256}"
     if control.restart_needed:
         yield "Its parameters become active after a restart."

@@ -70,36 +70,38 @@ def run(options: Options) -> int:
     return int(not found.agrees)
 
 
-def _as_json(file: ParameterFile, found: ImageComparison, sha256: str, *, secrets: bool) -> dict[str, Any]:
+def _as_json(
+    file: ParameterFile, comparison: ImageComparison, sha256: str, *, secrets: bool
+) -> dict[str, Any]:
     from amp_studio.cli.checks.comparing import difference_json
 
     def listed(differences: Iterable[Difference]) -> list[dict[str, Any]]:
         return [difference_json(file, difference, secrets) for difference in differences]
 
     return {
-        "differences": listed(found.values.differences),
-        "same": found.values.same,
-        "same_bytes": found.is_same,
+        "differences": listed(comparison.values.differences),
+        "same": comparison.values.same,
+        "same_bytes": comparison.is_same,
         "sha256": sha256,
-        "unreadable": found.unreadable or None,
-        "absent": found.missing or None,
-        "in_use": listed(found.in_use),
-        "stays": found.stays or None,
-        "header": [asdict(d) for d in found.head],
-        "other_units": listed(found.other_units),
+        "unreadable": comparison.unreadable or None,
+        "absent": comparison.missing or None,
+        "in_use": listed(comparison.in_use),
+        "stays": comparison.stays or None,
+        "header": [asdict(d) for d in comparison.head],
+        "other_units": listed(comparison.other_units),
     }
 
 
-def _print(file: ParameterFile, found: ImageComparison, *, secrets: bool) -> None:
+def _print(file: ParameterFile, comparison: ImageComparison, *, secrets: bool) -> None:
     from amp_studio.cli.checks.comparing import print_comparison, print_difference
 
-    if not found.unreadable:
-        print_comparison(file, found.values, secrets)
-    for difference in found.other_units:
+    if not comparison.unreadable:
+        print_comparison(file, comparison.values, secrets)
+    for difference in comparison.other_units:
         print_difference(file, difference, secrets)
-    for difference in found.in_use:
+    for difference in comparison.in_use:
         print("in use since the start: ", end="")
         print_difference(file, difference, secrets)
-    for head in found.head:
+    for head in comparison.head:
         print(f"{head.line} in the header: '{head.a}'  |  '{head.b}'")
-    print(found.summary())
+    print(comparison.summary())

@@ -48,7 +48,7 @@ def _named_groups(schema: Schema, name: str) -> list[Group]:
     from amp_studio.schema import unknown_name
 
     called = name.casefold()
-    found = [g for g in schema.groups if called in map(str.casefold, (g.key, g.name, g.section))]
-    if not found:
+    named_groups = [g for g in schema.groups if called in map(str.casefold, (g.key, g.name, g.section))]
+    if not named_groups:
         raise UsageError(unknown_name("group", name, [g.name for g in schema.groups]))
-    return found
+    return named_groups

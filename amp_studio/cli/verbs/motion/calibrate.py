@@ -277,27 +277,27 @@ def _lines(
     file: ParameterFile,
     offered: Compensation,
     axis: str,
-    found: _Correction,
+    correction: _Correction,
     changes: list[Change],
 ) -> Iterator[str]:
     from amp_studio.calibration import present_table
     from amp_studio.files import describe
     from amp_studio.schema import show_value
 
-    proposal = found.proposal
-    if proposal is not None and found.measurement is not None:
-        yield from _measured(found.measurement, proposal)
+    proposal = correction.proposal
+    if proposal is not None and correction.measurement is not None:
+        yield from _measured(correction.measurement, proposal)
     yield from _table_lines(file, offered, axis, present_table(file, offered, axis))
     would = "would be " if options.dry_run else ""
     for change in changes:
         parameter = file.schema.parameters[change.address[0]]
         old, new = (_short(show_value(parameter, value)) for value in (change.old, change.new))
         yield f"{describe(file, change.address)}: {old} -> {new}"
-    if found.settings:
+    if correction.settings:
         yield f"{options.path}: {len(changes)} value{'' if len(changes) == 1 else 's'} {would}changed"
-    if found.measurement is not None:
-        used = asdict(found.measurement.answers)
-        for name in found.measurement.assumed:
+    if correction.measurement is not None:
+        used = asdict(correction.measurement.answers)
+        for name in correction.measurement.assumed:
             print_remark(f"assumed, because nothing names it: {_OPTIONS[name]} {used[name]}")
 
 
@@ -378,7 +378,7 @@ def _json(
     file: ParameterFile,
     offered: Compensation,
     axis: str,
-    found: _Correction,
+    correction: _Correction,
     changes: list[Change],
 ) -> dict[str, Any]:
     from amp_studio.calibration import base_unit, present_table, shown_unit
@@ -420,8 +420,8 @@ def _json(
     if form is not None:
         data["limits"] = list(form.limits(file, axis))
         data["remarks"] = list(form.remarks(file, axis, table)) if table is not None else []
-    if found.proposal is not None and found.measurement is not None:
-        data |= _proposal_json(found.measurement, found.proposal)
+    if correction.proposal is not None and correction.measurement is not None:
+        data |= _proposal_json(correction.measurement, correction.proposal)
     return data
 
 

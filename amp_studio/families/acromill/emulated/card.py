@@ -93,21 +93,21 @@ class AcrCard:
             return list(_LISTED[words])
         if words == "ECHO":
             return ["ON" if self._echoes else "OFF"]
-        if found := re.fullmatch("PROG([0-9])", words):
-            self._program = int(found[1])
+        if match := re.fullmatch("PROG([0-9])", words):
+            self._program = int(match[1])
             return []
         if words.partition(" ")[0] in WORDS:
             return self.motion.obey(*words.partition(" ")[::2])
-        if (found := _LIVE.fullmatch(words)) and (live := self._live(found)):
+        if (match := _LIVE.fullmatch(words)) and (live := self._live(match)):
             return [live]
         return self.settings.obey(line)
 
-    def _live(self, found: re.Match[str]) -> str:
+    def _live(self, match: re.Match[str]) -> str:
         """Return a system parameter or a bit as it is now;
         "" for one that is none (-1 for a set bit is assumed).
         """
-        number = int(found[2])
-        if found[1] == "BIT":
+        number = int(match[2])
+        if match[1] == "BIT":
             bit = self.motion.bit(number)
             return "" if bit is None else "-1" if bit else "0"
         value = self.motion.parameter(number)

@@ -176,20 +176,20 @@ class CardMotion:
 
     def mdi(self, block: str) -> str:
         """Execute a block of the MDI screen: G0, G1 and G28 (page 28)."""
-        found = _MDI.fullmatch(block.strip())
-        if found is None:
+        match = _MDI.fullmatch(block.strip())
+        if match is None:
             raise ValueError("of MDI blocks this card has G0, G1 and G28 with axes and F")
-        words = {word.upper(): float(figure) for word, figure in _MDI_WORD.findall(found[2])}
+        words = {word.upper(): float(figure) for word, figure in _MDI_WORD.findall(match[2])}
         feed = words.pop("F", None)
         targets = {name: figure * UNIT for name, figure in words.items()}
-        if found[1] == "28":
+        if match[1] == "28":
             homed = [name for name in targets if self._axis(name).is_homed]
             if len(homed) < len(targets):
                 raise ValueError("home the axes first: G28 goes to the reference point")
             self._moves = [{name: self._reference(name) for name in targets}]
-        elif found[1] in ("1", "01") and not feed:
+        elif match[1] in ("1", "01") and not feed:
             raise ValueError("G1 needs a feedrate F")
-        linear = feed is not None and found[1] in ("1", "01")
+        linear = feed is not None and match[1] in ("1", "01")
         self._move(targets, feed * UNIT / 60.0 if linear and feed else None)
         return block
 
@@ -281,11 +281,11 @@ def _arguments(rest: str) -> Iterator[tuple[str, float | None]]:
     if not rest.strip():
         raise CommandError("Axis expected")
     while at < len(rest.rstrip()):
-        found = _ARGUMENT.match(rest, at)
-        if found is None:
+        match = _ARGUMENT.match(rest, at)
+        if match is None:
             raise CommandError("Syntax error")
-        yield found[1].upper(), None if found[2] is None else float(found[2])
-        at = found.end()
+        yield match[1].upper(), None if match[2] is None else float(match[2])
+        at = match.end()
 
 
 def _words(text: str) -> str:

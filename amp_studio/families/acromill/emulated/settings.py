@@ -162,12 +162,12 @@ class CardSettings:
         text = line.strip()
         if not text:
             return []
-        if found := _DAC.fullmatch(text):
-            return self._figure(f"DAC{found[1]} GAIN", (found[2],))
-        if found := _P.fullmatch(text):
-            return self._variable(int(found[1]), found[2], found[3])
-        if found := _PRINT.fullmatch(text):
-            return [number_text(self.variables.get(_p_number(found[1]), 0.0))]
+        if match := _DAC.fullmatch(text):
+            return self._figure(f"DAC{match[1]} GAIN", (match[2],))
+        if match := _P.fullmatch(text):
+            return self._variable(int(match[1]), match[2], match[3])
+        if match := _PRINT.fullmatch(text):
+            return [number_text(self.variables.get(_p_number(match[1]), 0.0))]
         word, _, rest = text.partition(" ")
         word = word.upper()
         if word == "REM":
@@ -183,13 +183,13 @@ class CardSettings:
         if not rest.strip():
             raise CommandError("Axis expected")
         while at < len(rest):
-            found = form.pattern.match(rest, at)
-            if found is None or found.end() == at:
+            match = form.pattern.match(rest, at)
+            if match is None or match.end() == at:
                 raise CommandError("Syntax error")
             answer += self._figure(
-                f"{word} {form.key(found)}", tuple(found[name] for name in "vw"[: form.figures])
+                f"{word} {form.key(match)}", tuple(match[name] for name in "vw"[: form.figures])
             )
-            at = found.end()
+            at = match.end()
         return answer
 
     def _figure(self, name: str, figures: tuple[str | None, ...]) -> list[str]:

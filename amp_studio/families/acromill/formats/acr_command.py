@@ -85,10 +85,10 @@ class Command:
 
     def read(self, text: str, at: int) -> CommandArgument | None:
         """Return the setting at a place of a line; None where there is none."""
-        found = self._pattern.match(text, at)
-        if found is None:
+        match = self._pattern.match(text, at)
+        if match is None:
             return None
-        groups = found.groupdict()
+        groups = match.groupdict()
         setting: CommandSetting | None = self.settings[0]
         if "n" in groups:
             setting = self._by_number.get(groups["n"])
@@ -98,8 +98,8 @@ class Command:
             setting = self._by_instance.get(groups["i"].casefold())
         if setting is None:
             return None
-        figures = tuple((found[f"v{n}"], found.start(f"v{n}") + 1) for n in range(len(setting.addresses)))
-        return CommandArgument(setting, figures, at + 1, found.end())
+        figures = tuple((match[f"v{n}"], match.start(f"v{n}") + 1) for n in range(len(setting.addresses)))
+        return CommandArgument(setting, figures, at + 1, match.end())
 
     @cached_property
     def _pattern(self) -> re.Pattern[str]:
@@ -134,13 +134,15 @@ def _usual_form(parameter: Parameter) -> tuple[str, ...]:
 
 
 def _commands(schema: Schema, machine: str, forms: Callable[[Parameter], tuple[str, ...]]) -> list[Command]:
-    found: dict[str, dict[tuple[Address, ...], CommandSetting]] = {}
+    commands: dict[str, dict[tuple[Address, ...], CommandSetting]] = {}
     for parameter in schema.parameters.values():
         for template in forms(parameter):
-            settings = found.setdefault(template, {})
+            settings = commands.setdefault(template, {})
             for setting in _settings(schema, machine, parameter, template):
                 settings.setdefault(setting.addresses, setting)
-    return [Command(template, tuple(settings.values())) for template, settings in found.items() if settings]
+    return [
+        Command(template, tuple(settings.values())) for template, settings in commands.items() if settings
+    ]
 
 
 def _settings(schema: Schema, machine: str, parameter: Parameter, template: str) -> Iterator[CommandSetting]:

@@ -167,13 +167,13 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     return found
 
 
-def _is_ours(text: str, found: TextRead, schema: Schema) -> bool:
+def _is_ours(text: str, result: TextRead, schema: Schema) -> bool:
     """Return whether a text would be written so in any case."""
     head, _, rest = text.partition("\n")
-    if found.kept or not head.startswith(_HEAD):
+    if result.kept or not head.startswith(_HEAD):
         return False
     try:
-        return _write(file_of(schema, TextRead(found.values), "")).partition("\n")[2] == rest
+        return _write(file_of(schema, TextRead(result.values), "")).partition("\n")[2] == rest
     except FormatError:
         return False
 
@@ -207,10 +207,10 @@ def _is_of_a_program(text: str, words: set[str]) -> bool:
     """Return whether a line that sets nothing here is another command;
     one with the word of a setting is a slip.
     """
-    found = _OF_A_PROGRAM.match(text)
-    if found is None:
+    match = _OF_A_PROGRAM.match(text)
+    if match is None:
         return False
-    word = (found["word"] or "").upper()
+    word = (match["word"] or "").upper()
     if not word:
         return True
     if word == "DAC":
@@ -299,7 +299,7 @@ def _set_aside_repeated(lines: list[_ScriptLine]) -> None:
             line.arguments, line.fault = [], FormatError("it is set more than once", line.number)
 
 
-def _read_system(lines: list[_ScriptLine], schema: Schema, found: TextRead) -> str:
+def _read_system(lines: list[_ScriptLine], schema: Schema, result: TextRead) -> str:
     """Return the unit system of the figures, and set it where the script names it."""
     chooser = schema.family.unit_parameter
     for line in lines:
@@ -311,7 +311,7 @@ def _read_system(lines: list[_ScriptLine], schema: Schema, found: TextRead) -> s
                 raise FormatError(
                     f"'{named[1]}' is no unit system here: {offered}", line.number, named.start(1) + 1
                 )
-            found.values[chooser, ""] = Value(system)
+            result.values[chooser, ""] = Value(system)
             return system
     return default_system(schema) or next(iter(schema.family.units), "")
 
@@ -371,8 +371,8 @@ def _settings(file: ParameterFile) -> list[CommandSetting]:
         word = re.match("[A-Z]*", setting.template)
         return rank.get(word[0] if word else "", len(rank)), place[setting.addresses[0]]
 
-    found = [s for command in commands_of(file.schema, file.machine) for s in command.settings]
-    return sorted(found, key=order)
+    settings = [s for command in commands_of(file.schema, file.machine) for s in command.settings]
+    return sorted(settings, key=order)
 
 
 def _row(file: ParameterFile, setting: CommandSetting, system: str) -> str:

@@ -30,12 +30,12 @@ def _read(text: str, schema: Schema, _options: ReadOptions) -> TextRead:
         if not word:
             continue
         column = line.index(word) + 1
-        found = _WORD.fullmatch(word)
-        if found is None:
+        match = _WORD.fullmatch(word)
+        if match is None:
             raise FormatError(
                 f"{quoted(word)} is no word like X0E.00325: letter, position, E, five decimals", n, column
             )
-        axis, position = found[1], int(found[2])
+        axis, position = match[1], int(match[2])
         if axis not in offered:
             raise FormatError(f"there is no axis {axis}", n, column)
         words = tables.setdefault(axis, [])

@@ -249,8 +249,8 @@ def _figures_of(line: str, by_name: dict[str, CommandSetting]) -> tuple[str, tup
     for name, setting in by_name.items():
         if line.startswith(name):
             pattern = re.escape(setting.write(["\0"] * len(setting.addresses))).replace("\0", figure)
-            if found := re.fullmatch(pattern.replace(re.escape("\0"), figure), line):
-                return name, found.groups()
+            if match := re.fullmatch(pattern.replace(re.escape("\0"), figure), line):
+                return name, match.groups()
     return "", ()
 
 
@@ -312,7 +312,7 @@ def positions_of(rows: list[str]) -> Iterator[tuple[str, str]]:
     raises ValueError for something else.
     """
     for row in rows:
-        found = _BALLSCREW.fullmatch(f"BSC {row.strip()}")
-        if found is None:
+        match = _BALLSCREW.fullmatch(f"BSC {row.strip()}")
+        if match is None:
             raise ValueError(row)
-        yield f"BSC {found[1]}", found[3]
+        yield f"BSC {match[1]}", match[3]

@@ -114,7 +114,7 @@ class TerminalDriver(AcrContent, LineDriver):
         rows = self._twice("VER", on_damage=2)  # only shown
         if self._terminal.program != "00":
             self._terminal.obey("PROG0")
-        version = next((found[1] for row in rows if (found := re.match(r"Version\s+(\S+)", row))), "")
+        version = next((match[1] for row in rows if (match := re.match(r"Version\s+(\S+)", row))), "")
         return ControlIdentity(
             family=FAMILY,
             protocol=self.protocol,
@@ -180,21 +180,21 @@ class TerminalDriver(AcrContent, LineDriver):
         A setting counts as one that the card does not have where a second reading lacks it too. Raises
         ImageDamagedError where an earlier reading has it: what is short is no copy.
         """
-        found = CardContent(self.system)
-        for what in self._read_all(found, stage):
-            self._read_into(found, what)
-        missing = [setting for setting in settings() if setting.name not in found.figures]
+        content = CardContent(self.system)
+        for what in self._read_all(content, stage):
+            self._read_into(content, what)
+        missing = [setting for setting in settings() if setting.name not in content.figures]
         for setting in missing:
-            self._read_into(found, setting)
+            self._read_into(content, setting)
         # A setting missing in both readings may not exist on this card; one that ever was there has
         # been lost on the line.
-        self._answered |= found.figures.keys()
+        self._answered |= content.figures.keys()
         lost = [setting.name for setting in missing if setting.name in self._answered]
         if lost:
             raise ImageDamagedError(
                 f"the card answers for {names_of(lost)} in one reading and not in another"
             )
-        return found.written()
+        return content.written()
 
     def _read_all(self, found: CardContent, stage: str) -> list[CommandSetting | str]:
         """Ask for every setting and table; returns those to be read again,
@@ -367,11 +367,11 @@ def _is_answer(rows: list[str], name: str, count: int) -> bool:
 
 def _figures_in(row: str, name: str) -> Figures | None:
     """Return the figures of an answer, behind the name of the setting or alone; None where there are none."""
-    found = _FIGURES.fullmatch(row[:LONGEST].removeprefix(name).strip())
+    match = _FIGURES.fullmatch(row[:LONGEST].removeprefix(name).strip())
     return (
         None
-        if found is None
-        else tuple(plain_figure(figure) for figure in found.groups() if figure is not None)
+        if match is None
+        else tuple(plain_figure(figure) for figure in match.groups() if figure is not None)
     )
 
 

@@ -142,12 +142,12 @@ class Terminal:
         answer = self._read_until(
             link, lambda got: _PROMPT.search(got[-8:]) is not None, seconds, gap=seconds
         )
-        found = _PROMPT.search(answer)
-        if found is None or not answer.startswith((b"\r", b"\n")):
+        match = _PROMPT.search(answer)
+        if match is None or not answer.startswith((b"\r", b"\n")):
             raise _DamagedError("there is no prompt behind its answer")
         self._is_clear = True
-        self.program = found[1].decode()
-        rows = answer[: found.start()].decode("latin-1")
+        self.program = match[1].decode()
+        rows = answer[: match.start()].decode("latin-1")
         if re.search(r"[^\r\n -~]", rows):
             raise _DamagedError("its answer is damaged")
         return [row.strip() for row in re.split("[\r\n]+", rows) if row.strip()]

@@ -232,8 +232,8 @@ class Firmware:
         """Do a line that begins with ``$``; raises RefusedError."""
         name, equals, text = line[1:].partition("=")
         name = name.replace(" ", "").upper()
-        if found := re.fullmatch(r"N(\d)", name):
-            self._startup(int(found[1]), text)
+        if match := re.fullmatch(r"N(\d)", name):
+            self._startup(int(match[1]), text)
         elif equals and name.isdigit():
             self._need_rest()
             self.settings.store(int(name), text)
@@ -355,20 +355,20 @@ class Firmware:
         """Execute a block of G-code, of which only units and offsets matter here."""
         if self.state == "Alarm":
             raise RefusedError(LOCKED)
-        if found := re.match(r"G(20|21)", line):
-            self._unit = int(found[1])
+        if match := re.match(r"G(20|21)", line):
+            self._unit = int(match[1])
             line = line[3:]
-        found = re.fullmatch(r"G10L2P([1-9])((?:[A-Z]-?[\d.]+)*)", line)
-        if found is None:
+        match = re.fullmatch(r"G10L2P([1-9])((?:[A-Z]-?[\d.]+)*)", line)
+        if match is None:
             if not re.fullmatch(r"([A-Z]-?[\d.]+)*", line):
                 raise RefusedError(BAD_WORD)
             self._words(line)
             return
-        name = OFFSETS[int(found[1]) - 1]
+        name = OFFSETS[int(match[1]) - 1]
         if name not in self.offsets:
             raise RefusedError(OUT_OF_RANGE)
         at = dict(zip(self._axes, map(float, self.offsets[name].split(",")), strict=True))
-        for axis, number in re.findall(r"([A-Z])(-?[\d.]+)", found[2]):
+        for axis, number in re.findall(r"([A-Z])(-?[\d.]+)", match[2]):
             if axis not in at:
                 raise RefusedError(BAD_WORD)
             at[axis] = float(number) * (25.4 if self._unit == 20 else 1.0)

@@ -159,7 +159,7 @@ def is_listing(text: str) -> bool:
     """Return whether a text is for the most part settings of a Grbl, or has at least a few of them."""
     if "$" not in text:
         return {"100", "110"} <= {
-            found[1] for line in text.splitlines() if (found := _BARE.fullmatch(line.strip()))
+            match[1] for line in text.splitlines() if (match := _BARE.fullmatch(line.strip()))
         }
     return any(_has_settings(_OBJECT.sub(_in_one_line, text), deep) for deep in (False, True))
 
@@ -188,16 +188,16 @@ def read_log(text: str) -> Log:
     return deeper if sum(len(one.settings) for one in deeper.listings) >= _LEAST else found
 
 
-def _in_one_line(found: re.Match[str]) -> str:
+def _in_one_line(match: re.Match[str]) -> str:
     """Return an object that names a setting and its value as a setting, on the line of its name;
     any other as it is.
     """
-    name, value = _NAMED.search(found[0]), _ITS_VALUE.search(found[0])
+    name, value = _NAMED.search(match[0]), _ITS_VALUE.search(match[0])
     if name is None or value is None:
-        return found[0]
+        return match[0]
     text = value[2] if value[1] is None else value[1]
-    lines = found[0].count("\n", 0, name.start())
-    return "\n" * lines + f'"${name[1]}": "{text}",' + "\n" * (found[0].count("\n") - lines)
+    lines = match[0].count("\n", 0, name.start())
+    return "\n" * lines + f'"${name[1]}": "{text}",' + "\n" * (match[0].count("\n") - lines)
 
 
 def _read(text: str, *, anywhere: bool) -> Log:
@@ -257,8 +257,8 @@ def _plain(whole: str) -> str:
     if whole.startswith("<") and whole.endswith(">"):
         return whole  # a status report
     at = 0
-    while (found := _AHEAD.match(whole, at)) and not _FACT.match(whole, at):
-        at = found.end()
+    while (match := _AHEAD.match(whole, at)) and not _FACT.match(whole, at):
+        at = match.end()
     return whole[at:].strip()
 
 
@@ -266,14 +266,14 @@ def _settings(whole: str, line: str, anywhere: bool) -> Iterator[_Piece]:
     """Yield the settings of a line."""
     if not _DIGIT.search(line):
         return  # most lines of a text that is made to cost time
-    if found := _BARE.fullmatch(line):
+    if match := _BARE.fullmatch(line):
         if line == whole:
-            yield int(found[1]), found[2], "", "", True
+            yield int(match[1]), match[2], "", "", True
         return
     if line.startswith("$ "):
         line = _SPLIT.sub("$", line)
-    if found := _COLUMNS.fullmatch(line):
-        yield int(found[1]), found[2], (found[3] or found[4] or "").strip("(;) "), "", False
+    if match := _COLUMNS.fullmatch(line):
+        yield int(match[1]), match[2], (match[3] or match[4] or "").strip("(;) "), "", False
         return
     if anywhere:
         line = re.sub(r"^\([^)]*\)\s*", "", line)
@@ -335,30 +335,30 @@ def _is_heading(text: str) -> bool:
     return text.startswith("#") or text.endswith(":")
 
 
-def _take_fact(found: Log, whole: str) -> None:
+def _take_fact(log: Log, whole: str) -> None:
     if greeting := _GREETING.search(whole):
-        found.greeting = greeting[0].strip()
+        log.greeting = greeting[0].strip()
     for tag, text in _FACT.findall(whole):
-        if tag in _FACTS and text not in found.facts.setdefault(tag, []):
-            found.facts[tag].append(text)
+        if tag in _FACTS and text not in log.facts.setdefault(tag, []):
+            log.facts[tag].append(text)
 
 
-def _refuse(found: Log, parts: list[LoggedListing], number: int, line: int) -> None:
+def _refuse(log: Log, parts: list[LoggedListing], number: int, line: int) -> None:
     """Take back a change that the control has refused: the answer to it is an error."""
     part = parts[-1]
     if any(number in earlier.settings for earlier in parts[:-1]) and part.lines.get(number) == line:
         del part.settings[number], part.lines[number], part.remarks[number]
-        found.refused.append(line)
+        log.refused.append(line)
 
 
 def _whole(parts: list[LoggedListing]) -> list[LoggedListing]:
     """Return whole listings, each with the changes that come after it; those that are the same once."""
     least = max(_LEAST, max((len(part.settings) for part in parts), default=0) / 2)
-    found: list[LoggedListing] = []
+    listings: list[LoggedListing] = []
     for part in parts:
         is_whole = len(part.settings) >= least
-        if is_whole and found and len(found[-1].settings) < least:
-            earlier = found.pop()  # settings that were sent before they were listed
+        if is_whole and listings and len(listings[-1].settings) < least:
+            earlier = listings.pop()  # settings that were sent before they were listed
             if not part.is_apart:
                 for number in earlier.settings.keys() - part.settings.keys():
                     part.put(
@@ -368,15 +368,15 @@ def _whole(parts: list[LoggedListing]) -> list[LoggedListing]:
                         earlier.remarks[number],
                         earlier.whole[number],
                     )
-            found.append(part)
-        elif is_whole or not found:
-            found.append(part)
-        elif part.is_apart and len(found[-1].settings) >= least:
-            found[-1].aside |= {part.lines[n]: f"${n}={text}" for n, text in part.settings.items()}
+            listings.append(part)
+        elif is_whole or not listings:
+            listings.append(part)
+        elif part.is_apart and len(listings[-1].settings) >= least:
+            listings[-1].aside |= {part.lines[n]: f"${n}={text}" for n, text in part.settings.items()}
         else:
-            _change(found[-1], part)
-    last = {tuple(sorted(part.settings.items())): part for part in found}
-    return [part for part in found if last[tuple(sorted(part.settings.items()))] is part]
+            _change(listings[-1], part)
+    last = {tuple(sorted(part.settings.items())): part for part in listings}
+    return [part for part in listings if last[tuple(sorted(part.settings.items()))] is part]
 
 
 def _change(listing: LoggedListing, changes: LoggedListing) -> None:
@@ -394,9 +394,9 @@ def figure(text: str) -> str:
     """
     if _THOUSANDS.fullmatch(text):
         return text.replace(",", "")
-    found = re.fullmatch(
+    match = re.fullmatch(
         rf"({_NUMBER})(?:ok|{_UNIT}|[^\w.:+-].*)?", text.replace("\u2212", "-"), re.IGNORECASE
     )
-    if not found:
+    if not match:
         return text
-    return found[1].replace(",", ".")
+    return match[1].replace(",", ".")

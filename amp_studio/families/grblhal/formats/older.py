@@ -153,7 +153,7 @@ def read_older(listing: LoggedListing, greeting: str) -> tuple[LoggedListing, Ol
 
     ``greeting`` is what the control wrote as it started.
     """
-    release = found[1] if (found := re.search(r"\bgrbl v?(0\.[0-9]\w?)", greeting, re.IGNORECASE)) else ""
+    release = match[1] if (match := re.search(r"\bgrbl v?(0\.[0-9]\w?)", greeting, re.IGNORECASE)) else ""
     if max(listing.settings) >= max(map(len, _LAYOUTS.values())):
         return None  # whatever is written beside it: a memory in disorder has remarks of other settings
     names = _by_remarks(listing) or _by_layout(listing, release)

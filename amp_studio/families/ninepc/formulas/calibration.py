@@ -65,10 +65,10 @@ def read_calibration(text: str) -> CalibrationText:
         )
     points = []
     for word in words[3:]:
-        found = _POINT.fullmatch(word)
-        if found is None:
+        match = _POINT.fullmatch(word)
+        if match is None:
             raise CalibrationTextError(f"'{word[:40]}' is no point such as 100:0.004")
-        at, by = Fraction(found[1]), Fraction(found[2])
+        at, by = Fraction(match[1]), Fraction(match[2])
         points.append((at, by - at if words[0] == "measurement" else by))
     table = CalibrationText(words[0], words[1], words[2], tuple(points))
     _check(table)

@@ -28,8 +28,8 @@ def word_value(word: str, form: str, inch: bool, suppressed: Literal["leading", 
     suppressed 01 is 100.000 and 279 is 2790.000. ``word`` is what comes after the letter.
     """
     before, behind = _digits(form, inch)
-    found = _WORD.fullmatch(word)
-    if not found or len(found[2]) > before + behind:
+    match = _WORD.fullmatch(word)
+    if not match or len(match[2]) > before + behind:
         raise ValueError(f"A word of the format {form} has up to {before + behind} digits, not {word!r}.")
     if suppressed not in ("leading", "trailing"):
         raise ValueError(f"The zeros left out are the leading or the trailing ones, not {suppressed!r}.")
@@ -40,7 +40,7 @@ def word_value(word: str, form: str, inch: bool, suppressed: Literal["leading", 
 
 def _digits(form: str, inch: bool) -> tuple[int, int]:
     """Digits before and behind the point."""
-    found = _FORMAT.fullmatch(form)
-    if not found or (found[3] and not found[2]):
+    match = _FORMAT.fullmatch(form)
+    if not match or (match[3] and not match[2]):
         raise ValueError(f"A word format is digits before and behind the point, as 3.4-4.3, not {form!r}.")
     return digits_of(form, inch)

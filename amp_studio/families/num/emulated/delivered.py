@@ -20,8 +20,8 @@ def delivered_table(family: str) -> bytes:
     parameter, first = 0, 0
     for line in FORMAT.write(file).splitlines():
         text = line.rpartition(";")[0]
-        if found := re.match(r"P([0-9]+)N([0-9]+)", text):
-            parameter, first = int(found[1]), int(found[2])
+        if match := re.match(r"P([0-9]+)N([0-9]+)", text):
+            parameter, first = int(match[1]), int(match[2])
         elif text.startswith("#"):
             for n, word in enumerate(text[1:].split(" ")):
                 words[parameter, first + n] = word

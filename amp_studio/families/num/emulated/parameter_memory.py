@@ -70,12 +70,12 @@ def measured(line: str) -> bytes:
 
 def content_of(line: bytes) -> str:
     """Return a line without its length; raises TableError where it has none or another one."""
-    found = _LINE.fullmatch(line)
-    if found is None:
+    match = _LINE.fullmatch(line)
+    if match is None:
         raise TableError("no length at the end of the line")
-    if int(found[2], 16) != len(found[1]):
-        raise TableError(f"{len(found[1])} characters, {found[2].decode()} given")
-    return found[1].decode("ascii")
+    if int(match[2], 16) != len(match[1]):
+        raise TableError(f"{len(match[1])} characters, {match[2].decode()} given")
+    return match[1].decode("ascii")
 
 
 @dataclass
@@ -109,10 +109,10 @@ class ParameterMemory:
             lines = [content_of(line) for line in table.rstrip(b"\x13").splitlines()]
             self.job_reference = lines[0][1:9]
             for header, data in zip(lines[1::2], lines[2::2], strict=True):
-                found = _HEADER.fullmatch(header)
-                if found is None:
+                match = _HEADER.fullmatch(header)
+                if match is None:
                     raise TableError(f"{header} is no header")
-                parameter, code, count = int(found[1]), int(found[3]), int(found[4])
+                parameter, code, count = int(match[1]), int(match[3]), int(match[4])
                 if parameter not in self.words:
                     self.types[parameter] = code
                     self.words[parameter] = ["00000000" if code == 6 else "0"] * count
@@ -132,10 +132,10 @@ class ParameterMemory:
 
     def header(self, line: str) -> TableHeader:
         """Read a header that this control can take; raises TableError."""
-        found = _HEADER.fullmatch(line)
-        if found is None:
+        match = _HEADER.fullmatch(line)
+        if match is None:
             raise TableError("neither a header PaNb:tcnd nor a data line")
-        parameter, first, code, count = (int(number) for number in found.groups())
+        parameter, first, code, count = (int(number) for number in match.groups())
         if parameter not in self.words:
             raise TableError(f"this control has no P{parameter}")
         if code != self.types[parameter] or count != len(self.words[parameter]):

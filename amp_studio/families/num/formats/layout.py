@@ -114,10 +114,10 @@ class TableLayout:
         layout.old_headers = entries.get("headers") == "old"
         words, lines = entries.get("words"), entries.get("lines")
         for key, head in (words if isinstance(words, Mapping) else {}).items():
-            found = _HEAD.fullmatch(str(head))
-            if found is None or not re.fullmatch("P[0-9]{1,4}", str(key)):
+            match = _HEAD.fullmatch(str(head))
+            if match is None or not re.fullmatch("P[0-9]{1,4}", str(key)):
                 raise FormatError(f"'{key}: {head}' is not type and number of words, as in P4: t0n4")
-            layout.heads[int(str(key)[1:])] = int(found[1]), int(found[2])
+            layout.heads[int(str(key)[1:])] = int(match[1]), int(match[2])
         for line in lines if isinstance(lines, list) else []:
             layout.blocks.append(_block(str(line)))
         return layout
@@ -135,12 +135,12 @@ def _characters(names: object) -> str:
 
 
 def _block(line: str) -> Placed:
-    found = _BLOCK.fullmatch(line)
-    if found is None:
+    match = _BLOCK.fullmatch(line)
+    if match is None:
         raise FormatError(f"'{line}' is no line of a table, as in P9N0: 10")
-    data = found[5]
-    count = int(found[4]) if data is None else data.count(" ") + 1
-    return Placed((int(found[1]), int(found[2])), count, found[3] == ":", data)
+    data = match[5]
+    count = int(match[4]) if data is None else data.count(" ") + 1
+    return Placed((int(match[1]), int(match[2])), count, match[3] == ":", data)
 
 
 # -- from words to text ----------------------------------------------------------

@@ -44,21 +44,21 @@ class Block:
 
 def _content(text: str, n: int) -> str:
     """Return a line without its length; raises FormatError where it has none or another one."""
-    found = _LINE.fullmatch(text)
-    if found is None:
+    match = _LINE.fullmatch(text)
+    if match is None:
         raise _unmeasured(text, n)
-    if odd := re.search(r"[^ -~]", found[1]):
+    if odd := re.search(r"[^ -~]", match[1]):
         raise FormatError(
             f"the character with the code {ord(odd[0])} has no place in a line", n, odd.start() + 1
         )
-    length = len(found[1])
-    if int(found[2], 16) != length:
+    length = len(match[1])
+    if int(match[2], 16) != length:
         raise FormatError(
-            f"the line has {length} characters, {length:02X} in hexadecimal, and gives {found[2]}",
+            f"the line has {length} characters, {length:02X} in hexadecimal, and gives {match[2]}",
             n,
             length + 2,
         )
-    return found[1]
+    return match[1]
 
 
 def _unmeasured(text: str, n: int) -> FormatError:
@@ -132,10 +132,10 @@ def blocks_of(lines: list[str]) -> Iterator[Block]:
             continue
         if header is not None:
             break
-        found = HEADER.fullmatch(line)
-        if found is None:
+        match = HEADER.fullmatch(line)
+        if match is None:
             raise _no_header(line, n)
-        header = n, found
+        header = n, match
     if header is not None:
         raise FormatError(f"{header[1][0]} has no data line", header[0], 1)
 
@@ -144,8 +144,8 @@ def _no_header(line: str, n: int) -> FormatError:
     """Return at which character a line stops to be a header."""
     at = 0
     for pattern, expected in _HEADER_PARTS:
-        found = re.compile(pattern).match(line, at)
-        if found is None:
+        match = re.compile(pattern).match(line, at)
+        if match is None:
             return FormatError(f"{expected} is expected here, as in P9N0:t0n32", n, at + 1)
-        at = found.end()
+        at = match.end()
     return FormatError("the header goes on behind the number of words", n, at + 1)

@@ -232,10 +232,10 @@ def words_of(schema: Schema, machine: str) -> KnownWords:
     forms: dict[int, Spelling] = {}
     here = schema.on(machine)
     for address in here.addresses:
-        found = _NUMBER.fullmatch(here.number(address) or "")
-        if found is None or here.is_disputed(address[0]):
+        match = _NUMBER.fullmatch(here.number(address) or "")
+        if match is None or here.is_disputed(address[0]):
             continue
-        a, b = int(found[1]), int(found[2])
+        a, b = int(match[1]), int(match[2])
         meaning = WordMeaning.of(schema, address)
         meanings[a, b] = (*meanings.get((a, b), ()), meaning)
         counts[a] = max(counts.get(a, 0), b + 1)

@@ -84,12 +84,12 @@ def ranges_for_speed(
     A range whose highest speed is 0 does not exist; a limit speed of 0 means the highest speed.
     """
     wanted = not_negative("The spindle speed", speed)
-    found = []
+    ranges = []
     _same_length(minima, maxima, limits)
     for n, (low, high, limit) in enumerate(zip(minima, maxima, limits, strict=True)):
         if high > 0 and low <= wanted <= (limit or high):
-            found.append(40 + n)
-    return found
+            ranges.append(40 + n)
+    return ranges
 
 
 def speed_gap(

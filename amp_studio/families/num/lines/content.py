@@ -107,9 +107,9 @@ def content_of_table(table: str) -> bytes:
     if end and not rest.endswith("\n\x13") and rest != "\x13":
         ending = "\r\n" if first.endswith("\r") else "\n"
         rest = f"{rest.removesuffix(chr(0x13)).removesuffix(ending[:-1])}{ending}\x13"
-    if found := re.match(r"%[0-9]{8}", first):
+    if match := re.match(r"%[0-9]{8}", first):
         ending = "\r" if first.endswith("\r") else ""
-        first = f"{found[0]};09{ending}"
+        first = f"{match[0]};09{ending}"
     return _START + f"{first}{end}{rest}".encode("ascii")
 
 

@@ -55,12 +55,12 @@ class Rack:
         return out
 
     def _obey(self, line: bytes) -> None:
-        found = _REQUEST.fullmatch(line)
-        if found is None or int(found[7], 16) != binascii.crc_hqx(line[:-5], 0xFFFF):
+        match = _REQUEST.fullmatch(line)
+        if match is None or int(match[7], 16) != binascii.crc_hqx(line[:-5], 0xFFFF):
             return
-        answer = self._answer(found)
+        answer = self._answer(match)
         if answer is not None:
-            body = found[1] + b" " + answer.encode("ascii")
+            body = match[1] + b" " + answer.encode("ascii")
             self._out += body + b"*%04X\r\n" % binascii.crc_hqx(body, 0xFFFF)
 
     def _answer(self, found: re.Match[bytes]) -> str | None:
@@ -83,16 +83,16 @@ class Rack:
         """Do what the operator asks for; raises ValueError."""
         verb, _, rest = line.partition(" ")
         rest = rest.strip()
-        if verb == "patch" and (found := re.fullmatch(r"R([0-9]{1,4})\s*=\s*([0-9]{1,5})", rest)):
-            register, word = int(found[1]), int(found[2])
+        if verb == "patch" and (match := re.fullmatch(r"R([0-9]{1,4})\s*=\s*([0-9]{1,5})", rest)):
+            register, word = int(match[1]), int(match[2])
             if register < REGISTERS and word <= 0xFFFF:
                 self.module.write(register, word)
                 return f"R{register} = {self.module.read(register)}"
-        if verb == "show" and (found := re.fullmatch(r"R([0-9]{1,4})", rest)) and int(found[1]) < REGISTERS:
-            return f"R{found[1]} = {self.module.read(int(found[1]))}"
-        if verb == "fault" and (found := re.fullmatch(r"(1?[0-9]) ([XY])", rest)) and int(found[1]) < 16:
-            self.module.fault(AXES[found[2]], int(found[1]))
-            return f"fault {found[1]} of axis {found[2]}"
+        if verb == "show" and (match := re.fullmatch(r"R([0-9]{1,4})", rest)) and int(match[1]) < REGISTERS:
+            return f"R{match[1]} = {self.module.read(int(match[1]))}"
+        if verb == "fault" and (match := re.fullmatch(r"(1?[0-9]) ([XY])", rest)) and int(match[1]) < 16:
+            self.module.fault(AXES[match[2]], int(match[1]))
+            return f"fault {match[1]} of axis {match[2]}"
         if verb == "stop-all" and not rest:
             self.module.stop_all()
             return "stopped: system fault"

@@ -293,18 +293,18 @@ def _setting(statement: BasicStatement, variables: Variables) -> Written:
     """Return what an assignment writes; raises FormatError for a statement that is none, or of nothing
     known.
     """
-    found = _SET.fullmatch(statement.text)
-    if found is None:
+    match = _SET.fullmatch(statement.text)
+    if match is None:
         raise statement.fault(f"'{statement.short}' assigns no value to a register")
-    register = variables.register(found[1])
+    register = variables.register(match[1])
     if register is None:
-        raise statement.fault(f"{found[1]} is the variable of no register: REG_3% is that of register 3")
-    column = statement.column + found.start(2)
+        raise statement.fault(f"{match[1]} is the variable of no register: REG_3% is that of register 3")
+    column = statement.column + match.start(2)
     try:
-        number, is_pattern = read_word(found[2])
+        number, is_pattern = read_word(match[2])
     except InvalidValueError as error:
-        raise FormatError(f"{found[1]}: {error}", statement.line, column) from None
-    return Written(register, number, is_pattern, _words(found[1]), statement.line, statement.column, column)
+        raise FormatError(f"{match[1]}: {error}", statement.line, column) from None
+    return Written(register, number, is_pattern, _words(match[1]), statement.line, statement.column, column)
 
 
 TABLE = TextFormat(

@@ -63,9 +63,9 @@ class Registers:
         self.first: dict[Address, int] = {}
         self.claims: dict[int, list[Address]] = {}
         for address in schema.on(machine).addresses:
-            found = re.fullmatch(r"[^0-9]*([0-9]+)", schema.on(machine).number(address) or "")
-            if found:
-                self.first[address] = int(found[1])
+            match = re.fullmatch(r"[^0-9]*([0-9]+)", schema.on(machine).number(address) or "")
+            if match:
+                self.first[address] = int(match[1])
                 for register in self.of(address):
                     self.claims.setdefault(register, []).append(address)
 
@@ -103,7 +103,7 @@ def contents_of(file: ParameterFile, registers: Registers) -> list[NumberInRegis
 
     Raises FormatError for a value that does not fit, and where two values share a register.
     """
-    found: list[NumberInRegisters] = []
+    contents: list[NumberInRegisters] = []
     owner: dict[int, Address] = {}
     for address in file.addresses():
         value = file.get(address)
@@ -119,8 +119,8 @@ def contents_of(file: ParameterFile, registers: Registers) -> list[NumberInRegis
             number, words = register_number(parameter, value, unit), words_of(parameter, value, unit)
         except StorageError as error:
             raise FormatError(f"register {registers.first[address]}, {written(address)}: {error}") from None
-        found.append(NumberInRegisters(address, registers.first[address], number, words))
-    return sorted(found, key=lambda content: content.register)
+        contents.append(NumberInRegisters(address, registers.first[address], number, words))
+    return sorted(contents, key=lambda content: content.register)
 
 
 def is_writable(file: ParameterFile, address: Address) -> bool:

@@ -24,8 +24,8 @@ def read_word(text: str) -> tuple[int, bool]:
     Raises InvalidValueError.
     """
     text = text.strip()
-    if found := _HEXADECIMAL.fullmatch(text):
-        return int(found[1], 16), True
+    if match := _HEXADECIMAL.fullmatch(text):
+        return int(match[1], 16), True
     if _DECIMAL.fullmatch(text):
         return int(text.partition(".")[0]), False
     raise InvalidValueError(f"{quoted(text)} is no whole number, as 1984, -1 or 01414H")

@@ -82,18 +82,18 @@ class RegisterContent(TakesAllOrRefuses):
 
     def decode(self, content: bytes) -> ParameterFile:
         """Return what the registers mean; raises ImageError."""
-        found = RegisterValues(known_registers(), keep_unknown=True)
+        values = RegisterValues(known_registers(), keep_unknown=True)
         try:
             for register, word in words_of_content(content).items():
                 if any(
                     known_registers().parameter(a).access != "read"
                     for a in known_registers().claims[register]
                 ):
-                    found.take(Written(register, word, True, 1, 0, 0, 0))
-            found.settle()
+                    values.take(Written(register, word, True, 1, 0, 0, 0))
+            values.settle()
         except FormatError as error:
             raise ImageError(f"the registers of the module: {error.what}") from None
-        return file_of(load_schema(FAMILY), TextRead(found.values), "module")
+        return file_of(load_schema(FAMILY), TextRead(values.values), "module")
 
     def encode(self, file: ParameterFile, current: bytes) -> bytes:
         """Return the registers with the values of a file in them; raises ImageError."""

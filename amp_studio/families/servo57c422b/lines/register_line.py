@@ -35,10 +35,10 @@ def framed(number: int, text: str) -> bytes:
 
 def unframed(line: bytes) -> tuple[int, str] | None:
     """Return number and text of a line that is whole, else None."""
-    found = _ANSWER.fullmatch(line)
-    if found is None or int(found[3], 16) != binascii.crc_hqx(line[: -len(found[3]) - 1], 0xFFFF):
+    match = _ANSWER.fullmatch(line)
+    if match is None or int(match[3], 16) != binascii.crc_hqx(line[: -len(match[3]) - 1], 0xFFFF):
         return None
-    return int(found[1]), found[2].decode("ascii")
+    return int(match[1]), match[2].decode("ascii")
 
 
 class RegisterLine:
