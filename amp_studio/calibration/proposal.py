@@ -262,6 +262,7 @@ def _table(
     settings: dict[Address, Value],
     notes: list[str],
 ) -> CalibrationTable | None:
+    """Put the table that fits the errors into ``settings`` and return it; None where the control has none."""
     form = offered.table
     if form is None:
         notes.append("the control has no calibration table of an axis; only the reversal error is proposed")

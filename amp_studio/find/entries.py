@@ -79,6 +79,7 @@ def entries_of(schema: Schema, machine: str) -> Iterator[Entry]:
 
 
 def _parameter(schema: Schema, machine: str, parameter: Parameter) -> Entry:
+    """Return a parameter with all texts by which it is found."""
     group = schema.group_of[parameter.id]
     units = " ".join(schema.units_of(parameter))
     helped = parameter.help

@@ -102,6 +102,7 @@ class ValueReader:
         return found
 
     def _figure(self, address: Address, unit: str) -> DrawnValue:
+        """Return a value as a picture draws it: its number where it is active and has one."""
         definition, value = self.file.schema.parameters[address[0]], self.file.get(address)
         unit, label = unit or self.unit(address), self.label(address)
         value_text = self._value_text(address, value)

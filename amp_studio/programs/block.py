@@ -150,6 +150,7 @@ class BlockReader:
         )
 
     def _code(self, word: TypedWord) -> BlockWord:
+        """Return what a G or M code of a block means, and why it may have no effect."""
         number = float(word.number) if word.number and not word.is_expression else None
         if number is None:
             return BlockWord(word.text, word.letter, None, "", "no number", fault="a code without its number")

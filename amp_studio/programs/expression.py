@@ -50,7 +50,7 @@ def worth(text: str, parameters: Mapping[int, float]) -> float:
             raise ProgramBlockError(f"{quoted(text)} is no expression")
         tokens.append(match[1])
         place = match.end()
-    reading = _Reading(tokens, text, parameters)
+    reading = _ExpressionReader(tokens, text, parameters)
     value = reading.level(0, 0)
     if reading.place < len(tokens):
         raise ProgramBlockError(f"{quoted(text)} is no expression")
@@ -59,7 +59,7 @@ def worth(text: str, parameters: Mapping[int, float]) -> float:
     return value
 
 
-class _Reading:
+class _ExpressionReader:
     """One expression, read from left to right."""
 
     def __init__(self, tokens: list[str], text: str, parameters: Mapping[int, float]) -> None:

@@ -215,6 +215,7 @@ def _signature(file: ParameterFile) -> str:
 
 
 def _counts(file: ParameterFile, found: Rows, printed: int, now: Present) -> list[tuple[str, str]]:
+    """Return the counts of the cover: findings, values by state, what is printed."""
     rows = found.rows
     severities = [counted(n, s) for s in ("error", "warning", "advice") if (n := _severity(now.findings, s))]
     states = Counter(r.state for r in rows)

@@ -198,6 +198,7 @@ class DescribedSchema:
         yield from sorted(found.values(), key=lambda alike: (alike[0].group.order, alike[0].number))
 
     def _parameter(self, alike: list[DescribedParameter]) -> Parameter:
+        """Return the one parameter that alike settings of several axes are."""
         first = alike[0]
         known = self._known_one(first)
         name = first.name[:1].upper() + first.name[1:]

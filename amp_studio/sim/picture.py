@@ -346,6 +346,7 @@ _LOOPS: tuple[tuple[str, str, ShapeSort], ...] = (
 
 
 def _bode(trace: Trace, before: Trace | None) -> Picture:
+    """Return gain and phase over the frequency, one above the other."""
     along = ("frequency", "Hz")
     gain = panel_of(
         "gain",
@@ -405,6 +406,7 @@ def _frequency_marks(trace: Trace, names: Iterable[str]) -> tuple[NamedPlace, ..
 
 
 def _ballbar(trace: Trace, before: Trace | None) -> Picture:
+    """Return the deviation of the radius around the circle, as a ring and over the angle."""
     rings, curves = [], []
     sides: tuple[tuple[Trace | None, str, ShapeSort], ...] = (
         (before, "before", "before"),

@@ -35,6 +35,7 @@ def _words(name: str) -> str:
 
 
 def _map(trace: Trace, x: Series, y: Series) -> Picture:
+    """Return a figure over two varied values, with where none is safe, the present one and the best."""
     one, two = trace.over
     shape = len(x), len(y)
     values = trace.columns[trace.figure].reshape(shape).T

@@ -121,6 +121,7 @@ def read_plain(file: ParameterFile, address: Address, text: str, unit_of: UnitOf
 
 
 def _result(file: ParameterFile, address: Address, text: str, unit_of: UnitOf) -> Value | None:
+    """Return the value of an expression in the unit of its cell; None where what it copies is not set."""
     parameter = file.schema.parameters[address[0]]
     text = text.strip().removeprefix("=").strip()
     if len(text) > LONGEST:

@@ -280,6 +280,7 @@ class _ExpressionParser:
         return tuple(nodes)
 
     def _primary(self) -> Node:
+        """Return the node of a value, a name, or an expression in parentheses."""
         token = self._next
         if token.kind in ("decimal", "whole", "text"):
             self._at += 1

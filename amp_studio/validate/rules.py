@@ -240,6 +240,7 @@ class RuleChecks:
         )
 
     def _finding(self, check: RuleCheck, keys: tuple[Key, ...]) -> Finding:
+        """Return the finding of a broken rule: what is at fault, its message with the figures, its fix."""
         rule, effective = check.rule, check.expressions.finding.effective
         given = _KeyedContext(keys, lambda values: self._context(check, values))
         fix = self._fix(check, given)

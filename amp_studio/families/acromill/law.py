@@ -165,6 +165,7 @@ def _or(read: AxisParameters, parameter: str, most: float, *, everywhere: bool =
 
 
 def _parameters(read: AxisParameters, pulses: float, period: float, notes: list[str]) -> list[float]:
+    """Return the figures of the loop by their places (``law_sample``); ``notes`` gets what is assumed."""
     p = [0.0] * loop.PARAMETERS
     for place, parameter in _GAINS.items():
         p[place] = read.within(parameter, -_LARGEST_GAIN, _LARGEST_GAIN)

@@ -127,6 +127,7 @@ def read_content(data: bytes) -> GrblContent:
 
 
 def _sections(data: bytes) -> dict[str, list[str]]:
+    """Return the lines of each section of a copy; raises ImageError for one that is cut off or damaged."""
     if len(data) > LARGEST:
         raise ImageError(f"the copy of the settings is longer than {LARGEST} characters")
     try:

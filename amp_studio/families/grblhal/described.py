@@ -95,6 +95,7 @@ class _Maker:
     # -- family, messages -------------------------------------------------
 
     def _family(self) -> Family:
+        """Return the record of the family with the axes and the revision that the control describes."""
         known, facts = self.known.family, self.described.facts
         scopes = {
             k: v.model_copy(update={"instances": self.axes} if k == "axis" else {})
@@ -175,6 +176,7 @@ class _Maker:
         return DescribedGroup(key, group.name, order=order)
 
     def _parameter(self, setting: DescribedSetting) -> DescribedParameter:
+        """Return a setting as the schema takes the parameters of a control that describes itself."""
         axis, kind, unit = self._axis(setting), _TYPES.get(setting.type, "text"), _unit_of(setting)
         further = (
             f"In {setting.unit}." if setting.unit and not unit else "",

@@ -83,7 +83,7 @@ class GrblDriver(GrblContentKind, LineDriver):
 
     def _identity(self) -> ControlIdentity:
         """Return what ``$I`` answers."""
-        with self._conversation() as line:
+        with self._opened_line() as line:
             who = read_identity(line)
             name = who.identity_word("FIRMWARE") or "Grbl"
             board = who.identity_word("BOARD") or who.identity_word("DRIVER")
@@ -93,7 +93,7 @@ class GrblDriver(GrblContentKind, LineDriver):
 
     def status(self) -> ControlStatus:
         """Return what ``?`` answers, and ``$I`` once while nothing moves; nothing is written."""
-        with self._conversation() as line:
+        with self._opened_line() as line:
             report = line.report()
             alarm = f"ALARM:{line.alarm}" if line.alarm else ""
         if self._known is None and state_in(report) in AT_REST:
@@ -107,7 +107,7 @@ class GrblDriver(GrblContentKind, LineDriver):
         end = self._waiting.now() + RECONNECT
         while True:
             try:
-                with self._conversation() as line:
+                with self._opened_line() as line:
                     if stage == "verify":
                         line.wait(SETTLE)
                     return write_content(self._read(line, stage))
@@ -128,7 +128,7 @@ class GrblDriver(GrblContentKind, LineDriver):
         wanted, present = read_content(replacement.content), read_content(replacement.current)
         writing = self._writing = Writing(wanted, present, described(replacement.current), sent)
         try:
-            with self._conversation() as line:
+            with self._opened_line() as line:
                 self._check_rest(line, writing)
                 # The plan was made from an earlier reading: what somebody has changed since at the
                 # machine is not overwritten.
@@ -150,7 +150,7 @@ class GrblDriver(GrblContentKind, LineDriver):
     # -- inside --------------------------------------------------------------------------------------
 
     @contextlib.contextmanager
-    def _conversation(self) -> Iterator[GrblLine]:
+    def _opened_line(self) -> Iterator[GrblLine]:
         """Give the line there is, or a new one; a line that broke is closed,
         and its errors are those of a transfer.
         """
@@ -204,7 +204,7 @@ class GrblDriver(GrblContentKind, LineDriver):
         found: GrblContent | None = None
         has_begun = writing.sent.has_begun
         while has_begun and found is None and self._waiting.now() < end and not self._waiting.is_stopped:
-            with contextlib.suppress(TransferError), self._conversation() as line:
+            with contextlib.suppress(TransferError), self._opened_line() as line:
                 line.wait(SETTLE)
                 found = self._read(line)
             if found is None:

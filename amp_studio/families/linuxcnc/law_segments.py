@@ -195,6 +195,7 @@ def _square_off(begin: PathPoint, end: PathPoint, point: PathPoint) -> float:
 
 
 def _straight(path: ToolPath, begin: PathPoint, end: PathPoint, row: int, limits: AxisLimits) -> PathSegment:
+    """Return a straight move with its direction and what the axes allow along it."""
     length = math.dist(begin, end)
     size = length or 1.0
     direction = tuple((e - b) / size for e, b in zip(end, begin, strict=True))

@@ -180,6 +180,7 @@ def _named(parameter: str, axis: str) -> str:
 
 
 def _parameters(read: AxisParameters, machine: Machine, current: bool) -> tuple[list[float], list[str]]:
+    """Return the figures of the loop by their places (``law_sample``), and what is assumed of them."""
     scales = [_scale(read, name) for name in _SCALES]
     p = [0.0] * loop.PARAMETERS
     gains = (ids.gain_proportional, ids.gain_integral, ids.gain_feedforward, ids.gain_velocity)

@@ -163,6 +163,7 @@ def _doubts(
     most: float | None,
     settings: dict[Address, Value | None],
 ) -> list[str]:
+    """Return where a table asks for more than the ramps allow, or a cycle does not end where it began."""
     doubts = []
     inside = max((abs(cam_jump(a, b, step * 1000.0)) for a, b in itertools.pairwise(steps)), default=0.0)
     if most is not None and inside > most:

@@ -99,6 +99,7 @@ def _choice(choice: Choice) -> dict[str, Any]:
 
 
 def _default(parameter: Parameter) -> dict[str, Any] | None:
+    """Return the printed default: unit -> value, and that of each instance with another; None without one."""
     default = parameter.default
     if default is None:
         return None

@@ -86,6 +86,7 @@ def _check_instance(schema: Schema, parameter: Parameter, param: str, machines: 
 
 
 def _page(schema: Schema, parameter: Parameter, machine: str | None) -> str:
+    """Return one parameter as ``show`` prints it."""
     lines = [parameter.name, "-" * len(parameter.name)]
     before = ""
     for title, text in facts(schema, parameter, machine):

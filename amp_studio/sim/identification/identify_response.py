@@ -87,6 +87,7 @@ def _of_record(
 
 
 def _trace(response: FrequencyResponse, fitted: PlantFit, bound: AxisLaw, path: Path, letter: str) -> Trace:
+    """Return the measured and the fitted response as a trace, with the figures of the machine."""
     columns = {
         "frequency_hz": response.frequency,
         "plant_gain_db": _db(response.response),
@@ -129,6 +130,7 @@ def _phase(response: Response) -> np.ndarray:
 
 
 def _result(response: FrequencyResponse, fitted: PlantFit, bound: AxisLaw) -> dict[str, Figure]:
+    """Return the fitted figures in the units of the settings, each with its standard error."""
     torque = torque_unit(bound)
     scales = {
         "acceleration_per_output": (1.0, f"{bound.unit}/s2"),
@@ -181,6 +183,7 @@ def _lost(pair: Pair) -> float:
 
 
 def _assumed(fitted: PlantFit, bound: AxisLaw) -> tuple[str, ...]:
+    """Return what the fit takes for given."""
     unit = {"position": bound.unit, "velocity": f"{bound.unit}/s", "acceleration": f"{bound.unit}/s2"}[
         fitted.quantity
     ]

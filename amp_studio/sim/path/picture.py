@@ -104,6 +104,7 @@ class _Classes:
 
 
 def _classes(file: ParameterFile, run: ProgramRun, letters: dict[int, str], colours: PathColours) -> _Classes:
+    """Return what each row of a path is coloured by, with the letters and names of the colours."""
     plan = run.plan
     count = len(plan.entry)
     if colours == "limit":

@@ -200,6 +200,7 @@ def contour_text(file: ParameterFile, run: ProgramRun) -> str:
 def _lines(
     file: ParameterFile, run: ProgramRun, tries: Sequence[WhatIf], others: Sequence[ProgramVersion]
 ) -> Iterator[str]:
+    """Yield what a program takes, by what it is limited, and its alarms, a line each."""
     plan = run.plan
     yield f"{plan.path.blocks} blocks, {len(plan.path)} moves, {value_text(plan.time, 's', 5)}"
     yield from _shares_of_time(file, run)

@@ -144,6 +144,7 @@ def _loaded(motion: Motion, lasts: float) -> Loaded:
 def _figures(
     axis: AxisLaw, found: Loaded | None, load: float, loops: Loops, force: float | None
 ) -> dict[str, Figure]:
+    """Return stiffness, sag and recovery of a load that comes at once, with those of the linear loop."""
     unit, torque = axis.unit, torque_unit(axis)
     stable = loops.stable and loops.inner_stable
     linear = loops.yields[0] if stable and loops.closed else math.inf

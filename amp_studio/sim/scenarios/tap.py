@@ -113,6 +113,7 @@ def _tapped(
     lag: float,
     assumption: str,
 ) -> Trace:
+    """Run the axis down to the depth and back with the spindle, and return how far it is from the thread."""
     feed = speed / 60.0 * pitch
     own = next(iter(axis.ramps.values()))
     rate = tapping.rate or own.acceleration

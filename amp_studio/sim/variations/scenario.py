@@ -211,6 +211,7 @@ def _two_gains(trial: Trial, also: Mapping[str, float]) -> tuple[Varied, ...]:
 
 
 def _trace(job: SweepJob, trial: Trial, points: Matrix, matrix: Matrix, figure: str) -> Trace:
+    """Return the computed variations as a trace: a row for each, with the varied values and the figures."""
     axis = bound_at_present(job)
     columns: dict[str, Series] = {each.name: points[:, n] for n, each in enumerate(job.varied)}
     columns |= {name: matrix[:, n] for n, name in enumerate(job.columns)}
@@ -295,6 +296,7 @@ def _present(axis: AxisLaw, job: SweepJob, trial: Trial, varied: Varied) -> floa
 
 
 def _figures(columns: dict[str, Series], units: dict[str, str], figure: str) -> dict[str, Figure]:
+    """Return counts, percentiles and the best of a figure over all variations."""
     count, safe = len(columns["safe"]), columns["safe"] == 1.0
     known = np.isfinite(
         next(iter(columns[name] for name in columns if name in ("peak_following_error", "sound")))

@@ -70,6 +70,7 @@ class ImageComparison:
         return text
 
     def _summary(self) -> str:
+        """Return in one sentence how much is the same, or that the control contains something else."""
         if self.is_same:
             much = (
                 "and every byte are the same"

@@ -124,7 +124,7 @@ class Emulator:
             while not self._is_over():
                 self.turn()
         finally:
-            self._hang_up()
+            self._close_link()
 
     def turn(self) -> None:
         """Do what the operator asks for, and give each client its turn;
@@ -138,7 +138,7 @@ class Emulator:
         if self._restart_due:
             self._restart_due = False
             self._back_at = self._clock() + self._restart_seconds
-            self._hang_up()
+            self._close_link()
             self._prepare_start()
         if self._back_at is not None:
             self._stay_away(self._back_at)
@@ -205,13 +205,13 @@ class Emulator:
     def _is_over(self) -> bool:
         return self._has_quit or self._stop.is_set()
 
-    def _hang_up(self) -> None:
+    def _close_link(self) -> None:
         for caller in list(self._callers):
             self._drop(caller)
 
     def _stay_away(self, back_at: float) -> None:
         """Be gone until a time, and come back started once more."""
-        self._hang_up()
+        self._close_link()
         left = back_at - self._clock()
         if left <= 0:
             self._back_at = None

@@ -97,6 +97,7 @@ class Responder:
         raise RefusalError(Code.UNSUPPORTED, f"a {type(request).__name__} is no request")
 
     def _welcome(self, hello: Hello) -> Welcome:
+        """Begin a session and return who answers; raises RefusalError for another version."""
         if hello.version < 1:
             raise RefusalError(Code.VERSION, f"the control speaks version {PROTOCOL_VERSION} of the protocol")
         self._forget()

@@ -80,7 +80,7 @@ class DownloadTransfer:
             error.at_control = self.at_control
             # What is staged stays for the next run where the control cannot be asked to throw it away.
             if isinstance(error, ConnectionCutError | ControlSilentError) and self.at_control == "old":
-                error.what += self._advice()
+                error.what += self._what_to_do()
             else:
                 self._abort()
             raise
@@ -187,7 +187,7 @@ class DownloadTransfer:
         self.at_control = error.at_control
         return error
 
-    def _advice(self) -> str:
+    def _what_to_do(self) -> str:
         """Return how the staged bytes are made use of; there was no way to make the control discard them."""
         if not self._reached or self._broken.find(self._what) is None:
             return ""

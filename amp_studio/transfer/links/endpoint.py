@@ -126,6 +126,7 @@ def _is_device(text: str) -> bool:
 
 
 def _network(text: str, kind: str) -> Endpoint:
+    """Return the endpoint of ``tcp://``, ``tls://`` or ``rfc2217://``; raises ValueError."""
     match = re.fullmatch(
         kind + r"://(?:\[([0-9A-Fa-f:.%\w]+)\]|([^\[\]:/?#\s]+)):(\d{1,5})/?",
         text.partition("?")[0],

@@ -49,6 +49,7 @@ class WhyDialog(QDialog):
         workspace.closed.connect(self.close)
 
     def _written(self, workspace: Workspace, finding: Finding) -> str:
+        """Return a finding with all that it is made of, as HTML."""
         file, why = workspace.file, explain(workspace.validator, finding)
         mark = (
             f"{severity_html(finding.severity)}"

@@ -264,6 +264,7 @@ class MergeSources(QObject):
         return lambda _progress, _cancel: source
 
     def _versions(self) -> Iterator[Offer]:
+        """Yield what the open file can be compared with: its earlier contents, defaults, another axis."""
         yield Offer(self.tr("&Now, With Unsaved Changes"), partial(self._done, self.now))
         yield Offer(self.tr("As Last &Saved"), partial(self._done, self.as_saved))
         yield Offer(self.tr("As &Opened"), partial(self._done, self.as_opened))

@@ -56,6 +56,7 @@ class MessageWindow(QDialog):
         self.text.verticalScrollBar().setValue(at)
 
     def _html(self, page: MessagePage) -> str:
+        """Return a message with its meaning, causes and cures, as the page shows it."""
         message, family = page.message, self._schema.family.family
 
         def own(text: str) -> str:

@@ -218,6 +218,7 @@ class DetailPage(Translated):
         return title, "".join(lines) or f"<p>{self.tr('No rule uses this parameter.')}</p>"
 
     def _help(self, address: Address) -> str:
+        """Return the help of a parameter with its hazards, and the messages about it."""
         schema = self._workspace.file.schema
         parameter = schema.parameters[address[0]]
         lines = []

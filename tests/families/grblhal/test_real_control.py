@@ -41,7 +41,7 @@ def control(tmp_path: Path) -> Iterator[RealControl]:
 
 
 @pytest.mark.skipif(not CAMPAIGN, reason="make faults; test_real_description.py has a part of it")
-def test_the_recorded_conversation_is_the_real_one(control: RealControl) -> None:
+def test_what_was_recorded_is_what_the_real_one_answers(control: RealControl) -> None:
     place = parse_endpoint(control.address)
     with closing(GrblLine(lambda look: connect(place, look=look), Waiting())) as line:
         assert answers(line) == recorded()

@@ -254,6 +254,7 @@ def _value_text(value: OpenValue) -> str:
 
 
 def _overview(file: ParameterFile, come: GuideProgress, path: Path) -> Iterator[str]:
+    """Yield how far commissioning is, and a line for each step."""
     from amp_studio.files import with_local_times
     from amp_studio.report import delivered_text, open_value
 

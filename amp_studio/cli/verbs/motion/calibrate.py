@@ -172,6 +172,7 @@ class _Correction:
 def _correction(
     options: Options, file: ParameterFile, offered: Compensation, axis: str, by_hand: bool
 ) -> _Correction:
+    """Return what the options set: edited by hand, of measured points, or nothing."""
     from amp_studio.calibration import MeasurementAnswers, Wish, base_unit, propose, read_measured_file
 
     if by_hand:
@@ -211,6 +212,7 @@ def _demand_answers(measurement: Measurement | None) -> None:
 def _edited(
     options: Options, file: ParameterFile, offered: Compensation, axis: str
 ) -> dict[Address, Value | None]:
+    """Return the table with the points that the options insert, replace and delete."""
     from amp_studio.calibration import deleted, inserted, replaced, shown_unit
     from amp_studio.schema import Value
 
@@ -280,6 +282,7 @@ def _lines(
     correction: _Correction,
     changes: list[Change],
 ) -> Iterator[str]:
+    """Yield the same for the terminal."""
     from amp_studio.calibration import present_table
     from amp_studio.files import describe
     from amp_studio.schema import show_value
@@ -381,6 +384,7 @@ def _json(
     correction: _Correction,
     changes: list[Change],
 ) -> dict[str, Any]:
+    """Return tables, figures and changes of an axis as ``--json`` prints them."""
     from amp_studio.calibration import base_unit, present_table, shown_unit
 
     table = present_table(file, offered, axis)

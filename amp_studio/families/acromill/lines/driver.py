@@ -276,24 +276,24 @@ class TerminalDriver(AcrContent, LineDriver):
 
     def _send(self, replacement: Replacement, sent: SentValues) -> Receipt:
         """Send the commands that differ, read each back, save."""
-        sending = _Sending(replacement, sent)
+        transfer = _ScriptTransfer(replacement, sent)
         cuts = self._terminal.cuts
-        for number, name in enumerate(sending.names, 1):
+        for number, name in enumerate(transfer.names, 1):
             self._waiting.look()
-            if name in sending.content.ballscrew:
-                self._command(sending, name)
+            if name in transfer.content.ballscrew:
+                self._command(transfer, name)
             else:
-                self._set(sending, name)
-            self._waiting.notify("download", number, len(sending.names))
-        self._prove_tables(sending)
+                self._set(transfer, name)
+            self._waiting.notify("download", number, len(transfer.names))
+        self._prove_tables(transfer)
         for _ in range(SAVES):
             # The line may have broken because the card lost its power, and with it all that is not
             # saved.
             if self._terminal.cuts != cuts:
                 cuts = self._terminal.cuts
-                self._set_again(sending)
+                self._set_again(transfer)
                 continue
-            rows = self._terminal.obey("ESAVE", SAVE_WAIT, sending.begin_save)
+            rows = self._terminal.obey("ESAVE", SAVE_WAIT, transfer.begin_save)
             if rows:
                 raise ControlFullError(
                     f"the card answers ESAVE with '{rows[0][:SHOWN]}', and loses with its power what it has"
@@ -304,56 +304,56 @@ class TerminalDriver(AcrContent, LineDriver):
                 return Receipt(restart_needed=False, notes=("The card has saved it (ESAVE).",))
         raise ConnectionCutError("the line breaks each time the card is to save")
 
-    def _command(self, sending: _Sending, name: str) -> str:
+    def _command(self, transfer: _ScriptTransfer, name: str) -> str:
         """Send the command of one setting; returns what the card answers instead of obeying it,
         "" for nothing.
         """
-        rows = self._terminal.obey(sending.lines[name], sent=partial(sending.begin, name))
+        rows = self._terminal.obey(transfer.lines[name], sent=partial(transfer.begin, name))
         return f"the card answers '{rows[0][:SHOWN]}'" if rows else ""
 
-    def _set(self, sending: _Sending, name: str) -> None:
+    def _set(self, transfer: _ScriptTransfer, name: str) -> None:
         """Send the command of one setting until it is read back; raises ImageRejectedError with its line."""
-        wanted, fault = sending.figures[name], ""
+        wanted, fault = transfer.figures[name], ""
         for _ in range(SET_TRIES):
             with self._terminal.seen_through():
-                fault = self._command(sending, name)
+                fault = self._command(transfer, name)
                 present = self._figures(name, len(wanted))
             if not fault and present is not None and same_figures(present, wanted):
-                sending.sent.confirm(name)
+                transfer.sent.confirm(name)
                 return
             fault = fault or f"the card takes it and shows {', '.join(present or ()) or 'nothing'}"
-        raise sending.refused(name, fault)
+        raise transfer.refused(name, fault)
 
-    def _prove_tables(self, sending: _Sending) -> None:
+    def _prove_tables(self, transfer: _ScriptTransfer) -> None:
         """Read each ballscrew table back as a whole, and send again what is another;
         raises ImageRejectedError.
         """
-        for axis in dict.fromkeys(name[4] for name in sending.names if name in sending.content.ballscrew):
-            names, fault = [name for name in sending.names if name.startswith(f"BSC {axis}")], ""
+        for axis in dict.fromkeys(name[4] for name in transfer.names if name in transfer.content.ballscrew):
+            names, fault = [name for name in transfer.names if name.startswith(f"BSC {axis}")], ""
             for _ in range(SET_TRIES):
                 present = self._ballscrew(axis)
-                wrong = [name for name in names if present.get(name) != sending.content.ballscrew[name]]
+                wrong = [name for name in names if present.get(name) != transfer.content.ballscrew[name]]
                 if not wrong:
                     break
                 for name in wrong:
                     fault = (
-                        self._command(sending, name)
+                        self._command(transfer, name)
                         or f"the card takes it and shows {present.get(name, 'nothing')}"
                     )
             else:
-                raise sending.refused(wrong[-1], fault)
+                raise transfer.refused(wrong[-1], fault)
             for name in names:
-                sending.sent.confirm(name)
+                transfer.sent.confirm(name)
 
-    def _set_again(self, sending: _Sending) -> None:
+    def _set_again(self, transfer: _ScriptTransfer) -> None:
         """Set once more what a card has forgotten that lost its power meanwhile: half of it is not saved."""
-        for name in sending.names:
-            if name in sending.content.ballscrew:
+        for name in transfer.names:
+            if name in transfer.content.ballscrew:
                 continue
-            present = self._figures(name, len(sending.figures[name]))
-            if present is None or not same_figures(present, sending.figures[name]):
-                self._set(sending, name)
-        self._prove_tables(sending)
+            present = self._figures(name, len(transfer.figures[name]))
+            if present is None or not same_figures(present, transfer.figures[name]):
+                self._set(transfer, name)
+        self._prove_tables(transfer)
 
 
 def _is_error(rows: list[str]) -> bool:
@@ -382,7 +382,7 @@ def _is_table(rows: list[str]) -> bool:
         return False
 
 
-class _Sending:
+class _ScriptTransfer:
     """What is to be sent, and how far it has come."""
 
     def __init__(self, replacement: Replacement, sent: SentValues) -> None:

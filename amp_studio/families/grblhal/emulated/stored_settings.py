@@ -206,6 +206,7 @@ def _delivered(machine: str, axes: str) -> Iterator[StoredSetting]:
 
 
 def _setting(parameter: Parameter, number: int, axis: str, axes: str, group: int) -> StoredSetting:
+    """Return a parameter of the facts as the emulated control stores and describes it."""
     storage = parameter.storage
     labels = tuple(c.label for c in parameter.choices or ())
     kind = _TYPES.get(parameter.type, _TEXT)

@@ -263,6 +263,7 @@ def _unreadable(listing: LoggedListing, fit: _Fit) -> FormatError:
 def _notes(
     schema: Schema, log: Log, listing: LoggedListing, fit: _Fit, options: ReadOptions
 ) -> Iterable[str]:
+    """Yield what a person has to know of a listing that was taken: which of several, what changed in it."""
     yield from _notes_of_listings(log, listing)
     yield from _notes_of_kept(log, listing, fit)
     if log.others:

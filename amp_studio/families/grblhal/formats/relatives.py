@@ -137,6 +137,7 @@ def read_relative(text: str) -> Relative:
 
 
 def _marlin(text: str) -> Relative:
+    """Return the settings of a text of Marlin (M503) or RepRapFirmware (config.g) as Grbl numbers them."""
     is_per_minute = bool(_PER_MINUTE.search(text)) and not re.search(r"\becho:", text)
     is_known = is_per_minute or bool(_PER_SECOND.search(text))
     found = Relative("RepRapFirmware (config.g)" if is_per_minute else "Marlin (M503)")

@@ -122,6 +122,7 @@ class OnlineAmp:
     def _changed(
         self, table: CalibrationTable | None, action: str, words: list[str], file: ParameterFile, axis: str
     ) -> CalibrationTable:
+        """Return a table after one action at the screen; raises ValueError for one that it does not take."""
         form = COMPENSATION.table
         assert form is not None
         if table is None:
