@@ -219,7 +219,7 @@ def test_the_formulas_of_a_parameter_are_shown_with_their_page(amp) -> None:
         (("show", "fanuc", "1"), "Unknown family 'fanuc'. Known: "),
         (("show", "9pc", "99999"), "Unknown parameter '99999'. Did you mean: "),
         (("show", "9pc", "home.calibratio"), "Unknown parameter 'home.calibratio'"),
-        (("show", "9pc"), "param"),
+        (("show", "9pc"), "PARAM"),
         (("families", "--xml"), "--xml"),
         (("frobnicate",), "frobnicate"),
     ],

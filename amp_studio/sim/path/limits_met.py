@@ -107,12 +107,12 @@ def guarded_boxes(
     path = plan.path
     if not path.zero_known:
         return ()
-    found: list[GuardedBox] = []
+    boxes: list[GuardedBox] = []
     for letter, axis in zip(path.axes, axes, strict=True):
         with suppress(SimulationError):
             limits = axis.travel().limits if axis.travel is not None else {}
-            found += [GuardedBox(title, {letter: edges}, keeps_in=True) for title, edges in limits.items()]
-    return (*found, *_zone_boxes(path, machine))
+            boxes += [GuardedBox(title, {letter: edges}, keeps_in=True) for title, edges in limits.items()]
+    return (*boxes, *_zone_boxes(path, machine))
 
 
 def _zone_boxes(path: ToolPath, machine: BoundMachine) -> Iterator[GuardedBox]:
@@ -203,5 +203,5 @@ def _entered(
         low_share, high_share = np.maximum(low_share, enters), np.minimum(high_share, leaves)
         beyond = (ends[:, n] < low - BEYOND) | (ends[:, n] > high + BEYOND)
         left = np.where(beyond, np.minimum(left, np.clip(leaves, 0.0, 1.0)), left)
-    found: PathRows = left if keeps_in else np.where(low_share < high_share, low_share, 2.0)
-    return found
+    rows: PathRows = left if keeps_in else np.where(low_share < high_share, low_share, 2.0)
+    return rows

@@ -286,7 +286,7 @@ def _figures(
         "home_position": (homing.coordinate if reached else None, u),
         "home_from_start": (homed.home if reached else None, u),
         "stop_position": (None if off is None else homing.coordinate + off, u),
-        "time": (found.ended if reached else None, "s"),
+        "time": (homed.ended if reached else None, "s"),
         "peak_following_error": (float(np.abs(columns["following_error"][motion.driven]).max()), u),
     }
     if homing.order is not None:

@@ -66,12 +66,12 @@ class StoredSetting:
         text = text.lstrip(" ")
         if self.kind == _TEXT:
             return text
-        found = re.match(r"[+-]?(\d*)(\.\d*)?" if self.kind == _DECIMAL else r"\+?(\d+)", text)
-        if found is None or not re.search(r"\d", found[0]):
+        match = re.match(r"[+-]?(\d*)(\.\d*)?" if self.kind == _DECIMAL else r"\+?(\d+)", text)
+        if match is None or not re.search(r"\d", match[0]):
             raise RefusedError(BAD_NUMBER)
         if self.kind == _DECIMAL:
-            return self._decimal(found[0])
-        number = int(found[1])
+            return self._decimal(match[0])
+        number = int(match[1])
         least, most = self._range()
         if not least <= number <= most:
             raise RefusedError(OUT_OF_RANGE)

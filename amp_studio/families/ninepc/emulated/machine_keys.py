@@ -101,16 +101,16 @@ class MachineKeys:
         return self._machine.jog(key[:-1], 1.0 if key[-1] == "+" else -1.0, speed, increment)
 
     def _mdi(self, block: str) -> str:
-        found = _BLOCK.fullmatch(block.strip())
-        if found is None:
+        match = _BLOCK.fullmatch(block.strip())
+        if match is None:
             raise ValueError("of MDI blocks this control moves G0, G1 and G28 with axes and F")
-        words = {letter.upper(): float(figure) for letter, figure in _WORD.findall(found[2])}
+        words = {letter.upper(): float(figure) for letter, figure in _WORD.findall(match[2])}
         feed = words.pop("F", None)
-        if found[1] == "28":
+        if match[1] == "28":
             return self._reference(words)
         if unhomed := [axis for axis in words if not self._machine.is_homed(axis)]:
             raise ValueError(f"{MUST_HOME} {', '.join(unhomed)}")
-        if found[1] not in ("1", "01"):
+        if match[1] not in ("1", "01"):
             feed = None
         elif not feed:
             raise ValueError("G1 needs a feedrate F")

@@ -106,12 +106,12 @@ def _machine_of(text: str, schema: Schema) -> str:
     return machine
 
 
-def _keep(found: TextRead, number: str, cells: list[str], line: int) -> None:
+def _keep(result: TextRead, number: str, cells: list[str], line: int) -> None:
     """Keep a number that the family does not have, with its value and unit."""
-    if number in found.unknown:
+    if number in result.unknown:
         raise FormatError(f"{quoted(number)} occurs twice", line, 1)
-    found.unknown[number] = " ".join(cell for cell in cells[:2] if cell)
-    found.unknown_lines[number] = line
+    result.unknown[number] = " ".join(cell for cell in cells[:2] if cell)
+    result.unknown_lines[number] = line
 
 
 def _value(file: ParameterFile, address: tuple[str, str], cells: list[str], line: int, column: int) -> Value:
