@@ -23,7 +23,7 @@ _MANY = 3
 def after_break(
     error: TransferError,
     writing: Writing,
-    found: GrblContent | None,
+    content: GrblContent | None,
     *,
     has_lost_memory: bool = False,
     is_answered: bool = False,
@@ -33,8 +33,8 @@ def after_break(
     ``is_answered`` is whether the line was whole to the end:
     then the control has what it has answered ``ok`` to.
     """
-    if found is not None:
-        at, new = state_of(writing, found, has_lost_memory=has_lost_memory)
+    if content is not None:
+        at, new = state_of(writing, content, has_lost_memory=has_lost_memory)
         new = tuple(writing.sent.names) if at == "new" else new
     elif is_answered:
         at, new = writing.sent.answered_state()
@@ -46,15 +46,15 @@ def after_break(
 
 
 def state_of(
-    writing: Writing, found: GrblContent, *, has_lost_memory: bool = False
+    writing: Writing, content: GrblContent, *, has_lost_memory: bool = False
 ) -> tuple[AtControl, tuple[str, ...]]:
-    """Return what a control that shows ``found`` contains of a download, and which settings are new."""
+    """Return what a control that shows ``content`` contains of a download, and which settings are new."""
     present, wanted = names_of(writing.present), names_of(writing.target)
     names = {f"${n}" for n in writing.settings} | writing.others.keys()
     # Rates of single axes come and go with $22: only what was there or is sent can be old or new.
     wanted = {name: text for name, text in wanted.items() if name in names or name in present}
     wanted |= {name: text for name, text in present.items() if name not in names}
-    now = _seen(writing, found, names, present, wanted)
+    now = _seen(writing, content, names, present, wanted)
     changed = [n for n in present if n not in names and now.get(n) != present[n]]
     known = {*present, *wanted}
     at, new = state_after_break(present, wanted, {n: t for n, t in now.items() if n in known})
@@ -67,15 +67,15 @@ def state_of(
 
 def _seen(
     writing: Writing,
-    found: GrblContent,
+    content: GrblContent,
     names: Collection[str],
     present: Mapping[str, str],
     wanted: Mapping[str, str],
 ) -> dict[str, str]:
     """Return what the control shows now, a new value as it was sent."""
-    now = names_of(found)
+    now = names_of(content)
     for name in {*names} & {*present, *wanted}:
-        is_new = _is_shown(writing, found, name, wanted[name], now.get(name, ""))
+        is_new = _is_shown(writing, content, name, wanted[name], now.get(name, ""))
         if is_new and (now.get(name) != present.get(name) or name in writing.sent.names):
             now[name] = wanted[name]
     # The firmware moves these itself: they may be others without the download.
@@ -91,7 +91,7 @@ def names_of(content: GrblContent) -> dict[str, str]:
     }
 
 
-def _is_shown(writing: Writing, found: GrblContent, name: str, text: str, reported: str) -> bool:
+def _is_shown(writing: Writing, content: GrblContent, name: str, text: str, reported: str) -> bool:
     if name in PUT_BACK:
-        return name not in offset_differences(writing.target, found)
+        return name not in offset_differences(writing.target, content)
     return is_shown_as(text, reported) if name[1:].isdigit() else text == reported

@@ -40,10 +40,10 @@ def written_number(number: float) -> str:
 
 def read_number(text: str) -> float:
     """Return the 32-bit float that the firmware reads from a text; raises ValueError where it reads none."""
-    found = _NUMBER.match(text)
-    if found is None or not (found[1] or found[2]):
+    match = _NUMBER.match(text)
+    if match is None or not (match[1] or match[2]):
         raise ValueError(f"'{text[:40]}' is no number")
-    whole, fraction = found[1].lstrip("0"), found[2] or ""
+    whole, fraction = match[1].lstrip("0"), match[2] or ""
     number = int((whole + fraction).lstrip("0")[:DIGITS] or "0")
     if len(whole) >= DIGITS:
         exponent = len(whole) - DIGITS
@@ -83,8 +83,8 @@ def shown_number(value: float, decimals: int) -> str:
 
 def decimals_of(reported: str) -> int | None:
     """Return with how many decimals a number is shown; None for a whole number or a text."""
-    found = re.fullmatch(r"-?\d+\.(\d*)", reported)
-    return len(found[1]) if found else None
+    match = re.fullmatch(r"-?\d+\.(\d*)", reported)
+    return len(match[1]) if match else None
 
 
 def is_shown_as(sent: str, reported: str) -> bool:
