@@ -32,6 +32,7 @@ def test_gear_cam_and_backlash_of_a_module_are_checked(checks_of) -> None:
         "gear": "doubtful",
         "cam": "good",
         "backlash": "not possible",  # its command position is 0: no move
+        "passive-home": "good",
     }
     assert [alarm.code for alarm in found["gear"].alarms] == ["VELOCITY ERROR"]
 

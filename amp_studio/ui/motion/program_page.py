@@ -188,10 +188,9 @@ class ProgramPage(PageOfFile):
         row.addWidget(self.view)
         row.addWidget(self.colours)
         row.addStretch()
-        row.addWidget(self.open_button)
         left, middle, right = QWidget(), QWidget(), QWidget()
         for side, parts in (
-            (left, (self.lines, self.play, self.words, self.form)),
+            (left, (self.open_button, self.lines, self.play, self.words, self.form)),
             (middle, (self.title, self.head, self.plot, self.bar)),
             (right, (self.limits, self.change_form, self.tries)),
         ):
