@@ -112,6 +112,12 @@ def pytest_collection_finish() -> None:
     gc.enable()
 
 
+def pytest_sessionfinish() -> None:
+    """Leave everything out of the search at the end of Python too: a worker has a gigabyte of it."""
+    gc.disable()
+    gc.freeze()
+
+
 def pytest_collection(session: pytest.Session) -> None:
     """Divide the rewriting of the asserts (10 s of a processor in a fresh clone) among the workers:
     each stores its share where the others find it, and then collects.
