@@ -240,9 +240,6 @@ def _contents(folder: str | Path) -> Iterator[bytes]:
 
 
 def _digest(*parts: bytes) -> bytes:
-    """Return a digest over parts, of which none can be taken for another."""
-    digest = hashlib.sha256()
-    for part in parts:
-        digest.update(b"%d:" % len(part))
-        digest.update(part)
-    return digest.digest()
+    """Return a digest over parts, of which none can be taken for another: their lengths are before them."""
+    lengths = b",".join([b"%d" % len(part) for part in parts])
+    return hashlib.sha256(b"".join((lengths, b":", *parts))).digest()
