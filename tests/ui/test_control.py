@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QLabel
+from PySide6.QtWidgets import QApplication, QLabel
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import ParameterFile, Project, ProjectInfo, content_of, new_file, open_file
@@ -301,6 +301,21 @@ def test_values_of_the_control_are_taken_into_the_file_in_one_step(
     page.press()
     assert window.workspace.file.get(EXCESS) == Value(11.0, "mm")
     assert window.workspace.undo_stack.count() == steps + 1
+
+
+def test_values_of_the_control_go_to_the_file_that_was_opened_again(
+    window: MainWindow, start_control: Start, path: Path, qtbot: QtBot
+) -> None:
+    """An exchange that outlasted its file ended in an error, and the next one was not shown beside the file."""
+    control = start_control(file=window.workspace.file)
+    session = at_control(window, control.address, "compare", qtbot).session
+    window.files.close()
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    session.ended.emit("verify", True)
+    window.files.open_path(path)
+    at_control(window, control.address, "compare", qtbot).connect_again()
+    settled(window, qtbot)
+    assert window.workspace.control is not None
 
 
 def test_one_value_is_written_now_where_the_control_takes_it_so(

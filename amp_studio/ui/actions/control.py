@@ -49,6 +49,8 @@ class ControlDesk(Translated):
         self.exchanges = ControlExchange(window, self.emulated)
         self._page: ControlPage | None = None
         self._sessions: dict[tuple[str, str, str], ControlSession] = {}
+        self._workspace_of: dict[ControlSession, Workspace | None] = {}
+        """The file that a session was last chosen for: it may be closed and opened again meanwhile."""
         """Address, family and file -> its exchanges."""
         self._live: LivePage | None = None
         self.exchanges.show_page = lambda: self.show("compare")
@@ -229,19 +231,19 @@ class ControlDesk(Translated):
         session = self._sessions.get(key)
         if session is None:
             session = self._sessions[key] = ControlSession(address, family, self.window)
-            session.ended.connect(partial(self._ended_exchange, session, workspace))
+            session.ended.connect(partial(self._ended_exchange, session))
             session.changed.connect(partial(self._end_live, session))
+        self._workspace_of[session] = workspace
         self.page.use(session, self._name_of(address))
         self._follow()
 
-    def _ended_exchange(
-        self, session: ControlSession, workspace: Workspace | None, verb: ControlVerb, reached: bool
-    ) -> None:
+    def _ended_exchange(self, session: ControlSession, verb: ControlVerb, reached: bool) -> None:
         """Remember how an exchange ended, and the values of the control beside those of the file."""
         seen = session.seen
         family, name = (seen.control.family, seen.control.name) if seen is not None else (session.family, "")
         self.exchanges.remember_contact(session.address, verb, reached=reached, family=family, name=name)
-        if workspace is None or not reached:
+        workspace = self._workspace_of[session]
+        if workspace is None or not is_alive(workspace) or not reached:
             return
         if verb == "download" and session.outcome is not None and session.outcome.verified:
             self.exchanges.remember(workspace, workspace.file.copy())
