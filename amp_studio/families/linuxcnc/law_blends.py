@@ -1,5 +1,6 @@
 """Where the moves of LinuxCNC meet: a small change of direction is passed, a corner is rounded by an arc,
-or the path stops (tp.c, blendmath.c). Rounded corners become short straight rows.
+or the path stops (tp.c, blendmath.c). A rounded corner in a plane of the program becomes an arc, another
+one short straight rows.
 """
 
 from __future__ import annotations
@@ -359,8 +360,7 @@ class _Shaping:
         ]
         center = [s - corner.radius * n for s, n in zip(start, middle_to_start, strict=True)]
         plane = None if one.is_rapid else self._plane_of(one, two)
-        # An arc has no way but in a plane of the program: half of it for each of the two blocks. Elsewhere
-        # straight rows are within WITHIN of it.
+        # A row can be an arc in a plane of the program only; half of it belongs to each of the two blocks.
         parts = 2 if plane is not None else self._straight_rows(corner)
         if len(self._out.rows.kind) + parts > MOST_ROWS:
             raise SimulationError(f"The rounded corners of the program become more than {MOST_ROWS} moves")

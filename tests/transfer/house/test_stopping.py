@@ -6,18 +6,20 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
 import pytest
 
-from amp_studio.transfer.client.exchange import WantedContent, download
+from amp_studio.transfer.client.exchange import WantedContent, download, upload
+from amp_studio.transfer.emulated.faults import Faults
 from amp_studio.transfer.emulated.responder import Responder
 from amp_studio.transfer.errors import CancelledError, ConnectionCutError, ControlSilentError, TransferError
 from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.house.driver import HouseDriver
 from amp_studio.transfer.house.message import Commit
 from amp_studio.transfer.progress import Stop
-from tests.transfer.images import NEW, OLD
+from tests.transfer.images import NEW, OLD, send
 
 
 class SetAfter(Stop):
@@ -181,6 +183,84 @@ def test_who_stops_while_the_commit_is_not_answered_waits_5_seconds_and_not_at_a
 
 
 # -- silence is shown ------------------------------------------------------------------------------
+
+
+def silences(made: Any, reported: list[tuple[float, str, int]]) -> Callable[[str, int, int], None]:
+    return lambda stage, done, total: reported.append((made.clock.now, stage, done))
+
+
+def test_a_silent_control_is_reported_within_2_seconds(
+    rig: Callable[..., Any], control: Callable[..., Any]
+) -> None:
+    made = rig(Faults(silent=True), control=control())
+    reported: list[tuple[float, str, int]] = []
+    with pytest.raises(ControlSilentError):
+        upload(HouseDriver(made.session()), Exchange(silences(made, reported)))
+    assert [(stage, seconds) for _, stage, seconds in reported] == [
+        ("silent", 2),
+        ("silent", 3),
+        ("silent", 4),
+    ]
+    assert 1.7 < reported[0][0] <= 2.0
+
+
+def test_a_line_that_is_not_made_is_reported_within_2_seconds(
+    rig: Callable[..., Any], control: Callable[..., Any]
+) -> None:
+    """Nobody answers to the first packet of a connection, and it is waited for 3 s."""
+    made = rig(control=control())
+    open_link = made.open_link
+
+    def slowly(look: Callable[[], None]) -> Any:
+        for _ in range(25):
+            look()
+            made.clock.sleep(0.1)
+        return open_link(look)
+
+    made.open_link = slowly
+    reported: list[tuple[float, str, int]] = []
+    assert upload(HouseDriver(made.session()), Exchange(silences(made, reported))) == OLD
+    assert reported[0][1:] == ("silent", 2)
+    assert reported[0][0] <= 2.0
+    assert reported[1][1:] == ("silent", 0), "and it is told that this is over"
+    assert [stage for _, stage, _ in reported[2:]] == ["upload"] * (len(reported) - 2)
+
+
+def test_a_line_that_falls_silent_in_the_middle_is_reported_and_when_it_is_there_again(
+    rig: Callable[..., Any], control: Callable[..., Any]
+) -> None:
+    made = rig(control=control(), bytes_per_second=2_000)
+    reported: list[tuple[float, str, int]] = []
+    fallen_silent: list[float] = []
+    session = made.session()
+
+    def note(stage: str, done: int, total: int) -> None:
+        reported.append((made.clock.now, stage, done))
+        if stage == "download" and done > 60 and not fallen_silent:
+            fallen_silent.append(made.clock.now)
+            link = session._line._talk.link
+            link.read = lambda timeout: made.clock.sleep(timeout) or b""
+
+    send(session, progress=note)
+    stages = [(stage, done) for _, stage, done in reported]
+    assert ("silent", 2) in stages
+    assert reported[stages.index(("silent", 2))][0] - fallen_silent[0] <= 2.0
+    assert ("silent", 0) in stages[stages.index(("silent", 2)) :]
+
+
+def test_a_control_that_restarts_is_not_called_silent(
+    rig: Callable[..., Any], control: Callable[..., Any]
+) -> None:
+    made = rig(control=control())
+    made.modem._restart_seconds = 9.0
+    reported: list[tuple[float, str, int]] = []
+    outcome = download(
+        HouseDriver(made.session()), WantedContent(NEW, "s1"), keep, Exchange(silences(made, reported))
+    )
+    assert outcome.verified
+    restarting = [at for at, stage, _ in reported if stage == "restart"]
+    assert all(later - earlier <= 2.0 for earlier, later in pairwise(restarting))
+    assert not [stage for _, stage, _ in reported if stage == "silent"]
 
 
 def test_a_cancel_ends_the_wait_for_a_connection(

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import time
+
 from hypothesis import given
 from hypothesis import strategies as st
 
 from amp_studio.transfer.house.retry_timer import RetryPolicy, RetryTimer
+from amp_studio.transfer.house.streaming import window_limit
 from amp_studio.transfer.house.window import Window
 
 
@@ -106,6 +109,32 @@ def test_the_timeout_follows_the_line() -> None:
     for _ in range(9):
         pace.missed()
     assert pace.timeout == 5.0, "never longer than the longest"
+
+
+def test_a_slow_line_has_little_under_way() -> None:
+    assert window_limit(512, 16, None) == 16
+    assert window_limit(512, 16, 11_520) == 7
+    assert window_limit(512, 16, 960) == 2
+    assert window_limit(512, 1, 960) == 1, "never more than the control offers"
+
+
+def test_an_answer_costs_the_same_however_many_pieces_are_under_way() -> None:
+    """A control may offer 65,536 pieces of one byte: each answer looks at what it is about,
+    not at all of them.
+    """
+
+    pieces, number = 32_000, 0
+    window = Window(0, pieces, 1, pieces)
+    while (piece := window.next_piece()) is not None:
+        window.sent(number, *piece, 0.0)
+        number += 1
+    assert window.bytes_flying == pieces
+    begun = time.process_time()
+    for at in range(pieces):
+        window.arrived(at)
+        window.reached(at + 1)
+    assert (window.is_done, window.bytes_flying) == (True, 0)
+    assert time.process_time() - begun < 5, "a look at all of them at each answer takes minutes"
 
 
 def test_a_gap_that_reaches_far_takes_every_piece_before_it_from_those_under_way() -> None:
