@@ -40,7 +40,6 @@ def control(tmp_path: Path) -> Iterator[RealControl]:
         yield made
 
 
-@pytest.mark.skipif(not CAMPAIGN, reason="make faults; test_real_description.py has a part of it")
 def test_what_was_recorded_is_what_the_real_one_answers(control: RealControl) -> None:
     place = parse_endpoint(control.address)
     with closing(GrblLine(lambda look: connect(place, look=look), Waiting())) as line:
