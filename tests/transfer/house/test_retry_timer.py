@@ -47,7 +47,7 @@ class SlowLink:
 
 @pytest.fixture
 def talk() -> Callable[..., Any]:
-    """Give a function that starts a conversation with a link that answers after these delays."""
+    """Give a function that starts a session with a link that answers after these delays."""
 
     def make(*delays: float | None) -> Transaction:
         clock = VirtualClock()
@@ -57,27 +57,27 @@ def talk() -> Callable[..., Any]:
 
 
 def test_an_answer_to_the_only_sending_is_learnt_from(talk: Callable[..., Any]) -> None:
-    conversation = talk(0.4)
-    conversation.request(OpenUpload(), UploadReady)
-    assert conversation.pace.timeout == pytest.approx(0.4 + 4 * 0.2)
+    session = talk(0.4)
+    session.request(OpenUpload(), UploadReady)
+    assert session.pace.timeout == pytest.approx(0.4 + 4 * 0.2)
 
 
 def test_an_answer_to_a_repeated_request_teaches_nothing(talk: Callable[..., Any]) -> None:
     """It may answer the first sending or the second: timed from either, the next timeout would be wrong."""
-    conversation = talk(None, 0.01)
-    conversation.request(OpenUpload(), UploadReady)
-    assert conversation.pace.timeout == pytest.approx(0.7 * 2), "still doubled, and nothing learnt"
-    conversation = talk(0.2, None, 0.01)
-    conversation.request(OpenUpload(), UploadReady)
-    before = conversation.pace.timeout
-    conversation.request(OpenUpload(), UploadReady)
-    assert conversation.pace.timeout == pytest.approx(before * 2)
+    session = talk(None, 0.01)
+    session.request(OpenUpload(), UploadReady)
+    assert session.pace.timeout == pytest.approx(0.7 * 2), "still doubled, and nothing learnt"
+    session = talk(0.2, None, 0.01)
+    session.request(OpenUpload(), UploadReady)
+    before = session.pace.timeout
+    session.request(OpenUpload(), UploadReady)
+    assert session.pace.timeout == pytest.approx(before * 2)
 
 
 def test_a_late_answer_to_the_first_sending_does_not_shorten_the_timeouts(talk: Callable[..., Any]) -> None:
     """A control that takes 0.9 s: timed from the second sending it would seem to take 0.2 s, for good."""
-    conversation = talk(0.9, 0.9, 0.9, 0.9)
-    conversation.request(OpenUpload(), UploadReady)
-    assert conversation.pace.timeout >= 0.9
-    conversation.request(OpenUpload(), UploadReady)
-    assert conversation.pace.timeout >= 0.9
+    session = talk(0.9, 0.9, 0.9, 0.9)
+    session.request(OpenUpload(), UploadReady)
+    assert session.pace.timeout >= 0.9
+    session.request(OpenUpload(), UploadReady)
+    assert session.pace.timeout >= 0.9
