@@ -4,16 +4,18 @@ The slowest frame of many counts.
 
 from __future__ import annotations
 
-import os
 import shutil
 import time
 from collections.abc import Iterator
 from itertools import cycle
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from desktop import window_with
 from measure import Measure
 
-os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+if TYPE_CHECKING:
+    from amp_studio.ui.main_window import MainWindow
 
 FRAME = 0.016
 """Seconds that a frame may take at worst, until all is painted. Processor time,
@@ -27,41 +29,29 @@ DRAGGED = (
 
 def measures(folder: Path, times: int) -> Iterator[Measure]:
     """Yield what a frame of a drag takes; in some of them findings and other views follow."""
-    from PySide6.QtCore import QPointF, QSettings, Qt
-    from PySide6.QtTest import QTest
-    from PySide6.QtWidgets import QApplication
-
-    from amp_studio.ui.main_window import MainWindow
-
-    QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, str(folder))
-    application = QApplication.instance() or QApplication(["bench"])
     for name, example, address in DRAGGED:
-        window = MainWindow()
-        window.resize(1440, 900)
-        window.show()
-        window.open_first(Path(shutil.copy(EXAMPLES / example, folder)))
-        end = time.monotonic() + 10.0
-        while window.page is None and time.monotonic() < end:
-            application.processEvents()
-        assert window.page is not None, "the file is open"
-        window.pictures.show(window.page, True)
-        application.processEvents()
-        canvas = window.pictures.pages(window.page).cards["travel"].canvas
-        number = next(n for n, h in enumerate(canvas.scene.handles) if h.drags[0].address == address)
-        start = QPointF(*canvas.place.at(canvas.scene.handles[number].at))
-        QTest.mousePress(canvas, Qt.MouseButton.LeftButton, pos=start.toPoint())
-        places = cycle([*range(1, 41), *range(39, 0, -1)])
-        frames = []
-        for n in range(-3, 20 * times):
-            begin = time.process_time()
-            canvas.drag_to(QPointF(start.x() + next(places), start.y()))
-            application.processEvents()
-            if n >= 0:  # the first ones still build what the press began
-                frames.append(time.process_time() - begin)
-        yield Measure(f"frame of a dragged handle, {name}, processor time", tuple(frames), FRAME)
-        yield Measure("  the worst of all, with findings and other views", (max(frames),), FRAME)
-        QTest.keyClick(canvas, Qt.Key.Key_Escape)
-        window.page.workspace.undo_stack.clear()
-        window.page.workspace.close()
-        window.control.close()
-        window.hide()
+        with window_with(Path(shutil.copy(EXAMPLES / example, folder))) as window:
+            yield from _dragged(window, times, name, address)
+
+
+def _dragged(window: MainWindow, times: int, name: str, address: tuple[str, str]) -> Iterator[Measure]:
+    from PySide6.QtCore import QCoreApplication, QPointF, Qt
+    from PySide6.QtTest import QTest
+
+    window.pictures.show(window.page, True)
+    QCoreApplication.processEvents()
+    canvas = window.pictures.pages(window.page).cards["travel"].canvas
+    number = next(n for n, h in enumerate(canvas.scene.handles) if h.drags[0].address == address)
+    start = QPointF(*canvas.place.at(canvas.scene.handles[number].at))
+    QTest.mousePress(canvas, Qt.MouseButton.LeftButton, pos=start.toPoint())
+    places = cycle([*range(1, 41), *range(39, 0, -1)])
+    frames = []
+    for n in range(-3, 20 * times):
+        begin = time.process_time()
+        canvas.drag_to(QPointF(start.x() + next(places), start.y()))
+        QCoreApplication.processEvents()
+        if n >= 0:  # the first ones still build what the press began
+            frames.append(time.process_time() - begin)
+    yield Measure(f"frame of a dragged handle, {name}, processor time", tuple(frames), FRAME)
+    yield Measure("  the worst of all, with findings and other views", (max(frames),), FRAME)
+    QTest.keyClick(canvas, Qt.Key.Key_Escape)

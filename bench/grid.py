@@ -4,17 +4,17 @@ The slowest of many counts.
 
 from __future__ import annotations
 
-import os
 import shutil
-import time
 from collections.abc import Callable, Iterator
 from itertools import cycle
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from desktop import window_with
 from measure import Measure, timed
 
-os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+if TYPE_CHECKING:
+    from amp_studio.ui.main_window import MainWindow
 
 FRAME, KEYSTROKE, EDIT = 0.016, 0.030, 0.050
 """Seconds that a frame of a scrolling table, a keystroke and an edit may take at worst, until all is
@@ -24,30 +24,21 @@ EXAMPLE = Path(__file__).resolve().parent.parent / "examples" / "num-1060-mill" 
 
 def measures(folder: Path, times: int) -> Iterator[Measure]:
     """Yield the slowest frame, keystroke and edit of the table."""
-    from PySide6.QtCore import QSettings, Qt
+    with window_with(Path(shutil.copy(EXAMPLE, folder))) as window:
+        yield from _used(window, times)
+
+
+def _used(window: MainWindow, times: int) -> Iterator[Measure]:
+    from PySide6.QtCore import QCoreApplication, Qt
     from PySide6.QtTest import QTest
-    from PySide6.QtWidgets import QApplication
 
-    from amp_studio.ui.main_window import MainWindow
-
-    QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, str(folder))
-    application = QApplication.instance() or QApplication(["bench"])
-    path = Path(shutil.copy(EXAMPLE, folder))
-    window = MainWindow()
-    window.resize(1440, 900)
-    window.show()
-    window.open_first(path)
-    end = time.monotonic() + 10.0
-    while window.page is None and time.monotonic() < end:
-        application.processEvents()
-    assert window.page is not None, "the file is open"
     table, view, workspace = window.page.table, window.page.table_view, window.page.workspace
     every = list(workspace.file.schema.parameters.values())
 
     def until_painted(act: Callable[[], object]) -> Callable[[], None]:
         def call() -> None:
             act()
-            application.processEvents()
+            QCoreApplication.processEvents()
 
         return call
 
@@ -58,7 +49,7 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
         timed(until_painted(lambda: table.show_parameters(next(lists))), 2 * times),
     )
     table.show_parameters(every)
-    application.processEvents()
+    QCoreApplication.processEvents()
     bar, steps = view.verticalScrollBar(), cycle([3] * 40 + [-3] * 40)
     yield worst(
         "frame while scrolling by the wheel",
@@ -96,9 +87,6 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
         KEYSTROKE,
         timed(until_painted(lambda: QTest.keyClick(field, next(letters))), 4 * times),
     )
-    workspace.close()
-    window.control.close()
-    window.hide()
 
 
 def worst(name: str, target: float, seconds: tuple[float, ...]) -> Measure:

@@ -87,7 +87,7 @@ def measures(folder: Path, times: int, groups: Collection[str]) -> Iterator[Meas
         "published": published.measures,
         "sim": lambda: sim.measures(folder, times),
         "laws": lambda: sim_laws.measures(times),
-        "screen": lambda: screen.measures(folder, full, times),
+        "screen": lambda: screen.measures(full, times),
         "grid": lambda: grid.measures(folder, times),
         "comparing": lambda: comparing.measures(folder, times),
         "drag": lambda: drag.measures(folder, times),

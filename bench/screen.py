@@ -2,41 +2,34 @@
 
 from __future__ import annotations
 
-import os
-import time
 from collections.abc import Callable, Iterator
 from itertools import cycle
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from desktop import window_with
 from measure import Measure, timed
 
-os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
-
-
-def measures(folder: Path, full: Path, times: int) -> Iterator[Measure]:
-    """Yield what a keystroke and an edit cost until everything is painted again."""
-    from PySide6.QtCore import QSettings
-    from PySide6.QtWidgets import QApplication
-
+if TYPE_CHECKING:
     from amp_studio.ui.main_window import MainWindow
 
-    QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, str(folder))
-    application = QApplication.instance() or QApplication(["bench"])
-    window = MainWindow()
-    window.show()
-    window.open_first(full)
-    end = time.monotonic() + 10.0
-    while window.workspace is None and time.monotonic() < end:  # a file may be opened in the background
-        application.processEvents()
-    assert window.workspace is not None, "the file is open"
-    assert window.groups is not None
+
+def measures(full: Path, times: int) -> Iterator[Measure]:
+    """Yield what a keystroke and an edit cost until everything is painted again."""
+    with window_with(full) as window:
+        yield from _typed(window, times)
+
+
+def _typed(window: MainWindow, times: int) -> Iterator[Measure]:
+    from PySide6.QtCore import QCoreApplication
+
     box = window.finder.box
     box.begin("")
 
     def until_painted(act: Callable[[], object]) -> Callable[[], None]:
         def call() -> None:
             act()
-            application.processEvents()
+            QCoreApplication.processEvents()
 
         return call
 
@@ -48,6 +41,3 @@ def measures(folder: Path, full: Path, times: int) -> Iterator[Measure]:
     values = cycle(["12 mm", "11 mm"])
     edit = until_painted(lambda: window.edits.commit(("servo.excess_error", "1"), next(values)))
     yield Measure("edit of a value in the table, painted", timed(edit, 4 * times))
-    window.workspace.close()
-    window.control.close()
-    window.hide()
