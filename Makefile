@@ -44,7 +44,7 @@ slips: setup ## plant every slip of one value into the examples and print what s
 	@PYTHONPATH=.:tests/validate $(BIN)/python -m slips $(SLIPS)
 
 faults: setup ## fault campaigns: failing calls, kills, damaged contents, hostile peers; FAULTS="--only journal --share 0.1 --seed 7"
-	@PYTHONPATH=.:tests/validate $(BIN)/python -m tests.faults.run $(FAULTS)
+	@AMP_STUDIO_FULL=1 PYTHONPATH=.:tests/validate $(BIN)/python -m tests.faults.run $(FAULTS)
 	@$(if $(FAULTS),,AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q tests/faults/test_monkey.py tests/families/grblhal/test_real_control.py tests/families/grblhal/test_real_description.py)
 
 monkey: setup ## type and click at random in the window of one family: MONKEY="grblhal 7 60 LOG" (seed, seconds, log), or "grblhal --replay LOG"; make faults does it for ten minutes a family

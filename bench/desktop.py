@@ -36,5 +36,5 @@ def window_with(path: Path) -> Iterator[MainWindow]:
         application.processEvents()
     assert window.page is not None, "the file is open"
     yield window
-    window.may_leave = lambda *_: True  # type: ignore[method-assign]
+    window.may_leave = lambda *_: True
     window.close()

@@ -13,6 +13,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from itertools import count, cycle
 from pathlib import Path
 from random import Random
@@ -25,8 +26,12 @@ from measure import Measure, timed
 from amp_studio.files import Change, ParameterFile, open_file
 from amp_studio.files.example_files import examples_folder
 from amp_studio.formats import export_file, import_file
-from amp_studio.schema import Address, InvalidValueError, Rule, Schema, Value, read_address, written
+from amp_studio.schema import Address, InvalidValueError, Rule, Schema, Value, program, read_address, written
+from amp_studio.schema.cel_engine import Context
 from amp_studio.validate import Validator, apply_fixes
+from amp_studio.validate.expression_check import ExpressionCheck
+from amp_studio.validate.expression_tree import read_expression
+from amp_studio.validate.expression_worth import DECIMAL, list_worth, text_worth
 from amp_studio.validate.plan import checks_of
 from amp_studio.validate.rules import RuleChecks
 
@@ -37,6 +42,12 @@ FEW = 12
 DAMAGED = 800
 """Values of a file that are replaced by those of other parameters."""
 CAM_POINTS = 1900
+COSTLY = (
+    "many.all(a, many.exists(b, b != a))",
+    "texts.map(a, texts.map(b, a + b)) == []",
+    "many.all(a, many.all(b, many.all(c, many.all(d, a >= 0.0))))",
+    "size([1, 2]" + ".map(x, [x, x])" * 8 + ") > 0",
+)
 EDITED: Address = ("servo.excess_error", "1")
 """Many rules read it."""
 
@@ -50,10 +61,24 @@ def measures(folder: Path, full: Path, times: int) -> Iterator[Measure]:
         yield Measure(f"  a {name} file again", timed(validator.run, times), target)
     for name, path in (("9/PC", full), ("NUM", num)):
         yield from _edits(name, path, times)
+    yield _step(times)
     yield _fixes(full, times)
     yield _cam(times)
     yield from _num_table(folder, num, times)
     yield from _peers(full, times)
+
+
+def _step(times: int) -> Measure:
+    """Return what a step of an expression takes, by which the cost of a rule is limited before it runs."""
+    values = {"many": [1.0] * 8, "texts": ["x" * 100] * 8}
+    worths = {"many": list_worth(8, DECIMAL), "texts": list_worth(8, text_worth(100))}
+    seconds: list[float] = []
+    for text in COSTLY:
+        check = ExpressionCheck(worths, {})
+        check.worth(read_expression(text))
+        context, compiled = Context(values), program(text)
+        seconds += (took / check.cost for took in timed(partial(compiled.execute, context), times))
+    return Measure("step of an expression, as its cost is counted", tuple(seconds), 1e-6)
 
 
 def _first_runs(path: Path, times: int) -> tuple[float, ...]:

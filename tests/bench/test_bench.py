@@ -26,6 +26,7 @@ TARGETS = {
     "key that moves the current cell, painted, at worst",
     "edit of a value in the table, painted, at worst",
     "keystroke in a cell, with its result, painted, at worst",
+    "step of an expression, as its cost is counted",
     "every fix of a badly damaged 9/PC file",
     "one edit of a cam of 1900 points",
     "full run over a full 9/PC file, just opened",

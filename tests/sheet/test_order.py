@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import random
-import time
 from pathlib import Path
 
 import pytest
 
 from amp_studio.files import examples_folder, open_file
 from amp_studio.schema import Value
-from amp_studio.sheet import make_sheet, order
+from amp_studio.sheet import Sheet, make_sheet, order
 from amp_studio.sheet.order import safe_order
 from amp_studio.validate import read_builder_rules
 from amp_studio.validate.interim import Interim, NewValue
 from tests.campaigns import some
+from tests.work import calls_of
 
 
 def broken_on_the_way(present, sheet, wanted) -> list[set]:
@@ -145,15 +145,14 @@ def test_rules_that_cannot_be_read_are_reported_too(lathe, tmp_path) -> None:
     assert "own.rule-0: check: a value is missing" in warning
 
 
-def test_a_sheet_of_all_values_of_a_large_file_is_made_within_seconds(present, changed) -> None:
+def test_a_sheet_of_all_values_of_a_large_file_is_made_in_few_steps(present, changed) -> None:
     wanted = present.copy()
     for address, value in present.values.items():
         if isinstance(value.value, float):
             wanted.set(address, Value(value.value * 1.01 + 0.01, value.unit))
-    began = time.process_time()
-    sheet = make_sheet(wanted, present)
-    assert len(sheet.entries) > 200
-    assert time.process_time() - began < 20
+    sheets: list[Sheet] = []
+    assert calls_of(lambda: sheets.append(make_sheet(wanted, present))) < 3_000_000
+    assert len(sheets[0].entries) > 200
 
 
 def test_values_that_cannot_be_ordered_come_as_they_are_given_after_a_bounded_search(

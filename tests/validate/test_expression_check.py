@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 
 import pytest
 
@@ -16,6 +16,7 @@ from amp_studio.validate.expression_worth import DECIMAL, YES_NO, list_worth, te
 from amp_studio.validate.functions import rule_functions
 from amp_studio.validate.rule_review import MOST_STEPS, _functions, review
 from tests.campaigns import some
+from tests.work import calls_of
 
 NAMES = {
     "n": DECIMAL,
@@ -105,27 +106,6 @@ def test_what_would_take_all_memory_or_time_is_beyond_the_budget(text: str) -> N
     assert checked(text).cost > MOST_STEPS
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "many.all(a, many.exists(b, b != a))",
-        "texts.map(a, texts.map(b, a + b)) == []",
-        "many.all(a, many.all(b, many.all(c, many.all(d, a >= 0.0))))",
-        "size([1, 2]" + ".map(x, [x, x])" * 8 + ") > 0",
-    ],
-)
-def test_the_cost_is_no_less_than_what_it_takes(text: str) -> None:
-    """One step is some 50 ns; a slow machine has 20 times as long."""
-    from amp_studio.schema import program
-    from amp_studio.schema.cel_engine import Context
-
-    values = {"n": 1.0, "t": "x" * 100, "many": [1.0] * 8, "texts": ["x" * 100] * 8}
-    context, compiled = Context(values), program(text)
-    start = time.process_time()
-    compiled.execute(context)
-    assert time.process_time() - start < max(0.01, checked(text).cost * 1e-6)
-
-
 # ------------------------------------------------------------------------------------- the rules we deliver
 
 DELIVERED = [(family, rule) for family in family_ids() for rule in load_schema(family).rules]
@@ -190,6 +170,16 @@ ABSURD = (
 )
 
 
+def _small_or_refused(name: str, function: Callable[..., object], arguments: int) -> None:
+    for first in ABSURD:
+        for other in ABSURD:
+            try:
+                found = function(*([first] + [other] * (arguments - 1)))
+            except (TypeError, ValueError, ArithmeticError, LookupError, AttributeError):
+                continue
+            assert len(re.sub(r"\s", "", repr(found))) < 1000, (name, first, other)
+
+
 @pytest.mark.parametrize("family", some(family_ids(), 2))
 def test_no_function_for_rules_takes_long_or_much_whatever_it_is_given(family: str) -> None:
     """A field of 10^10 bits, a round to 10^9 places, a text times a billion: each is refused,
@@ -197,15 +187,7 @@ def test_no_function_for_rules_takes_long_or_much_whatever_it_is_given(family: s
     """
     for name, function in rule_functions(family).items():
         most = _functions(family)[name].most
-        start = time.process_time()
-        for first in ABSURD:
-            for other in ABSURD:
-                try:
-                    found = function(*([first] + [other] * (most - 1)))
-                except (TypeError, ValueError, ArithmeticError, LookupError, AttributeError):
-                    continue
-                assert len(re.sub(r"\s", "", repr(found))) < 1000, (name, first, other)
-        assert time.process_time() - start < 2.0, name
+        assert calls_of(partial(_small_or_refused, name, function, most)) < 20_000, name
 
 
 def test_signatures_come_from_the_formulas() -> None:
