@@ -19,10 +19,10 @@ from .run import simulate
 from .scenario import Scenario
 from .scenarios import SCENARIOS
 from .trace import Alarm, Figure, Trace
+from .tuning.advice import SHOWN_BY, why_not_sound
+from .tuning.loops import Loops
 
 Verdict = Literal["good", "doubtful", "bad", "not possible"]
-LEAST_PHASE, LEAST_GAIN = 30.0, 6.0
-"""deg and dB: margins below which a loop is doubtful (as the solver of the gains asks at least)."""
 NEAR_GRID = (20.0, 80.0)
 """% of a turn between switch and marker that is sure (Syntec 2.2)."""
 PROGRAMMED = "ASSUMED: {0}; the file does not give what a program does."
@@ -85,6 +85,8 @@ def _checked(file: ParameterFile, law: Law, scenario: Scenario, axis: str | None
         read = (error.parameter,) if error.parameter in file.schema.parameters else ()
         return MotionCheck(scenario.name, instance, letter, "not possible", why=error.what, params=read)
     verdict, why = _verdict(trace)
+    if verdict == "good" and scenario.name in SHOWN_BY:
+        verdict, why = _of_loops(file, law, trace)
     if verdict == "bad" and scenario.programmed:
         verdict = "doubtful"  # the speed is the program's: another one may be good
     figures = {name: trace.result[name] for name in scenario.checked if name in trace.result}
@@ -130,11 +132,18 @@ def _verdict(trace: Trace) -> tuple[Verdict, str]:
                 " each time"
             ),
         )
-    if figure.get("phase_margin", LEAST_PHASE) < LEAST_PHASE:
-        return "doubtful", f"The phase margin is {figure['phase_margin']:.0f} deg, below {LEAST_PHASE:g}"
-    if figure.get("gain_margin", LEAST_GAIN) < LEAST_GAIN:
-        return "doubtful", f"The gain margin is {figure['gain_margin']:.1f} dB, below {LEAST_GAIN:g}"
     return "good", ""
+
+
+def _of_loops(file: ParameterFile, law: Law, trace: Trace) -> tuple[Verdict, str]:
+    """Return whether the loops that a scenario shows are sound: by the numbers of `tune`, so that a check
+    does not call good what `frequency` wants changed.
+    """
+    loops = Loops(bind_axis(file, law, trace.axis))
+    is_of_velocity = trace.scenario == "velocity"
+    if loops.inner_sound() if is_of_velocity else not loops.closed or loops.sound():
+        return "good", ""
+    return "doubtful", why_not_sound(loops)
 
 
 def _parameters(file: ParameterFile, law: Law, trace: Trace) -> tuple[str, ...]:

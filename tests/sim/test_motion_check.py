@@ -48,3 +48,11 @@ def test_what_a_program_gives_is_assumed_and_shown(checks_of) -> None:
     tap = checks_of("num-1060-mill", None, "tap")["tap"]
     assert (tap.verdict, tap.figures["speed"]) == ("good", (2000.0, "rpm"))
     assert tap.assumptions[0].startswith("ASSUMED: move.pitch 1.0, move.speed highest")
+
+
+def test_a_loop_that_frequency_wants_changed_is_doubtful_in_the_check_too(checks_of) -> None:
+    """35.7 deg of phase margin: above what is acute, below what a sound axis keeps."""
+    found = checks_of("57c422b-label-press", "X", "frequency", "velocity")
+    assert found["frequency"].verdict == "doubtful"
+    assert found["frequency"].why.startswith("The position loop has too little margin: Ms 2.02")
+    assert found["velocity"].verdict == "good"  # its velocity loop is sound

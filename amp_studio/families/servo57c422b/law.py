@@ -107,9 +107,9 @@ def _refuse_no_gain(read: AxisParameters) -> None:
     """Raise SimulationError where the proportional gain is not above 0."""
     gain = read.number(ids.gain_proportional)
     if gain <= 0.0:
+        what = "without it the axis does not follow" if gain == 0.0 else "below 0 the axis runs away"
         raise SimulationError(
-            f"{ids.gain_proportional} of axis {read.axis} is {gain:g}: without it the axis does"
-            " not follow. Begin with 100 (page 5-3)",
+            f"{ids.gain_proportional} of axis {read.axis} is {gain:g}: {what}. Begin with 100 (page 5-3)",
             ids.gain_proportional,
         )
 

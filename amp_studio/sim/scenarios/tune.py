@@ -18,7 +18,7 @@ from amp_studio.sim.model import assumptions, torque_unit
 from amp_studio.sim.scenario import Scenario, Settings, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Figure, Recommendation, Trace
-from amp_studio.sim.tuning.advice import NONE_SOUND, gain_recommendations, why_not_sound
+from amp_studio.sim.tuning.advice import gain_recommendations, none_sound, why_not_sound
 from amp_studio.sim.tuning.aims import AIMS, Aim
 from amp_studio.sim.tuning.linear import LinearModel
 from amp_studio.sim.tuning.loops import Loops, with_inertia
@@ -130,7 +130,7 @@ def _notes(solved: Solved, slowest: float, others: Sequence[Trial]) -> list[str]
     if 0 < solved.level < len(levels):
         sentences.append(f"No gains keep all of it: {'; '.join(LATER[: solved.level])}.")
     if solved.level == len(levels):
-        sentences.append(f"{why_not_sound(solved.after.loops)}. {NONE_SOUND}")
+        sentences.append(f"{why_not_sound(solved.after.loops)}. {none_sound(solved)}")
     elif not solved.to_change:
         sentences.append(NOTHING)
     if math.isfinite(slowest):

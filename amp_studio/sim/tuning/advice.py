@@ -1,8 +1,8 @@
 """Recommendations: one parameter, its value, the reason and the price, from the one solver (`solver.py`).
 
-A scenario that shows how an axis is damped recommends gains where it is not sound, and raises none while
-figures of the machine are assumed, unless nothing else makes it sound: that is a person's choice, and the
-recommendation names it as one. `tune` is asked by a person and recommends whatever its aim asks for.
+A scenario that shows how an axis is damped recommends gains where it is not sound: those of `tune` for the
+aim normal, so that two scenarios never name different ones. A gain that is raised while figures of the
+machine are assumed is a person's choice, and its recommendation names it as one.
 """
 
 from __future__ import annotations
@@ -34,6 +34,10 @@ CHATTER = (
     " it is not stable there, and chatters to and fro in the gap."
 )
 NONE_SOUND = "No gains within their bounds make it sound on this machine."
+NONE_OF_SIGN = (
+    "No gains of these signs make it sound on this machine: {parameter} is below 0. Its sign is the wiring of"
+    " the feedback, so the other one is not tried."
+)
 ASK_TUNE = "The scenario tune finds gains."
 FILTER_WEAKER = "A resonance that the model does not have may ring on: your choice."
 OTHER_SIGN = "None: an integral gain of the other sign pushes the axis away from its target."
@@ -50,25 +54,12 @@ def recommendations(
         return tuple(own), chatter
     if loops.stable and loops.inner_stable and scenario not in SHOWN_BY:
         return tuple(own), (f"{why_not_sound(loops)}. {ASK_TUNE}", *chatter)
-    solved = sounder(trial)
+    solved = solve(trial, NORMAL)
     found = gain_recommendations(trial, solved, f"{why_not_sound(loops)}; ")
     named = {each.parameter for each in found}
-    notes = () if solved.sound else (f"{why_not_sound(loops)}. {NONE_SOUND}",)
+    notes = () if solved.sound else (f"{why_not_sound(loops)}. {none_sound(solved)}",)
     rest = (each for each in own if each.parameter not in named)
     return (*found, *rest), (*notes, *chatter)
-
-
-def sounder(trial: Tried) -> Solved:
-    """Return gains for an axis that is not sound; on an assumed machine without raising one,
-    where raising them keeps no more of the aim.
-    """
-    if not trial.axis.assumed:
-        return solve(trial, NORMAL)
-    kept = solve(trial, NORMAL, raising=False)
-    if kept.level == 0:
-        return kept
-    raised = solve(trial, NORMAL)
-    return raised if raised.level < kept.level or not kept.sound else kept
 
 
 def gain_recommendations(trial: Tried, solved: Solved, why: str = "") -> tuple[Recommendation, ...]:
@@ -153,6 +144,12 @@ def _following_errors(solved: Solved) -> str:
         return ""
     worse = " to ".join(value_text(each, axes[0].unit, 3) for each in values if each is not None)
     return f"The following error at the rapid feedrate grows from {worse}."
+
+
+def none_sound(solved: Solved) -> str:
+    """Return in a sentence that nothing sound was found, and where that is for the signs of the gains."""
+    below = next((gain.parameter for gain in solved.gains if gain.present_size > 0.0 > gain.present), None)
+    return NONE_SOUND if below is None else NONE_OF_SIGN.format(parameter=below)
 
 
 def why_not_sound(loops: Loops) -> str:

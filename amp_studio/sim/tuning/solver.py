@@ -248,19 +248,12 @@ def _moves(trial: Tried, gain: Gain) -> bool:
 class Search:
     """The candidates of one axis with one setting of its filters, each computed once."""
 
-    def __init__(
-        self,
-        trial: Tried,
-        gains: Sequence[Gain],
-        ceiling: Mapping[str, float] | None = None,
-        filters: FilterSetting = (),
-    ) -> None:
+    def __init__(self, trial: Tried, gains: Sequence[Gain], filters: FilterSetting = ()) -> None:
         self._trial, self.gains, self.filters = trial, gains, filters
         self._known: dict[GainPoint, Candidate | None] = {}
         self._keeps_margins: dict[tuple[GainPoint, int], bool] = {}
         self._best: dict[int, GainPoint | None] = {}
         self._near: dict[int, float] = {}  # the last largest value of a gain: where the next one is sought
-        self._most = [min(gain.high, (ceiling or {}).get(gain.parameter, math.inf)) for gain in gains]
 
     def candidate(self, point: GainPoint) -> Candidate | None:
         """Return the axis with these gains; None where the control cannot have them."""
@@ -320,10 +313,7 @@ class Search:
     def scaled(self, point: GainPoint, levels: Sequence[Level], level: int) -> GainPoint | None:
         """Return the largest share of gains that keeps a level here; None where none does."""
         for share in FILTER_SHARES:
-            there = tuple(
-                min(gain.nearest(share * value), most)
-                for gain, value, most in zip(self.gains, point, self._most, strict=True)
-            )
+            there = tuple(gain.nearest(share * value) for gain, value in zip(self.gains, point, strict=True))
             if self.keeps(there, levels, level):
                 return there
         return None
@@ -375,10 +365,10 @@ class Search:
 
         # The largest value changes little from one inner gain to the next: it is sought where the last
         # one was.
-        value, bad = min(self._most[index], self._near.get(index, math.inf)), None
+        value, bad = min(gain.high, self._near.get(index, math.inf)), None
         # Up to where it fails, down to where it is good again, then halving the ratio between the two.
-        while value < self._most[index] and good(value):
-            value = min(COARSE * value, self._most[index])
+        while value < gain.high and good(value):
+            value = min(COARSE * value, gain.high)
         while not good(value):
             bad, value = value, value / COARSE
             if bad <= gain.low:
@@ -421,7 +411,7 @@ class Search:
         found = []
         for move in moves:
             there = tuple(
-                min(gain.nearest(value * move.get(n, 1.0)), self._most[n])
+                gain.nearest(value * move.get(n, 1.0))
                 for n, (gain, value) in enumerate(zip(self.gains, point, strict=True))
             )
             if there != point:
@@ -429,17 +419,16 @@ class Search:
         return list(dict.fromkeys(found))
 
 
-def solve(trial: Tried, aim: Aim, *, raising: bool = True, slowest: float = math.inf) -> Solved:
+def solve(trial: Tried, aim: Aim, *, slowest: float = math.inf) -> Solved:
     """Return the gains of an axis for an aim.
 
-    Without ``raising`` no gain becomes larger than it is. ``slowest`` in 1/s is the greatest position gain of
-    a contour. Where no gains keep the aim, the machine alone as it is taken to be counts, then what a sound
-    axis keeps; where none do that either, the gains that miss it by least, if that is less than now.
+    ``slowest`` in 1/s is the greatest position gain of a contour. Where no gains keep the aim, the machine
+    alone as it is taken to be counts, then what a sound axis keeps; where none do that either, the gains that
+    miss it by least, if that is less than now.
     """
     gains = gains_of(trial)
-    ceiling = None if raising else {gain.parameter: abs(gain.present) for gain in gains}
     levels, filters = levels_of(aim, slowest), Filters(trial)
-    settings = _Settings(trial, gains, ceiling, filters)
+    settings = _Settings(trial, gains, filters)
     present = filters.present, tuple(gain.present_size for gain in gains)
     before = settings.candidate(present) or Candidate(trial.axis)
     # The present gains are judged without the reserve: what is proposed once must not be improved
@@ -449,7 +438,7 @@ def solve(trial: Tried, aim: Aim, *, raising: bool = True, slowest: float = math
     if gains:
         # Never a worse level than the one that the present gains keep.
         for level in range(min(now + 1, len(levels))):
-            best = settings.best(levels, level, others=raising)
+            best = settings.best(levels, level)
             if best is not None:
                 break
         else:
@@ -472,25 +461,22 @@ Chosen = tuple[FilterSetting, GainPoint]
 class _Settings:
     """The searches of one axis, one for each setting of its filters that is tried."""
 
-    def __init__(
-        self, trial: Tried, gains: Sequence[Gain], ceiling: Mapping[str, float] | None, filters: Filters
-    ) -> None:
-        self._trial, self._gains, self._ceiling, self._filters = trial, gains, ceiling, filters
+    def __init__(self, trial: Tried, gains: Sequence[Gain], filters: Filters) -> None:
+        self._trial, self._gains, self._filters = trial, gains, filters
         self._searches: dict[FilterSetting, Search] = {}
 
     def search(self, setting: FilterSetting) -> Search:
         """Return the search with a setting."""
         if setting not in self._searches:
-            self._searches[setting] = Search(self._trial, self._gains, self._ceiling, setting)
+            self._searches[setting] = Search(self._trial, self._gains, setting)
         return self._searches[setting]
 
     def candidate(self, chosen: Chosen) -> Candidate | None:
         """Return the axis with filters and gains."""
         return self.search(chosen[0]).candidate(chosen[1])
 
-    def best(self, levels: Sequence[Level], level: int, *, others: bool) -> Chosen | None:
-        """Return the stiffest loop that keeps a level; with ``others`` by other filters too, where these are
-        worth it.
+    def best(self, levels: Sequence[Level], level: int) -> Chosen | None:
+        """Return the stiffest loop that keeps a level, by other filters too, where these are worth it.
 
         It goes on from filters to better ones, so that from where it ends nothing is better: a second run
         begins there and ends there.
@@ -499,7 +485,7 @@ class _Settings:
         point = self.search(setting).best(levels, level)
         # Filters are someone's remedy for what the model may not know: with sound gains they stay, unless
         # the resonance of the machine is known.
-        while others and (point is None or self._filters.is_resonance_known):
+        while point is None or self._filters.is_resonance_known:
             better = self._better(setting, point, levels, level)
             if better is None:
                 break
