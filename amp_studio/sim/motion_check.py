@@ -137,7 +137,7 @@ def _verdict(trace: Trace) -> tuple[Verdict, str]:
 
 def _of_loops(file: ParameterFile, law: Law, trace: Trace) -> tuple[Verdict, str]:
     """Return whether the loops that a scenario shows are sound: by the numbers of `tune`, so that a check
-    does not call good what `frequency` wants changed.
+    does not call good what `frequency` changes.
     """
     loops = Loops(bind_axis(file, law, trace.axis))
     is_of_velocity = trace.scenario == "velocity"

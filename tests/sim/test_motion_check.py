@@ -50,7 +50,7 @@ def test_what_a_program_gives_is_assumed_and_shown(checks_of) -> None:
     assert tap.assumptions[0].startswith("ASSUMED: move.pitch 1.0, move.speed highest")
 
 
-def test_a_loop_that_frequency_wants_changed_is_doubtful_in_the_check_too(checks_of) -> None:
+def test_a_loop_whose_gains_frequency_changes_is_doubtful_in_the_check_too(checks_of) -> None:
     """35.7 deg of phase margin: above what is acute, below what a sound axis keeps."""
     found = checks_of("57c422b-label-press", "X", "frequency", "velocity")
     assert found["frequency"].verdict == "doubtful"

@@ -147,7 +147,7 @@ def _following_errors(solved: Solved) -> str:
 
 
 def none_sound(solved: Solved) -> str:
-    """Return in a sentence that nothing sound was found, and where that is for the signs of the gains."""
+    """Return in a sentence that nothing sound was found; with a gain below 0, that its sign was kept."""
     below = next((gain.parameter for gain in solved.gains if gain.present_size > 0.0 > gain.present), None)
     return NONE_SOUND if below is None else NONE_OF_SIGN.format(parameter=below)
 
