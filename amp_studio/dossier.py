@@ -21,6 +21,7 @@ from amp_studio.files import (
     text_of_name,
 )
 from amp_studio.report import (
+    CheckedFigure,
     CheckedMotion,
     Contents,
     ExchangeLine,
@@ -33,6 +34,7 @@ from amp_studio.report import (
     run_apart,
     set_report,
 )
+from amp_studio.schema import unit_text
 from amp_studio.validate import NO_RULES, BuilderRules
 
 _DRAWN = (".pdf", ".html")
@@ -138,14 +140,15 @@ def checks_of(file: ParameterFile) -> Iterator[CheckedMotion]:
 
     try:
         for check in check_motion(file):
-            figures = ", ".join(
-                f"{name.replace('_', ' ')} {value_text(float(value), unit)}"
+            figures = tuple(
+                CheckedFigure(
+                    name.replace("_", " "), float(value), unit, value_text(float(value), unit_text(unit))
+                )
                 for name, (value, unit) in check.figures.items()
                 if value is not None
             )
-            alarms = [f"{each.code}: {each.message}" for each in check.alarms if each.message != check.why]
-            text = " ".join(filter(None, (check.why, *alarms)))
-            yield CheckedMotion(check.verdict, check.scenario, check.letter, figures, text)
+            alarms = tuple((each.code, each.message) for each in check.alarms if each.message != check.why)
+            yield CheckedMotion(check.verdict, check.scenario, check.letter, figures, check.why, alarms)
     except SimulationError:  # a family without a law, a file without axes
         return
 

@@ -66,7 +66,7 @@ def motion_paper(
     )
     return Paper(
         worded(_KINDS.get(trace.scenario, "Simulation")),
-        f"{worded(trace.scenario.capitalize())}, {name}",
+        f"{words.scenario(trace.scenario)}, {name}",
         tuple((worded(head), text) for head, text in facts if text),
         tuple(_worded(table, words) for table in _tables(file, trace, machine, words) if table.rows),
         datetime.now().astimezone(),

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from amp_studio.schema import Address
+from amp_studio.schema import Address, unit_text
 
 from .frame import Placement
 from .scene import Curve, Point, Scene, ShapeSort, Text
@@ -114,7 +114,7 @@ def axis_text(scene: Scene, axis: str) -> str:
     scale = scene.x if axis == "x" else scene.y
     if scale.rows or not scale.is_written or (axis == "y" and scene.look == "panel"):
         return ""
-    return ", ".join(part for part in (scale.label, scale.unit) if part)
+    return ", ".join(part for part in (scale.label, unit_text(scale.unit)) if part)
 
 
 @dataclass(frozen=True)
@@ -133,7 +133,7 @@ def heading_of(panel: Scene, left: float, right: float, measure: Measure) -> lis
     """Return what a panel shows, and its curves by name where it has several, from left to right:
     no name is left out.
     """
-    title = f"{panel.title} ({panel.y.unit})" if panel.y.unit else panel.title
+    title = f"{panel.title} ({unit_text(panel.y.unit)})" if panel.y.unit else panel.title
     pieces = [Heading(left, 0, title, strong=True)]
     x, line = left + measure(title, True) + 2.0 * _BETWEEN, 0
     if panel.subtitle:

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from amp_studio.schema import unit_text
+
 from .scene import CellMap, Curve, Dot, NamedPlace, Point, Polyline, Ring, Scale, Scene, ShapeSort, Text
 from .ticks import figure_text, round_step
 
@@ -124,8 +126,8 @@ def map_scene(
     logs = [_is_geometric(side) for side in (x[2], y[2])]
     edges = [_edges(side, log) for side, log in zip((x[2], y[2]), logs, strict=True)]
     cells = CellMap(unit, edges[0], edges[1], values, safe, _ends(values, safe))
-    heading = f"{title} ({unit})" if unit else title
-    up = f"{y[0]} ({y[1]})" if y[1] else y[0]
+    heading = f"{title} ({unit_text(unit)})" if unit else title
+    up = f"{y[0]} ({unit_text(y[1])})" if y[1] else y[0]
     return Scene(
         "map",
         "",
@@ -190,11 +192,11 @@ def ring_scene(rings: Sequence[Ring], unit: str) -> Scene:
         Polyline(((0.0, -outer), (0.0, outer)), "overlap"),
     ]
     far = 1.08 * outer
-    angles = ((far, 0.0, "0"), (0.0, far, "90"), (-far, 0.0, "180"), (0.0, -far, "270 deg"))
+    angles = ((far, 0.0, "0"), (0.0, far, "90"), (-far, 0.0, "180"), (0.0, -far, "270°"))
     names = [Text((x, y), text, anchor="middle", sort="dim") for x, y, text in angles]
     for level in levels:
         at = _BASE + scale * level
-        words = f"{figure_text(level)} {unit}".rstrip() if level else "programmed"
+        words = f"{figure_text(level)} {unit_text(unit)}".rstrip() if level else "programmed"
         names.append(
             Text((at * math.sin(_DIAGONAL), at * math.cos(_DIAGONAL)), words, anchor="left", sort="dim")
         )

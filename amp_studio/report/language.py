@@ -78,6 +78,10 @@ class Language:
         own = self._phrase(english, self.text)
         return english if own is None else own
 
+    def scenario(self, name: str) -> str:
+        """Return the name of a scenario of the simulator."""
+        return self.phrases.get(f"scenario {name}") or name.capitalize()
+
     def of_help(self, title: str) -> str:
         """Return the title of a part of a parameter's help: its Note is the manual's, not a person's."""
         return self.phrases.get(f"help: {title}") or self.text(title)
@@ -153,7 +157,11 @@ class Language:
         text = _SIGN.sub("−", text)
         if self.point != ".":
             text = _NUMBER.sub(lambda found: self.number(found[0]), text)
-        return _behind_a_number().sub(lambda found: self.unit(found[0]), text) if self.units else text
+        return _behind_a_number(*self.units).sub(self._unit_behind, text) if self.units else text
+
+    def _unit_behind(self, found: re.Match[str]) -> str:
+        unit = self.unit(unit_text(found[1]))
+        return unit if unit == "°" else f" {unit}"
 
     def moment(self, date: datetime) -> str:
         """Return date and time as this language writes them."""
@@ -191,10 +199,12 @@ ENGLISH = Language("en", "English")
 
 
 @cache
-def _behind_a_number() -> re.Pattern[str]:
-    """Return what finds a unit behind a number and a space."""
-    printed = sorted({unit_text(unit) for unit in UNITS} - {"", "°", "%"}, key=len, reverse=True)
-    return re.compile(rf"(?<=\d )(?:{'|'.join(map(re.escape, printed))})(?![\w/])")
+def _behind_a_number(*others: str) -> re.Pattern[str]:
+    """Return what finds a unit behind a number, with the space before it: as it is printed, or as facts and
+    parameter files spell it; ``others`` are no units of a parameter.
+    """
+    spelled = sorted({*UNITS, *map(unit_text, UNITS), *others} - {"", "%"}, key=len, reverse=True)
+    return re.compile(rf"(?<=\d) ({'|'.join(map(re.escape, spelled))})(?![\w/])")
 
 
 @cache

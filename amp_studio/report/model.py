@@ -16,7 +16,7 @@ from amp_studio.schema import MASKED, ParameterState
 
 from .contents import SORTS, Contents
 from .findings.printed_finding import PrintedFinding, PrintedSeverity
-from .language import language_of
+from .language import Language, language_of
 
 MARKS: dict[str, str] = {
     "*": "differs from the printed default",
@@ -312,15 +312,37 @@ class ExchangeLine:
 
 
 @dataclass(frozen=True, slots=True)
+class CheckedFigure:
+    """One figure of a scenario."""
+
+    name: str
+    """In words."""
+    value: float
+    unit: str
+    """As it is printed."""
+    text: str
+    """The value with its unit, rounded."""
+
+
+@dataclass(frozen=True, slots=True)
 class CheckedMotion:
     """One scenario of the check in motion."""
 
     verdict: str
     scenario: str
     axis: str
-    figures: str
+    figures: tuple[CheckedFigure, ...]
     text: str
-    """What is not good, with the control's alarms."""
+    """What is not good."""
+    alarms: tuple[tuple[str, str], ...] = ()
+    """Code and message of each other alarm of the control."""
+
+    def printed(self, words: Language) -> tuple[str, str, str]:
+        """Return scenario, figures, and what is not good with the alarms, as they are printed."""
+        figures = (f"{words.sentence(each.name)} {words.sentence(each.text)}" for each in self.figures)
+        alarms = (f"{code}: {words.sentence(message)}" for code, message in self.alarms)
+        why = words.sentence(self.text) if self.text else ""
+        return words.scenario(self.scenario), ", ".join(figures), " ".join(filter(None, (why, *alarms)))
 
 
 @dataclass(frozen=True, slots=True)

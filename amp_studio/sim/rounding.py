@@ -36,7 +36,7 @@ def value_text(value: float, unit: str = "", digits: int = 4) -> str:
     text = format(Decimal(repr(float(near))), "f") if math.isfinite(near) else repr(near)
     if "." in text:
         text = text.rstrip("0").rstrip(".")
-    return f"{text} {unit}".rstrip()
+    return f"{text}{unit}" if unit == "°" else f"{text} {unit}".rstrip()
 
 
 def page_text(page: str) -> str:

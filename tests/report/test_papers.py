@@ -229,7 +229,7 @@ def test_the_report_as_json_and_as_workbook_has_every_value(tmp_path: Path, mill
     assert (12.5, "mm") in {(row[6], row[7]) for row in rows}
     notes = list(book["Notes"].iter_rows(values_only=True))
     assert notes == [
-        ("about", "note"),
+        ("About", "Note"),
         ("Machine", "Rebuilt in 2019.\nNew drives."),
         ("Home Parameters", NASTY),
     ]

@@ -14,7 +14,7 @@ from typing import Any
 from amp_studio.report.findings.printed_finding import PrintedFinding
 from amp_studio.report.model import CheckedMotion, Danger, ExchangeLine, ProgramState, Report, ReportRow
 
-FORMAT = 1
+FORMAT = 2
 _FACTS = {
     "Machine": "name",
     "Project": "project",
@@ -70,7 +70,7 @@ def report_data(report: Report) -> dict[str, Any]:
         "not_set": [{"number": n or None, "name": name, "place": place} for n, name, place in report.not_set],
         "dangers": [*map(_danger, report.dangers)],
         "power_up": [*map(_fields, report.power_up)],
-        "checks": [*map(_fields, report.checks)],
+        "checks": [*map(_check, report.checks)],
         "part_programs": [*map(asdict, report.programs)],
         "exchanges": [*map(_fields, report.exchanges)],
     }
@@ -80,8 +80,19 @@ def _or_none(text: str) -> str | None:
     return None if text == _NOTHING else text
 
 
-def _fields(record: ProgramState | CheckedMotion | ExchangeLine) -> dict[str, Any]:
+def _fields(record: ProgramState | ExchangeLine) -> dict[str, Any]:
     return {name: getattr(record, name) for name in record.__slots__}
+
+
+def _check(check: CheckedMotion) -> dict[str, Any]:
+    return {
+        "verdict": check.verdict,
+        "scenario": check.scenario,
+        "axis": check.axis,
+        "figures": [{"name": n.name, "value": n.value, "unit": n.unit or None} for n in check.figures],
+        "text": check.text,
+        "alarms": [{"code": code, "message": message} for code, message in check.alarms],
+    }
 
 
 def _danger(danger: Danger) -> dict[str, Any]:

@@ -3,66 +3,115 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
-from amp_studio.report.model import CheckedMotion, ExchangeLine, ProgramState, Report, ReportRow
+from amp_studio.report.language import Language, language_of
+from amp_studio.report.model import ExchangeLine, ProgramState, Report, ReportRow
 from amp_studio.schema import write_figure
 
-from .table_csv import HEADS, line_of
 from .workbook import WorkbookCell, WorkbookSheet, workbook
+
+_VALUE_HEADS = (
+    "Number",
+    "Id",
+    "Instance",
+    "Belongs to",
+    "Parameter",
+    "Group",
+    "Value",
+    "Unit",
+    "Default",
+    "Changed",
+    "State",
+    "Forced",
+    "Default printed",
+    "Note",
+)
 
 
 def render_workbook(report: Report) -> bytes:
     """Return the report as XLSX: values, findings, what is not set, exchanges, notes, axes, machine.
     Numbers are numbers.
     """
-    values, *others = _sheets(report)
-    every = [values, *(sheet for sheet in others if sheet.rows)]
+    words = language_of(report.contents.language, report.family_id)
+    values, *others = _sheets(report, words)
+    every = [
+        replace(sheet, title=words.text(sheet.title), heads=tuple(map(words.text, sheet.heads)))
+        for sheet in (values, *(sheet for sheet in others if sheet.rows))
+    ]
     return workbook(every, f"{report.title} – {report.subject}", report.program, report.contents.paper)
 
 
-def _sheets(report: Report) -> Iterator[WorkbookSheet]:
+def _sheets(report: Report, words: Language) -> Iterator[WorkbookSheet]:
     """Yield every sheet that there can be, the values first."""
-    yield _values(report)
+    text = words.text
+    yield _values(report, words)
     findings = [
-        (n.severity, n.count, n.place, ", ".join(x for _, x in n.about), n.message, n.fix, n.page)
+        (
+            words.title(n.severity),
+            n.count,
+            n.place,
+            ", ".join(x for _, x in n.about),
+            n.message,
+            n.fix,
+            n.page,
+        )
         for n in report.notes
     ]
-    heads = ("severity", "count", "place", "about", "message", "fix", "page")
+    heads = ("Severity", "Count", "Belongs to", "About", "Message", "Suggestion", "Page")
     yield WorkbookSheet("Findings", heads, findings)
-    yield WorkbookSheet("Not set", ("number", "parameter", "belongs to"), report.not_set)
-    yield _records("Power-up", report.power_up)
-    yield _records("Check in motion", report.checks)
-    yield _records("Exchanges", report.exchanges)
+    not_set = [(number, name, text(place)) for number, name, place in report.not_set]
+    yield WorkbookSheet("Not set", ("Number", "Parameter", "Belongs to"), not_set)
+    yield _records("Power-up", ("What", "Code", "Meaning", "Parameter", "Page"), report.power_up)
+    heads = ("Verdict", "Scenario", "Axis", "Figure", "Value", "Unit", "Why")
+    yield WorkbookSheet("Check in motion", heads, [*_checks(report, words)])
+    heads = ("When", "Who", "What", "Control", "Before", "After", "Result")
+    yield _records("Exchanges", heads, report.exchanges)
     limits = [
-        (each.name, limit.letter, limit.name, limit.param, limit.time_s, limit.share)
+        (each.name, limit.letter, words.sentence(limit.name), limit.param, limit.time_s, limit.share)
         for each in report.programs
         for limit in each.limits
     ]
-    yield WorkbookSheet("Part programs", ("program", "letter", "limit", "parameter", "s", "share"), limits)
-    noted = [("Machine", report.remarks), *report.remarked] if report.remarks else report.remarked
-    yield WorkbookSheet("Notes", ("about", "note"), noted)
-    yield WorkbookSheet("Axes", report.axis_heads, report.axes)
+    columns = ("Program", "Letter", "What limits the feed", "Parameter", "s", "Share")
+    yield WorkbookSheet("Part programs", columns, limits)
+    noted = [(text("Machine"), report.remarks), *report.remarked] if report.remarks else report.remarked
+    yield WorkbookSheet("Notes", ("About", "Note"), noted)
+    yield WorkbookSheet("Axes", report.axis_heads, [tuple(map(text, line)) for line in report.axes])
     about = (("", report.title), ("Printed", report.when), *report.machine, *report.facts, *report.counts)
-    yield WorkbookSheet("Machine", ("", ""), about)
+    facts = [(text(title), report.fact(title, body, text)) for title, body in about]
+    yield WorkbookSheet("Machine", ("", ""), facts)
 
 
-def _values(report: Report) -> WorkbookSheet:
-    heads = [head.replace("_", " ") for head in HEADS]
-    place = HEADS.index("instance") + 1
-    heads.insert(place, "belongs to")
-    number_columns = {HEADS.index("value"), HEADS.index("default")}
+def _checks(report: Report, words: Language) -> Iterator[tuple[WorkbookCell, ...]]:
+    """Yield a line for each figure of a scenario, and one for a scenario without."""
+    for check in report.checks:
+        scenario, _, why = check.printed(words)
+        head = words.text(check.verdict), scenario, check.axis
+        if not check.figures:
+            yield *head, "", None, "", why
+        for n in check.figures:
+            yield *head, words.sentence(n.name), n.value, words.unit(n.unit), why
+
+
+def _values(report: Report, words: Language) -> WorkbookSheet:
     values = []
     for row in report.rows():
-        line = [_number(text, row) if n in number_columns else text for n, text in enumerate(line_of(row))]
-        line.insert(place, row.place)
-        values.append(tuple(line))
-    return WorkbookSheet("Values", tuple(heads), values)
+        value, default = (_number(text, row) for text in (row.value, row.plain_default))
+        yes_no = ("yes" if row.is_changed else "no"), ("no" if row.no_default else "yes")
+        changed, printed = map(words.text, yes_no)
+        place, state = words.text(row.place), words.title(row.state)
+        identity = (row.number, row.id, row.instance, place, row.name, row.group)
+        values.append((*identity, value, row.unit, default, changed, state, row.forced, printed, row.note))
+    return WorkbookSheet("Values", _VALUE_HEADS, values)
 
 
-def _records(title: str, records: Sequence[ProgramState | CheckedMotion | ExchangeLine]) -> WorkbookSheet:
+def _records(
+    title: str, heads: tuple[str, ...], records: Sequence[ProgramState | ExchangeLine]
+) -> WorkbookSheet:
     """Return records of one kind, a column for each of their fields."""
-    names = tuple(records[0].__slots__) if records else ()
-    return WorkbookSheet(title, names, [tuple(getattr(each, name) for name in names) for each in records])
+    return WorkbookSheet(
+        title, heads, [tuple(getattr(one, name) for name in one.__slots__) for one in records]
+    )
 
 
 def _number(text: str, row: ReportRow) -> WorkbookCell:

@@ -73,9 +73,10 @@ def _checks(report: Report, words: Language) -> Iterator[str]:
         return
     yield from _heading(words.text("Check in motion").upper())
     for each in report.checks:
-        yield from _wrapped(f"{words.text(each.verdict)}  {each.scenario} {each.axis}  {each.figures}", "")
-        if each.text:
-            yield from _wrapped(each.text, "    ")
+        scenario, figures, text = each.printed(words)
+        yield from _wrapped(f"{words.text(each.verdict)}  {scenario} {each.axis}  {figures}".rstrip(), "")
+        if text:
+            yield from _wrapped(text, "    ")
     yield ""
 
 

@@ -102,7 +102,11 @@ def filled(
         )
     environment.globals.update(_=language.text, counted=language.counted, language=language.code)
     environment.filters.update(
-        filters, worded=language.drawing, titled=language.title, stated=language.sentence
+        filters,
+        worded=language.drawing,
+        titled=language.title,
+        stated=language.sentence,
+        checked=lambda check: check.printed(language),
     )
     environment.tests["listing"] = lambda part: isinstance(part, Listing)
     if own is None:

@@ -52,6 +52,11 @@ def _worded(code: str, text: str, family: str) -> str:
     return language_of(code, family).title(text)
 
 
+def scenario_in_words(name: str) -> str:
+    """Return the name of a scenario of the simulator in the language of the window."""
+    return language_of(_spoken).scenario(name)
+
+
 def facts_in_words(schema: Schema) -> Language:
     """Return the language of the window with the facts of a family."""
     return language_of(_spoken, schema.family.family)

@@ -26,7 +26,7 @@ from amp_studio.schema import unit_text
 from amp_studio.sim import MotionCheck, SimulationError, check_motion, value_text
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import GAP2, GAP3, ROW, Token, font, icon
-from amp_studio.ui.base.translated import sentenced, worded
+from amp_studio.ui.base.translated import scenario_in_words, sentenced, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.page.page_of_file import PageOfFile
 
@@ -187,7 +187,7 @@ class CheckPage(PageOfFile):
         for column, text in enumerate(
             (
                 self._word(check.verdict),
-                worded(check.scenario.capitalize()),
+                scenario_in_words(check.scenario),
                 check.letter,
                 sentenced(check.why, self._family),
                 figures,

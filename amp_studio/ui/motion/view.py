@@ -44,7 +44,7 @@ from amp_studio.sim import (
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import GAP2, GAP3, scheme, severity_colour
-from amp_studio.ui.base.translated import language_of_window, sentenced, worded
+from amp_studio.ui.base.translated import language_of_window, scenario_in_words, sentenced, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.form import Field, FieldForm, fill_choices
 from amp_studio.ui.forms.pages import LINK
@@ -248,7 +248,7 @@ class MotionView(PageOfFile):
         titles = [(axis, axis_title(file, axis)) for axis in found.axes]
         fill_choices(
             self.scenario,
-            [(each.name, worded(each.name.capitalize())) for each in found.scenarios],
+            [(each.name, scenario_in_words(each.name)) for each in found.scenarios],
             str(self.scenario.currentData() or "step"),
         )
         fill_choices(self.axis, titles, wanted)
