@@ -27,7 +27,7 @@ FIRST_MARKER = 0.25
 AWAKE = 0.5
 """s after the last order in which an axis is still stepped; then it is at rest and costs nothing."""
 SLICE = 0.02
-"""s of the machine's time between two looks at its limits."""
+"""s of the machine's time between two looks at what its drive and its markers do."""
 RUNAWAY = "RUNAWAY"
 """Code of an axis whose loop is not stable, where the control itself stops it with none."""
 LONGEST_ADVANCE = 1.0
@@ -44,6 +44,7 @@ class SimulatedAxis:
         self._moving = MovingAxis(law, engine="plain", keep=False, coast=COAST)
         self._offset = position  # of the control's coordinates
         self._left = 0.0  # s that it is still stepped
+        self._due = 0.0  # s that have passed and are less than a servo period, which are stepped later
         self._homed: Homed | None = None
         self._marker_waited: tuple[float, float, float] | None = None
         """Position to take, and the markers below and above the axis, u of the moving axis."""
@@ -110,6 +111,7 @@ class SimulatedAxis:
 
     def move(self, to: float, feedrate: float, ramp: Ramp) -> None:
         """Move to a position; an axis that moves stops first."""
+        self._forget_limit()
         self._begin(self._moved(to - self._offset, feedrate, ramp))
 
     def go(self, velocity: float, ramp: Ramp, farthest: float = math.inf) -> None:
@@ -117,6 +119,7 @@ class SimulatedAxis:
         if velocity == 0.0:
             self.stop(ramp)
             return
+        self._forget_limit()
         far = min(farthest, abs(velocity) * 600.0)
         self._begin(self._gone(velocity, ramp, far))
 
@@ -126,6 +129,7 @@ class SimulatedAxis:
 
     def home(self, homing: Homing, ramp: Ramp) -> None:
         """Home the axis; `is_homed`, or `alarm`, is set at its end."""
+        self._forget_limit()
         self.is_homed, self._homed = False, Homed()
         if self._around is None:
             self._around = moved(usual_around(self.law, homing, ramp), self._moving.position)
@@ -143,6 +147,13 @@ class SimulatedAxis:
         self.alarm, self.is_enabled = None, True
         if self._moving.stop_number or self._moving.is_over:
             self._moving.restart()
+
+    def _forget_limit(self) -> None:
+        """Forget what stopped the axis with its drive on, a limit: the next order leaves it, or meets the
+        other one.
+        """
+        if self.is_enabled:
+            self.alarm = None
 
     def _moved(self, to: float, feedrate: float, ramp: Ramp) -> Orders:
         if self._moving.velocity != 0.0:
@@ -173,7 +184,7 @@ class SimulatedAxis:
         while left > 0.0 and self._left > 0.0:
             step = min(left, SLICE)
             try:
-                self._moving.advance(step)
+                self._step(step)
             except (
                 SimulationError
             ) as error:  # a loop that is not stable: the control goes on without this axis
@@ -185,6 +196,43 @@ class SimulatedAxis:
             self._check_marker()
         self._settle()
 
+    def _step(self, duration: float) -> None:
+        """Step the axis for a time, s, and stop it at the servo sample that sees a limit passed."""
+        # Servo periods that are no part of a slice: what is left of one is due in the next slice, or the
+        # axis would be slow by some per cent.
+        self._due += duration
+        while not self._moving.is_over and self._due > 0.5 * self.law.servo_period:
+            before, limits = self._moving.time, self._limits()
+            seen = self._moving.advance(self._due, [watch for watch, _, _ in limits])
+            self._due -= self._moving.time - before
+            if seen is None:
+                break
+            _, name, code = limits[seen.watch]
+            self._stop_at(name, code)
+        if self._moving.is_over:
+            self._due = 0.0
+
+    def _limits(self) -> list[tuple[Watch, str, str]]:
+        """Return the next limit of the travel in each direction, with its name and its alarm."""
+        travel = self.travel
+        if travel is None or not self.is_enabled or self.alarm is not None or not self.is_busy:
+            return []
+        found = []
+        for sign in (1.0, -1.0):
+            ends = [(high if sign > 0.0 else low, name) for name, (low, high) in travel.limits.items()]
+            edge, name = min(ends, key=lambda end: sign * end[0], default=(math.inf, ""))
+            if math.isfinite(edge):
+                code = travel.alarm if sign > 0.0 else travel.alarm_negative or travel.alarm
+                found.append((Watch(edge - self._offset, sign, device=True), name, code))
+        return found
+
+    def _stop_at(self, name: str, code: str) -> None:
+        """Stop at a limit that was passed, as the travel says."""
+        travel = self.travel
+        assert travel is not None
+        self.alarm = AlarmText(code, f"The axis has passed {name} ({page_text(travel.page)})")
+        self.switch_off() if travel.coasts else self.stop(travel.stop or Ramp())
+
     def _run_away(self, text: str) -> None:
         """Take the drive away from an axis whose motion has no bounds; it is where its command was."""
         at = self.command
@@ -193,19 +241,10 @@ class SimulatedAxis:
         self.alarm, self.is_enabled = AlarmText(RUNAWAY, text), False
 
     def _check_stops(self) -> None:
-        """Stop at a limit, and note what the law stopped for."""
+        """Note what the law stopped for."""
         if self._moving.stop_number > 0 and self.alarm is None:
             self.alarm, self.is_enabled = self.law.alarms.get(self._moving.stop_number), False
             self._left = COAST  # without its drive it runs out, as after an E-stop
-        travel = self.travel
-        if travel is None or not self.is_enabled or self.alarm is not None or not self.is_busy:
-            return
-        for name, (low, high) in travel.limits.items():
-            forward = self._moving.velocity
-            if (self.position > high and forward > 0.0) or (self.position < low and forward < 0.0):
-                code = travel.alarm_negative or travel.alarm if forward < 0.0 else travel.alarm
-                self.alarm = AlarmText(code, f"The axis has passed {name} ({page_text(travel.page)})")
-                self.switch_off() if travel.coasts else self.stop(travel.stop or Ramp())
 
     def _check_marker(self) -> None:
         """Take the position of the first marker that the axis has passed, where one is waited for."""
