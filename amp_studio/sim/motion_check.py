@@ -25,6 +25,10 @@ from .tuning.loops import Loops
 Verdict = Literal["good", "doubtful", "bad", "not possible"]
 NEAR_GRID = (20.0, 80.0)
 """% of a turn between switch and marker that is sure (Syntec 2.2)."""
+WORSE = ("not possible", "good", "doubtful", "bad")
+ONE_END = "Only one end of the travel has a limit"
+EVERY = "every"
+"""Name of the one check of an axis that no scenario can move."""
 PROGRAMMED = "ASSUMED: {0}; the file does not give what a program does."
 
 
@@ -54,13 +58,35 @@ def check_motion(file: ParameterFile, axis: str | None = None) -> Iterator[Motio
     axes = tuple(law.axes(file))
     if not axes:
         raise SimulationError(law.motion.without_axes)
-    chosen = axes if axis is None else (axis,)
+    made = [_unmade(file, law, each) or each for each in (axes if axis is None else (axis,))]
+    yield from (each for each in made if isinstance(each, MotionCheck))
+    chosen = [each for each in made if isinstance(each, str)]
     for scenario in filter(partial(_is_checked, law), {**SCENARIOS, **law.own}.values()):
         if not (scenario.once and scenario.of_machine):
             for each in chosen[:1] if scenario.once else chosen:
                 yield _checked(file, law, scenario, each)
         elif axis is None and (checked := _of_spindle(file, law, scenario)):
             yield checked
+
+
+def _unmade(file: ParameterFile, law: Law, axis: str) -> MotionCheck | None:
+    """Return the one check of an axis that no scenario can move, a spindle or one without its values; None
+    for any other.
+    """
+    try:
+        bind_axis(file, law, axis)
+    except SimulationError as error:
+        return _not_possible(file, EVERY, axis, error)
+    return None
+
+
+def _not_possible(
+    file: ParameterFile, scenario: str, axis: str | None, error: SimulationError
+) -> MotionCheck:
+    read = (error.parameter,) if error.parameter in file.schema.parameters else ()
+    return MotionCheck(
+        scenario, axis or "", _letter_of(file, axis), "not possible", why=error.what, params=read
+    )
 
 
 def _is_checked(law: Law, scenario: Scenario) -> bool:
@@ -80,19 +106,45 @@ def _letter_of(file: ParameterFile, axis: str | None) -> str:
 def _checked(file: ParameterFile, law: Law, scenario: Scenario, axis: str | None) -> MotionCheck:
     instance, letter = axis or "", _letter_of(file, axis)
     try:
-        trace, assumed = _run(file, scenario, axis)
+        runs = _ends(file, scenario, axis)
     except SimulationError as error:
-        read = (error.parameter,) if error.parameter in file.schema.parameters else ()
-        return MotionCheck(scenario.name, instance, letter, "not possible", why=error.what, params=read)
-    verdict, why = _verdict(trace)
+        return _not_possible(file, scenario.name, axis, error)
+    verdict, why = max((_verdict(trace) for trace, _, _ in runs), key=lambda found: WORSE.index(found[0]))
     if verdict == "good" and scenario.name in SHOWN_BY:
-        verdict, why = _of_loops(file, law, trace)
+        verdict, why = _of_loops(file, law, runs[0][0])
+    if scenario.opposite and len(runs) == 1 and verdict == "good":
+        verdict, why = "doubtful", ONE_END
     if verdict == "bad" and scenario.programmed:
         verdict = "doubtful"  # the speed is the program's: another one may be good
-    figures = {name: trace.result[name] for name in scenario.checked if name in trace.result}
-    params = _parameters(file, law, trace) if verdict != "good" and instance else ()
-    notes = (*assumed, *trace.assumptions)
-    return MotionCheck(scenario.name, instance, letter, verdict, figures, trace.alarms, why, params, notes)
+    figures, alarms, notes = dict[str, Figure](), list[Alarm](), dict[str, None]()
+    for trace, assumed, end in runs:
+        figures |= {name + end: trace.result[name] for name in scenario.checked if name in trace.result}
+        alarms += [each for each in trace.alarms if each not in alarms]
+        notes |= dict.fromkeys((*assumed, *trace.assumptions))
+    params = _parameters(file, law, runs[0][0]) if verdict != "good" and instance else ()
+    return MotionCheck(
+        scenario.name, instance, letter, verdict, figures, tuple(alarms), why, params, tuple(notes)
+    )
+
+
+def _ends(
+    file: ParameterFile, scenario: Scenario, axis: str | None
+) -> list[tuple[Trace, tuple[str, ...], str]]:
+    """Return the traces of a scenario, what was taken for them, and what their figures are called after:
+    "_minus" at the lower end of the travel. Raises SimulationError where neither end has one.
+    """
+    if not scenario.opposite:
+        return [(*_run(file, scenario, axis), "")]
+    found: list[tuple[Trace, tuple[str, ...], str]] = []
+    error = SimulationError("")
+    for settings, end in ((None, ""), (scenario.opposite, "_minus")):
+        try:
+            found.append((simulate(file, scenario.name, axis, settings, advise=False), (), end))
+        except SimulationError as other:
+            error = other
+    if not found:
+        raise error
+    return found
 
 
 def _run(file: ParameterFile, scenario: Scenario, axis: str | None) -> tuple[Trace, tuple[str, ...]]:

@@ -44,6 +44,8 @@ class Scenario:
     """Whether a check runs it once for the machine instead of for each axis."""
     programmed: Mapping[str, float | str] = field(default_factory=dict)
     """What a program gives where the file does not, as a check takes it."""
+    opposite: Mapping[str, float | str] = field(default_factory=dict)
+    """What makes it the same at the other end of the travel, which a check looks at too."""
 
 
 def number(settings: Settings, name: str) -> float | None:

@@ -131,12 +131,7 @@ def test_a_module_stops_at_its_software_limit_where_the_simulation_stops() -> No
     bench.module.write(66, DEFINE)
     bench.module.write(66, 0)
     follow(
-        trace,
-        bench.look,
-        lambda: bench.module.advance(STEP),
-        1.0,
-        6,
-        {0: lambda: bench.module.write(65, 5)},
+        trace, bench.look, lambda: bench.module.advance(STEP), 1.0, 6, {0: lambda: bench.module.write(65, 5)}
     )
     assert trace.alarms[-1].code == "OVERTRAVEL"
     assert bench.module.read(73)
@@ -198,12 +193,7 @@ def test_a_grbl_moves_as_the_simulation(tmp_path: Path) -> None:
         bench.identity_word(line)
     assert bench.identity_word("$J=G91 G21 X50 F8000") == "ok"
     trace = jogged(file, "step", "X", distance=50.0, feedrate=8000.0)
-    follow(
-        trace,
-        lambda: (bench.status()[1][0], 0.0),
-        lambda: bench.firmware.advance(STEP),
-        0.0125,
-    )
+    follow(trace, lambda: (bench.status()[1][0], 0.0), lambda: bench.firmware.advance(STEP), 0.0125)
     assert bench.status()[0] == "Idle"
 
 

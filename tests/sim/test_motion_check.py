@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Value
 from amp_studio.sim import MotionCheck, check_motion, motion_check
 from tests.programs.test_block import example
 
@@ -56,3 +58,35 @@ def test_a_loop_whose_gains_frequency_changes_is_doubtful_in_the_check_too(check
     assert found["frequency"].verdict == "doubtful"
     assert found["frequency"].why.startswith("The position loop has too little margin: Ms 2.02")
     assert found["velocity"].verdict == "good"  # its velocity loop is sound
+
+
+def test_an_axis_that_no_scenario_can_move_is_one_row(checks_of) -> None:
+    found = checks_of("mill-1394", "5", "step", "home", "jog")
+    assert {name: check.verdict for name, check in found.items()} == {"every": "not possible"}
+    assert "spindle" in found["every"].why
+
+
+@pytest.fixture
+def mill() -> ParameterFile:
+    return example("mill-1394")
+
+
+def travel_of(file: ParameterFile, monkeypatch: pytest.MonkeyPatch) -> MotionCheck:
+    monkeypatch.setattr(motion_check, "SCENARIOS", {"travel": USUAL["travel"]})
+    return next(each for each in check_motion(file, "1") if each.scenario == "travel")
+
+
+def test_both_ends_of_the_travel_are_checked(mill: ParameterFile, monkeypatch: pytest.MonkeyPatch) -> None:
+    check = travel_of(mill, monkeypatch)
+    assert (check.figures["limit"][0], check.figures["limit_minus"][0]) == (8.0, -500.0)
+    assert len(check.alarms) == 2
+
+
+def test_a_travel_that_is_too_short_for_the_speed_is_met_with_less(
+    mill: ParameterFile, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The axis began beyond the other end of its travel."""
+    mill.set(("zone.overtravel_negative", "1"), Value(5.0, "mm"))
+    check = travel_of(mill, monkeypatch)
+    assert 0.0 < (check.figures["overrun"][0] or 0.0) < 5.0
+    assert 0.0 < (check.figures["overrun_minus"][0] or 0.0) < 5.0

@@ -170,7 +170,7 @@ def _kind(read: AxisParameters) -> Kind:
     if kind == "unfitted":
         raise SimulationError(f"Axis {axis} is unfitted. Choose another axis", ids.axis_type)
     if kind == "spindle":
-        raise SimulationError(f"Axis {axis} is a spindle. This scenario is for axes", ids.axis_type)
+        raise SimulationError(f"Axis {axis} is a spindle: scenarios of axes leave it out", ids.axis_type)
     drive = read.choice(ids.loop_type)
     if drive not in ("digital", "analog", "sercos") or read.value(ids.hardware_type) == "none":
         raise SimulationError(

@@ -271,6 +271,11 @@ def run_backlash(axis: AxisLaw, settings: Settings) -> Trace:
     module = _module(axis)
     asked = number(settings, "move.distance")
     distance = module.needed(ids.command_position, "the distance of the move") if asked is None else asked
+    if asked is None and distance == 0.0:
+        raise SimulationError(
+            f"{module.names[ids.command_position]} is 0: there is no move. Give move.distance",
+            ids.command_position,
+        )
     if not 1.0 <= abs(distance) < 2.0**31:
         raise SimulationError(
             f"The distance is {distance:g}; it must be 1 count to {2**31 - 1}", "move.distance"

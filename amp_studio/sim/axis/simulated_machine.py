@@ -227,7 +227,7 @@ class SimulatedAxis:
         return found
 
     def _stop_at(self, name: str, code: str) -> None:
-        """Stop at a limit that was passed, as the travel says."""
+        """Stop at a limit that was passed, by the action of the travel."""
         travel = self.travel
         assert travel is not None
         self.alarm = AlarmText(code, f"The axis has passed {name} ({page_text(travel.page)})")

@@ -115,8 +115,18 @@ def _approach(axis: AxisLaw, settings: Settings) -> _Approach:
     if given is None:
         found = _met_from_far(travel, sign, is_zone=zone is not None) or found
     way, (name, edge) = run_up(axis, feedrate, ramp), found
-    start = edge - sign * way if given is None else given
+    start = (
+        _start(travel, name, edge - sign * way, sign, is_zone=zone is not None) if given is None else given
+    )
     return _Approach(travel, feedrate, sign, ramp, name, edge, way, start)
+
+
+def _start(travel: Travel, name: str, start: float, sign: float, *, is_zone: bool) -> float:
+    """Return where an axis starts that goes against a limit at its speed: no farther off than the other
+    end of its travel.
+    """
+    low, high = travel.limits[name]
+    return start if is_zone else max(start, low) if sign > 0.0 else min(start, high)
 
 
 def _met_from_far(travel: Travel, sign: float, *, is_zone: bool) -> tuple[str, float] | None:
@@ -266,4 +276,5 @@ SCENARIO = Scenario(
     gains=False,
     several=run_plane,
     checked=("limit", "stop_position", "overrun"),
+    opposite={"move.direction": "minus"},
 )
