@@ -511,6 +511,12 @@ class Report:
         return {name: notes for name, notes in found.items() if notes}
 
 
+def note_lines(text: str) -> list[str]:
+    """Return the lines of what a person wrote; blanks at the start of one are kept on paper."""
+    lines = text.expandtabs(4).splitlines()
+    return ["\u00a0" * (len(line) - len(line.lstrip(" "))) + line.strip(" ") for line in lines]
+
+
 def printable(text: str) -> str:
     """Return a text without control characters for printers, terminals and text direction."""
     return (

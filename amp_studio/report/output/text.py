@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from amp_studio.report.findings.printed_finding import PrintedFinding
 from amp_studio.report.language import Language, language_of
-from amp_studio.report.model import MARKS, Grid, Listing, Report, ReportRow, printable
+from amp_studio.report.model import MARKS, Grid, Listing, Report, ReportRow, note_lines, printable
 
 WIDTH = 100
 
@@ -114,11 +114,13 @@ def _title(report: Report, words: Language) -> Iterator[str]:
         yield from _wrapped(report.fact(title, text, words.text), f"{words.text(title) + ' ':.<30} ")
     yield ""
     if report.remarks:
-        for paragraph in report.remarks.splitlines():
-            yield from _wrapped(paragraph, "")
+        for line in note_lines(report.remarks):
+            yield from _wrapped(line, "")
         yield ""
     for about, noted in report.remarked:
-        yield from _wrapped(noted, f"{about}: ")
+        start = f"{about}: "
+        for n, line in enumerate(note_lines(noted)):
+            yield from _wrapped(line, " " * len(start) if n else start)
     if report.remarked:
         yield ""
     if report.axes:

@@ -83,7 +83,7 @@ def filled(
     """
     from jinja2 import Environment, StrictUndefined, TemplateError, TemplateNotFound
 
-    from amp_studio.report.model import Listing
+    from amp_studio.report.model import Listing, note_lines
 
     whole: dict[str, Any] = {"loader": _loader(own), "trim_blocks": True, "lstrip_blocks": True}
     if own is None:
@@ -106,6 +106,7 @@ def filled(
         worded=language.drawing,
         titled=language.title,
         stated=language.sentence,
+        lines=note_lines,
         checked=lambda check: check.printed(language),
     )
     environment.tests["listing"] = lambda part: isinstance(part, Listing)
