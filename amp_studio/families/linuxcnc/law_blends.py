@@ -6,15 +6,15 @@ one short straight rows.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from amp_studio.programs import ARC, EXACT, KEPT, LINE, MOST_ROWS, PLANES, RAPID, RowsWriter, ToolPath
-from amp_studio.sim import Geometry, PathLimit, RowBounds, ShapedPath, SimulationError
+from amp_studio.programs import ARC, DWELL, EXACT, KEPT, LINE, MOST_ROWS, PLANES, RAPID, ToolPath
+from amp_studio.sim import Geometry, PathLimit, PathRows, RowBounds, ShapedPath, SimulationError
 
-from .law_segments import NORMAL, AxisLimits, PathPoint, PathSegment, segments
+from .law_segments import NORMAL, AxisLimits, Flags, Integers, segments
 
 TANGENTIAL = 0.5
 """Share of the acceleration that is left along an arc (blendmath.h, line 19)."""
@@ -32,11 +32,14 @@ GAP_CYCLES = 4.0
 """Servo cycles below which what is left before a corner goes at its speed."""
 WITHIN = 1e-4
 """u between a rounded corner and the straight rows of it."""
+EVERY = 1 << 16
+"""Corners that are worked out together: what they need in between does not grow with the program."""
 
 STOP = PathLimit(0.0, None, "exact stop")
 CHANGE = PathLimit(0.0, None, "change between rapid and feed")
 BACK = PathLimit(0.0, None, "way back in the same line")
 GIVEN = PathLimit(0.0, None, "distance of G64 from a corner")
+ROTARY = "Line {line}: corners of rotary axes with G64 are not simulated"
 NOT_ROUNDED = (
     "Line {line}: how G64 rounds a corner at an arc is not simulated; an arc that goes on in the direction of"
     " its neighbours is, and every arc with G61"
@@ -56,41 +59,22 @@ class PathFigures:
     with_arcs: bool
 
 
-@dataclass(frozen=True)
-class _Corner:
-    """A rounded corner; u, u/s."""
+class _Junctions:
+    """What is between each move and the next one, (n,); lengths u, speeds u/s."""
 
-    radius: float
-    cut: float
-    """Length that it takes of each of its moves, u."""
-    angle: float
-    speed: float
-    by: int
-    acceleration: float
-    ramp_by: int
-    programmed: float
-    """Speed as programmed."""
-
-
-@dataclass
-class _Writer:
-    """Rows with what bounds them."""
-
-    rows: RowsWriter
-    speed: list[float] = field(default_factory=list)
-    speed_by: list[int] = field(default_factory=list)
-    ramp: list[float] = field(default_factory=list)
-    ramp_by: list[int] = field(default_factory=list)
-    joint: list[float] = field(default_factory=list)
-    joint_by: list[int] = field(default_factory=list)
-
-    def bound(self, speed: tuple[float, int], ramp: tuple[float, int]) -> None:
-        self.speed.append(speed[0])
-        self.speed_by.append(speed[1])
-        self.ramp.append(ramp[0])
-        self.ramp_by.append(ramp[1])
-        self.joint.append(math.inf)
-        self.joint_by.append(0)
+    def __init__(self, count: int) -> None:
+        self.speed, self.by = np.full(count, math.inf), np.zeros(count, np.int64)
+        """At which the path goes on."""
+        self.kink = np.zeros(count)
+        """Share of the acceleration that the change of direction takes."""
+        self.is_round = np.zeros(count, bool)
+        """Whether an arc is between them, which the columns below are of."""
+        self.radius, self.angle, self.cut = np.zeros((3, count))
+        """``cut`` is the length that it takes of each of its moves."""
+        self.top, self.top_by = np.zeros(count), np.zeros(count, np.int64)
+        self.acceleration, self.ramp_by = np.zeros(count), np.zeros(count, np.int64)
+        self.programmed = np.zeros(count)
+        """Speed as programmed."""
 
 
 def shaped(figures: PathFigures, path: ToolPath, geometry: Geometry) -> ShapedPath:
@@ -99,12 +83,14 @@ def shaped(figures: PathFigures, path: ToolPath, geometry: Geometry) -> ShapedPa
 
 
 class _Shaping:
-    """One path."""
+    """One path. A corner depends on nothing that the corner before it changes: that one takes at most half of
+    the move between them, and this one no more than the other half. So all are worked out at once.
+    """
 
     def __init__(self, figures: PathFigures, path: ToolPath, geometry: Geometry) -> None:
         self._figures, self._path, self._geometry = figures, path, geometry
         self._limits = AxisLimits.of(path.axes, figures.speeds, figures.accelerations)
-        count = len(path.axes)
+        self._count = count = len(path.axes)
         self._causes: list[PathLimit] = [
             *(figures.speeds[letter] for letter in path.axes),
             *(figures.accelerations[letter] for letter in path.axes),
@@ -115,291 +101,353 @@ class _Shaping:
             GIVEN,
         ]
         self._kink, self._stop, self._change, self._back, self._given = range(2 * count, 2 * count + 5)
-        self._count = count
         self._straight = [n for n, letter in enumerate(path.axes) if letter in "XYZ"]
+        self._rotary = [n for n in range(count) if n not in self._straight]
         columns = {letter: n for n, letter in enumerate(path.axes)}
         self._planes = {
-            n: tuple(columns["XYZ"[each]] for each in plane)
+            n: [columns["XYZ"[each]] for each in plane]
             for n, plane in enumerate(PLANES)
             if columns.keys() >= {*"XYZ"}
         }
-        self._out = _Writer(RowsWriter(path.axes))
+        self._moves = moves = segments(path, geometry, self._limits)
+        # No move is shorter than a cycle.
+        self._top = np.where(
+            moves.kind == DWELL, math.inf, np.minimum(moves.top, moves.length / figures.period)
+        )
+        self._most = np.minimum(moves.programmed * figures.greatest_override, self._top)
 
     def shape(self) -> ShapedPath:
         """Work it out."""
-        previous: PathSegment | None = None
-        begun = tuple(self._path.start.tolist())
-        for move in segments(self._path, self._geometry, self._limits):
-            if isinstance(move, int):
-                if previous is not None:
-                    self._end(previous, begun)
-                previous = None
-                self._dwell(move)
-                begun = tuple(self._path.ends[move].tolist())
-                continue
-            move.top = min(move.top, move.length / self._figures.period)
-            if previous is not None:
-                begun = self._join(previous, move, begun)
-            previous = move
-        if previous is not None:
-            self._end(previous, begun)
-        out, path = self._out, self._path
-        rows = out.rows.path(
-            path.start.tolist(), path.blocks, path.fault, path.assumptions, zero_known=path.zero_known
-        )
-        return ShapedPath(
-            rows,
-            self._causes,
-            RowBounds(np.array(out.speed), np.array(out.speed_by, np.int64)),
-            RowBounds(np.array(out.ramp), np.array(out.ramp_by, np.int64)),
-            RowBounds(np.array(out.joint), np.array(out.joint_by, np.int64)),
-        )
-
-    # -- rows ----------------------------------------------------------------------
-
-    def _end(self, move: PathSegment, begun: PathPoint) -> None:
-        """Write a move with nothing after it: with G64 it has half of its acceleration."""
-        move.half = move.corner not in (EXACT, KEPT)
-        before = len(self._out.ramp) - 1
-        self._write(move, move.end, begun, is_last=True)
-        if before >= 0 and len(self._out.ramp) > before + 1:
-            # A next move could take half of it: it begins only as fast as it stops in half (TP776).
-            most = math.sqrt(self._out.ramp[-1] * move.length)
-            if most < self._out.joint[before]:
-                self._out.joint[before], self._out.joint_by[before] = most, move.ramp_by + self._count
-
-    def _write(self, move: PathSegment, end: PathPoint, begun: PathPoint, *, is_last: bool = False) -> None:
-        path, row = self._path, move.row
-        if end == begun and not move.is_arc:
-            return
-        kind = ARC if move.is_arc else RAPID if move.is_rapid else LINE
-        arc = (
-            (float(path.center[row, 0]), float(path.center[row, 1]), float(path.sweep[row]))
-            if move.is_arc
-            else (0.0,) * 3
-        )
-        self._out.rows.add(
-            end,
-            kind,
-            int(path.line[row]),
-            float(path.feed[row]),
-            0,
-            int(path.free[row]),
-            arc,
-            int(path.plane[row]),
-        )
-        top, ramp = self._arc_limits(move, is_last=is_last) if move.is_arc else (move.top, move.ramp)
-        cause = move.ramp_by + self._count
-        self._out.bound((top, move.top_by), (0.5 * ramp if move.half else ramp, cause))
-
-    def _arc_limits(self, move: PathSegment, *, is_last: bool) -> tuple[float, float]:
-        """Return speed and acceleration along an arc; the last one of all gets no others (TS745)."""
-        radius = float(self._geometry.radius[move.row])
-        along = move.end[third := self._third(move)] - move.begin[third]
-        radius += along * along / radius  # as pmCircleEffectiveMinRadius has it
-        whole = move.ramp * (0.5 if move.half else 1.0)
-        if is_last:
-            return move.top, move.ramp * TANGENTIAL
-        across = move.top * move.top / radius
-        if across > NORMAL * whole:
-            return math.sqrt(NORMAL * whole * radius), move.ramp * TANGENTIAL
-        return move.top, move.ramp * math.sqrt(1.0 - (across / whole) ** 2)
-
-    def _third(self, move: PathSegment) -> int:
-        """Return the axis across the plane of an arc."""
-        return self._path.axes.index("XYZ"[PLANES[int(self._path.plane[move.row])][2]])
-
-    def _dwell(self, row: int) -> None:
-        path = self._path
-        self._out.rows.add(
-            path.ends[row].tolist(),
-            int(path.kind[row]),
-            int(path.line[row]),
-            0.0,
-            EXACT,
-            1,
-            seconds=float(path.seconds[row]),
-        )
-        self._out.bound((math.inf, 0), (math.inf, 0))
+        between = _Junctions(len(self._moves))
+        for begin in range(0, len(self._moves) - 1, EVERY):
+            self._join(between, np.arange(begin, min(begin + EVERY, len(self._moves) - 1)))
+        return self._written(between)
 
     # -- where two moves meet --------------------------------------------------------
 
-    def _join(self, one: PathSegment, two: PathSegment, begun: PathPoint) -> PathPoint:
-        """Write the first of two moves and what is between them; return where the second begins."""
-        if one.is_rapid != two.is_rapid:
-            return self._stop_between(one, begun, self._change)
-        if one.corner == EXACT or self._turns(one) or self._turns(two):
-            if one.corner not in (EXACT, KEPT):
-                raise SimulationError(
-                    f"Line {int(self._path.line[two.row])}: corners of rotary axes with G64 are not simulated"
-                )
-            return self._stop_between(one, begun, self._stop)
-        u, v = one.last, two.first
-        if math.dist(u, [-each for each in v]) < SHARP:
-            return self._stop_between(one, begun, self._back)
-        speed = min(self._most(one), self._most(two))
+    def _join(self, between: _Junctions, one: Integers) -> None:
+        """Work out what is between some moves and the next ones."""
+        moves, two = self._moves, one + 1
+        moving = (moves.kind[one] != DWELL) & (moves.kind[two] != DWELL)
+        one, two = one[moving], two[moving]
+        corner, kind = moves.corner, moves.kind
+
+        def stop(where: Flags, cause: int) -> None:
+            nonlocal one, two
+            between.speed[one[where]], between.by[one[where]] = 0.0, cause
+            one, two = one[~where], two[~where]
+
+        stop((kind[one] == RAPID) != (kind[two] == RAPID), self._change)
+        exact = corner[one] == EXACT
+        for axis in self._rotary:
+            exact |= (moves.first[one, axis] != 0.0) | (moves.first[two, axis] != 0.0)
+        not_simulated = exact & (corner[one] != EXACT) & (corner[one] != KEPT)
+        refused = [(two[not_simulated], ROTARY)]
+        stop(exact, self._stop)
+        back = ((moves.last[one] + moves.first[two]) ** 2).sum(axis=1) < SHARP * SHARP
+        stop(back, self._back)
+        speed = np.minimum(self._most[one], self._most[two])
         share = self._kinked(one, two, speed)
-        if share < self._figures.kink.value:
-            one.kink_after, two.kink_before = max(one.kink_after, share), share
-            return self._pass(one, begun, speed)
         kink = self._figures.kink.value
-        if one.corner == KEPT:
-            # The planner takes the acceleration of a change of direction away though it stops there (TP1929).
-            one.kink_after, two.kink_before = max(one.kink_after, kink), kink
-            return self._stop_between(one, begun, self._stop)
-        if one.is_arc or two.is_arc:
-            raise SimulationError(NOT_ROUNDED.format(line=int(self._path.line[two.row])))
-        corner = self._corner(one, two) if self._figures.with_arcs else None
-        slow = speed * kink / share
-        if corner is None or corner.speed <= slow:
-            one.kink_after, two.kink_before = max(one.kink_after, kink), kink
-            return self._pass(one, begun, slow)
-        return self._round(one, two, corner, begun)
+        passed = (share < kink) | (share == 0.0)
+        at = one[passed]
+        between.speed[at], between.by[at], between.kink[at] = speed[passed], self._kink, share[passed]
+        one, two, slow = one[~passed], two[~passed], speed[~passed] * kink / share[~passed]
+        # The planner takes the acceleration of a change of direction away where it stops there too (TP1929).
+        between.kink[one], between.speed[one], between.by[one] = kink, slow, self._kink
+        kept = corner[one] == KEPT
+        slow = slow[~kept]
+        stop(kept, self._stop)
+        refused.append((two[(kind[one] == ARC) | (kind[two] == ARC)], NOT_ROUNDED))
+        self._refuse(refused)
+        if self._figures.with_arcs:
+            self._round(between, one, two, slow)
 
-    def _turns(self, move: PathSegment) -> bool:
-        return any(move.first[n] for n in range(self._count) if n not in self._straight)
+    def _refuse(self, refused: list[tuple[Integers, str]]) -> None:
+        """Refuse the first of some moves, each with the sentence that says why."""
+        first = min(((int(rows[0]), text) for rows, text in refused if len(rows)), default=None)
+        if first is not None:
+            raise SimulationError(first[1].format(line=int(self._path.line[self._moves.row[first[0]]])))
 
-    def _most(self, move: PathSegment) -> float:
-        return min(move.programmed * self._figures.greatest_override, move.top)
-
-    def _kinked(self, one: PathSegment, two: PathSegment, speed: float) -> float:
+    def _kinked(self, one: Integers, two: Integers, speed: PathRows) -> PathRows:
         """Return the share of an acceleration that a change of direction takes in a cycle (TP1894)."""
-        at_once = speed / self._figures.period + two.acceleration
-        share = max(
-            abs(two.first[n] - one.last[n]) * at_once / self._limits.accelerations[n] for n in self._straight
-        )
-        return share / TANGENTIAL if one.is_arc or two.is_arc else share
-
-    def _stop_between(self, one: PathSegment, begun: PathPoint, cause: int) -> PathPoint:
-        return self._pass(one, begun, 0.0, cause)
-
-    def _pass(self, one: PathSegment, begun: PathPoint, speed: float, cause: int | None = None) -> PathPoint:
-        self._write(one, one.end, begun)
-        if self._out.joint:
-            self._out.joint[-1] = speed
-            self._out.joint_by[-1] = self._kink if cause is None else cause
-        return one.end
+        moves, straight = self._moves, self._straight
+        at_once = speed / self._figures.period + moves.acceleration[two]
+        turn = np.abs(moves.first[two] - moves.last[one])[:, straight]
+        share = (turn * at_once[:, None] / self._limits.accelerations[straight]).max(axis=1)
+        is_arc = (moves.kind[one] == ARC) | (moves.kind[two] == ARC)
+        kinked: PathRows = np.where(is_arc, share / TANGENTIAL, share)
+        return kinked
 
     # -- a rounded corner --------------------------------------------------------------
 
-    def _corner(self, one: PathSegment, two: PathSegment) -> _Corner | None:
-        """Return the arc between two straight moves; None where there is none (blendComputeParameters)."""
-        cosine = sum(a * b for a, b in zip(one.last, two.first, strict=True))
-        theta = 0.5 * math.acos(min(max(-cosine, -1.0), 1.0))
-        if not SMALLEST_ANGLE < theta < 0.5 * math.pi - SMALLEST_ANGLE:
-            return None
+    def _round(self, between: _Junctions, one: Integers, two: Integers, slow: PathRows) -> None:
+        """Round the corners between straight moves where that is faster than ``slow``, the speed of a
+        change of direction (blendComputeParameters).
+        """
+        moves, tolerance = self._moves, self._moves.tolerance
+        cosine = (moves.last[one] * moves.first[two]).sum(axis=1)
+        theta = 0.5 * np.arccos(np.clip(-cosine, -1.0, 1.0))
+        turns = (theta > SMALLEST_ANGLE) & (theta < 0.5 * math.pi - SMALLEST_ANGLE)
+        one, two, theta, slow = one[turns], two[turns], theta[turns], slow[turns]
         phi = math.pi - 2.0 * theta
-        nominal = min(each.tolerance or each.nominal * OF_LENGTH for each in (one, two))
-        tolerance = min(nominal, one.nominal * OF_LENGTH, two.nominal * OF_LENGTH)
+        least = np.minimum(moves.length[one], moves.length[two])
+        given = [np.where(tolerance[n] > 0.0, tolerance[n], moves.length[n] * OF_LENGTH) for n in (one, two)]
+        off = np.minimum(np.minimum(*given), least * OF_LENGTH)
         acceleration, ramp_by = self._inscribed(one, two, self._limits.accelerations)
-        by_tolerance = math.cos(theta) * tolerance / (1.0 - math.sin(theta))
-        room = min(one.length, one.nominal * OF_MOVE, two.length * OF_MOVE, by_tolerance)
-        largest = math.tan(theta) * room
-        goal = self._goal(one, two, phi, max(self._most(one), self._most(two)))
-        speed = math.sqrt(NORMAL * acceleration * largest)
-        by = ramp_by + self._count
-        if speed > goal:
-            speed, by = goal, two.top_by
-        elif room == by_tolerance and one.tolerance:
-            by = self._given
+        by_tolerance = np.cos(theta) * off / (1.0 - np.sin(theta))
+        room = np.minimum(least * OF_MOVE, by_tolerance)
+        largest = np.tan(theta) * room
+        goal = self._goal(one, two, phi, np.maximum(self._most[one], self._most[two]))
+        speed = np.sqrt(NORMAL * acceleration * largest)
+        by = np.where((room == by_tolerance) & (tolerance[one] > 0.0), self._given, ramp_by + self._count)
+        by = np.where(speed > goal, moves.top_by[two], by)
+        speed = np.minimum(speed, goal)
         half = 0.5 * acceleration
-        time = min(math.sqrt(2.0 * half * room), speed) / half
-        radius = max(speed * speed / (NORMAL * acceleration), min(time * speed / phi, largest))
-        if radius * phi < SHORTEST:
-            return None
-        speed = min(speed, radius * phi / self._figures.period)
-        wanted = max(min(each.programmed, each.top) for each in (one, two))
-        return _Corner(
-            radius, radius / math.tan(theta), phi, speed, by, acceleration * TANGENTIAL, ramp_by, wanted
+        time = np.minimum(np.sqrt(2.0 * half * room), speed) / half
+        radius = np.maximum(speed * speed / (NORMAL * acceleration), np.minimum(time * speed / phi, largest))
+        speed = np.minimum(speed, radius * phi / self._figures.period)
+        is_round = (radius * phi >= SHORTEST) & (speed > slow)
+        at, after = one[is_round], two[is_round]
+        between.speed[at], between.by[at], between.kink[at] = math.inf, 0, 0.0
+        between.is_round[at] = True
+        between.radius[at], between.angle[at] = radius[is_round], phi[is_round]
+        between.cut[at] = (radius / np.tan(theta))[is_round]
+        between.top[at], between.top_by[at] = speed[is_round], by[is_round]
+        between.acceleration[at], between.ramp_by[at] = (
+            (acceleration * TANGENTIAL)[is_round],
+            ramp_by[is_round],
         )
+        wanted = [np.minimum(moves.programmed[n], self._top[n]) for n in (at, after)]
+        between.programmed[at] = np.maximum(*wanted)
 
-    def _goal(self, one: PathSegment, two: PathSegment, phi: float, wanted: float) -> float:
+    def _goal(self, one: Integers, two: Integers, phi: PathRows, wanted: PathRows) -> PathRows:
         """Return the wanted speed, or what the axes have in every direction of a corner if that is less
         (blendParamKinematics).
         """
-        flat = math.cos(min(phi, math.pi * 0.49))
-        a, b = min(one.top, two.top / flat), min(two.top, one.top / flat)
-        base = math.dist([a * each for each in one.last], [b * each for each in two.first])
-        between = a * b * math.sin(phi) / base
-        if between >= wanted:
-            return wanted
-        return min(wanted, max(between, self._inscribed(one, two, self._limits.speeds)[0]))
+        flat = np.cos(np.minimum(phi, math.pi * 0.49))
+        a = np.minimum(self._top[one], self._top[two] / flat)
+        b = np.minimum(self._top[two], self._top[one] / flat)
+        base = a[:, None] * self._moves.last[one] - b[:, None] * self._moves.first[two]
+        across = a * b * np.sin(phi) / np.sqrt((base * base).sum(axis=1))
+        every = self._inscribed(one, two, self._limits.speeds)[0]
+        goal: PathRows = np.minimum(wanted, np.where(across >= wanted, wanted, np.maximum(across, every)))
+        return goal
 
-    def _inscribed(self, one: PathSegment, two: PathSegment, bounds: tuple[float, ...]) -> tuple[float, int]:
+    def _inscribed(self, one: Integers, two: Integers, bounds: PathRows) -> tuple[PathRows, Integers]:
         """Return what all directions in the plane of two moves can have, and the axis that bounds it."""
-        moving = [n for n in self._straight if one.last[n] or two.first[n]]
-        if len(moving) == 2:
-            return min((bounds[n], n) for n in moving)
-        u = [one.last[n] for n in self._straight]
-        v = [two.first[n] for n in self._straight]
-        inside = sum(a * b for a, b in zip(u, v, strict=True))
-        across = [b - inside * a for a, b in zip(u, v, strict=True)]
-        size = math.sqrt(sum(each * each for each in across)) or 1.0
+        u, v = self._moves.last[one][:, self._straight], self._moves.first[two][:, self._straight]
+        moving = (u != 0.0) | (v != 0.0)
+        across = v - (u * v).sum(axis=1)[:, None] * u
+        size = np.sqrt((across * across).sum(axis=1))
         # How far an axis lies in the plane is the length of its projection on the two directions of it.
-        lies = [math.hypot(a, b / size) for a, b in zip(u, across, strict=True)]
-        found = [(bounds[n] / max(lies[k], 1e-12), n) for k, n in enumerate(self._straight)]
-        return min(found)
+        lies = np.hypot(u, across / np.where(size > 0.0, size, 1.0)[:, None])
+        # Two axes that move lie in it whole.
+        is_flat = moving.sum(axis=1) == 2
+        lies[is_flat] = moving[is_flat]
+        found = bounds[self._straight] / np.maximum(lies, 1e-12)
+        least = found.argmin(axis=1)
+        return found[np.arange(len(least)), least], np.array(self._straight)[least]
 
-    def _round(self, one: PathSegment, two: PathSegment, corner: _Corner, begun: PathPoint) -> PathPoint:
-        """Write the first move as far as the corner, and the corner; return where it ends."""
-        d = corner.cut
-        start = tuple(e - d * u for e, u in zip(one.end, one.last, strict=True))
-        end = tuple(e + d * u for e, u in zip(one.end, two.first, strict=True))
-        left = one.length - d
-        one.length, two.length = left, two.length - d
-        if left / corner.speed < GAP_CYCLES * self._figures.period:
-            one.top, one.top_by = min(one.top, corner.speed), corner.by
-            one.acceleration = min(one.acceleration, corner.acceleration)
-        elif left > 0.0:
-            one.top = min(one.top, left / (self._figures.period * LEAST_CYCLES))
-        if left > SHORTEST:
-            self._write(one, start, begun)
-        middle_to_start = [
-            (u * math.cos(corner.angle) - v) / math.sin(corner.angle)
-            for u, v in zip(one.last, two.first, strict=True)
-        ]
-        center = [s - corner.radius * n for s, n in zip(start, middle_to_start, strict=True)]
-        plane = None if one.is_rapid else self._plane_of(one, two)
+    # -- rows ----------------------------------------------------------------------
+
+    def _written(self, between: _Junctions) -> ShapedPath:
+        """Return the moves and the rounded corners as rows, with what bounds them."""
+        moves, path = self._moves, self._path
+        count = len(moves)
+        rounds = np.flatnonzero(between.is_round)
+        planes = self._plane_of(rounds)
+        parts = np.zeros(count, np.int64)
         # A row can be an arc in a plane of the program only; half of it belongs to each of the two blocks.
-        parts = 2 if plane is not None else self._straight_rows(corner)
-        if len(self._out.rows.kind) + parts > MOST_ROWS:
+        parts[rounds] = np.where(
+            planes >= 0, 2, _straight_rows(between.radius[rounds], between.angle[rounds])
+        )
+        left, top, top_by, acceleration = self._left(between)
+        is_row = ~between.is_round | (left > SHORTEST)
+        total = int(is_row.sum() + parts.sum())
+        if total > MOST_ROWS:
             raise SimulationError(f"The rounded corners of the program become more than {MOST_ROWS} moves")
-        row, path = one.row, self._path
-        kind = RAPID if one.is_rapid else LINE if plane is None else ARC
-        feed = 0.0 if one.is_rapid else corner.programmed
-        arc = (0.0,) * 3 if plane is None else self._flat_arc(one, two, center, plane, corner.angle / parts)
-        for n in range(1, parts + 1):
-            angle = corner.angle * n / parts
-            place = tuple(
-                c + corner.radius * (math.cos(angle) * r + math.sin(angle) * u)
-                for c, r, u in zip(center, middle_to_start, one.last, strict=True)
-            )
-            self._out.rows.add(
-                end if n == parts else place,
-                kind,
-                int(path.line[two.row if n * 2 > parts else row]),
-                feed,
-                0,
-                int(path.free[row]),
-                arc,
-                plane or 0,
-            )
-            self._out.bound((corner.speed, corner.by), (corner.acceleration, corner.ramp_by + self._count))
-        return end
+        start = np.cumsum(is_row + parts) - is_row - parts
+        out = _Rows(total, len(path.axes))
+        # The moves themselves.
+        own = np.flatnonzero(is_row)
+        at, row = start[own], moves.row[own]
+        cut = np.where(between.is_round, between.cut, 0.0)
+        out.ends[at] = moves.ends[own] - cut[own, None] * moves.last[own]
+        out.kind[at], out.row[at], out.plane[at] = moves.kind[own], row, path.plane[row]
+        out.line[at] = path.line[row]
+        out.feed[at], out.arc[at] = path.feed[row], np.column_stack([path.center[row], path.sweep[row]])
+        out.arc[at[moves.kind[own] != ARC]] = 0.0
+        speed, ramp = self._bounds(between, top, acceleration)
+        out.speed[at], out.speed_by[at] = speed[own], top_by[own]
+        out.ramp[at], out.ramp_by[at] = ramp[own], moves.ramp_by[own] + self._count
+        out.joint[at], out.joint_by[at] = between.speed[own], between.by[own]
+        dwells = at[moves.kind[own] == DWELL]
+        out.speed_by[dwells], out.ramp_by[dwells] = 0, 0
+        self._end(out, start, left, ramp)
+        self._add_corners(out, between, rounds, planes, parts[rounds], (start + is_row)[rounds])
+        return out.shaped(path, self._causes)
 
-    def _plane_of(self, one: PathSegment, two: PathSegment) -> int | None:
-        """Return the plane of the program in which two moves lie; None where they leave all three."""
-        u, v = one.last, two.first
-        return next((n for n, (_, _, third) in self._planes.items() if not (u[third] or v[third])), None)
+    def _left(self, between: _Junctions) -> tuple[PathRows, PathRows, Integers, PathRows]:
+        """Return what rounded corners leave of each move: length, greatest speed, its cause, acceleration."""
+        moves, period = self._moves, self._figures.period
+        left = moves.length.copy()
+        left[1:] -= between.cut[:-1]
+        left -= between.cut
+        top, top_by, acceleration = self._top.copy(), moves.top_by.copy(), moves.acceleration.copy()
+        rounds = between.is_round
+        short = np.zeros(len(left), bool)
+        short[rounds] = left[rounds] / between.top[rounds] < GAP_CYCLES * period
+        slower = short & (between.top < top)
+        top[slower], top_by[slower] = between.top[slower], between.top_by[slower]
+        acceleration[short] = np.minimum(acceleration[short], between.acceleration[short])
+        rest = rounds & ~short & (left > 0.0)
+        top[rest] = np.minimum(top[rest], left[rest] / (period * LEAST_CYCLES))
+        return left, top, top_by, acceleration
 
-    def _flat_arc(
-        self, one: PathSegment, two: PathSegment, center: Sequence[float], plane: int, angle: float
-    ) -> tuple[float, float, float]:
-        """Return the center of a rounded corner in its plane, and its sweep."""
-        a, b, _ = self._planes[plane]
-        turn = one.last[a] * two.first[b] - one.last[b] * two.first[a]
-        return center[a], center[b], math.copysign(angle, turn)
+    def _is_last(self) -> Flags:
+        """Return whether no move comes after a move: the end of the path, or a dwell."""
+        kind = self._moves.kind
+        is_last: Flags = (kind != DWELL) & np.append(kind[1:] == DWELL, True)[: len(kind)]
+        return is_last
 
-    @staticmethod
-    def _straight_rows(corner: _Corner) -> int:
-        return max(2, math.ceil(corner.angle / (2.0 * math.sqrt(2.0 * WITHIN / max(corner.radius, WITHIN)))))
+    def _bounds(
+        self, between: _Junctions, top: PathRows, acceleration: PathRows
+    ) -> tuple[PathRows, PathRows]:
+        """Return speed and acceleration of each move; with G64 the last one has half of the acceleration."""
+        moves, kink = self._moves, between.kink.copy()
+        kink[1:] = np.maximum(kink[1:], between.kink[:-1])
+        ramp = acceleration * (1.0 - kink)
+        is_half = self._is_last() & (moves.corner != EXACT) & (moves.corner != KEPT)
+        whole = np.where(is_half, 0.5 * ramp, ramp)
+        dwells, arcs = moves.kind == DWELL, np.flatnonzero(moves.kind == ARC)
+        speed, bound = top.copy(), whole.copy()
+        speed[dwells] = bound[dwells] = math.inf
+        if len(arcs):
+            speed[arcs], along_arc = self._along_arcs(arcs, top[arcs], ramp[arcs], whole[arcs])
+            bound[arcs] = np.where(is_half[arcs], 0.5 * along_arc, along_arc)
+        return speed, bound
+
+    def _along_arcs(
+        self, arcs: Integers, top: PathRows, ramp: PathRows, whole: PathRows
+    ) -> tuple[PathRows, PathRows]:
+        """Return speed and acceleration along arcs; the last one of all gets no others (TS745)."""
+        moves = self._moves
+        radius = self._geometry.radius[moves.row[arcs]]
+        thirds = np.array([self._path.axes.index("XYZ"[third]) for *_, third in PLANES])
+        third = thirds[self._path.plane[moves.row[arcs]]]
+        rise = moves.ends[arcs, third] - moves.begins[arcs, third]
+        radius = radius + rise * rise / radius  # as pmCircleEffectiveMinRadius has it
+        across = top * top / radius
+        is_last = self._is_last()[arcs]
+        slows = (across > NORMAL * whole) & ~is_last
+        speed = np.where(slows, np.sqrt(NORMAL * whole * radius), top)
+        inside = np.sqrt(np.maximum(1.0 - (across / whole) ** 2, 0.0))
+        return speed, ramp * np.where(slows | is_last, TANGENTIAL, inside)
+
+    def _end(self, out: _Rows, start: Integers, left: PathRows, ramp: PathRows) -> None:
+        """Slow down into moves with nothing after them: a next move could take half of one, so it begins only
+        as fast as it stops in half (TP776).
+        """
+        last = np.flatnonzero(self._is_last())
+        last = last[start[last] > 0]
+        before, most = start[last] - 1, np.sqrt(ramp[last] * left[last])
+        lower = most < out.joint[before]
+        out.joint[before[lower]] = most[lower]
+        out.joint_by[before[lower]] = self._moves.ramp_by[last[lower]] + self._count
+
+    def _plane_of(self, rounds: Integers) -> Integers:
+        """Return the plane of the program in which each corner lies; -1 where it leaves all three, or the
+        moves are rapid ones.
+        """
+        u, v = self._moves.last[rounds], self._moves.first[rounds + 1]
+        found = np.full(len(rounds), -1)
+        for n, (_, _, third) in reversed(self._planes.items()):
+            found[(u[:, third] == 0.0) & (v[:, third] == 0.0)] = n
+        found[self._moves.kind[rounds] == RAPID] = -1
+        return found
+
+    def _add_corners(
+        self,
+        out: _Rows,
+        between: _Junctions,
+        rounds: Integers,
+        planes: Integers,
+        parts: Integers,
+        start: Integers,
+    ) -> None:
+        """Write the rows of the rounded corners."""
+        moves, path = self._moves, self._path
+        u, v = moves.last[rounds], moves.first[rounds + 1]
+        angle, radius, cut = (each[rounds, None] for each in (between.angle, between.radius, between.cut))
+        to_start = (u * np.cos(angle) - v) / np.sin(angle)
+        center = moves.ends[rounds] - cut * u - radius * to_start
+        end = moves.ends[rounds] + cut * v
+        arc = np.zeros((len(rounds), 3))
+        for n, (a, b, _) in self._planes.items():
+            flat = np.flatnonzero(planes == n)
+            turn = u[flat, a] * v[flat, b] - u[flat, b] * v[flat, a]
+            sweep = np.copysign(between.angle[rounds[flat]] / parts[flat], turn)
+            arc[flat] = np.column_stack([center[flat, a], center[flat, b], sweep])
+        each = np.repeat(np.arange(len(rounds)), parts)
+        part = np.arange(len(each)) - np.repeat(np.cumsum(parts) - parts, parts) + 1
+        at, corner = start[each] + part - 1, rounds[each]
+        turned = (between.angle[corner] * part / parts[each])[:, None]
+        place = center[each] + radius[each] * (np.cos(turned) * to_start[each] + np.sin(turned) * u[each])
+        out.ends[at] = np.where((part == parts[each])[:, None], end[each], place)
+        is_rapid = moves.kind[corner] == RAPID
+        out.kind[at] = np.where(is_rapid, RAPID, np.where(planes[each] >= 0, ARC, LINE))
+        out.row[at], out.plane[at] = moves.row[corner], np.maximum(planes[each], 0)
+        out.line[at] = path.line[moves.row[np.where(part * 2 > parts[each], corner + 1, corner)]]
+        out.feed[at] = np.where(is_rapid, 0.0, between.programmed[corner])
+        out.arc[at] = arc[each]
+        out.speed[at], out.speed_by[at] = between.top[corner], between.top_by[corner]
+        out.ramp[at], out.ramp_by[at] = between.acceleration[corner], between.ramp_by[corner] + self._count
+
+
+def _straight_rows(radius: PathRows, angle: PathRows) -> Integers:
+    """Return how many straight rows a rounded corner becomes."""
+    rows = np.ceil(angle / (2.0 * np.sqrt(2.0 * WITHIN / np.maximum(radius, WITHIN))))
+    return np.maximum(2, rows).astype(np.int64)
+
+
+class _Rows:
+    """Rows with what bounds them; (rows,) or (rows, axes)."""
+
+    def __init__(self, count: int, axes: int) -> None:
+        self.ends, self.arc = np.zeros((count, axes)), np.zeros((count, 3))
+        """``arc``: center and sweep."""
+        self.kind, self.plane = np.zeros((2, count), np.uint8)
+        self.row, self.line = np.zeros(count, np.int64), np.zeros(count, np.int32)
+        """``row``: of the program's path."""
+        self.feed = np.zeros(count)
+        self.speed, self.ramp = np.zeros((2, count))
+        self.joint = np.full(count, math.inf)
+        self.speed_by, self.ramp_by, self.joint_by = np.zeros((3, count), np.int64)
+
+    def shaped(self, path: ToolPath, causes: list[PathLimit]) -> ShapedPath:
+        """Return them as the path of a program, with the figures of its rows that stay."""
+        dwells, zeros = self.kind == DWELL, np.zeros(len(self.kind), np.uint8)
+        rows = replace(
+            path,
+            ends=self.ends,
+            kind=self.kind,
+            line=self.line,
+            feed=np.where(dwells, 0.0, self.feed),
+            center=self.arc[:, :2],
+            sweep=self.arc[:, 2],
+            plane=np.where(dwells, 0, self.plane).astype(np.uint8),
+            seconds=np.where(dwells, path.seconds[self.row], 0.0),
+            corner=np.where(dwells, EXACT, zeros).astype(np.uint8),
+            free=np.where(dwells, 1, path.free[self.row]).astype(np.uint8),
+            rounding=zeros,
+            roundings=path.roundings[:1],
+            zones=path.zones[self.row],
+        )
+        return ShapedPath(
+            rows,
+            causes,
+            RowBounds(self.speed, self.speed_by),
+            RowBounds(self.ramp, self.ramp_by),
+            RowBounds(self.joint, self.joint_by),
+        )

@@ -1,70 +1,63 @@
 """The moves that LinuxCNC makes of the rows of a program: points that lie on one straight move are joined,
 flat arcs become two straight moves, and each move gets its own greatest speed and acceleration (emccanon.cc).
+
+All moves are columns: what a move is depends on its own rows alone. Only how far a straight move may go on
+depends on the points before it, so those are the only ones that are looked at one after another.
 """
 
 from __future__ import annotations
 
 import math
-from array import array
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from operator import mul
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
+import numpy.typing as npt
 
 from amp_studio.programs import ARC, DWELL, LINE, PLANES, RAPID, ROUNDED, ToolPath
-from amp_studio.sim import Geometry, PathLimit, SimulationError
+from amp_studio.sim import Geometry, PathLimit, PathRows, SimulationError
 
 MOST_JOINED = 100
 """Points that one straight move replaces (CN978)."""
 NORMAL = math.sqrt(3.0) / 2.0
 """Share of the acceleration across an arc while it speeds up by half of it (CN1682)."""
-PathPoint = tuple[float, ...]
+Integers = npt.NDArray[np.int64]
+Flags = npt.NDArray[np.bool_]
 
 
-@dataclass(slots=True)
-class PathSegment:
-    """A move of the planner; lengths u, speeds u/s."""
+@dataclass(frozen=True)
+class PathSegments:
+    """The moves of the planner and the dwells between them; (n,) or (n, axes). Lengths u, speeds u/s."""
 
-    row: int
+    row: Integers
     """Of the program's path."""
-    begin: PathPoint
-    end: PathPoint
-    length: float
-    """Without what a rounded corner takes."""
-    nominal: float
-    """With it."""
-    first: PathPoint
-    """Directions at its ends, of length 1."""
-    last: PathPoint
-    programmed: float
+    kind: npt.NDArray[np.uint8]
+    begins: PathRows
+    ends: PathRows
+    length: PathRows
+    first: PathRows
+    """Directions at their ends, of length 1."""
+    last: PathRows
+    programmed: PathRows
     """Speed; infinite in rapid."""
-    top: float
-    top_by: int
-    acceleration: float
-    ramp_by: int
-    is_arc: bool
-    is_rapid: bool
-    corner: int
-    tolerance: float
-    kink_before: float = 0.0
-    """Share of the acceleration that changes of direction at its ends take."""
-    kink_after: float = 0.0
-    half: bool = False
-    """Whether it has half of the acceleration: it ends with no move after it."""
+    top: PathRows
+    top_by: Integers
+    acceleration: PathRows
+    ramp_by: Integers
+    corner: npt.NDArray[np.uint8]
+    tolerance: PathRows
+    """From its corner, as programmed; 0 where the program gives none."""
 
-    @property
-    def ramp(self) -> float:
-        """The acceleration that is left along a straight move."""
-        return self.acceleration * (1.0 - max(self.kink_before, self.kink_after))
+    def __len__(self) -> int:
+        return len(self.row)
 
 
 @dataclass(frozen=True)
 class AxisLimits:
-    """Limits of the axes in the columns of a path; numbers of causes go with them."""
+    """Limits of the axes in the columns of a path, (axes,)."""
 
-    speeds: tuple[float, ...]
-    accelerations: tuple[float, ...]
+    speeds: PathRows
+    accelerations: PathRows
 
     @classmethod
     def of(
@@ -72,186 +65,213 @@ class AxisLimits:
     ) -> AxisLimits:
         """Return those of some axes."""
         return cls(
-            tuple(speeds[letter].value for letter in letters),
-            tuple(accelerations[letter].value for letter in letters),
+            np.array([speeds[letter].value for letter in letters]),
+            np.array([accelerations[letter].value for letter in letters]),
         )
 
-    def straight(self, direction: PathPoint) -> tuple[float, int, float, int]:
-        """Return the greatest speed in a direction and its axis, acceleration and its axis (CN739)."""
-        speed, ramp, by_speed, by_ramp = math.inf, math.inf, 0, 0
-        for n, share in enumerate(map(abs, direction)):
-            if share > 1e-12:
-                if self.speeds[n] / share < speed:
-                    speed, by_speed = self.speeds[n] / share, n
-                if self.accelerations[n] / share < ramp:
-                    ramp, by_ramp = self.accelerations[n] / share, n
-        return speed, by_speed, ramp, by_ramp
+
+def along(direction: PathRows, bounds: PathRows) -> tuple[PathRows, Integers]:
+    """Return what the axes allow in each direction (n, axes), and the axis that bounds it (CN739)."""
+    share = np.abs(direction)
+    moves = share > 1e-12
+    allowed = np.where(moves, bounds / np.where(moves, share, 1.0), math.inf)
+    axis = allowed.argmin(axis=1)
+    return allowed[np.arange(len(axis)), axis], axis
 
 
-class _Chain:
-    """Points that one straight move may replace."""
-
-    def __init__(self) -> None:
-        self.flat = array("d")
-        self.end: PathPoint = ()
-        self.row = 0
-        """Of the last one."""
-
-    def __len__(self) -> int:
-        return len(self.flat) // len(self.end) if self.end else 0
-
-    def add(self, point: PathPoint, row: int) -> None:
-        """Add a point."""
-        self.flat.extend(point)
-        self.end, self.row = point, row
-
-
-def segments(path: ToolPath, geometry: Geometry, limits: AxisLimits) -> Iterator[PathSegment | int]:
-    """Yield the moves of a path in their order, and for each dwell its row. Raises SimulationError."""
+def segments(path: ToolPath, geometry: Geometry, limits: AxisLimits) -> PathSegments:
+    """Return the moves of a path in their order; raises SimulationError for one that is not simulated."""
     rotary = [n for n, letter in enumerate(path.axes) if letter in "ABC"]
-    chain = _Chain()
-    begin: PathPoint = tuple(path.start.tolist())
-    state: tuple[float, int] | None = None
-    ends, kinds = path.ends.tolist(), path.kind.tolist()
-    corners, rounding, feeds = path.corner.tolist(), path.rounding.tolist(), path.feed.tolist()
-    for row, end in enumerate(tuple(each) for each in ends):
-        here = path.ends[row - 1] if row else path.start
-        if rotary and _is_mixed(np.asarray(end) - here, rotary):
-            raise SimulationError(
-                f"Line {int(path.line[row])}: a move of rotary and straight axes together is not simulated"
-            )
-        joins = path.roundings[rounding[row]].points if corners[row] == ROUNDED else 0.0
-        points = _points(path, geometry, row, joins) if kinds[row] in (LINE, ARC) else ()
-        now = (feeds[row], rounding[row])
-        if chain and (not points or now != state or corners[row] != ROUNDED):
-            yield _straight(path, begin, chain.end, chain.row, limits)
-            begin, chain = chain.end, _Chain()
-        state = now
-        for point in points:
-            if chain and not _on_one_line(begin, point, chain, joins, rotary):
-                yield _straight(path, begin, chain.end, chain.row, limits)
-                begin, chain = chain.end, _Chain()
-            chain.add(point, row)
-            if corners[row] != ROUNDED:
-                yield _straight(path, begin, chain.end, chain.row, limits)
-                begin, chain = chain.end, _Chain()
-        if points:
-            continue
-        if kinds[row] == DWELL:
-            yield row
-        elif kinds[row] == RAPID:
-            yield _straight(path, begin, end, row, limits)
-        else:
-            yield _round(path, geometry, row, begin, limits)
-        begin = end
-    if chain:
-        yield _straight(path, begin, chain.end, chain.row, limits)
+    if rotary:
+        _refuse_mixed(path, geometry, rotary)
+    points, rows, is_straight = _points(path, geometry)
+    ends = _ends_of_moves(path, points, rows, is_straight, rotary)
+    rows, stops, is_straight = rows[ends], points[ends], is_straight[ends]
+    begins = np.vstack([path.start[None, :], stops[:-1]]) if len(stops) else stops
+    kind = np.where(is_straight & (path.kind[rows] == ARC), LINE, path.kind[rows]).astype(np.uint8)
+    # The planner drops a straight move without length.
+    moved = (kind == ARC) | (kind == DWELL) | (begins != stops).any(axis=1)
+    found = _straight(path, rows[moved], kind[moved], begins[moved], stops[moved], limits)
+    return _round(path, geometry, found, limits)
 
 
-def _is_mixed(way: np.ndarray, rotary: list[int]) -> bool:
-    moving = np.abs(way) > 1e-12
-    turning = int(moving[rotary].sum())
-    return 0 < turning < int(moving.sum())
+def _refuse_mixed(path: ToolPath, geometry: Geometry, rotary: list[int]) -> None:
+    moving = np.abs(path.ends - geometry.begins) > 1e-12
+    turning = moving[:, rotary].sum(axis=1)
+    mixed = np.flatnonzero((turning > 0) & (turning < moving.sum(axis=1)))
+    if len(mixed):
+        raise SimulationError(
+            f"Line {int(path.line[mixed[0]])}: a move of rotary and straight axes together is not simulated"
+        )
 
 
-def _points(path: ToolPath, geometry: Geometry, row: int, joins: float) -> tuple[PathPoint, ...]:
-    """Return the points of the straight moves of a row; none for an arc that stays one (CN1494)."""
-    end = tuple(path.ends[row].tolist())
-    if path.kind[row] == LINE:
-        return (end,)
-    radius, sweep = float(geometry.radius[row]), float(path.sweep[row])
-    if path.plane[row] != 0 or radius * (1.0 - math.cos(0.5 * sweep)) >= joins:
-        return ()
+def _joins(path: ToolPath, rows: Integers) -> PathRows:
+    """Return how far points of rows may be from the straight move that replaces them, u."""
+    points = np.array([each.points for each in path.roundings])[path.rounding[rows]]
+    joins: PathRows = np.where(path.corner[rows] == ROUNDED, points, 0.0)
+    return joins
+
+
+def _points(path: ToolPath, geometry: Geometry) -> tuple[PathRows, Integers, Flags]:
+    """Return where moves may end, the rows of these points, and whether straight moves lead there: the end of
+    each row, and the middle of an arc that is so flat that it becomes two straight moves (CN1494).
+    """
+    rows = np.arange(len(path))
+    arcs = np.flatnonzero((path.kind == ARC) & (path.plane == 0))
+    off = geometry.radius[arcs] * (1.0 - np.cos(0.5 * path.sweep[arcs]))
+    flat = arcs[off < _joins(path, arcs)]
+    is_straight = path.kind == LINE
+    is_straight[flat] = True
+    if not len(flat):
+        return path.ends, rows, is_straight
     a, b = path.axes.index("X"), path.axes.index("Y")
-    begin, center = geometry.begins[row], path.center[row]
-    middle = 0.5 * (begin + path.ends[row])
-    angle = math.atan2(begin[b] - center[1], begin[a] - center[0]) + 0.5 * sweep
-    middle[a], middle[b] = center[0] + radius * math.cos(angle), center[1] + radius * math.sin(angle)
-    return (tuple(middle.tolist()), end)
-
-
-def _on_one_line(begin: PathPoint, end: PathPoint, chain: _Chain, joins: float, rotary: list[int]) -> bool:
-    """Return whether one straight move may replace all points of a chain and go on to another (CN970)."""
-    last = chain.end
-    if joins == 0.0 or len(chain) > MOST_JOINED or any(end[n] != last[n] for n in rotary) or end == begin:
-        return False
-    # The newest point is the one beyond which the path turns: most corners need no look at the others.
-    near = _square_off(begin, end, last) <= joins * joins
-    if not near or len(chain) == 1:
-        return near
-    off = np.array(chain.flat).reshape(len(chain), len(begin)) - np.array(begin)
-    way = np.array(end) - np.array(begin)
-    share = np.clip(off @ way / (way @ way), 0.0, 1.0)
-    apart = off - share[:, None] * way
-    return not bool(((apart * apart).sum(axis=1) > joins * joins).any())
-
-
-def _square_off(begin: PathPoint, end: PathPoint, point: PathPoint) -> float:
-    """Return the square of the distance of a point from a straight move."""
-    way = [e - b for e, b in zip(end, begin, strict=True)]
-    off = [p - b for p, b in zip(point, begin, strict=True)]
-    share = min(max(sum(map(mul, off, way)) / sum(map(mul, way, way)), 0.0), 1.0)
-    return math.fsum((o - share * w) ** 2 for o, w in zip(off, way, strict=True))
-
-
-def _straight(path: ToolPath, begin: PathPoint, end: PathPoint, row: int, limits: AxisLimits) -> PathSegment:
-    """Return a straight move with its direction and what the axes allow along it."""
-    length = math.dist(begin, end)
-    size = length or 1.0
-    direction = tuple((e - b) / size for e, b in zip(end, begin, strict=True))
-    top, top_by, acceleration, ramp_by = limits.straight(direction)
-    return PathSegment(
-        row,
-        begin,
-        end,
-        length,
-        length,
-        direction,
-        direction,
-        math.inf if path.kind[row] == RAPID else float(path.feed[row]),
-        top,
-        top_by,
-        acceleration,
-        ramp_by,
-        is_arc=False,
-        is_rapid=path.kind[row] == RAPID,
-        corner=int(path.corner[row]),
-        tolerance=path.roundings[int(path.rounding[row])].corner,
+    begin, center = geometry.begins[flat], path.center[flat]
+    middle = 0.5 * (begin + path.ends[flat])
+    angle = np.arctan2(begin[:, b] - center[:, 1], begin[:, a] - center[:, 0]) + 0.5 * path.sweep[flat]
+    middle[:, a] = center[:, 0] + geometry.radius[flat] * np.cos(angle)
+    middle[:, b] = center[:, 1] + geometry.radius[flat] * np.sin(angle)
+    return (
+        np.insert(path.ends, flat, middle, axis=0),
+        np.insert(rows, flat, flat),
+        np.insert(is_straight, flat, True),
     )
 
 
-def _round(path: ToolPath, geometry: Geometry, row: int, begin: PathPoint, limits: AxisLimits) -> PathSegment:
-    """Return an arc: the smaller of the limits of its two axes in every direction (CN1640 to CN1800)."""
-    end = tuple(path.ends[row].tolist())
-    places = [path.axes.index("XYZ"[n]) for n in PLANES[int(path.plane[row])]]
-    radius, length = float(geometry.radius[row]), float(geometry.length[row])
-    around = radius * abs(float(path.sweep[row]))
-    slowest = min(places[:2], key=lambda n: limits.speeds[n])
-    weakest = min(places[:2], key=lambda n: limits.accelerations[n])
-    across = math.sqrt(limits.accelerations[weakest] * NORMAL * radius)
-    planar, by = min((limits.speeds[slowest], slowest), (across, len(limits.speeds) + weakest))
-    along = abs(end[places[2]] - begin[places[2]])
-    time, ramp_time = around / planar, around / limits.accelerations[weakest]
-    ramp_by = weakest
-    if along / limits.speeds[places[2]] > time:
-        time, by = along / limits.speeds[places[2]], places[2]
-    if along / limits.accelerations[places[2]] > ramp_time:
-        ramp_time, ramp_by = along / limits.accelerations[places[2]], places[2]
-    return PathSegment(
-        row,
-        begin,
-        end,
+def _ends_of_moves(
+    path: ToolPath, points: PathRows, rows: Integers, is_straight: Flags, rotary: list[int]
+) -> Integers:
+    """Return the points at which moves end: those that no straight move replaces together with the next."""
+    joins = _joins(path, rows)
+    before = np.vstack([path.start[None, :], points])[:-1]
+    # Whether the straight move to the point before could go on to this one.
+    goes_on = np.zeros(len(rows), bool)
+    goes_on[1:] = (
+        is_straight[1:]
+        & is_straight[:-1]
+        & (joins[1:] > 0.0)
+        & (path.corner[rows[:-1]] == ROUNDED)
+        & (path.feed[rows[1:]] == path.feed[rows[:-1]])
+        & (path.rounding[rows[1:]] == path.rounding[rows[:-1]])
+    )
+    for axis in rotary:
+        goes_on &= points[:, axis] == before[:, axis]
+    second = np.flatnonzero(goes_on)
+    second = second[_is_near(before[second - 1], points[second], points[second - 1], joins[second])]
+    third = second + 1
+    has_third = third < len(rows)
+    has_third[has_third] = goes_on[third[has_third]]
+    begun, third = before[second - 1][has_third], third[has_third]
+    has_third[has_third] = _is_near(begun, points[third], points[third - 1], joins[third]) & _is_near(
+        begun, points[third], points[third - 2], joins[third]
+    )
+    is_end = np.ones(len(rows), bool)
+    after = 0
+    for n, has_more in zip(second.tolist(), has_third.tolist(), strict=True):
+        if n <= after:
+            continue  # the move before has replaced a point of it, or ends because it could not
+        after = _joined(before[n - 1], points, goes_on, float(joins[n]), n) if has_more else n + 1
+        is_end[n - 1 : after - 1] = False
+    return np.flatnonzero(is_end)
+
+
+def _joined(begin: PathRows, points: PathRows, goes_on: Flags, joins: float, second: int) -> int:
+    """Return the point after those that one straight move from ``begin`` reaches (CN970): it is known to
+    reach from the point before ``second`` to the one after it.
+    """
+    first, n = second - 1, second + 2
+    end = min(second + MOST_JOINED, len(points))
+    while n < end:
+        tried = np.arange(n, min(n + max(8, n - first), end))
+        replaced = points[first : tried[-1]]
+        near = _is_near(begin, points[tried][:, None], replaced[None], joins)
+        # Each of the tried ends replaces the points before it, not those behind.
+        behind = np.arange(first, tried[-1])[None] >= tried[:, None]
+        stays = goes_on[tried] & (near | behind).all(axis=1)
+        if not stays.all():
+            return int(tried[np.argmin(stays)])
+        n = int(tried[-1]) + 1
+    return end
+
+
+def _is_near(begins: PathRows, ends: PathRows, points: PathRows, within: PathRows | float) -> Flags:
+    """Return whether points (…, axes) are near straight moves; one that ends where it begins is near none."""
+    way, off = ends - begins, points - begins
+    size = (way * way).sum(axis=-1)
+    share = np.clip((off * way).sum(axis=-1) / np.where(size > 0.0, size, 1.0), 0.0, 1.0)
+    apart = off - share[..., None] * way
+    near: Flags = ((apart * apart).sum(axis=-1) <= within * within) & (size > 0.0)
+    return near
+
+
+def _straight(
+    path: ToolPath,
+    rows: Integers,
+    kind: npt.NDArray[np.uint8],
+    begins: PathRows,
+    ends: PathRows,
+    limits: AxisLimits,
+) -> PathSegments:
+    """Return moves as if all were straight, with their directions and what the axes allow along them."""
+    way = ends - begins
+    length = np.sqrt((way * way).sum(axis=1))
+    direction = way / np.where(length > 0.0, length, 1.0)[:, None]
+    return PathSegments(
+        rows,
+        kind,
+        begins,
+        ends,
         length,
-        length,
-        tuple(geometry.first[row].tolist()),
-        tuple(geometry.last[row].tolist()),
-        float(path.feed[row]),
-        length / time,
-        by,
-        length / ramp_time,
-        ramp_by,
-        is_arc=True,
-        is_rapid=False,
-        corner=int(path.corner[row]),
-        tolerance=path.roundings[int(path.rounding[row])].corner,
+        direction,
+        direction,
+        np.where(kind == RAPID, math.inf, path.feed[rows]),
+        *along(direction, limits.speeds),
+        *along(direction, limits.accelerations),
+        path.corner[rows],
+        np.array([each.corner for each in path.roundings])[path.rounding[rows]],
+    )
+
+
+def _round(path: ToolPath, geometry: Geometry, found: PathSegments, limits: AxisLimits) -> PathSegments:
+    """Return moves with their arcs: the smaller of the limits of the two axes of its plane is that of an arc
+    in every direction (CN1640 to CN1800).
+    """
+    if not (found.kind == ARC).any():
+        return found
+    length, top, acceleration = found.length.copy(), found.top.copy(), found.acceleration.copy()
+    first, last = found.first.copy(), found.last.copy()
+    top_by, ramp_by = found.top_by.copy(), found.ramp_by.copy()
+    for plane, axes in enumerate(PLANES):
+        arcs = np.flatnonzero((found.kind == ARC) & (path.plane[found.row] == plane))
+        if not len(arcs):
+            continue
+        rows = found.row[arcs]
+        *flat, third = (path.axes.index("XYZ"[n]) for n in axes)
+        around = geometry.radius[rows] * np.abs(path.sweep[rows])
+        slowest = min(flat, key=lambda n: float(limits.speeds[n]))
+        weakest = min(flat, key=lambda n: float(limits.accelerations[n]))
+        across = np.sqrt(limits.accelerations[weakest] * NORMAL * geometry.radius[rows])
+        is_across = across < limits.speeds[slowest]
+        time = around / np.where(is_across, across, limits.speeds[slowest])
+        ramp_time = around / limits.accelerations[weakest]
+        rise = np.abs(found.ends[arcs, third] - found.begins[arcs, third])
+        rises, ramps = rise / limits.speeds[third], rise / limits.accelerations[third]
+        length[arcs], first[arcs], last[arcs] = (
+            geometry.length[rows],
+            geometry.first[rows],
+            geometry.last[rows],
+        )
+        top[arcs] = length[arcs] / np.maximum(time, rises)
+        acceleration[arcs] = length[arcs] / np.maximum(ramp_time, ramps)
+        flat_by = np.where(is_across, len(limits.speeds) + weakest, slowest)
+        top_by[arcs] = np.where(rises > time, third, flat_by)
+        ramp_by[arcs] = np.where(ramps > ramp_time, third, weakest)
+    return replace(
+        found,
+        length=length,
+        first=first,
+        last=last,
+        top=top,
+        top_by=top_by,
+        acceleration=acceleration,
+        ramp_by=ramp_by,
     )

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from amp_studio.programs import ARC, PLANES, ToolPath
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.path_rules import Geometry, PathRows
+from amp_studio.sim.path_rules import Geometry, Indices, PathRows
 
 MOST_PIECES = 8_000_000
 """Rows after arcs have become straight pieces; at about 150 bytes each with three axes, 1.2 GB."""
@@ -19,6 +19,12 @@ def places_of(path: ToolPath, row: int) -> tuple[int, int]:
     """Return the columns of the two axes of a row's plane."""
     first, second, _ = PLANES[int(path.plane[row])]
     return path.axes.index("XYZ"[first]), path.axes.index("XYZ"[second])
+
+
+def plane_columns(path: ToolPath) -> Indices:
+    """Return the columns of the two axes of each plane, (planes, 2); 0 for an axis that the path has not."""
+    columns = {letter: n for n, letter in enumerate(path.axes)}
+    return np.array([[columns.get("XYZ"[n], 0) for n in axes[:2]] for axes in PLANES])
 
 
 def geometry_of(path: ToolPath, chord: float | None) -> Geometry:
@@ -75,28 +81,31 @@ def _unit(delta: PathRows, length: PathRows) -> PathRows:
 
 def _chorded(path: ToolPath, begins: PathRows, arcs: npt.NDArray[np.int64], chord: float) -> Geometry:
     """Return straight rows, arcs as pieces whose ends are on them: as many as grblHAL's mc_arc makes."""
+    columns = plane_columns(path)[path.plane[arcs]]
+    begun = np.take_along_axis(begins[arcs], columns, axis=1) - path.center[arcs]
+    radius, sweep = np.hypot(begun[:, 0], begun[:, 1]), path.sweep[arcs]
+    inside = np.maximum(chord * (2.0 * radius - chord), 0.0)
+    wanted = np.abs(0.5 * sweep * radius) / np.sqrt(np.where(inside > 0.0, inside, math.inf))
     pieces = np.ones(len(path), np.int64)
-    for row in arcs.tolist():
-        a, b = places_of(path, row)
-        r = math.hypot(begins[row, a] - path.center[row, 0], begins[row, b] - path.center[row, 1])
-        if 2.0 * r > chord:
-            wanted = abs(0.5 * path.sweep[row] * r) / math.sqrt(chord * (2.0 * r - chord))
-            pieces[row] = max(1, math.floor(wanted))
+    pieces[arcs] = np.maximum(1, np.floor(np.minimum(wanted, MOST_PIECES + 1.0)))
     if pieces.sum() > MOST_PIECES:
         raise SimulationError("The arcs of the program become more straight pieces than can be planned")
     row = np.repeat(np.arange(len(path)), pieces)
     last = np.cumsum(pieces) - 1
     ends = path.ends[row]
-    for arc in arcs.tolist():
-        n = int(pieces[arc])
-        a, b = places_of(path, arc)
-        share = np.arange(1, n) / n
-        x, y = begins[arc, a] - path.center[arc, 0], begins[arc, b] - path.center[arc, 1]
-        angle = share * path.sweep[arc]
-        inside = slice(last[arc] - n + 1, last[arc])
-        ends[inside] = begins[arc] + share[:, None] * (path.ends[arc] - begins[arc])
-        ends[inside, a] = path.center[arc, 0] + x * np.cos(angle) - y * np.sin(angle)
-        ends[inside, b] = path.center[arc, 1] + x * np.sin(angle) + y * np.cos(angle)
+    # The ends inside of each arc: ``each`` is its place among the arcs.
+    each = np.repeat(np.arange(len(arcs)), pieces[arcs] - 1)
+    number = np.arange(len(each)) - np.repeat(
+        np.cumsum(pieces[arcs] - 1) - pieces[arcs] + 1, pieces[arcs] - 1
+    )
+    share = (number + 1) / pieces[arcs][each]
+    at = last[arcs][each] - pieces[arcs][each] + 1 + number
+    ends[at] = begins[arcs][each] + share[:, None] * (path.ends[arcs] - begins[arcs])[each]
+    angle = share * sweep[each]
+    cosine, sine = np.cos(angle), np.sin(angle)
+    (x, y), center = begun[each].T, path.center[arcs][each]
+    ends[at, columns[each, 0]] = center[:, 0] + x * cosine - y * sine
+    ends[at, columns[each, 1]] = center[:, 1] + x * sine + y * cosine
     starts = np.vstack([path.start[None, :], ends[:-1]])
     delta = ends - starts
     length = np.sqrt((delta * delta).sum(axis=1))

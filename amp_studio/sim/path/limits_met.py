@@ -16,12 +16,13 @@ from amp_studio.sim.path_rules import PathRows
 from amp_studio.sim.rounding import page_text
 from amp_studio.sim.zones import EPSILON, Zone
 
-from .geometry import places_of
+from .geometry import plane_columns
 from .planner import ProgramPlan
 from .profiles import path_points
 
 BEYOND = 1e-6
 """u: an axis on its limit is not beyond it."""
+QUARTER = 0.5 * math.pi
 ON_ARC = 1e-3
 """u between an arc and the straight pieces that are checked against zones."""
 
@@ -71,21 +72,25 @@ def _extent(plan: ProgramPlan, path: ToolPath) -> tuple[PathRows, PathRows]:
     """Return the least and the greatest place of every axis in every row."""
     geometry = plan.geometry
     least, most = np.minimum(geometry.begins, geometry.ends), np.maximum(geometry.begins, geometry.ends)
-    for n in np.flatnonzero(geometry.is_arc).tolist():
-        row = int(geometry.row[n])
-        a, b = places_of(path, row)
-        center, radius, sweep = path.center[row], float(geometry.radius[n]), float(path.sweep[row])
-        begun = math.atan2(geometry.begins[n, b] - center[1], geometry.begins[n, a] - center[0])
-        low, high = min(begun, begun + sweep), max(begun, begun + sweep)
-        # An arc is farthest out at one of its ends or where it is parallel to an axis: at the multiples of
-        # 90° that it passes.
-        for quarter in range(math.ceil(low / (0.5 * math.pi)), math.floor(high / (0.5 * math.pi)) + 1):
-            angle = quarter * 0.5 * math.pi
-            for axis, place in (
-                (a, center[0] + radius * math.cos(angle)),
-                (b, center[1] + radius * math.sin(angle)),
-            ):
-                least[n, axis], most[n, axis] = min(least[n, axis], place), max(most[n, axis], place)
+    arcs = np.flatnonzero(geometry.is_arc)
+    if not len(arcs):
+        return least, most
+    rows = geometry.row[arcs]
+    columns = plane_columns(path)[path.plane[rows]]
+    begins = np.take_along_axis(geometry.begins[arcs], columns, axis=1) - path.center[rows]
+    begun = np.arctan2(begins[:, 1], begins[:, 0])
+    sweep = path.sweep[rows]
+    low, high = np.minimum(begun, begun + sweep), np.maximum(begun, begun + sweep)
+    # An arc is farthest out at one of its ends or where it is parallel to an axis: at the multiples of 90°
+    # that it passes, of which a whole turn has five at most.
+    quarters = np.ceil(low / QUARTER)[:, None] + np.arange(5)
+    turned = QUARTER * quarters
+    is_passed = quarters <= np.floor(high / QUARTER)[:, None]
+    for n, way in enumerate((np.cos(turned), np.sin(turned))):
+        place = path.center[rows, n, None] + geometry.radius[arcs, None] * way
+        at = arcs, columns[:, n]
+        least[at] = np.minimum(least[at], np.where(is_passed, place, math.inf).min(axis=1))
+        most[at] = np.maximum(most[at], np.where(is_passed, place, -math.inf).max(axis=1))
     return least, most
 
 

@@ -8,7 +8,7 @@ planner of short blocks does it). What a row leaves over is run at its own limit
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -351,38 +351,64 @@ def _look_ahead(
         gain = np.concatenate([[0.0], np.cumsum(2.0 * braking * geometry.length)])
         room = gain[np.minimum(np.arange(count) + known, count)] - gain[:-1]
         _lowered(most, entry_by, np.sqrt(room), table.number(rules.look_ahead))
-    step = _straight_step if straight else _any_step(rules)
-    length, rapid = geometry.length.tolist(), is_rapid.tolist()
+    if straight:
+        return _straight_passes(most, geometry.length, slopes, progress), entry_by
+    ramps = [rules.rapid_ramp if rapid else rules.feed_ramp for rapid in is_rapid.tolist()]
+    return _curved_passes(ramps, most, geometry.length, slopes, progress), entry_by
+
+
+def _straight_passes(
+    most: PathRows, length: PathRows, slopes: tuple[PathRows, PathRows], progress: Callable[[float], None]
+) -> PathRows:
+    """Return the speeds at which rows begin, as `_curved_passes`, with straight ramps."""
+    count, speeds = len(most), most.tolist()
+    with np.errstate(invalid="ignore"):  # a ramp without an end times no way lowers nothing
+        faster, slower = ((2.0 * slope * length).tolist() for slope in slopes)
+    after, sqrt = 0.0, math.sqrt
+    # Calls of functions would take most of the time of these loops, which are most of that of the planning.
+    for n in range(count - 1, -1, -1):
+        can = sqrt(after * after + slower[n])
+        after = speeds[n]
+        if can < after:
+            after = speeds[n] = can
+        if n % EVERY == 0:
+            progress(0.3 + 0.3 * (count - n) / count)
+    for n in range(count - 1):
+        can = sqrt(after * after + faster[n])
+        after = speeds[n + 1]
+        if can < after:
+            after = speeds[n + 1] = can
+        if n % EVERY == 0:
+            progress(0.6 + 0.3 * n / count)
+    return np.array(speeds)
+
+
+def _curved_passes(
+    ramps: Sequence[Ramp],
+    most: PathRows,
+    length: PathRows,
+    slopes: tuple[PathRows, PathRows],
+    progress: Callable[[float], None],
+) -> PathRows:
+    """Return the speeds at which rows begin, of which none is above ``most``."""
+    ways, speeds, count = length.tolist(), most.tolist(), len(most)
     faster, slower = (each.tolist() for each in slopes)
-    speeds = most.tolist()
     after = 0.0
     # Backward: from the end of the program, where the axes rest, no row may begin faster than it can brake to
     # what the next one begins with.
     for n in range(count - 1, -1, -1):
-        after = speeds[n] = min(speeds[n], step(after, length[n], slower[n], rapid[n]))
+        can = reached(ramps[n], after, ways[n], slower[n]) if ways[n] else after
+        after = speeds[n] = min(speeds[n], can)
         if n % EVERY == 0:
             progress(0.3 + 0.3 * (count - n) / count)
     # Forward: of that, a row reaches only what it can accelerate to. What is lowered here is never below the
     # beginning of its row, so that no row has to brake for it.
     for n in range(count - 1):
-        can = step(speeds[n], length[n], faster[n], rapid[n])
+        can = reached(ramps[n], speeds[n], ways[n], faster[n]) if ways[n] else speeds[n]
         speeds[n + 1] = min(speeds[n + 1], can)
         if n % EVERY == 0:
             progress(0.6 + 0.3 * n / count)
-    return np.array(speeds), entry_by
-
-
-def _straight_step(speed: float, length: float, acceleration: float, _rapid: bool) -> float:
-    return math.sqrt(speed * speed + 2.0 * acceleration * length)
-
-
-def _any_step(rules: PathRules) -> Callable[[float, float, float, bool], float]:
-    def step(speed: float, length: float, acceleration: float, rapid: bool) -> float:
-        if length == 0.0:
-            return speed
-        return reached(rules.rapid_ramp if rapid else rules.feed_ramp, speed, length, acceleration)
-
-    return step
+    return np.array(speeds)
 
 
 def _ramps(
