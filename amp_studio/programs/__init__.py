@@ -11,23 +11,10 @@ from amp_studio.front_pages import front_page
 if TYPE_CHECKING:
     from .at_power_up import PowerUp, PowerUpLine, power_up
     from .block import BlockReader, BlockWord, ReadBlock
-    from .formats import digits_of, number_of
+    from .formats import NumberFormat, digits_of, number_of
     from .interpreter import path_letters, tool_path
     from .source import read_program
-    from .toolpath import (
-        ARC,
-        DWELL,
-        EXACT,
-        KEPT,
-        LINE,
-        MOST_ROWS,
-        PLANES,
-        RAPID,
-        ROUNDED,
-        SLOW,
-        RowsWriter,
-        ToolPath,
-    )
+    from .toolpath import ARC, DWELL, EXACT, KEPT, LINE, MOST_ROWS, PLANES, RAPID, ROUNDED, SLOW, ToolPath
     from .words import ProgramBlockError
 else:
     __getattr__ = front_page(__name__)

@@ -11,7 +11,7 @@ from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema import Address, WordUse, axis_name
 
 from .codes import Call, ControlCodes
-from .formats import Justified, WordNumber, digits_of, number_of
+from .formats import Justified, NumberFormat, WordNumber, digits_of, number_of
 from .words import TypedWord, words_of
 
 
@@ -296,24 +296,29 @@ class BlockReader:
 
     def number(self, word: TypedWord, form: Address | None, whole: bool) -> WordNumber:
         """Return the number of a word by its format."""
-        if not word.number:
-            return self._without_number()
         if word.is_expression:
             return WordNumber(
                 None, assumed="that the control works out the expression as it is printed for it"
             )
+        return self.number_in(word.number, self.number_format(form, whole))
+
+    def number_in(self, typed: str, form: NumberFormat) -> WordNumber:
+        """Return the number that is typed in a word, which may be missing."""
+        return number_of(typed, form) if typed else self._without_number()
+
+    def number_format(self, form: Address | None, whole: bool) -> NumberFormat:
+        """Return how a number is read by the format of a parameter, in the present unit."""
+        if whole and form is None:
+            return NumberFormat(justified=self.justified(), is_whole=True)
         digits, assumed = None, ""
-        if form is not None:
-            choice = self.file.evaluation.canonical(form)
-            if choice is None:
-                parameter_name = self.file.schema.parameters[form[0]].name
-                assumed = f"any number of digits, as {parameter_name} is not set"
-            elif isinstance(choice, str) and choice[:1].isdigit():
-                digits = digits_of(choice, self.is_inch())
-        elif whole:
-            digits = (len(word.number), 0)
-        number = number_of(word.number, digits, self.justified())
-        return replace(number, assumed=number.assumed or assumed)
+        choice = self.file.evaluation.canonical(form) if form else ""
+        if choice is None:
+            assert form is not None
+            parameter_name = self.file.schema.parameters[form[0]].name
+            assumed = f"any number of digits, as {parameter_name} is not set"
+        elif isinstance(choice, str) and choice[:1].isdigit():
+            digits = digits_of(choice, self.is_inch())
+        return NumberFormat(digits, self.justified(), assumed)
 
     def _without_number(self) -> WordNumber:
         facts = self.codes.facts.no_number

@@ -32,33 +32,54 @@ def digits_of(choice: str, inch: bool) -> tuple[int, int]:
     return int(before), int(behind or 0)
 
 
-def number_of(typed: str, digits: tuple[int, int] | None, justified: Justified) -> WordNumber:
-    """Return the number of a word; ``digits`` are those of its format, None where it is not known."""
-    sign = "-" * typed.startswith("-")
+@dataclass(frozen=True)
+class NumberFormat:
+    """How the numbers of a word are read."""
+
+    digits: tuple[int, int] | None = None
+    """Before and behind the point; None where they are not known."""
+    justified: Justified = ""
+    assumed: str = ""
+    """What no page states of it."""
+    is_whole: bool = False
+    """Whether it is a whole number of any size."""
+
+
+def number_of(typed: str, form: NumberFormat) -> WordNumber:
+    """Return the number of a word by its format."""
+    if form.digits is None and not form.is_whole:
+        return WordNumber(float(typed), assumed=form.assumed)
     figures = typed.lstrip("+-")
     whole, point, decimals = figures.partition(".")
-    if digits is None:
+    if form.justified == "both" and not point:
+        return WordNumber(None, "both zero suppression modes are on: a number without a point has no place")
+    if form.digits is None:
+        if decimals.strip("0"):
+            return WordNumber(None, f"{quoted(figures)} is no whole number")
         return WordNumber(float(typed))
-    before, behind = digits
-    too_many = WordNumber(None, f"{quoted(figures)} has more digits than the format {before}.{behind} allows")
+    before, behind = form.digits
     if point:
         if len(whole.lstrip("0")) > before or len(decimals.rstrip("0")) > behind:
-            return too_many
-        return WordNumber(float(typed), assumed=_zeros_assumed(whole, decimals, digits))
-    if justified == "both":
-        return WordNumber(None, "both zero suppression modes are on: a number without a point has no place")
+            return _too_many(figures, form.digits)
+        return WordNumber(float(typed), assumed=_zeros_assumed(whole, decimals, form.digits))
     if len(figures) > before + behind:
         return WordNumber(
             None,
             f"{quoted(figures)} has more than the {before + behind} digits of the format {before}.{behind}",
         )
-    placed = {"right": figures, "left": figures.ljust(before + behind, "0")}
-    if justified in placed:
-        return WordNumber(float(f"{sign}{placed[justified]}e-{behind}"))
+    if form.justified:
+        placed = figures if form.justified == "right" else figures.ljust(before + behind, "0")
+        return WordNumber(float(f"{'-' * typed.startswith('-')}{placed}e-{behind}"))
     if len(figures.lstrip("0")) > before:
-        return too_many
+        return _too_many(figures, form.digits)
     whole_units = "that a number without a point counts whole units while no zeros are left out"
     return WordNumber(float(typed), assumed=whole_units if behind else "")
+
+
+def _too_many(figures: str, digits: tuple[int, int]) -> WordNumber:
+    return WordNumber(
+        None, f"{quoted(figures)} has more digits than the format {digits[0]}.{digits[1]} allows"
+    )
 
 
 def _zeros_assumed(whole: str, decimals: str, digits: tuple[int, int]) -> str:

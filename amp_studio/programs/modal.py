@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, ProgramPath
+from amp_studio.schema import ProgramPath
 
 from .block import BlockReader
 from .codes import KnownCode
+from .formats import NumberFormat
 from .toolpath import CUTTING, EXACT, KEPT, ROUNDED, SLOW
 from .words import ProgramBlockError as BlockError
 from .words import TypedWord, sentence
@@ -49,8 +50,7 @@ class WordReading:
     scale: float = 1.0
     plain: bool = True
     """Whether the number is what is written."""
-    form: Address | None = None
-    whole: bool = False
+    form: NumberFormat = field(default_factory=NumberFormat)
     bounds: tuple[float, float] | None = None
     """The least and the largest value, scaled."""
 

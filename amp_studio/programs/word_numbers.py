@@ -78,8 +78,7 @@ class WordNumbers:
             return sign * worth(text.lstrip("+-"), self._parameters)
         if reading.plain and text:
             return float(text)
-        word = TypedWord(letter, text, letter + text)
-        number = self._reader.number(word, reading.form, reading.whole)
+        number = self._reader.number_in(text, reading.form)
         if number.assumed:
             self._notes.append(sentence(number.assumed))
         if number.value is None:
@@ -103,7 +102,7 @@ class WordNumbers:
             meaning.startswith("distance") and codes.modal.is_absolute,
             scale=INCH if self._reader.unit_of(axis) == "in" else 1.0,
             plain=form is None and facts.zeros is None,
-            form=form,
+            form=self._reader.number_format(form, False),
         )
 
     def _reading_of_role(self, use: WordUse, codes: BlockCodes) -> WordReading:
@@ -114,7 +113,6 @@ class WordNumbers:
             role=use.role or "",
             scale=scale,
             plain=use.format is None and self._reader.codes.facts.zeros is None and not use.whole,
-            form=(use.format, "") if use.format else None,
-            whole=use.whole,
+            form=self._reader.number_format((use.format, "") if use.format else None, use.whole),
             bounds=use.bounds and (scale * use.bounds[0], scale * use.bounds[1]),
         )

@@ -294,3 +294,11 @@ def test_the_lines_of_a_program_come_without_their_ends(tmp_path: Path) -> None:
     file = tmp_path / "a.nc"
     file.write_bytes(b"%\r\nG0 X1\r\n\xff\n")
     assert read_program(file)[:2] == ["%", "G0 X1"]
+
+
+def test_the_format_of_a_number_is_that_of_the_unit_of_its_block() -> None:
+    """15-1: 3.4 digits in inch, 4.3 in metric, also where both come again."""
+    blocks = ["F100", *("G21 G1 X2.", "G20 G1 X.1") * 2, "G21 G1 X4.", "G20 G1 X.1234"]
+    found = tool_path(example("mill-1394"), blocks)
+    assert found.fault is None
+    assert found.ends[-1, 0] == pytest.approx(25.4 * 0.1234)

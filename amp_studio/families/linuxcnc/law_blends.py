@@ -14,7 +14,7 @@ import numpy as np
 from amp_studio.programs import ARC, DWELL, EXACT, KEPT, LINE, MOST_ROWS, PLANES, RAPID, ToolPath
 from amp_studio.sim import Geometry, PathLimit, PathRows, RowBounds, ShapedPath, SimulationError
 
-from .law_segments import NORMAL, AxisLimits, Flags, Integers, segments
+from .law_segments import NORMAL, AxisLimits, Booleans, Integers, segments
 
 TANGENTIAL = 0.5
 """Share of the acceleration that is left along an arc (blendmath.h, line 19)."""
@@ -132,7 +132,7 @@ class _Shaping:
         one, two = one[moving], two[moving]
         corner, kind = moves.corner, moves.kind
 
-        def stop(where: Flags, cause: int) -> None:
+        def stop(where: Booleans, cause: int) -> None:
             nonlocal one, two
             between.speed[one[where]], between.by[one[where]] = 0.0, cause
             one, two = one[~where], two[~where]
@@ -164,7 +164,7 @@ class _Shaping:
             self._round(between, one, two, slow)
 
     def _refuse(self, refused: list[tuple[Integers, str]]) -> None:
-        """Refuse the first of some moves, each with the sentence that says why."""
+        """Refuse the first of some moves, each with the sentence of why."""
         first = min(((int(rows[0]), text) for rows, text in refused if len(rows)), default=None)
         if first is not None:
             raise SimulationError(first[1].format(line=int(self._path.line[self._moves.row[first[0]]])))
@@ -182,7 +182,7 @@ class _Shaping:
     # -- a rounded corner --------------------------------------------------------------
 
     def _round(self, between: _Junctions, one: Integers, two: Integers, slow: PathRows) -> None:
-        """Round the corners between straight moves where that is faster than ``slow``, the speed of a
+        """Round the corners between straight moves that are faster so than at ``slow``, the speed of a
         change of direction (blendComputeParameters).
         """
         moves, tolerance = self._moves, self._moves.tolerance
@@ -305,10 +305,10 @@ class _Shaping:
         top[rest] = np.minimum(top[rest], left[rest] / (period * LEAST_CYCLES))
         return left, top, top_by, acceleration
 
-    def _is_last(self) -> Flags:
+    def _is_last(self) -> Booleans:
         """Return whether no move comes after a move: the end of the path, or a dwell."""
         kind = self._moves.kind
-        is_last: Flags = (kind != DWELL) & np.append(kind[1:] == DWELL, True)[: len(kind)]
+        is_last: Booleans = (kind != DWELL) & np.append(kind[1:] == DWELL, True)[: len(kind)]
         return is_last
 
     def _bounds(

@@ -2,7 +2,7 @@
 flat arcs become two straight moves, and each move gets its own greatest speed and acceleration (emccanon.cc).
 
 All moves are columns: what a move is depends on its own rows alone. Only how far a straight move may go on
-depends on the points before it, so those are the only ones that are looked at one after another.
+depends on the points before it, so those alone are checked one after another.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ MOST_JOINED = 100
 NORMAL = math.sqrt(3.0) / 2.0
 """Share of the acceleration across an arc while it speeds up by half of it (CN1682)."""
 Integers = npt.NDArray[np.int64]
-Flags = npt.NDArray[np.bool_]
+Booleans = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ def _joins(path: ToolPath, rows: Integers) -> PathRows:
     return joins
 
 
-def _points(path: ToolPath, geometry: Geometry) -> tuple[PathRows, Integers, Flags]:
+def _points(path: ToolPath, geometry: Geometry) -> tuple[PathRows, Integers, Booleans]:
     """Return where moves may end, the rows of these points, and whether straight moves lead there: the end of
     each row, and the middle of an arc that is so flat that it becomes two straight moves (CN1494).
     """
@@ -138,7 +138,7 @@ def _points(path: ToolPath, geometry: Geometry) -> tuple[PathRows, Integers, Fla
 
 
 def _ends_of_moves(
-    path: ToolPath, points: PathRows, rows: Integers, is_straight: Flags, rotary: list[int]
+    path: ToolPath, points: PathRows, rows: Integers, is_straight: Booleans, rotary: list[int]
 ) -> Integers:
     """Return the points at which moves end: those that no straight move replaces together with the next."""
     joins = _joins(path, rows)
@@ -174,7 +174,7 @@ def _ends_of_moves(
     return np.flatnonzero(is_end)
 
 
-def _joined(begin: PathRows, points: PathRows, goes_on: Flags, joins: float, second: int) -> int:
+def _joined(begin: PathRows, points: PathRows, goes_on: Booleans, joins: float, second: int) -> int:
     """Return the point after those that one straight move from ``begin`` reaches (CN970): it is known to
     reach from the point before ``second`` to the one after it.
     """
@@ -193,13 +193,13 @@ def _joined(begin: PathRows, points: PathRows, goes_on: Flags, joins: float, sec
     return end
 
 
-def _is_near(begins: PathRows, ends: PathRows, points: PathRows, within: PathRows | float) -> Flags:
+def _is_near(begins: PathRows, ends: PathRows, points: PathRows, within: PathRows | float) -> Booleans:
     """Return whether points (…, axes) are near straight moves; one that ends where it begins is near none."""
     way, off = ends - begins, points - begins
     size = (way * way).sum(axis=-1)
     share = np.clip((off * way).sum(axis=-1) / np.where(size > 0.0, size, 1.0), 0.0, 1.0)
     apart = off - share[..., None] * way
-    near: Flags = ((apart * apart).sum(axis=-1) <= within * within) & (size > 0.0)
+    near: Booleans = ((apart * apart).sum(axis=-1) <= within * within) & (size > 0.0)
     return near
 
 

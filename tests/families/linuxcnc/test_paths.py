@@ -118,3 +118,25 @@ def test_a_feed_beside_a_change_of_the_unit_is_in_the_unit_before(mill: Paramete
     found = tool_path(mill, ["G21 F100", "G20 G1 X-1 F100"])
     assert found.feed[0] == pytest.approx(100.0 / 60.0)
     assert math.isclose(found.ends[0, 0], -25.4)
+
+
+def test_points_on_one_line_become_moves_of_at_most_101_points(mill: ParameterFile) -> None:
+    """G64 P: emccanon.cc joins no more, and a dwell or a stop ends a move."""
+    points = [f"X{-0.1 * n:.1f} Y{-0.05 * n:.2f}" for n in range(1, 251)]
+    job = ProgramJob(
+        ["G64 P0.01 F900 G1", *points, "G4 P1", "X0 Y0"],
+        [0.0] * 3,
+        dict.fromkeys("XYZ", 0.0),
+        with_contour=False,
+    )
+    plan = job.run(mill).plan
+    assert plan.path.line.tolist() == [102, 203, 251, 252, 253]
+
+
+def test_a_change_of_direction_may_cost_nothing() -> None:
+    """ARC_BLEND_KINK_RATIO 0: what goes straight on takes no acceleration, and is passed."""
+    file = example("linuxcnc-mill", **{"traj.arc_blend_kink": "0"})
+    blocks = ["G61 F900", "G1 X-10", "X-20", "X-20 Y-10"]
+    plan = ProgramJob(blocks, [0.0] * 3, dict.fromkeys("XYZ", 0.0), with_contour=False).run(file).plan
+    assert plan.leave[0] == pytest.approx(15.0)
+    assert plan.leave[1] == 0.0

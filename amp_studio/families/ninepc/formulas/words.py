@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import Literal
 
-from amp_studio.programs import digits_of, number_of
+from amp_studio.programs import NumberFormat, digits_of, number_of
 
 _FORMAT = re.compile(r"([0-9])(?:\.([0-9]))?(?:-([0-9])\.([0-9]))?")
 _WORD = re.compile(r"([+-]?)([0-9]+)")
@@ -33,7 +33,9 @@ def word_value(word: str, form: str, inch: bool, suppressed: Literal["leading", 
         raise ValueError(f"A word of the format {form} has up to {before + behind} digits, not {word!r}.")
     if suppressed not in ("leading", "trailing"):
         raise ValueError(f"The zeros left out are the leading or the trailing ones, not {suppressed!r}.")
-    value = number_of(word, (before, behind), "right" if suppressed == "leading" else "left").value
+    value = number_of(
+        word, NumberFormat((before, behind), "right" if suppressed == "leading" else "left")
+    ).value
     assert value is not None  # as many digits as the format has
     return value
 
