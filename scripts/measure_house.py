@@ -3,6 +3,7 @@ installed size.
 
     python scripts/measure_house.py                  the table
     python scripts/measure_house.py --past find      every name that the room "find" imports past a front page
+    python scripts/measure_house.py --complex        every function over complexity 10, the highest first
     python scripts/measure_house.py --no-starts      without the starts, which take some seconds
 
 The same script before and after a change of the structure:
@@ -238,6 +239,17 @@ def branches(function: ast.AST) -> int:
     return count
 
 
+def complex_functions(package: Path = PACKAGE) -> list[tuple[int, str, str]]:
+    """Return complexity, place and name of every function that is not easy to read, the highest first."""
+    rows = [
+        (branches(node), f"{path.relative_to(package.parent).as_posix()}:{node.lineno}", node.name)
+        for path in sorted(package.rglob("*.py"))
+        for node in ast.walk(tree_of(path))
+        if isinstance(node, FUNCTIONS)
+    ]
+    return sorted((row for row in rows if row[0] > MOST_BRANCHES), key=lambda row: (-row[0], row[1]))
+
+
 def own_nodes(function: ast.AST) -> Iterator[ast.AST]:
     """Yield what is in a function, without what is in functions and classes inside of it."""
     open_ones = [*ast.iter_child_nodes(function)]
@@ -339,6 +351,9 @@ def main() -> None:
     """Print the table, or the imports of one room."""
     parser = argparse.ArgumentParser(description=str(__doc__).partition("\n")[0])
     parser.add_argument("--past", metavar="ROOM", help="list the names that a room imports past a front page")
+    parser.add_argument(
+        "--complex", action="store_true", help=f"list the functions over complexity {MOST_BRANCHES}"
+    )
     parser.add_argument("--no-starts", action="store_true", help="leave out the starts of the program")
     parser.add_argument("--glossary", type=Path, help="count the concepts of this table of words too")
     options = parser.parse_args()
@@ -346,6 +361,10 @@ def main() -> None:
         for name in imported_names():
             if name.is_past and name.room == options.past:
                 print(f"{name.where}: {name.module} {name.name}")
+        return
+    if options.complex:
+        for count, where, name in complex_functions():
+            print(f"{count:3} {where} {name}")
         return
     rows = [*code_figures(), *install_figures()]
     if options.glossary:

@@ -82,3 +82,13 @@ def test_bodies_are_counted_without_heads_and_docstrings() -> None:
         " return 2\n"
     )
     assert measure_house.body_lines(ast.parse(source)) == 5
+
+
+def test_the_functions_that_part_too_often_are_listed_with_their_place(tmp_path: Path) -> None:
+    package = tmp_path / "amp_studio"
+    package.mkdir()
+    plain, hard = (
+        f"def {name}(a):\n" + "    if a:\n        a()\n" * ifs for name, ifs in (("f", 9), ("g", 10))
+    )
+    (package / "both.py").write_text(plain + hard, encoding="utf-8")
+    assert measure_house.complex_functions(package) == [(11, "amp_studio/both.py:20", "g")]
