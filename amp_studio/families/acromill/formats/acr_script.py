@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import chain
 
@@ -141,30 +141,44 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     _keep_unequal(lines, of_programs, schema, system)
     if options.keep_unknown:
         _set_aside_repeated(lines)
+    found.values.update(_values_of_lines(lines, schema, system, options))
+    found.kept = [line.text for line in lines if line.is_kept]
+    found.notes += _note_of_kept(found.kept)
+    keep_lines(found, _KIND, [_layout(line) for line in lines], always=not _is_ours(text, found, schema))
+    script = found.extra.get(f"{_KIND}_script")
+    if isinstance(script, dict) and "\r" not in text:
+        script["newline"] = "lf"
+    return found
+
+
+def _note_of_kept(kept: list[str]) -> Iterator[str]:
+    """Yield how many lines of a program are kept, and what they begin with."""
+    if kept:
+        first = sorted({_word_of(text) for text in kept})
+        count = f"{len(kept)} lines" if len(kept) > 1 else "1 line"
+        yield f"{count} of the program set nothing here, kept in their place: {', '.join(first)}"
+
+
+def _values_of_lines(
+    lines: list[_ScriptLine], schema: Schema, system: str, options: ReadOptions
+) -> dict[Address, Value]:
+    """Return what the lines set; raises FormatError for a line that is not understood,
+    and for what two of them set.
+    """
+    values: dict[Address, Value] = {}
     place: dict[CommandSetting, int] = {}
     for line in lines:
         if line.fault is not None and not options.keep_unknown:
             raise line.fault
         for argument in line.arguments:
             before = place.setdefault(argument.setting, line.number)
-            values = _values(schema, argument, line.number, system)
-            is_new = not any(found.values.get(address, value) != value for address, value in values.items())
-            if before != line.number or not is_new:
+            new = _values(schema, argument, line.number, system)
+            is_other = any(values.get(address, value) != value for address, value in new.items())
+            if before != line.number or is_other:
                 message = f"{argument.setting.name} occurs twice, in line {before} already"
                 raise FormatError(message, line.number, argument.column)
-            found.values.update(values)
-    found.kept = [line.text for line in lines if line.is_kept]
-    if found.kept:
-        first = sorted({_word_of(text) for text in found.kept})
-        count = f"{len(found.kept)} lines" if len(found.kept) > 1 else "1 line"
-        found.notes.append(
-            f"{count} of the program set nothing here, kept in their place: {', '.join(first)}"
-        )
-    keep_lines(found, _KIND, [_layout(line) for line in lines], always=not _is_ours(text, found, schema))
-    script = found.extra.get(f"{_KIND}_script")
-    if isinstance(script, dict) and "\r" not in text:
-        script["newline"] = "lf"
-    return found
+            values.update(new)
+    return values
 
 
 def _is_ours(text: str, result: TextRead, schema: Schema) -> bool:
@@ -264,10 +278,7 @@ def _forms(commands: list[Command]) -> dict[Address, set[str]]:
 
 def _arguments(line: _ScriptLine, commands: list[Command]) -> Iterator[CommandArgument]:
     """Yield the settings of a line; raises FormatError."""
-    word = re.match(r"\s*([A-Z]+)(?:\s+|$)", line.text, re.IGNORECASE)
-    known = [c for c in commands if word and c.word == word[1].upper()]
-    at = word.end() if word and known else len(line.text) - len(line.text.lstrip())
-    known = known or [c for c in commands if not c.word]
+    known, at = _known_at_begin(line.text, commands)
     is_first = True
     while is_first or not _BEHIND.fullmatch(line.text, at):
         argument = next((a for c in known if (a := c.read(line.text, at))), None)
@@ -275,6 +286,16 @@ def _arguments(line: _ScriptLine, commands: list[Command]) -> Iterator[CommandAr
             raise _not_read(line, at, known)
         yield argument
         at, is_first = argument.end, False
+
+
+def _known_at_begin(text: str, commands: list[Command]) -> tuple[list[Command], int]:
+    """Return the commands of the word that a line begins with, and where it goes on; without such a word
+    those that have none.
+    """
+    word = re.match(r"\s*([A-Z]+)(?:\s+|$)", text, re.IGNORECASE)
+    if word and (known := [c for c in commands if c.word == word[1].upper()]):
+        return known, word.end()
+    return [c for c in commands if not c.word], len(text) - len(text.lstrip())
 
 
 def _not_read(line: _ScriptLine, at: int, known: list[Command]) -> FormatError:
@@ -359,7 +380,10 @@ def _write(file: ParameterFile) -> str:
             .split()
         )
         return "\n".join([name, *units, *rows.values(), ""])
-    return "\n".join(_filled(file, layout, rows, units if system != default_system(file.schema) else []))
+    is_clear = system == default_system(file.schema) or any(
+        _UNITS.fullmatch(without_marks(row)) for row in layout
+    )
+    return "\n".join([*([] if is_clear else units), *_filled(file, layout, rows)])
 
 
 def _settings(file: ParameterFile) -> list[CommandSetting]:
@@ -394,15 +418,35 @@ def _row(file: ParameterFile, setting: CommandSetting, system: str) -> str:
     return setting.write(figures)
 
 
-def _filled(
-    file: ParameterFile, layout: list[str], rows: dict[Address, str], units: list[str]
-) -> Iterator[str]:
+def _filled(file: ParameterFile, layout: list[str], rows: dict[Address, str]) -> Iterator[str]:
     """Yield the lines of a kept script with the values of now;
     a new setting comes after all that go before it.
     """
     machine = file.machine
     commands = [*commands_of(file.schema, machine), *program_commands_of(file.schema, machine)]
-    kept_lines = {n: _kept_line(row, n, commands) for n, row in enumerate(layout) if _is_set(row)}
+    kept_lines = _kept_lines(layout, commands)
+    there = _line_of_each(layout, kept_lines, rows)
+    new = {place: [rows[a] for a in those] for place, those in neighbours(rows, there, there).items()}
+    named = {written(a): (a, row) for a, row in rows.items()}
+    system = system_of(file)
+    for n, row in enumerate(layout):
+        text, what = without_marks(row), marked(row)
+        if what is not None or (n == len(layout) - 1 and not text):
+            yield from new.pop(None, [])
+        if what is None:
+            yield _unit_remark(file, text, system)
+            continue
+        here, lines = _set_here(file, kept_lines.get(n), named.get(what), system)
+        yield from lines
+        for address in here:
+            yield from new.pop(address, [])
+    yield from new.pop(None, [])
+
+
+def _line_of_each(
+    layout: list[str], kept_lines: dict[int, _ScriptLine], rows: Iterable[Address]
+) -> dict[Address, int]:
+    """Return the line of the kept script that sets each address, of those that it sets."""
     at = {
         written(address): n
         for n, line in kept_lines.items()
@@ -410,46 +454,29 @@ def _filled(
         for address in argument.setting.addresses
     }
     at |= {what: n for n, row in enumerate(layout) if (what := marked(row)) and n not in kept_lines}
-    there = {a: at[written(a)] for a in rows if written(a) in at}
-    beside = neighbours(rows, there, there)
-    front = [rows[a] for a in beside.get(None, [])]
-    names = {written(a): a for a in rows}
-    system = system_of(file)
-    if units and not any(_UNITS.fullmatch(without_marks(row)) for row in layout):
-        yield units[0]
-    last = len(layout) - 1
+    return {a: at[written(a)] for a in rows if written(a) in at}
+
+
+def _set_here(
+    file: ParameterFile, line: _ScriptLine | None, new: tuple[Address, str] | None, system: str
+) -> tuple[list[Address], list[str]]:
+    """Return the addresses that a row of the layout sets, and its lines with the values of now: those of a
+    kept line as it was written, else the row as it is written ``new``.
+    """
+    if line is not None:
+        addresses = [a for argument in line.arguments for a in argument.setting.addresses[:1]]
+        return addresses, [text for text in [_with_values(file, line, system)] if text]
+    return ([new[0]], [new[1]]) if new else ([], [])
+
+
+def _kept_lines(layout: list[str], commands: list[Command]) -> dict[int, _ScriptLine]:
+    """Return the kept lines that set something; raises FormatError for one that sets nothing any more."""
+    lines: dict[int, _ScriptLine] = {}
     for n, row in enumerate(layout):
-        what = marked(row)
-        if what is None:
-            if n == last and not without_marks(row) and front:
-                yield from front
-                front = []
-            yield _unit_remark(file, without_marks(row), system)
-            continue
-        yield from front
-        front = []
-        if n in kept_lines:
-            line = kept_lines[n]
-            if text := _with_values(file, line, system):
-                yield text
-            here = [a for argument in line.arguments for a in argument.setting.addresses[:1]]
-        else:
-            here = [names[what]] if what in names else []
-            yield from (rows[a] for a in here)
-        for address in here:
-            yield from (rows[a] for a in beside.pop(address, []))
-    yield from front
-
-
-def _is_set(row: str) -> bool:
-    return (marked(row) or "").startswith(_SET)
-
-
-def _kept_line(row: str, n: int, commands: list[Command]) -> _ScriptLine:
-    """Return a kept line with its settings; raises FormatError for one that sets nothing any more."""
-    line = _ScriptLine(n + 1, (marked(row) or "").removeprefix(_SET))
-    line.arguments = list(_arguments(line, commands))
-    return line
+        if (what := marked(row) or "").startswith(_SET):
+            lines[n] = _ScriptLine(n + 1, what.removeprefix(_SET))
+            lines[n].arguments = list(_arguments(lines[n], commands))
+    return lines
 
 
 def _unit_remark(file: ParameterFile, text: str, system: str) -> str:

@@ -22,6 +22,7 @@ import re
 from collections.abc import Container, Iterator
 from dataclasses import dataclass, field
 from html import unescape
+from typing import NamedTuple
 
 from amp_studio.formats import FormatError
 
@@ -34,6 +35,7 @@ _UNIT = r"(?:[uµm]?s(?:ec)?|mm(?:/\S+)?|steps?/\S+|rpm|hz)(?:\s.*)?"
 _SETTING = re.compile(r"\$(0|[1-9][0-9]{0,4})([\"'`*]{0,4})[ \t]*(:?=|[:|,;\t])[ \t]*")
 _BARE = re.compile(rf"(?:grbl_)?(0|[1-9][0-9]{{0,2}})[ \t]*=[ \t]*({_NUMBER}|{_IP})[ \t]*(?:[(;].*)?")
 _DIGIT = re.compile("[0-9]")
+_FIGURE = re.compile(rf"(?:{_IP}|{_NUMBER})(?![\w.:])")
 _SPLIT = re.compile(r"^\$[ ](?=[0-9]{1,5}[ ]*=)")
 _COLUMNS = re.compile(rf"\$(0|[1-9][0-9]{{0,4}})[ ]+({_NUMBER})(?:[ ]{{2,}}(.*)|[ ]?([(;#].*))?")
 _CELLS = "|;\t,"
@@ -201,32 +203,61 @@ def _in_one_line(match: re.Match[str]) -> str:
 
 
 def _read(text: str, *, anywhere: bool) -> Log:
-    found, parts = Log(), [LoggedListing()]
-    heading, before, is_apart = "", (0, 0), False
-    """``before`` is number and line of the setting of the line before."""
+    reader = _Reader()
     for n, whole, line, pieces in _lines(text, anywhere):
-        if not pieces and "$N" in line and (startup := _STARTUP.fullmatch(_plain(line))):
-            found.startup[startup[1]] = startup[2].strip()
-        elif not pieces and _REFUSED.match(line) and before[1] == n - 1:
-            _refuse(found, parts, *before)
-        elif not pieces:
-            _take_fact(found, whole)
-            if _is_other(line):
-                found.others.append((n, whole))
-                is_apart = True
-            if _is_heading(whole) or (_is_other(line) and not _is_heading(heading)):
-                heading = whole.strip("#=* ")
-        for number, value, remark, rest, is_bare in pieces:
-            begins = number in parts[-1].settings or (is_apart and number < before[0])
-            if begins and parts[-1].settings and len(parts) < _MOST_LISTINGS:
-                parts.append(LoggedListing(is_apart=is_apart))
-            is_apart = False
-            parts[-1].heading, heading = parts[-1].heading or heading, ""
-            parts[-1].put(number, value, n, remark, rest)
-            found.bare += [n] * is_bare
-            before = number, n
-    found.listings = _whole([part for part in parts if part.settings])
-    return found
+        if not pieces:
+            reader.take_other_line(n, whole, line)
+        for piece in pieces:
+            reader.take_setting(n, piece)
+    return reader.finished()
+
+
+class _Reader:
+    """Sorts the lines of a log into listings, line by line: a listing ends where a number comes again."""
+
+    def __init__(self) -> None:
+        self.log = Log()
+        self.parts = [LoggedListing()]
+        self.heading = ""
+        self.before = (0, 0)
+        """Number and line of the last setting."""
+        self.is_apart = False
+        """A line that is no setting came after it."""
+
+    def take_other_line(self, n: int, whole: str, line: str) -> None:
+        """Take a line without a setting."""
+        if "$N" in line and (startup := _STARTUP.fullmatch(_plain(line))):
+            self.log.startup[startup[1]] = startup[2].strip()
+            return
+        if _REFUSED.match(line) and self.before[1] == n - 1:
+            _refuse(self.log, self.parts, *self.before)
+            return
+        _take_fact(self.log, whole)
+        is_other = _is_other(line)
+        if is_other:
+            self.log.others.append((n, whole))
+            self.is_apart = True
+        if _is_heading(whole) or (is_other and not _is_heading(self.heading)):
+            self.heading = whole.strip("#=* ")
+
+    def take_setting(self, n: int, piece: _Piece) -> None:
+        """Take a setting of a line."""
+        number, value, remark, rest, is_bare = piece
+        part = self.parts[-1]
+        begins = number in part.settings or (self.is_apart and number < self.before[0])
+        if begins and part.settings and len(self.parts) < _MOST_LISTINGS:
+            part = LoggedListing(is_apart=self.is_apart)
+            self.parts.append(part)
+        self.is_apart = False
+        part.heading, self.heading = part.heading or self.heading, ""
+        part.put(number, value, n, remark, rest)
+        self.log.bare += [n] * is_bare
+        self.before = number, n
+
+    def finished(self) -> Log:
+        """Return what was read."""
+        self.log.listings = _whole([part for part in self.parts if part.settings])
+        return self.log
 
 
 _Piece = tuple[int, str, str, str, bool]
@@ -263,7 +294,7 @@ def _plain(whole: str) -> str:
 
 
 def _settings(whole: str, line: str, anywhere: bool) -> Iterator[_Piece]:
-    """Yield the settings of a line."""
+    """Yield the settings of a line: one without its sign, one in columns, or those behind their signs."""
     if not _DIGIT.search(line):
         return  # most lines of a text that is made to cost time
     if match := _BARE.fullmatch(line):
@@ -277,42 +308,67 @@ def _settings(whole: str, line: str, anywhere: bool) -> Iterator[_Piece]:
         return
     if anywhere:
         line = re.sub(r"^\([^)]*\)\s*", "", line)
-    if _REMARK.match(line):
-        return
+    if not _REMARK.match(line):
+        yield from _settings_with_sign(whole, line, anywhere)
+
+
+def _settings_with_sign(whole: str, line: str, anywhere: bool) -> Iterator[_Piece]:
+    """Yield the settings of a line that are a number, a sign and a value; a cell of a table is the last."""
     ahead = _SETTING.search(line) if anywhere else _SETTING.match(line)
+    begins_plainly = line[:1] == "$" and whole[:1] not in "\"'`|*{[,"
     while ahead:
-        if ahead[3] in _CELLS and (value := _cell(line[ahead.end() :][:_LONGEST_VALUE], ahead[3])):
-            yield int(ahead[1]), value, "", "", False
+        number, sign, behind = int(ahead[1]), ahead[3], line[ahead.end() :][:_LONGEST_VALUE]
+        if sign in _CELLS and (cell := _cell(behind, sign)):
+            yield number, cell, "", "", False
             return
-        end = _END_OF_VALUE.search(line, ahead.end(), ahead.end() + _LONGEST_VALUE)
-        stop = end.start() if end else len(line)
-        following = _SETTING.search(line, ahead.end(), min(stop, ahead.end() + _LONGEST_VALUE))
-        value = line[ahead.end() : following.start() if following else stop].strip()
-        is_quoted = bool(ahead[2]) or value[:1] in ('"', "'", "`")
-        if ahead[3] in "|;\t,":
-            value = value.lstrip("\"'`* ").split(ahead[3], 1)[0]
-        value = value.lstrip("\"'`* " if ahead[2] else "\"'` ")
-        if is_quoted or following:
-            value = re.split(r"[\"'`*]|[,;|}\]]\s*$", value, maxsplit=1)[0]
-        value = value.strip().strip("\"'`* " if ahead[2] else "\"'` ")
-        if (
-            ahead[3] not in ("=", ":=")
-            and not is_quoted
-            and not re.match(rf"(?:{_IP}|{_NUMBER})(?![\w.:])", value)
-        ):
+        value = _value_behind(line, ahead)
+        if not value.is_certain:
             return
-        is_plain = (
-            ahead[3] == "="
-            and not is_quoted
-            and not following
-            and line[:1] == "$"
-            and whole[:1] not in "\"'`|*{[,"
-        )
-        rest = (
-            _FOLLOWING.split(line[ahead.end() :][:_LONGEST_VALUE], maxsplit=1)[0].strip() if is_plain else ""
-        )
-        yield int(ahead[1]), value, "" if following else line[stop:].strip("(;) \t"), rest, False
-        ahead = following
+        rest = _FOLLOWING.split(behind, maxsplit=1)[0].strip()
+        is_plain = sign == "=" and value.is_alone and begins_plainly
+        yield number, value.text, value.remark, rest if is_plain else "", False
+        ahead = value.following
+
+
+class _ValueText(NamedTuple):
+    """What is behind the sign of a setting."""
+
+    text: str
+    remark: str
+    is_quoted: bool
+    is_certain: bool
+    """A value, not a word of a sentence: behind an equals sign, in quotes, or a figure."""
+    following: re.Match[str] | None
+    """The next setting of the line."""
+
+    @property
+    def is_alone(self) -> bool:
+        return not self.is_quoted and not self.following
+
+
+def _value_behind(line: str, ahead: re.Match[str]) -> _ValueText:
+    """Return the value behind a number and its sign, without the marks around it."""
+    begin, most = ahead.end(), ahead.end() + _LONGEST_VALUE
+    end = _END_OF_VALUE.search(line, begin, most)
+    stop = end.start() if end else len(line)
+    following = _SETTING.search(line, begin, min(stop, most))
+    text = line[begin : following.start() if following else stop].strip()
+    is_quoted = bool(ahead[2]) or text[:1] in ('"', "'", "`")
+    text = _without_marks(text, ahead, ends_there=is_quoted or following is not None)
+    remark = "" if following else line[stop:].strip("(;) \t")
+    is_certain = ahead[3] in ("=", ":=") or is_quoted or bool(_FIGURE.match(text))
+    return _ValueText(text, remark, is_quoted, is_certain, following)
+
+
+def _without_marks(text: str, ahead: re.Match[str], *, ends_there: bool) -> str:
+    """Return a value without the marks around it, and up to the cell or mark that ends it."""
+    marks = "\"'`* " if ahead[2] else "\"'` "
+    if ahead[3] in _CELLS:
+        text = text.lstrip("\"'`* ").split(ahead[3], 1)[0]
+    text = text.lstrip(marks)
+    if ends_there:
+        text = re.split(r"[\"'`*]|[,;|}\]]\s*$", text, maxsplit=1)[0]
+    return text.strip().strip(marks)
 
 
 def _cell(cells: str, sign: str) -> str:
