@@ -72,14 +72,11 @@ class AxisFigures:
 
 def figures(measurement: Measurement) -> AxisFigures:
     """Return the figures of a measurement."""
-    rising, falling = (
-        {at: [float(v) for v in values] for at, values in measurement.errors(rising=side).items()}
-        for side in (True, False)
-    )
+    rising, falling = _errors(measurement, rising=True), _errors(measurement, rising=False)
     targets = tuple(_target(at, rising.get(at), falling.get(at)) for at in measurement.targets)
-    reversals = [t.reversal for t in targets if t.reversal is not None]
-    up = [(t.mean_rising, t.spread_rising) for t in targets if t.mean_rising is not None]
-    down = [(t.mean_falling, t.spread_falling) for t in targets if t.mean_falling is not None]
+    reversals = _known(t.reversal for t in targets)
+    up = _measured((t.mean_rising, t.spread_rising) for t in targets)
+    down = _measured((t.mean_falling, t.spread_falling) for t in targets)
     both = [*up, *down] if up and down else []
     directions = Counter(run.rising for run in measurement.runs)
     return AxisFigures(
@@ -87,18 +84,31 @@ def figures(measurement: Measurement) -> AxisFigures:
         directions[True],
         directions[False],
         max(map(abs, reversals), default=None),
-        math.fsum(reversals) / len(reversals) if reversals else None,
-        _range([t.mean for t in targets if t.mean is not None]),
+        _mean(reversals),
+        _range(_known(t.mean for t in targets)),
         _range_of_means(up),
         _range_of_means(down),
         _range_of_means(both),
         _fourfold(up),
         _fourfold(down),
-        _largest(_repeatability(t) for t in targets) if both else None,
+        _largest(_repeatability(t) for t in targets),
         _accuracy(up),
         _accuracy(down),
         _accuracy(both),
     )
+
+
+def _errors(measurement: Measurement, *, rising: bool) -> dict[Fraction, list[float]]:
+    return {at: [float(v) for v in values] for at, values in measurement.errors(rising=rising).items()}
+
+
+def _known(values: Iterable[float | None]) -> list[float]:
+    return [value for value in values if value is not None]
+
+
+def _measured(targets: Iterable[tuple[float | None, float | None]]) -> list[tuple[float, float | None]]:
+    """Return mean and spread of the targets that were reached."""
+    return [(mean, spread) for mean, spread in targets if mean is not None]
 
 
 def _target(at: Fraction, rising: list[float] | None, falling: list[float] | None) -> TargetFigures:

@@ -94,11 +94,29 @@ def _offered(file: ParameterFile) -> Compensation:
     return offered
 
 
-def _left_over(curve: ErrorCurve, added: ErrorCurve, removed: ErrorCurve, shift: Fraction) -> ErrorCurve:
-    """Return the error that is left of a measured one: what was compensated already comes on top, what will
-    be compensated is taken off.
+def _left_over(
+    sides: Mapping[bool, ErrorCurve], added: ErrorCurve, removed: ErrorCurve, lost: Fraction
+) -> dict[bool, ErrorCurve]:
+    """Return the errors that are left of the measured ones: what was compensated already comes on top, what
+    will be compensated is taken off; half of the lost motion is missing in each direction.
     """
-    return ErrorCurve(tuple((at, e + added.at(at) - removed.at(at) + shift) for at, e in curve.points))
+    shifts = {True: lost / 2, False: -lost / 2}
+    return {
+        side: ErrorCurve(
+            tuple((at, e + added.at(at) - removed.at(at) + shifts[side]) for at, e in curve.points)
+        )
+        for side, curve in sides.items()
+    }
+
+
+def _refuse_compensated(present: CalibrationTable | None, old: Fraction) -> None:
+    """Raise CalibrationError for an axis that is compensated: of its errors it must be known whether they
+    are what is left.
+    """
+    if present is not None or old:
+        raise CalibrationError(
+            "the axis is compensated already: name whether it was measured with compensation on or off"
+        )
 
 
 def propose(file: ParameterFile, axis: str, measurement: Measurement, wish: Wish) -> Proposal:
@@ -109,40 +127,45 @@ def propose(file: ParameterFile, axis: str, measurement: Measurement, wish: Wish
     check_unit(file, offered, axis, measurement.unit)
     present = _present(file, offered, axis, wish)
     old = lost_motion(file, offered, axis)
-    if wish.was_on is None and (present is not None or old):
-        raise CalibrationError(
-            "the axis is compensated already: name whether it was measured with compensation on or off"
-        )
+    if wish.was_on is None:
+        _refuse_compensated(present, old)
     # What was measured with compensation on is the error that it leaves: it comes on top.
     was_on = bool(wish.was_on)
     on = old if was_on else Fraction(0)
     notes = [*measurement.notes]
     if measurement.is_circle:
         return _of_circle(file, offered, axis, measurement, wish, on, notes)
-    sides = {side: mean_curve(measurement, side) for side in (True, False)}
-    sides = {side: curve for side, curve in sides.items() if curve.points}
+    sides = _mean_curves(measurement)
     raw = mean_curve(measurement)
     if not raw.points:
         raise CalibrationError("no target was reached from both directions")
-    added = present.curve if was_on and present is not None else ErrorCurve(())
+    added = _curve_of(present if was_on else None)
     settings: dict[Address, Value] = {}
     table = reversal = None
     if wish.table:
         table = _table(file, offered, axis, _plus(raw, added), wish, present, settings, notes)
     if wish.reversal:
         reversal = _reversal(file, offered, axis, measurement, on, settings, notes)
-    used = table or present
-    removed = used.curve if used else ErrorCurve(())
+    removed = _curve_of(table or present)
     lost = (reversal[1] if reversal else old) - on
     if len(sides) == 1:
         notes.append("measured in one direction only: the lost motion is not known")
         lost = Fraction(0)
-    # Half of the lost motion is missing in each direction.
-    shifts = {True: lost / 2, False: -lost / 2}
-    after = {side: _left_over(curve, added, removed, shifts[side]) for side, curve in sides.items()}
+    after = _left_over(sides, added, removed, lost)
     return Proposal(
         axis, measurement.unit, settings, table, reversal, figures(measurement), sides, after, tuple(notes)
     )
+
+
+def _mean_curves(measurement: Measurement) -> dict[bool, ErrorCurve]:
+    """Return the mean errors of each direction that was measured; ``True`` is the rising one."""
+    sides = {side: mean_curve(measurement, side) for side in (True, False)}
+    return {side: curve for side, curve in sides.items() if curve.points}
+
+
+def _curve_of(table: CalibrationTable | None) -> ErrorCurve:
+    """Return what a table takes away; no points without one."""
+    return table.curve if table is not None else ErrorCurve(())
 
 
 def _present(file: ParameterFile, offered: Compensation, axis: str, wish: Wish) -> CalibrationTable | None:
@@ -173,8 +196,7 @@ def _of_circle(
     notes.append("a ball-bar gives the reversal error of the axis and no calibration table")
     lost = lost_motions(measurement, wish.circle)
     reversal = _reversal_of(file, offered, axis, lost, on, settings, notes) if wish.reversal else None
-    curves = {side: mean_curve(measurement, side) for side in (True, False)}
-    curves = {side: curve for side, curve in curves.items() if curve.points}
+    curves = _mean_curves(measurement)
     return Proposal(axis, "deg", settings, None, reversal, figures(measurement), curves, curves, tuple(notes))
 
 
@@ -332,14 +354,21 @@ def _reversal_of(
     # In fractions up to here: what is shown as the remaining error is computed with the figure that the
     # control gets, to its last digit.
     value, made = rounded(file, address, total)
-    present = file.get(address)
-    if not offered.is_signed and present is not None and not isinstance(present.value, (str, bool)):
-        value = Value(-value.value if present.value < 0 and value.value else value.value, value.unit)  # type: ignore[operator]  # a rounded value is a number
+    if not offered.is_signed:
+        value = _with_sign_of(value, file.get(address))
     if message := fault(file.evaluation, address, value):
         notes.append(f"no reversal error is proposed: {message}")
         return None
     settings[address] = value
     return lost_motion(file, offered, axis), made
+
+
+def _with_sign_of(value: Value, present: Value | None) -> Value:
+    """Return an amount with the sign of the value that the file has: there it decides nothing, and stays."""
+    number = present.value if present is not None else None
+    if isinstance(number, (str, bool)) or number is None or number >= 0 or not value.value:
+        return value
+    return Value(-value.value, value.unit)  # type: ignore[operator]  # a rounded value is a number
 
 
 def rounded(file: ParameterFile, address: Address, amount: Fraction) -> tuple[Value, Fraction]:

@@ -9,6 +9,7 @@ linear measurements; for any other kind the units are asked.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from fractions import Fraction
 
 from .errors import MeasurementError
@@ -30,39 +31,51 @@ def read(text: str, usual_unit: str) -> RawTable:
     targets: list[Fraction] = []
     runs: dict[int, dict[int, Fraction]] = {}
     facts: dict[str, str] = {}
-    section = entry = ""
-    for n, line in enumerate(text.splitlines(), 1):
-        words = line.strip()
-        if not words:
-            continue
-        if match := _SECTION.fullmatch(words):
-            section, entry = match[1], ""
-        elif match := _ENTRY.fullmatch(words):
-            entry = match[1].casefold()
-            facts[entry] = match[2]
-            if entry == "targets":
-                targets += _targets(match[2], n)
-        elif section == "TARGET DATA" and entry == "targets":
+    for n, section, entry, words in _lines(text):
+        if section is None:
+            facts[entry] = words
+        if entry == "targets" and section in (None, "TARGET DATA"):
             targets += _targets(words, n)
-        elif section == "DEVIATIONS" and entry == "run target data":
-            run, target, deviation = _point(words, n)
-            if target > len(targets):
-                raise MeasurementError(f"there is no target {target}", n)
-            if target in runs.setdefault(run, {}):
-                raise MeasurementError(f"run {run} has target {target} twice", n)
-            runs[run][target] = deviation
+        elif (section, entry) == ("DEVIATIONS", "run target data"):
+            _add_point(runs, len(targets), words, n)
     _check_counts(facts, len(targets), len(runs))
     linear = facts.get("filetype", "linear").casefold().startswith("linear") and usual_unit == "mm"
+    note = "read as a Renishaw file: target positions in mm, deviations in µm"
+    units, notes = (("mm", "um"), (note,)) if linear else (("", ""), ())
     return RawTable(
         tuple(
             RawRun(None, tuple((targets[target - 1], by) for target, by in points.items()))
             for _, points in sorted(runs.items())
         ),
         "error",
-        "mm" if linear else "",
-        "um" if linear else "",
-        ("read as a Renishaw file: target positions in mm, deviations in µm",) if linear else (),
+        *units,
+        notes,
     )
+
+
+def _lines(text: str) -> Iterator[tuple[int, str | None, str, str]]:
+    """Yield number, section, entry and words of each line below an entry;
+    of the words behind its colon the same, without a section.
+    """
+    section = entry = ""
+    for n, line in enumerate(text.splitlines(), 1):
+        words = line.strip()
+        if match := _SECTION.fullmatch(words):
+            section, entry = match[1], ""
+        elif match := _ENTRY.fullmatch(words):
+            entry = match[1].casefold()
+            yield n, None, entry, match[2]
+        elif words:
+            yield n, section, entry, words
+
+
+def _add_point(runs: dict[int, dict[int, Fraction]], targets: int, words: str, n: int) -> None:
+    run, target, deviation = _point(words, n)
+    if target > targets:
+        raise MeasurementError(f"there is no target {target}", n)
+    if target in runs.setdefault(run, {}):
+        raise MeasurementError(f"run {run} has target {target} twice", n)
+    runs[run][target] = deviation
 
 
 def _targets(words: str, n: int) -> list[Fraction]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from typing import TypeVar
 
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema import Address, axis_name, load_part, registration_of, unknown_name
@@ -25,6 +26,7 @@ from .tuning.trial import Trial
 from .unit_system import axis_unit, in_unit, length_unit
 from .variations.scenario import Way
 
+_V = TypeVar("_V")
 POINTS = ("move.start", "move.to", "move.zone")
 """Settings that have a figure for each of several axes, or several figures."""
 
@@ -54,30 +56,48 @@ def simulate(
     length = length_unit(file, system)
     unit = axis_unit(file, axis or next(iter(law.axes(file)), ""), length)
     # A point has a figure for each axis: it is read by its scenario.
-    points = POINTS if axis and "," in axis else ()
-    texts = {name: value for name, value in (settings or {}).items() if name in points}
-    rest = {name: value for name, value in (settings or {}).items() if name not in points}
+    names = axis or ""
+    texts, rest = _parted(settings or {}, (POINTS if "," in names else ()).__contains__)
     given, written = read_settings(rest, known_settings(law, scenario), unit)
-    given |= texts
-    model = {name: value for name, value in given.items() if name.startswith("model.")}
-    own = {
-        **(like.move if like else {}),
-        **{name: value for name, value in given.items() if name not in model},
-    }
+    model, own = _parted({**given, **texts}, lambda name: name.startswith("model."))
+    if like:
+        own = {**like.move, **own}
     read: list[Address] = []
     whole = _whole_run(law, scenario, axis)
     if whole is not None:
-        names = tuple(each.strip() for each in (axis or "").split(",") if each.strip())
-        trace = whole(bound_machine(file, law, names, model, read.append), own)
-        letter = ",".join(axis_name(file.evaluation, each) or each for each in trace.axis.split(",") if each)
+        trace = whole(bound_machine(file, law, _listed(names), model, read.append), own)
+        letter = _letters(file, trace.axis)
     else:
         bound = bind_axis(file, law, axis, model, read.append)
         refuse_other_unit(written, bound.axis, bound.unit)
         letter = axis_name(file.evaluation, bound.axis)
         trace = _of_one_axis(scenario, file, law, bound, model, own, way, advise=advise)
-    if advise or whole is not None or scenario in law.own or SCENARIOS[scenario].tried:
+    if advise or whole is not None or _always_doubts(law, scenario):
         trace = replace(trace, doubts=doubts(file, read, model))
     return in_unit(_named(trace, letter), length)
+
+
+def _parted(
+    settings: Mapping[str, _V], is_first: Callable[[str], bool]
+) -> tuple[dict[str, _V], dict[str, _V]]:
+    """Return the settings whose names are of the first kind, and the others."""
+    first = {name: value for name, value in settings.items() if is_first(name)}
+    return first, {name: value for name, value in settings.items() if name not in first}
+
+
+def _letters(file: ParameterFile, axes: str) -> str:
+    return ",".join(axis_name(file.evaluation, each) or each for each in _listed(axes))
+
+
+def _always_doubts(law: Law, scenario: str) -> bool:
+    """Return whether a scenario names its doubts even without recommendations: one that the law
+    brings, and one that tries gains.
+    """
+    return scenario in law.own or SCENARIOS[scenario].tried
+
+
+def _listed(axes: str) -> tuple[str, ...]:
+    return tuple(each.strip() for each in axes.split(",") if each.strip())
 
 
 def _refuse_unknown_scenario(file: ParameterFile, law: Law, scenario: str) -> None:

@@ -13,13 +13,9 @@ from .number_text import sharing_numbers
 
 def definition(schema: Schema, parameter: Parameter) -> dict[str, Any]:
     """Return one parameter definition in the form of ``schema --json``."""
-    machines = [m.key for m in schema.family.machines]
     layout = schema.on(schema.family.default_machine).layout(parameter)
-    printed = {m: schema.on(m).numbers(parameter) for m in machines}
-    # A number that the manual prints by mistake addresses another parameter: it is no number of this one.
-    numbers = {m: {} if schema.on(m).is_disputed(parameter.id) else n for m, n in printed.items()}
-    instances = {m: list(schema.on(m).instances(parameter)) for m in machines}
-    errata = " ".join(erratum_text(schema.errata[e]) for e in parameter.errata if e in schema.errata)
+    numbers = _numbers(schema, parameter)
+    instances = {m: list(schema.on(m).instances(parameter)) for m in numbers}
     return {
         "id": parameter.id,
         "name": parameter.name,
@@ -39,30 +35,63 @@ def definition(schema: Schema, parameter: Parameter) -> dict[str, Any]:
         "help": _help(parameter),
         "source": {"document": schema.family.document, "page": parameter.page}
         | _present({"pages": parameter.pages}),
-        "errata": errata or None,
+        "errata": _errata(schema, parameter) or None,
         "effect": (parameter.effect or schema.family.effect).model_dump(exclude_none=True),
         "patch": parameter.patchable,
         "access": parameter.access,
-    } | _present(
-        {
-            **{grade: _dumped(getattr(parameter.help, grade)) for grade in GRADES.values()},
-            "bare": parameter.bare,
-            "range_variants": [
-                {"when": v.when, "ranges": _ranges(v.ranges)} for v in parameter.range_variants
-            ],
-            "bits": [b.model_dump(exclude_none=True) for b in parameter.bits or ()],
-            "numbers_by_machine": {} if _is_same(numbers) else numbers,
-            "instances_by_machine": instances if len({tuple(i) for i in instances.values() if i}) > 1 else {},
-            "numbers_disputed": any(schema.on(m).is_disputed(parameter.id) for m in machines),
-            "printed_numbers": next((n for m, n in printed.items() if n != numbers[m]), {}),
-            "numbers_also_printed_for": sharing_numbers(schema, parameter),
-            "optional": parameter.optional,
-            "secret": parameter.secret,
-            "formulas": list(parameter.formulas),
-            "needs": _dumped(parameter.needs),
-            "storage": parameter.storage.model_dump(exclude_none=True) if parameter.storage else None,
-        }
-    )
+    } | _present(_facts_of_some(schema, parameter, numbers, instances))
+
+
+def _errata(schema: Schema, parameter: Parameter) -> str:
+    return " ".join(erratum_text(schema.errata[e]) for e in parameter.errata if e in schema.errata)
+
+
+def _facts_of_some(
+    schema: Schema,
+    parameter: Parameter,
+    numbers: Mapping[str, Mapping[str, str]],
+    instances: Mapping[str, list[str]],
+) -> dict[str, Any]:
+    """Return the facts that only some parameters have, empty where one has none; ``numbers`` and
+    ``instances`` by machine type.
+    """
+    return {
+        **{grade: _dumped(getattr(parameter.help, grade)) for grade in GRADES.values()},
+        "bare": parameter.bare,
+        "range_variants": [{"when": v.when, "ranges": _ranges(v.ranges)} for v in parameter.range_variants],
+        "bits": [b.model_dump(exclude_none=True) for b in parameter.bits or ()],
+        **_differences_of_machines(schema, parameter, numbers, instances),
+        "numbers_also_printed_for": sharing_numbers(schema, parameter),
+        "optional": parameter.optional,
+        "secret": parameter.secret,
+        "formulas": list(parameter.formulas),
+        "needs": _dumped(parameter.needs),
+        "storage": parameter.storage.model_dump(exclude_none=True) if parameter.storage else None,
+    }
+
+
+def _differences_of_machines(
+    schema: Schema,
+    parameter: Parameter,
+    numbers: Mapping[str, Mapping[str, str]],
+    instances: Mapping[str, list[str]],
+) -> dict[str, Any]:
+    """Return numbers and instances where the machine types differ in them, and numbers printed by mistake."""
+    printed = {m: schema.on(m).numbers(parameter) for m in numbers}
+    return {
+        "numbers_by_machine": {} if _is_same(numbers) else numbers,
+        "instances_by_machine": instances if len({tuple(i) for i in instances.values() if i}) > 1 else {},
+        "numbers_disputed": any(schema.on(m).is_disputed(parameter.id) for m in numbers),
+        "printed_numbers": next((n for m, n in printed.items() if n != numbers[m]), {}),
+    }
+
+
+def _numbers(schema: Schema, parameter: Parameter) -> dict[str, Mapping[str, str]]:
+    """Return the numbers of a parameter on each machine type. One that the manual prints by mistake
+    addresses another parameter: it is no number of this one.
+    """
+    on = {m.key: schema.on(m.key) for m in schema.family.machines}
+    return {m: {} if on[m].is_disputed(parameter.id) else on[m].numbers(parameter) for m in on}
 
 
 def _present(facts: dict[str, Any]) -> dict[str, Any]:

@@ -132,23 +132,42 @@ def _limits(machine: BoundMachine, axes: Mapping[str, AxisLaw]) -> Iterator[Zone
 
 def crossing(zone: Zone, start: AxisPoint, to: AxisPoint) -> float | None:
     """Return the share of a straight way at which a zone is broken; None where it is not."""
-    inside: list[tuple[float, float]] = []
-    for axis, (low, high) in zone.sides.items():
-        if axis not in to:
-            continue
-        way = to[axis] - start[axis]
-        if way == 0.0:
-            inside.append((-math.inf, math.inf) if low < start[axis] < high else (math.inf, -math.inf))
-            continue
-        ends = sorted(((low - start[axis]) / way, (high - start[axis]) / way))
-        inside.append((ends[0], ends[1]))
-    if zone.guard == "inside":
-        first = min(end for begin, end in inside if begin <= end) if inside else math.inf
-        return first if first < 1.0 - 1e-12 else None
+    inside = [
+        _share_inside(sides, start[axis], to[axis] - start[axis])
+        for axis, sides in zone.sides.items()
+        if axis in to
+    ]
     if not inside:
         return None
+    return _left_at(inside) if zone.guard == "inside" else _entered_at(inside)
+
+
+ALMOST_THERE = 1.0 - 1e-12
+"""A way that ends on an edge does not break it: the last digits of its share are those of the division."""
+
+
+def _left_at(inside: Sequence[tuple[float, float]]) -> float | None:
+    """Return where the first axis leaves its sides."""
+    # An axis that rests on an edge is not between its sides and leaves them nowhere.
+    first = min((end for begin, end in inside if begin <= end), default=math.inf)
+    return first if first < ALMOST_THERE else None
+
+
+def _entered_at(inside: Sequence[tuple[float, float]]) -> float | None:
+    """Return where all axes are between their sides."""
     begin, end = max(each[0] for each in inside), min(each[1] for each in inside)
-    return max(begin, 0.0) if begin < end and end > 0.0 and begin < 1.0 - 1e-12 else None
+    return max(begin, 0.0) if begin < end and end > 0.0 and begin < ALMOST_THERE else None
+
+
+def _share_inside(sides: tuple[float, float], start: float, way: float) -> tuple[float, float]:
+    """Return from which share of its way to which an axis is between two sides;
+    the first is above the second where it never is.
+    """
+    low, high = sides
+    if way == 0.0:
+        return (-math.inf, math.inf) if low < start < high else (math.inf, -math.inf)
+    first, last = sorted(((low - start) / way, (high - start) / way))
+    return first, last
 
 
 @dataclass(frozen=True)
@@ -197,19 +216,11 @@ def _travelled(
     unit = _unit(axes)
     alarms = _alarms(line, first, hit, unit) if refused or hit else ()
     letters = {name: machine.letter(name) or name for name in axes}
-    last = {name: float(columns[f"position_{letter}"][-1]) for name, letter in letters.items()}
-    gone = math.sqrt(sum((last[name] - start[name]) ** 2 for name in axes))
+    stops = {name: float(columns[f"position_{letter}"][-1]) for name, letter in letters.items()}
     edge = None if first is None else first[0] * line.length
-    result: dict[str, Figure] = {
-        "feedrate": (line.feed * 60.0, f"{unit}/min"),
-        "distance": (line.length, unit),
-        "limit": (edge, unit),
-        "stop_position": (gone, unit),
-        "overrun": (gone - edge if hit is not None and edge is not None else None, unit),
-        "time": (float(columns["time_s"][-1]), "s"),
-        "reaches_target": (float(not alarms), ""),
-    }
-    result |= {f"stop_position_{letter}": (last[name], unit) for name, letter in letters.items()}
+    result = _figures(line, edge, stops, float(columns["time_s"][-1]), unit, is_past_edge=hit is not None)
+    result["reaches_target"] = (float(not alarms), "")
+    result |= {f"stop_position_{letter}": (stops[name], unit) for name, letter in letters.items()}
     first_axis = next(iter(axes.values()))
     return Trace(
         scenario="travel",
@@ -220,15 +231,25 @@ def _travelled(
         result=result,
         alarms=alarms,
         recommendations=(),
-        assumptions=(
-            *_notes(machine, axes, zones),
-            BY_LINE,
-            AT_ONCE,
-            *assumptions(next(iter(axes.values()))),
-        ),
+        assumptions=(*_notes(machine, axes, zones), BY_LINE, AT_ONCE, *assumptions(first_axis)),
         limits={},
         areas=tuple(_areas(zones, tuple(axes)[:2], start, to)),
     )
+
+
+def _figures(
+    line: _Line, edge: float | None, stops: AxisPoint, time: float, unit: str, *, is_past_edge: bool
+) -> dict[str, Figure]:
+    """Return what came of a way along a line; ``edge`` is how far along it the first zone is."""
+    gone = math.sqrt(sum((stop - line.start[name]) ** 2 for name, stop in stops.items()))
+    return {
+        "feedrate": (line.feed * 60.0, f"{unit}/min"),
+        "distance": (line.length, unit),
+        "limit": (edge, unit),
+        "stop_position": (gone, unit),
+        "overrun": (gone - edge if is_past_edge and edge is not None else None, unit),
+        "time": (time, "s"),
+    }
 
 
 def _alarms(
@@ -287,12 +308,8 @@ def _moved(
         return {name: line.start[name] + course.measured for name, course in courses.items()}
 
     hit: tuple[Zone, float] | None = None
-    while any(course.is_busy for course in courses.values()):
-        room = min((zone.room(place()) for zone in zones), default=math.inf)
-        periods = 1 if hit else MOST_PERIODS
-        if not hit and math.isfinite(room):
-            # At most half of the way to the nearest edge, so that no zone is passed between two looks.
-            periods = max(1, min(MOST_PERIODS, int(0.5 * room / (line.feed * period))))
+    while _is_going(courses):
+        periods = 1 if hit else _periods_to_next_look(zones, place(), line.feed * period)
         for course in courses.values():
             course.advance(periods * period)
         here = place()
@@ -301,9 +318,22 @@ def _moved(
             hit = broken, max(course.time for course in courses.values())
             for course in courses.values():
                 course.begin(one(StopOrder(broken.stop or Ramp())))
-        if any(course.is_over for course in courses.values()):
-            break
     return courses, hit
+
+
+def _is_going(courses: Mapping[str, MovingAxis]) -> bool:
+    """Return whether an axis is still moving, and none has ended in an alarm."""
+    return any(course.is_busy for course in courses.values()) and not any(
+        course.is_over for course in courses.values()
+    )
+
+
+def _periods_to_next_look(zones: Sequence[Zone], here: AxisPoint, step: float) -> int:
+    """Return how many servo samples pass until the zones are checked again: at most half of the way to
+    the nearest edge, so that no zone is passed in between; ``step`` is the way in one sample.
+    """
+    room = min((zone.room(here) for zone in zones), default=math.inf)
+    return max(1, min(MOST_PERIODS, int(0.5 * room / step))) if math.isfinite(room) else MOST_PERIODS
 
 
 def _begun(axes: Mapping[str, AxisLaw], line: _Line) -> dict[str, MovingAxis]:

@@ -105,3 +105,9 @@ def test_the_picture_is_a_plan_of_both_axes_with_the_zones(mill: ParameterFile) 
     (panel,) = picture_of(trace).panels
     assert next(curve.name for curve in panel.curves).startswith("programmable zone 2")
     assert trace.letter == "X,Y"
+
+
+def test_an_axis_that_rests_on_its_limit_stops_no_other() -> None:
+    """Positive Software Overtravel of Y is 6 mm: a start there is allowed."""
+    move = {"move.start": "0,6", "move.to": "3,6", "move.feedrate": 3000.0}
+    assert simulate(open_file(MILL).file, "travel", "1,2", move).alarms == ()

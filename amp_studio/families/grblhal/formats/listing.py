@@ -187,20 +187,23 @@ def _hint(log: Log, listing: LoggedListing) -> str:
 
 def _fit(schema: Schema, log: Log, listing: LoggedListing, machine: str) -> _Fit:
     known = addresses_by_number(schema.on(machine))
-    written = {n for n in listing.settings if n in known and schema.parameters[known[n][0]].type == "text"}
-    texts = {
-        n: listing.text_of(n, written) if n in written else figure(text)
-        for n, text in listing.settings.items()
-    }
+    texts = _texts(schema, listing, known)
     values, unreadable = _readable(schema, texts, machine)
     values |= _axes(schema, log, listing.settings, machine)
+
+    def is_of_other_build(n: int) -> bool:
+        """Return whether a number that only some builds have means something else in this one, or is
+        masked: its text is no value of it.
+        """
+        parameter = schema.parameters[known[n][0]]
+        is_masked = parameter.secret and not texts[n].strip("*")
+        return bool(parameter.needs) and (n in unreadable or is_masked or known[n] in outside)
+
     file = ParameterFile(schema)
     file.header.machine = machine
     file.take(values)
     outside = {address for address, value in values.items() if fault(file.evaluation, address, value)}
-    of_some_builds = [n for n in texts if n in known and schema.parameters[known[n][0]].needs]
-    masked = {n for n in of_some_builds if schema.parameters[known[n][0]].secret and not texts[n].strip("*")}
-    other = {n: known[n] for n in of_some_builds if n in unreadable or n in masked or known[n] in outside}
+    other = {n: known[n] for n in texts if n in known and is_of_other_build(n)}
     missing = known.keys() - texts.keys()
     return _Fit(
         machine,
@@ -212,6 +215,15 @@ def _fit(schema: Schema, log: Log, listing: LoggedListing, machine: str) -> _Fit
         len(missing),
         1 - len(missing) / max(1, len(known)),
     )
+
+
+def _texts(schema: Schema, listing: LoggedListing, known: Mapping[int, Address]) -> dict[int, str]:
+    """Return the text of each setting that is its value: all that is written for a text, else the figure."""
+    written = {n for n in listing.settings if n in known and schema.parameters[known[n][0]].type == "text"}
+    return {
+        n: listing.text_of(n, written) if n in written else figure(text)
+        for n, text in listing.settings.items()
+    }
 
 
 def _readable(
