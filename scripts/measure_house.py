@@ -363,8 +363,8 @@ def main() -> None:
                 print(f"{name.where}: {name.module} {name.name}")
         return
     if options.complex:
-        for count, where, name in complex_functions():
-            print(f"{count:3} {where} {name}")
+        for count, where, function in complex_functions():
+            print(f"{count:3} {where} {function}")
         return
     rows = [*code_figures(), *install_figures()]
     if options.glossary:

@@ -136,9 +136,7 @@ def propose(file: ParameterFile, axis: str, measurement: Measurement, wish: Wish
     if measurement.is_circle:
         return _of_circle(file, offered, axis, measurement, wish, on, notes)
     sides = _mean_curves(measurement)
-    raw = mean_curve(measurement)
-    if not raw.points:
-        raise CalibrationError("no target was reached from both directions")
+    raw = _mean_of_both(measurement)
     added = _curve_of(present if was_on else None)
     settings: dict[Address, Value] = {}
     table = reversal = None
@@ -161,6 +159,14 @@ def _mean_curves(measurement: Measurement) -> dict[bool, ErrorCurve]:
     """Return the mean errors of each direction that was measured; ``True`` is the rising one."""
     sides = {side: mean_curve(measurement, side) for side in (True, False)}
     return {side: curve for side, curve in sides.items() if curve.points}
+
+
+def _mean_of_both(measurement: Measurement) -> ErrorCurve:
+    """Return the mean errors of both directions; raises CalibrationError where no target has them."""
+    curve = mean_curve(measurement)
+    if not curve.points:
+        raise CalibrationError("no target was reached from both directions")
+    return curve
 
 
 def _curve_of(table: CalibrationTable | None) -> ErrorCurve:

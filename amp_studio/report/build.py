@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import hashlib
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from datetime import datetime
 from itertools import groupby
 from pathlib import Path
+from typing import TypeVar
 
 from amp_studio.files import (
     ParameterFile,
@@ -41,6 +42,7 @@ from .rows import Rows, row_of, rows_of
 from .sections import numbers_of, sections_of
 from .wording import counted, delivered_text, joined_places
 
+_T = TypeVar("_T")
 _SHORT = 16
 """Digits of a schema's signature that are printed."""
 
@@ -75,6 +77,11 @@ def build_report(
     heads, axes = _axes(file, found.rows, now.findings)
     family = file.schema.family
     name = source.name if source else ""
+
+    def with_part(part: str, made: Callable[[], Iterable[_T]]) -> tuple[_T, ...]:
+        """Return a part that may be left out; then it is not made either."""
+        return () if part in contents.without else tuple(made())
+
     return Report(
         title=file.header.name or name or family.name,
         family=family.name,
@@ -86,9 +93,7 @@ def build_report(
         facts=tuple(_facts(file, source, contents)),
         counts=tuple(_counts(file, found, len(printed), now)),
         remarks=machine_note(file).strip(),
-        remarked=tuple(
-            (note.label, note.text.strip()) for note in all_notes(file) if note.subject != "machine"
-        ),
+        remarked=tuple(_remarked(file)),
         axis_heads=heads,
         axes=axes,
         notes=(
@@ -99,18 +104,28 @@ def build_report(
         forced=_forced(file, found.rows),
         not_set=tuple(_not_set(found.rows)),
         sections=sections_of(file, printed, contents.sort, language),
-        pictures=() if "pictures" in contents.without else drawings(file, language),
-        motion=tuple(_in_words(figure, language) for figure in motion if "motion" not in contents.without),
-        power_up=() if "power-up" in contents.without else tuple(_power_up(file, language)),
-        exchanges=() if "exchanges" in contents.without else tuple(exchanges),
+        pictures=with_part("pictures", lambda: drawings(file, language)),
+        motion=with_part("motion", lambda: (_in_words(figure, language) for figure in motion)),
+        power_up=with_part("power-up", lambda: _power_up(file, language)),
+        exchanges=with_part("exchanges", lambda: exchanges),
         checks=tuple(checks),
         programs=tuple(programs),
         family_id=family.family,
         file_data=_file_data(file, source),
         totals=_totals(file, found, now),
         machine_file=content_of(without_secrets(file)).decode("utf-8"),
-        help={i: tuple(_help(file.schema, i, language)) for i in dict.fromkeys(row.id for row in printed)},
+        help={i: tuple(_help(file.schema, i, language)) for i in _ids_of(printed)},
     )
+
+
+def _remarked(file: ParameterFile) -> Iterator[tuple[str, str]]:
+    """Yield label and text of the notes of parameters."""
+    return ((note.label, note.text.strip()) for note in all_notes(file) if note.subject != "machine")
+
+
+def _ids_of(rows: Iterable[ReportRow]) -> dict[str, None]:
+    """Return the ids of the parameters of some rows, each once, in their order."""
+    return dict.fromkeys(row.id for row in rows)
 
 
 def _is_printed(row: ReportRow, contents: Contents) -> bool:

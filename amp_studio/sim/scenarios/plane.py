@@ -142,6 +142,12 @@ def crossing(zone: Zone, start: AxisPoint, to: AxisPoint) -> float | None:
     return _left_at(inside) if zone.guard == "inside" else _entered_at(inside)
 
 
+def _first_broken(zones: Sequence[Zone], start: AxisPoint, to: AxisPoint) -> tuple[float, Zone] | None:
+    """Return the zone that a straight way breaks first, and the share of the way at which it does."""
+    broken = [(share, zone) for zone in zones if (share := crossing(zone, start, to)) is not None]
+    return min(broken, key=lambda each: each[0], default=None)
+
+
 ALMOST_THERE = 1.0 - 1e-12
 """A way that ends on an edge does not break it: the last digits of its share are those of the division."""
 
@@ -205,19 +211,18 @@ def _travelled(
     """Return the trace of one straight way past the zones."""
     line = _Line(start, to, 0.0)
     line = replace(line, feed=_feedrate(axes, line.ways, line.length, settings))
-    crossed = [(share, zone) for zone in zones if (share := crossing(zone, start, to)) is not None]
-    first = min(crossed, key=lambda each: each[0], default=None)
-    refused = first is not None and (first[1].refuses or (is_program and bool(first[1].reads_ahead)))
+    first = _first_broken(zones, start, to)
+    refused = first is not None and _is_refused(first[1], is_program)
     courses: dict[str, MovingAxis] = {}
     hit: tuple[Zone, float] | None = None
     if not refused:
         courses, hit = _moved(axes, line, zones)
     columns = _columns(machine, axes, courses, start)
     unit = _unit(axes)
-    alarms = _alarms(line, first, hit, unit) if refused or hit else ()
+    alarms = _alarms(line, first, hit, unit, refused=refused)
     letters = {name: machine.letter(name) or name for name in axes}
     stops = {name: float(columns[f"position_{letter}"][-1]) for name, letter in letters.items()}
-    edge = None if first is None else first[0] * line.length
+    edge = first[0] * line.length if first else None
     result = _figures(line, edge, stops, float(columns["time_s"][-1]), unit, is_past_edge=hit is not None)
     result["reaches_target"] = (float(not alarms), "")
     result |= {f"stop_position_{letter}": (stops[name], unit) for name, letter in letters.items()}
@@ -237,6 +242,11 @@ def _travelled(
     )
 
 
+def _is_refused(zone: Zone, is_program: bool) -> bool:
+    """Return whether a block that breaks a zone is not begun: of a program also where it is read ahead."""
+    return zone.refuses or (is_program and bool(zone.reads_ahead))
+
+
 def _figures(
     line: _Line, edge: float | None, stops: AxisPoint, time: float, unit: str, *, is_past_edge: bool
 ) -> dict[str, Figure]:
@@ -253,9 +263,11 @@ def _figures(
 
 
 def _alarms(
-    line: _Line, first: tuple[float, Zone] | None, hit: tuple[Zone, float] | None, unit: str
+    line: _Line, first: tuple[float, Zone] | None, hit: tuple[Zone, float] | None, unit: str, *, refused: bool
 ) -> tuple[Alarm, ...]:
     """Return the alarm of a block that is not begun, or of the zone that stopped the axes."""
+    if not refused and hit is None:
+        return ()
     share = first[0] if first else 1.0
     if hit is not None:
         zone, moment = hit
@@ -316,9 +328,14 @@ def _moved(
         broken = None if hit else next((zone for zone in zones if zone.broken(here)), None)
         if broken is not None:
             hit = broken, max(course.time for course in courses.values())
-            for course in courses.values():
-                course.begin(one(StopOrder(broken.stop or Ramp())))
+            _stop(courses, broken)
     return courses, hit
+
+
+def _stop(courses: Mapping[str, MovingAxis], zone: Zone) -> None:
+    """Stop all axes as a zone does; without a ramp of its stop their commands end at once."""
+    for course in courses.values():
+        course.begin(one(StopOrder(zone.stop or Ramp())))
 
 
 def _is_going(courses: Mapping[str, MovingAxis]) -> bool:

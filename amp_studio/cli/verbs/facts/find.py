@@ -233,8 +233,6 @@ def _where(source: _Source, named: bool) -> str:
 
 def _page_lines(page: MessagePage, hit: Hit) -> Iterator[str]:
     """Yield a message as a person reads it: what it means, where to look, what helps."""
-    from amp_studio.report import counted
-
     message = page.message
     if message.means:
         yield f"  {message.means}"
@@ -244,17 +242,22 @@ def _page_lines(page: MessagePage, hit: Hit) -> Iterator[str]:
     yield from _listed("What helps", message.cures)
     yield from _listed("Try it", (f"amp-studio simulate FILE {name}" for name in message.scenarios))
     yield from _listed("Parameters", (_parameter_line(page, n) for n in range(len(page.parameters))))
+    yield from _rule_lines(page)
+    if message.note:
+        yield f"  {' '.join(message.note.split())}"
+    yield f"  Page {', '.join(message.every_page)}"
+
+
+def _rule_lines(page: MessagePage) -> Iterator[str]:
+    """Yield what the rules of a message find in this file, or which they are where they find nothing."""
+    from amp_studio.report import counted
+
     for linked in page.rules:
         for finding in linked.findings:
             yield f"  Broken in this file: {finding.message}"
     if page.rules and page.broken == ():
-        yield (
-            f"  Checked by {counted(len(page.rules), 'rule')}:"
-            f" {', '.join(linked.rule.id for linked in page.rules)}"
-        )
-    if message.note:
-        yield f"  {' '.join(message.note.split())}"
-    yield f"  Page {', '.join(message.every_page)}"
+        rules = ", ".join(linked.rule.id for linked in page.rules)
+        yield f"  Checked by {counted(len(page.rules), 'rule')}: {rules}"
 
 
 def _parameter_line(page: MessagePage, n: int) -> str:

@@ -208,22 +208,16 @@ def _delivered(machine: str, axes: str) -> Iterator[StoredSetting]:
 def _setting(parameter: Parameter, number: int, axis: str, axes: str, group: int) -> StoredSetting:
     """Return a parameter of the facts as the emulated control stores and describes it."""
     storage = parameter.storage
-    labels = tuple(c.label for c in parameter.choices or ())
-    kind = _TYPES.get(parameter.type, _TEXT)
-    if parameter.bits:
-        named = {b.bit: b.label for b in parameter.bits if not b.needs}
-        labels = tuple(named.get(n, "N/A") for n in range(max(named) + 1))
-        if parameter.first_axis == 0:
-            kind, labels = _AXES, tuple(axes)
-    low, high = next(iter((parameter.ranges or {}).values()), (None, None))
+    kind, labels = _kind(parameter, axes)
+    low, high = _bounds(parameter)
     return StoredSetting(
         number,
         f"{axis}-axis {parameter.name.lower()}" if axis else parameter.name,
         _unit(parameter),
         kind,
         labels,
-        0.5 if number in _ZERO_OR else low if isinstance(low, (int, float)) and low else None,
-        high if isinstance(high, (int, float)) else None,
+        0.5 if number in _ZERO_OR else low or None,
+        high,
         (storage.bits if storage else None) or 32,
         (storage.decimals if storage else None) or 0,
         parameter.effect is not None and parameter.effect.level == "restart",
@@ -231,6 +225,23 @@ def _setting(parameter: Parameter, number: int, axis: str, axes: str, group: int
         parameter.help.what,
         0.0,
     )
+
+
+def _kind(parameter: Parameter, axes: str) -> tuple[int, tuple[str, ...]]:
+    """Return how a setting is entered, and the labels of its choices, bits or axes."""
+    if parameter.bits and parameter.first_axis == 0:
+        return _AXES, tuple(axes)
+    kind = _TYPES.get(parameter.type, _TEXT)
+    if parameter.bits:
+        named = {b.bit: b.label for b in parameter.bits if not b.needs}
+        return kind, tuple(named.get(n, "N/A") for n in range(max(named) + 1))
+    return kind, tuple(c.label for c in parameter.choices or ())
+
+
+def _bounds(parameter: Parameter) -> tuple[float | None, float | None]:
+    """Return the bounds that are numbers."""
+    low, high = next(iter((parameter.ranges or {}).values()), (None, None))
+    return low if isinstance(low, (int, float)) else None, high if isinstance(high, (int, float)) else None
 
 
 def _unit(parameter: Parameter) -> str:

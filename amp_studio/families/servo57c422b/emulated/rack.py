@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import binascii
 import re
+from collections.abc import Callable
 
 from amp_studio.schema import quoted
 from amp_studio.transfer.emulated import DeviceSetup, EmulatedOptions, serve_device
@@ -82,30 +83,54 @@ class Rack:
     def operate(self, line: str) -> str:
         """Do what the operator asks for; raises ValueError."""
         verb, _, rest = line.partition(" ")
-        rest = rest.strip()
-        if verb == "patch" and (match := re.fullmatch(r"R([0-9]{1,4})\s*=\s*([0-9]{1,5})", rest)):
-            register, word = int(match[1]), int(match[2])
-            if register < REGISTERS and word <= 0xFFFF:
-                self.module.write(register, word)
-                return f"R{register} = {self.module.read(register)}"
-        if verb == "show" and (match := re.fullmatch(r"R([0-9]{1,4})", rest)) and int(match[1]) < REGISTERS:
-            return f"R{match[1]} = {self.module.read(int(match[1]))}"
-        if verb == "fault" and (match := re.fullmatch(r"(1?[0-9]) ([XY])", rest)) and int(match[1]) < 16:
-            self.module.fault(AXES[match[2]], int(match[1]))
-            return f"fault {match[1]} of axis {match[2]}"
-        if verb == "stop-all" and not rest:
-            self.module.stop_all()
-            return "stopped: system fault"
-        if verb == "power" and not rest:
-            self.module.power_on()
-            return "switched off and on: the registers are lost"
-        if verb == "status" and not rest:
-            words = (
-                f"{name} R72={self.module.read(axis + 72):04X}H R73={self.module.read(axis + 73):04X}H"
-                for name, axis in AXES.items()
-            )
-            return "status " + " ".join(words)
+        for pattern, order in _ORDERS.items():
+            match = re.fullmatch(pattern, f"{verb} {rest.strip()}".rstrip())
+            if match and (answer := order(self, *match.groups())):
+                return answer
         raise ValueError(f"{quoted(line)} is no command: {COMMANDS}")
+
+    # Each order returns its answer; an empty one where there is no such register, word or bit.
+
+    def _patch(self, register: str, word: str) -> str:
+        if int(register) >= REGISTERS or int(word) > 0xFFFF:
+            return ""
+        self.module.write(int(register), int(word))
+        return self._show(str(int(register)))
+
+    def _show(self, register: str) -> str:
+        return f"R{register} = {self.module.read(int(register))}" if int(register) < REGISTERS else ""
+
+    def _fault(self, bit: str, axis: str) -> str:
+        if int(bit) > 15:
+            return ""
+        self.module.fault(AXES[axis], int(bit))
+        return f"fault {bit} of axis {axis}"
+
+    def _stop_all(self) -> str:
+        self.module.stop_all()
+        return "stopped: system fault"
+
+    def _power(self) -> str:
+        self.module.power_on()
+        return "switched off and on: the registers are lost"
+
+    def _status(self) -> str:
+        words = (
+            f"{name} R72={self.module.read(axis + 72):04X}H R73={self.module.read(axis + 73):04X}H"
+            for name, axis in AXES.items()
+        )
+        return "status " + " ".join(words)
+
+
+_ORDERS: dict[str, Callable[..., str]] = {
+    r"patch R([0-9]{1,4})\s*=\s*([0-9]{1,5})": Rack._patch,
+    r"show R([0-9]{1,4})": Rack._show,
+    r"fault (1?[0-9]) ([XY])": Rack._fault,
+    "stop-all": Rack._stop_all,
+    "power": Rack._power,
+    "status": Rack._status,
+}
+"""What the operator may ask for; the parts in brackets are the arguments."""
 
 
 def emulate_registers(listen: Endpoint, options: EmulatedOptions) -> int:
