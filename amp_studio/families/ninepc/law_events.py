@@ -36,8 +36,8 @@ TOO_FAST = Failure(
 CODED = (
     (
         "Three markers in a row are passed at G28 Home Speed in G28 Direction to Home, then the axis stops,"
-        " waits for Inposition Band and takes its place on the scale plus Machine Position at DCM Scale 0 as its"
-        " position (5-5 to 5-7, 5-14); pages 7-31 and B-1 say two markers."
+        " waits for Inposition Band and takes its place on the scale plus Machine Position at DCM Scale 0 as"
+        " its position (5-5 to 5-7, 5-14); pages 7-31 and B-1 say two markers."
     ),
     (
         "Then it goes to Axis Position After Homing at Home Speed from Limit Switch (5-14); by page 5-11 this"
