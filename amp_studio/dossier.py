@@ -21,7 +21,6 @@ from amp_studio.files import (
     text_of_name,
 )
 from amp_studio.report import (
-    CheckedFigure,
     CheckedMotion,
     Contents,
     ExchangeLine,
@@ -34,7 +33,6 @@ from amp_studio.report import (
     run_apart,
     set_report,
 )
-from amp_studio.schema import unit_text
 from amp_studio.validate import NO_RULES, BuilderRules
 
 _DRAWN = (".pdf", ".html")
@@ -136,19 +134,11 @@ def motion_figures(file: ParameterFile) -> Iterator[PrintedFigure]:
 
 def checks_of(file: ParameterFile) -> Iterator[CheckedMotion]:
     """Yield what every scenario of a file found; nothing for a family that is not simulated."""
-    from amp_studio.sim import SimulationError, check_motion, value_text
+    from amp_studio.motion_paper import checked_motion
+    from amp_studio.sim import SimulationError, check_motion
 
     try:
-        for check in check_motion(file):
-            figures = tuple(
-                CheckedFigure(
-                    name.replace("_", " "), float(value), unit, value_text(float(value), unit_text(unit))
-                )
-                for name, (value, unit) in check.figures.items()
-                if value is not None
-            )
-            alarms = tuple((each.code, each.message) for each in check.alarms if each.message != check.why)
-            yield CheckedMotion(check.verdict, check.scenario, check.letter, figures, check.why, alarms)
+        yield from map(checked_motion, check_motion(file))
     except SimulationError:  # a family without a law, a file without axes
         return
 

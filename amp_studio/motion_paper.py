@@ -1,16 +1,29 @@
-"""The paper of one simulation: tuning record of an axis, machine out of a record, or any other result."""
+"""The paper of one simulation: tuning record of an axis, machine out of a record, or any other result; and
+that of a check of every scenario.
+"""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
 from amp_studio.files import Notify, ParameterFile, user
-from amp_studio.report import Language, Paper, PaperTable, PrintedFigure, language_of, write_paper
+from amp_studio.report import (
+    CheckedFigure,
+    CheckedMotion,
+    Language,
+    Paper,
+    PaperTable,
+    PrintedFigure,
+    language_of,
+    write_paper,
+)
 from amp_studio.scenarios import CHARTS
-from amp_studio.sim import Trace, address_of, figure_rows, named_parameter, plot_svg, value_text
+from amp_studio.schema import unit_text
+from amp_studio.sim import MotionCheck, Trace, address_of, figure_rows, named_parameter, plot_svg, value_text
 
 PAPERS = (".pdf", ".html")
 _WIDTH, _UNIT = 640, 92
@@ -38,6 +51,50 @@ def write_motion_paper(
     """
     paper = motion_paper(file, name, trace, before=before, chart=chart, machine=machine, language=language)
     write_paper(paper, path, notify)
+
+
+def write_check_paper(
+    file: ParameterFile,
+    name: str,
+    checks: Sequence[MotionCheck],
+    path: Path,
+    notify: Notify = lambda _note: None,
+    *,
+    language: str = "en",
+) -> None:
+    """Write what every scenario of a file found as a document; ``name`` is that of the file.
+    Raises ValueError, SaveError.
+    """
+    words = language_of(language, file.schema.family.family)
+    rows = tuple(
+        (words.text(check.verdict), scenario, check.letter, figures, why)
+        for check in checks
+        for scenario, figures, why in (checked_motion(check).printed(words),)
+    )
+    heads = tuple(map(words.text, ("Verdict", "Scenario", "Axis", "Figures", "Why")))
+    counts = Counter(check.verdict for check in checks)
+    facts = (
+        (words.text("File"), name),
+        (words.text("Machine"), file.header.name),
+        (words.text("Control"), file.schema.family.name),
+        *((words.text(verdict).capitalize(), str(count)) for verdict, count in counts.items()),
+    )
+    title = words.text("Check in motion")
+    table = PaperTable(title, heads, rows, (1.2, 1.6, 0.7, 4.0, 4.0))
+    date = datetime.now().astimezone()
+    paper = Paper(title, file.header.name or name, facts, (table,), date, language=language)
+    write_paper(paper, path, notify)
+
+
+def checked_motion(check: MotionCheck) -> CheckedMotion:
+    """Return what a scenario found as it is printed."""
+    figures = tuple(
+        CheckedFigure(name.replace("_", " "), float(value), unit, value_text(float(value), unit_text(unit)))
+        for name, (value, unit) in check.figures.items()
+        if value is not None
+    )
+    alarms = tuple((each.code, each.message) for each in check.alarms if each.message != check.why)
+    return CheckedMotion(check.verdict, check.scenario, check.letter, figures, check.why, alarms)
 
 
 def motion_paper(

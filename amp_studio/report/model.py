@@ -18,6 +18,7 @@ from .contents import SORTS, Contents
 from .findings.printed_finding import PrintedFinding, PrintedSeverity
 from .language import Language, language_of
 
+NO_BREAK = "\u00a0"
 MARKS: dict[str, str] = {
     "*": "differs from the printed default",
     "n": "set, and no default is printed",
@@ -339,7 +340,11 @@ class CheckedMotion:
 
     def printed(self, words: Language) -> tuple[str, str, str]:
         """Return scenario, figures, and what is not good with the alarms, as they are printed."""
-        figures = (f"{words.sentence(each.name)} {words.sentence(each.text)}" for each in self.figures)
+        figures = (
+            # A number is not parted from its unit at the end of a line.
+            f"{words.sentence(each.name)} {words.sentence(each.text).replace(' ', NO_BREAK)}"
+            for each in self.figures
+        )
         alarms = (f"{code}: {words.sentence(message)}" for code, message in self.alarms)
         why = words.sentence(self.text) if self.text else ""
         return words.scenario(self.scenario), ", ".join(figures), " ".join(filter(None, (why, *alarms)))
@@ -514,11 +519,11 @@ class Report:
 def note_lines(text: str) -> list[str]:
     """Return the lines of what a person wrote; blanks at the start of one are kept on paper."""
     lines = text.expandtabs(4).splitlines()
-    return ["\u00a0" * (len(line) - len(line.lstrip(" "))) + line.strip(" ") for line in lines]
+    return [NO_BREAK * (len(line) - len(line.lstrip(" "))) + line.strip(" ") for line in lines]
 
 
 def printable(text: str) -> str:
     """Return a text without control characters for printers, terminals and text direction."""
     return (
-        text if text.isprintable() else "".join(c if c.isprintable() or c == "\u00a0" else " " for c in text)
+        text if text.isprintable() else "".join(c if c.isprintable() or c == NO_BREAK else " " for c in text)
     )

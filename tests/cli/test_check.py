@@ -56,11 +56,18 @@ def test_what_cannot_be_run_is_not_possible_and_gives_the_parameter(
     assert (home["verdict"], home["params"]) == ("not possible", ["$22"])
 
 
-@pytest.mark.parametrize(("ending", "head"), [(".html", b"<!doctype html>"), (".pdf", b"%PDF")])
-def test_a_check_is_written_as_a_page(router: Path, ending: str, head: bytes) -> None:
+@pytest.mark.parametrize("ending", [".html", ".pdf"])
+def test_a_check_is_written_as_a_paper(router: Path, ending: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("amp_studio.sim.motion_check.SCENARIOS", {"home": SCENARIOS["home"]})
     paper = router.with_suffix(ending)
-    assert run(["check", str(router), "--axis", "X", "-o", str(paper)]) == 0
-    assert paper.read_bytes().startswith(head)
+    assert run(["check", str(router), "--axis", "X", "-o", str(paper), "--language", "de"]) == 0
+    if ending == ".pdf":
+        assert paper.read_bytes().startswith(b"%PDF")
+    else:
+        page = paper.read_text("utf-8")
+        assert 'lang="de"' in page
+        assert "Prüfung in Bewegung" in page
+        assert "Referenzposition −787\u00a0mm" in page
 
 
 def test_another_ending_is_refused_before_anything_runs(

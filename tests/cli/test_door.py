@@ -43,7 +43,6 @@ PAST_THE_DOOR = {
         "verbs/controls/verify.py": "transfer",
         "verbs/documents/import_.py": "formats",
         "verbs/files/set.py": "files",
-        "verbs/motion/check.py": "files",
     },
     "several controls at once": {
         "controls/drift.py": "files transfer",

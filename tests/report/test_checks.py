@@ -37,7 +37,7 @@ def report(checkout: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
 def test_the_chapter_is_there_where_it_is_asked_for(report, ending: str) -> None:
     text = report(ending, check=True)
     assert "check in motion" in text.lower()
-    assert "home position 0.5 mm" in text
+    assert "home position 0.5 mm" in text.replace("\u00a0", " ")
     assert "The phase margin is 26 deg, below 30 1: Hard limit" in " ".join(text.split())
     assert "check in motion" not in report(ending).lower()
 

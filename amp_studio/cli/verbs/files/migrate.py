@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from amp_studio.cli.arguments import JSON, PATH, TEXT
+from amp_studio.cli.arguments import JSON, LANGUAGE, PATH, TEXT
 from amp_studio.cli.console import print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
@@ -25,6 +25,7 @@ VERB = Verb(
     VerbArgument(
         "--draft", action="store_true", help="write although questions are open: their keys are left out"
     ),
+    LANGUAGE,
     JSON,
     *TEXT,
     writes=("output",),
@@ -56,7 +57,9 @@ def run(options: Options) -> int:
     if options.output is None:
         return 0
     try:
-        written = write_migration_folder(migration, options.output, notify=print_remark)
+        written = write_migration_folder(
+            migration, options.output, notify=print_remark, language=options.language
+        )
     except OSError as error:
         raise UsageError(f"{options.output}: {error.strerror or error}; nothing was written") from None
     print_remark(f"{options.output}: {', '.join(written)}")

@@ -9,7 +9,7 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from amp_studio.cli.arguments import AXIS, JSON, OUTPUT, PATH, TEXT
+from amp_studio.cli.arguments import AXIS, JSON, LANGUAGE, OUTPUT, PATH, TEXT
 from amp_studio.cli.console import print_json, print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
@@ -38,6 +38,7 @@ VERB = Verb(
         "--done", action="store_true", help="tick the test of an axis as done; it is kept in the file"
     ),
     VerbArgument("--not-done", action="store_true", help="take that tick away"),
+    LANGUAGE,
     JSON,
     *TEXT,
     writes=("output", "path"),
@@ -107,7 +108,9 @@ def _write_list(options: Options, machine: MachineParameters, axis: str | None) 
     if not tests:
         raise UsageError(f"{options.path} has no such test. `amp-studio machine-tests` lists them")
     come = progress(machine.validator(), ())
-    checks = build_check_list(file, replace(come, steps=()), options.path, tests=tests)
+    checks = build_check_list(
+        file, replace(come, steps=()), options.path, language=options.language, tests=tests
+    )
     write_check_list(replace(checks, summary="", order=""), options.output, print_remark)
     print(options.output)
     return 0

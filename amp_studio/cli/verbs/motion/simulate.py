@@ -8,7 +8,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli import candidates
-from amp_studio.cli.arguments import AXIS, JSON, OUTPUT, PATH, count, path_of, seconds
+from amp_studio.cli.arguments import AXIS, JSON, LANGUAGE, OUTPUT, PATH, count, path_of, seconds
 from amp_studio.cli.console import assignments, print_json, print_remark, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
@@ -145,6 +145,7 @@ VERB = Verb(
         "--units", metavar="SYSTEM", help="metric or inch, for settings and result (default: as the file)"
     ),
     OUTPUT.but(required=False, help="file to write: .csv, .svg, .png, .pdf, .html; identify: .yaml too"),
+    LANGUAGE,
     JSON,
     writes=("output",),
     sections=("scenarios", "PARAM", "VALUE"),
@@ -236,7 +237,15 @@ def _write(options: Options, file: ParameterFile, trace: Trace, before: Trace | 
         name = options.path.name
         given = _given_machine(options)
         write_motion_paper(
-            file, name, trace, options.output, print_remark, before=before, chart=chart, machine=given
+            file,
+            name,
+            trace,
+            options.output,
+            print_remark,
+            before=before,
+            chart=chart,
+            machine=given,
+            language=options.language,
         )
     else:
         write_trace(trace, options.output, print_remark, before=before, chart=chart)
