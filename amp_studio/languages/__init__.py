@@ -7,6 +7,6 @@ from typing import TYPE_CHECKING
 from amp_studio.front_pages import front_page
 
 if TYPE_CHECKING:
-    from .catalogue import TextSection, language_codes, name_of_language, own_texts
+    from .catalogue import Forms, TextSection, language_codes, name_of_language, sources_of_texts, texts_of
 else:
     __getattr__ = front_page(__name__)

@@ -15,8 +15,8 @@ from datetime import datetime
 from functools import cache
 from html import escape, unescape
 
-from amp_studio.languages import TextSection, name_of_language, own_texts
-from amp_studio.schema import NO_TEXTS, UNITS, FactTexts, fact_texts, figures_in, unit_text
+from amp_studio.languages import TextSection, name_of_language
+from amp_studio.schema import NO_TEXTS, UNITS, FactTexts, fact_texts, figures_in, program_texts, unit_text
 from amp_studio.validate import Finding
 
 from .wording import counted
@@ -225,7 +225,7 @@ def language_of(code: str, family: str = "", *more: str) -> Language:
         name,
         _own(code, "phrases"),
         _compiled(_own(code, "patterns")),
-        {noun: (forms[0], forms[-1]) for noun, forms in own_texts(code, "nouns").items()},
+        {noun: (forms[0], forms[-1]) for noun, forms in program_texts(code, "nouns").items()},
         _own(code, "titles") | {text: own for text, own in sentences.items() if not figures_in(text)},
         _compiled(_own(code, "title_patterns")),
         _own(code, "messages"),
@@ -255,7 +255,7 @@ def _sentences(texts: dict[str, str]) -> tuple[SentencePattern, ...]:
 
 def _own(code: str, section: TextSection) -> dict[str, str]:
     """Return English text -> own text of a section, of those that have one form."""
-    return {english: own for english, own in own_texts(code, section).items() if isinstance(own, str)}
+    return {english: own for english, own in program_texts(code, section).items() if isinstance(own, str)}
 
 
 def _compiled(patterns: dict[str, str]) -> tuple[tuple[re.Pattern[str], str], ...]:

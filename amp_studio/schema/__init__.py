@@ -148,6 +148,7 @@ if TYPE_CHECKING:
         words_taken,
     )
     from .translation.places import figures_in
+    from .translation.program_texts import program_texts
     from .translation.texts import NO_TEXTS, fact_texts
     from .units import (
         UNITS,

@@ -1,4 +1,4 @@
-"""Where a compiled family is kept: JSON below a digest over it, which is rebuilt where it is anything else.
+"""Where compiled facts are kept: JSON below a digest over it, which is rebuilt where it is anything else.
 
 JSON and not pickle: a cache must not be able to run code. What lies there and cannot be used is named in a
 warning of the log, once a start; a cache that cannot be written costs time only.
@@ -8,22 +8,20 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
+import json
 import logging
 import os
 import re
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TypeVar
+from typing import Any
 
-from .model import Model
-from .model.compiled_json import record_text, text_record
 from .regular_file import read_file
 
 _log = logging.getLogger(__name__)
 _PROGRAM = "amp-studio"
 _MOST_BYTES = 64 * 2**20
-R = TypeVar("R", bound=Model)
 
 
 def cache_folder() -> Path:
@@ -48,41 +46,39 @@ def read_cached(path: Path) -> bytes | None:
     except FileNotFoundError:
         return None
     except OSError as error:
-        _report_unusable(path, error.strerror or str(error))
+        report_unusable(path, error.strerror or str(error))
         return None
     digest, _, kept = content.partition(b"\n")
     if digest != _digest(kept):
-        _report_unusable(path, "its content is not what was kept there")
+        report_unusable(path, "its content is not what was kept there")
         return None
     return kept
 
 
-def cached_record(path: Path, kind: type[R], name: str, make: Callable[[], R]) -> R:
-    """Return the record that is kept at a path; where there is none, ``make`` one and keep it there.
-
-    ``name`` is that of the family, or of its texts in a language: older ones of the same name are removed.
+def cached_data(name: str, sources: Sequence[Path], make: Callable[[], Any]) -> Any:
+    """Return plain data that ``make`` reads out of files, kept under a name as long as ``sources`` are the
+    same: these files, and those of the code that makes the data. No family has a name that begins with ``_``.
     """
+    digest = hashlib.sha256()
+    for source in sources:
+        content = source.read_bytes()
+        digest.update(f"{len(content)}:".encode())
+        digest.update(content)
+    path = cache_folder() / f"{name}-{digest.hexdigest()[:24]}.json"
     kept = read_cached(path)
-    if kept is not None:
-        try:
-            found = text_record(kept)
-        except ValueError:
-            found = None
-        if isinstance(found, kind):
-            return found
-        _report_unusable(path, "it contains no facts")
-    made = make()
-    write_cached(path, record_text(made).encode(), name)
-    return made
+    if kept is None:
+        kept = json.dumps(make(), ensure_ascii=False).encode()
+        write_cached(path, kept, name)
+    return json.loads(kept)
 
 
-def _report_unusable(path: Path, why: str) -> None:
+def report_unusable(path: Path, why: str) -> None:
     """Name a cache file that cannot be used."""
     _log.warning("%s cannot be used and is made again: %s", path, why)
 
 
-def write_cached(path: Path, kept: bytes, family: str) -> None:
-    """Keep the compiled form of a family, and remove what older facts of it left."""
+def write_cached(path: Path, kept: bytes, name: str) -> None:
+    """Keep compiled facts under a name, and remove what older ones of it left."""
     import tempfile  # most starts keep nothing
 
     temporary = ""
@@ -92,7 +88,7 @@ def write_cached(path: Path, kept: bytes, family: str) -> None:
         with os.fdopen(handle, "wb") as stream:
             stream.write(_digest(kept) + b"\n" + kept)
         os.replace(temporary, path)
-        older = re.compile(rf"{re.escape(family)}-[0-9a-f]{{24}}\.json")
+        older = re.compile(rf"{re.escape(name)}-[0-9a-f]{{24}}\.json")
         for old in path.parent.iterdir():
             if old != path and older.fullmatch(old.name):
                 old.unlink(missing_ok=True)

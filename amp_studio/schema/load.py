@@ -16,7 +16,7 @@ from typing import Any, NamedTuple, TypeVar
 
 from amp_studio.errors import AmpStudioError
 
-from .compiled_cache import cache_folder, cached_record
+from .compiled_cache import cache_folder
 from .consistency import faults_between, faults_of_experience, faults_of_messages, faults_of_order
 from .file_error import FileError, ModelError, Slip, read_yaml_file
 from .folder import database_folder
@@ -39,7 +39,7 @@ from .model import (
     Table,
     Tables,
 )
-from .model.compiled_json import record_text
+from .model.compiled_json import cached_record, record_text
 from .model.family import define_units
 from .model.motion import NO_MOTION
 from .nearest import unknown_name

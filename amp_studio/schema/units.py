@@ -11,9 +11,12 @@ from collections.abc import Iterable
 from decimal import Decimal
 from fractions import Fraction
 from functools import cache, lru_cache
+from pathlib import Path
+from typing import Any
 
 from amp_studio.errors import AmpStudioError
 
+from .compiled_cache import cached_data
 from .folder import database_folder
 from .quoting import quoted
 from .yaml_reader import read_yaml, text_scalar
@@ -75,10 +78,14 @@ def _alias(text: str) -> str | None:
     return ALIASES.get(text, ALIASES.get(text.lower()))
 
 
+def _read_units() -> Any:
+    return read_yaml(UNITS_FILE.read_text(encoding="utf-8"), text_scalar).data["units"]
+
+
 def _define_all() -> None:
     """Make the units of the file known."""
-    text = UNITS_FILE.read_text(encoding="utf-8")
-    for unit, entry in read_yaml(text, text_scalar).data["units"].items():
+    entries: dict[str, dict[str, Any]] = cached_data("_units", (UNITS_FILE, Path(__file__)), _read_units)
+    for unit, entry in entries.items():
         factor = Fraction(entry.get("factor", "1"))
         define_unit(unit, entry["measures"], factor, entry.get("shown", ""), entry.get("also", ()))
 

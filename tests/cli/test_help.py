@@ -107,6 +107,8 @@ def test_checking_a_file_loads_nothing_of_printing_saving_and_explaining() -> No
         "typst",
         "jinja2",
         "email",
+        "ruamel.yaml",
+        "tomllib",
         "amp_studio.report.build",
         "amp_studio.files.yaml_text",
         "amp_studio.files.document",

@@ -7,8 +7,9 @@ from typing import get_args
 
 import pytest
 
-from amp_studio.languages import language_codes, name_of_language, own_texts
+from amp_studio.languages import language_codes, name_of_language
 from amp_studio.languages.catalogue import TextSection, texts_of
+from amp_studio.schema import program_texts
 from scripts.translations import calls, new_id, updated
 
 SECTIONS = get_args(TextSection)
@@ -34,7 +35,7 @@ def test_a_text_with_a_number_has_its_forms_in_every_language() -> None:
     numbered = {key for key, text in texts_of("en", "window").items() if isinstance(text, list)}
     for code in language_codes():
         assert {key for key, text in texts_of(code, "window").items() if isinstance(text, list)} == numbered
-    assert own_texts("de", "window")["%n axes"] == ["%n Achse", "%n Achsen"]
+    assert program_texts("de", "window")["%n axes"] == ["%n Achse", "%n Achsen"]
 
 
 def test_an_unknown_language_is_refused_with_those_that_are_known() -> None:

@@ -11,9 +11,8 @@ from dataclasses import replace
 import pytest
 from PySide6.QtWidgets import QApplication
 
-from amp_studio.languages import own_texts
 from amp_studio.report import language_of
-from amp_studio.schema import Value
+from amp_studio.schema import Value, program_texts
 from amp_studio.ui.base.figures import sentence, written
 from amp_studio.ui.base.translated import speak, worded
 from amp_studio.ui.table.value_delegate import allowed_text
@@ -31,7 +30,7 @@ def translations() -> list[tuple[str, str]]:
     """Return every English text of the window with its German one, each form of those with a number."""
     return [
         (english, form)
-        for english, own in own_texts("de", "window").items()
+        for english, own in program_texts("de", "window").items()
         for form in ([own] if isinstance(own, str) else own)
     ]
 

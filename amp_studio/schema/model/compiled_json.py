@@ -1,14 +1,39 @@
-"""Records as JSON that is read back without a check: facts that were checked when they were compiled."""
+"""Records as JSON that is kept and read back without a check: facts were checked when they were compiled."""
 
 from __future__ import annotations
 
 import json
-from typing import Any
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+from amp_studio.schema.compiled_cache import read_cached, report_unusable, write_cached
 
 from .record import Model
 
+R = TypeVar("R", bound=Model)
+
 _KIND = "is"
 """The key under which an object names its kind of record; no field of a record is called so."""
+
+
+def cached_record(path: Path, kind: type[R], name: str, make: Callable[[], R]) -> R:
+    """Return the record that is kept at a path; where there is none, ``make`` one and keep it there.
+
+    ``name`` is that of the family, or of its texts in a language: older ones of the same name are removed.
+    """
+    kept = read_cached(path)
+    if kept is not None:
+        try:
+            found = text_record(kept)
+        except ValueError:
+            found = None
+        if isinstance(found, kind):
+            return found
+        report_unusable(path, "it contains no facts")
+    made = make()
+    write_cached(path, record_text(made).encode(), name)
+    return made
 
 
 def record_text(record: Model) -> str:

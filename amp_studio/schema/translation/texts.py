@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from amp_studio.schema.compiled_cache import cache_folder, cached_record
+from amp_studio.schema.compiled_cache import cache_folder
 from amp_studio.schema.load import (
     Compiled,
     DatabaseError,
@@ -19,7 +19,7 @@ from amp_studio.schema.load import (
     read_facts,
 )
 from amp_studio.schema.model import FactTexts, FactTranslation
-from amp_studio.schema.model.compiled_json import text_record
+from amp_studio.schema.model.compiled_json import cached_record, text_record
 
 from .places import TextPlace, english_texts, figures_in, names_in, own_texts
 

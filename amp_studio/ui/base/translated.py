@@ -13,10 +13,10 @@ from typing import Final
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
-from amp_studio.languages import language_codes, name_of_language, own_texts
+from amp_studio.languages import language_codes, name_of_language
 from amp_studio.report import Language, language_of
 from amp_studio.report import counted as english_count
-from amp_studio.schema import Schema
+from amp_studio.schema import Schema, program_texts
 from amp_studio.validate import Finding, family_of_rule
 
 LANGUAGES: Final = {code: name_of_language(code) for code in language_codes()}
@@ -103,7 +103,7 @@ class CatalogueTranslator(QTranslator):
         super().__init__()
         self.words: dict[str, str] = {}
         self.plurals: dict[str, list[str]] = {}
-        for english, own in own_texts(code, "window").items():
+        for english, own in program_texts(code, "window").items():
             if isinstance(own, list):
                 self.plurals[english] = own
             elif code != "en":  # the texts are English: only the forms of numbers are missing
