@@ -18,6 +18,7 @@ SCENARIOS = {
     "spindle": "amp_studio.sim.scenarios.spindle:SCENARIO",
     "tap": "amp_studio.sim.scenarios.tap:SCENARIO",
     "probe": "amp_studio.sim.scenarios.probe:SCENARIO",
+    "fault": "amp_studio.sim.scenarios.fault:SCENARIO",
 }
 """Scenario of any family -> where it is."""
 

@@ -67,6 +67,8 @@ from .zones import Zone
 if TYPE_CHECKING:
     from .cam import CamForm
 
+FAULTS = ("drive", "feedback")
+"""Faults of a machine: a drive that has tripped, and a position device that is lost."""
 Leader = Callable[["AxisLaw"], Mapping[str, npt.NDArray[np.float64]]]
 
 
@@ -159,6 +161,8 @@ class AxisLaw:
     """Name and unit of the columns that the law writes from MONITOR on."""
     alarms: Mapping[int, AlarmText] = field(default_factory=dict)
     """Number in STOP -> the alarm."""
+    faults: Mapping[str, AlarmText] = field(default_factory=dict)
+    """One of FAULTS -> what the control shows when it is informed of it; without it no page prints how."""
     predict: Callable[[float], Mapping[str, Prediction]] = lambda _feedrate: {}
     """predict(feedrate in u/s) -> figures by name;
     ``steady_following_error`` and others that the motion is compared with."""
@@ -204,6 +208,17 @@ class AxisLaw:
     """The ``p`` of a swept sine, without the faults that its start would raise; None for the same."""
     linear_parameters: Sequence[float] | None = None
     """The ``p`` of the linear model (without quantisation, deadband, stiction terms); None for the same."""
+
+    def refuse_unknown_fault(self, kind: str) -> None:
+        """Raise SimulationError for a fault that cannot be simulated: an unknown one, or lost feedback where
+        no page prints what the control does.
+        """
+        if kind not in FAULTS:
+            raise SimulationError(f"move.fault is '{kind}'; it must be {' or '.join(FAULTS)}", "move.fault")
+        if kind != "drive" and kind not in self.faults:
+            raise SimulationError(
+                f"What axis {self.axis} does without its feedback is in no manual here", "move.fault"
+            )
 
 
 def _no_recommendation(_law: AxisLaw, _trace: Trace) -> Sequence[Recommendation]:

@@ -34,6 +34,6 @@ print([name for name in sys.modules if name in ("numba", "pydantic") or name.sta
     assert (
         listed
         == "[('step, velocity, frequency, tune, load, sweep, circle, home, jog, travel, spindle, tap, probe,"
-        " procedure, hard-stop, gear, cam, backlash, passive-home',)]"
+        " fault, procedure, hard-stop, gear, cam, backlash, passive-home',)]"
     )
     assert loaded == "['amp_studio.scenarios']"

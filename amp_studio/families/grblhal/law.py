@@ -10,6 +10,7 @@ from functools import partial
 
 from amp_studio.files import ParameterFile
 from amp_studio.sim import (
+    AlarmText,
     AxisLaw,
     AxisParameters,
     Failure,
@@ -99,6 +100,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         inposition_band=1.0 / steps,
         ramps={"linear": ramp, "none": Ramp()},
         monitors=(("step_rate", "Hz"),),
+        faults={"drive": AlarmText("ALARM:17", "A motor driver reports a fault (A34)")},
         predict=lambda speed: {"step_rate": Prediction(abs(speed) * steps, "Hz", "protocol")},
         sources={"feedrate": Source(ids.max_rate, 60.0), "acceleration": Source(ids.axis_acceleration)},
         assumptions=(FOLLOWS,),

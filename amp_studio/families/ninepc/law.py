@@ -70,6 +70,12 @@ SOURCES = {
     "torque_filter": Source(ids.torque_filter, unit="Hz", whole=True, page="7-69"),
 }
 
+AMPLIFIER = AlarmText(
+    "SERVO AMPLIFIER FAULT",
+    "The amplifier has a fault (the text is printed on page 10-3, for one case). ASSUMED: the control goes"
+    " into E-STOP",
+)
+
 _NO_LOOP = {
     "off": "the servo is off",
     "detached": "the servo is detached",
@@ -140,6 +146,7 @@ def _alone(read: AxisParameters, master: AxisParameters | None = None) -> AxisLa
         "predict": partial(predictions, loop, kind.unit) if kind.loop != "open" else _nothing,
         "limits": _limits(parameters, read, loop) if kind.loop != "open" else {},
         "alarms": _alarms(read, kind, parameters),
+        "faults": {"drive": AMPLIFIER},
         "monitors": (
             [(name, unit.replace("u", kind.unit, 1)) for name, unit in samples.MONITORS] + shown_in_volts
         ),

@@ -14,7 +14,17 @@ from dataclasses import replace
 from functools import partial
 
 from amp_studio.files import ParameterFile
-from amp_studio.sim import AxisLaw, AxisParameters, Law, Machine, Prediction, Ramp, SimulationError, Source
+from amp_studio.sim import (
+    AlarmText,
+    AxisLaw,
+    AxisParameters,
+    Law,
+    Machine,
+    Prediction,
+    Ramp,
+    SimulationError,
+    Source,
+)
 
 from . import law_events as events
 from . import law_sample as sample
@@ -62,6 +72,12 @@ def bind(read: AxisParameters) -> AxisLaw:
     return synchronised(law, read, _alone(leader)[0], length)
 
 
+FEEDBACK = (
+    "Poor signal or channel loss of the encoder: the error of this axis is 210 and its address, {0}"
+    " (page 5-18)"
+)
+
+
 def _alone(read: AxisParameters) -> tuple[AxisLaw, float]:
     """Return one axis without its drive axis, and its internal unit in u."""
     notes: list[str] = []
@@ -105,6 +121,7 @@ def _alone(read: AxisParameters) -> tuple[AxisLaw, float]:
             ("synchronisation_error", words.unit),
         ),
         alarms=alarms,
+        faults={"feedback": AlarmText("210 to 241", FEEDBACK.format(read.axis))},
         predict=lambda feedrate: predicted(words, feedrate),
         circle_feedrate=lambda radius: circle_feedrate(words, radius),
         limits=limits,

@@ -39,6 +39,7 @@ from .law_machine_tests import machine_tests
 from .law_passive import SCENARIO as PASSIVE
 from .law_registration import probing
 from .law_tune import Scales
+from .switch_bits import DRIVE_FAULT
 
 NEEDED = (
     ids.gain_proportional,
@@ -97,6 +98,14 @@ _MATCHED = "The output for a velocity reference is taken to be the wanted veloci
 _LINEAR = "Linearization Constants other than -1 are not simulated: their scale is not printed (page 4-18)."
 
 
+def _faults(read: AxisParameters) -> dict[str, AlarmText]:
+    """Return the fault of the drive input, where register 2 has it enabled (4-5, 4-37; bit 8 is inferred)."""
+    if not int(read.optional(ids.setup_switches) or 0.0) & DRIVE_FAULT:
+        return {}
+    text = "The drive fault input has tripped: register 73, the loop is switched off (page 4-37)"
+    return {"drive": AlarmText("DRIVE FAULT", text)}
+
+
 def axes(file: ParameterFile) -> Sequence[str]:
     """Return the axes whose Proportional Gain is set, both where none is."""
     tuned = tuple(axis for axis in MOTION.axes if file.get((ids.gain_proportional, axis)) is not None)
@@ -145,6 +154,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         ramps=_ramps(read),
         monitors=loop.MONITORS,
         alarms=_alarms(p),
+        faults=_faults(read),
         limits={"maximum_position_error": p[loop.POSITION_ERROR]} if p[loop.POSITION_ERROR] >= 0.0 else {},
         gains=("velocity_gain", "position_gain", "integral_gain"),
         follow=follow,

@@ -22,6 +22,7 @@ ScenarioName = Literal[
     "spindle",
     "tap",
     "probe",
+    "fault",
 ]
 
 

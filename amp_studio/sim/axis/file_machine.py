@@ -110,6 +110,21 @@ class FileMachine:
         for axis in self._machine.axes.values():
             axis.switch_off()
 
+    def fail(self, axis: str, kind: str) -> str:
+        """Have a fault of an axis, a drive that has tripped or lost feedback; returns what happens. Raises
+        SimulationError.
+        """
+        name = self._named(axis)
+        moving = self._axis(name)
+        moving.fail(kind)
+        alarm = f": {moving.alarm.code}" if moving.alarm else ", which the control has not noticed"
+        return f"{kind} fault of {self._letter(name)}{alarm}"
+
+    @property
+    def has_lost_drive(self) -> bool:
+        """Whether an alarm has taken the drive of an axis away."""
+        return any(axis.alarm is not None and not axis.is_enabled for axis in self._machine.axes.values())
+
     def reset(self) -> None:
         """Give the drives back, and forget alarms."""
         for axis in self._machine.axes.values():

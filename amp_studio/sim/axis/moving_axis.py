@@ -19,13 +19,13 @@ from amp_studio.sim.command.pieces import Piece, change, length
 from amp_studio.sim.command.ramps import exponential_pieces, leg, profile_of
 from amp_studio.sim.engine import kernel
 from amp_studio.sim.engine.compiled import can_compile, compiled, pays, plain
-from amp_studio.sim.engine.machine import POSITION_COUNT, POSITION_COUNTS
+from amp_studio.sim.engine.machine import POSITION_COUNT, POSITION_COUNTS, TORQUE_NEGATIVE, TORQUE_POSITIVE
 from amp_studio.sim.engine.profiles import IN_POSITION, POLYNOMIAL, WIDTH, command, piece_at
 from amp_studio.sim.engine.signals import COMMAND, COMMAND_ACCELERATION, COMMAND_VELOCITY, STOP
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, Ramp
 
-from .motion import IO, STATE, TIMING, Engine, Motion, Until, prepared, steps
+from .motion import AFTER, BEFORE, IO, STATE, TIMING, Engine, Motion, Until, prepared, steps
 
 LAGS = 5.0
 """Time constants of the position loop by which a command goes on beyond the farthest place of an event."""
@@ -198,8 +198,14 @@ class MovingAxis:
 
     def follow(self, orders: Orders) -> Seen | None:
         """Carry out orders to their end, or to an alarm; returns what the last of them saw."""
-        seen: Seen | None = None
         self.begin(orders)
+        return self.finish()
+
+    def finish(self) -> Seen | None:
+        """Carry the orders that are under way out, to their end or to an alarm; returns what the last of them
+        saw.
+        """
+        seen: Seen | None = None
         while self.is_busy:
             seen = self._work(math.inf)
         while self.stop_number and not self.is_over:
@@ -348,6 +354,12 @@ class MovingAxis:
         self.drop()
         self._vectors[TIMING][kernel.EMERGENCY] = self.time
 
+    def trip(self) -> None:
+        """Take the torque away from the drive, which the control does not notice by itself."""
+        for place in (MACHINE, BEFORE, AFTER):  # of a whole step, and of its parts
+            vector = self._vectors[place]
+            vector[TORQUE_POSITIVE] = vector[TORQUE_NEGATIVE] = 0.0
+
     def restart(self) -> None:
         """Take the axis up again where it came to rest after an alarm,
         the command being where the device measures it.
@@ -355,7 +367,8 @@ class MovingAxis:
         x, at = self._vectors[STATE], self.measured
         motor, load = float(x[kernel.PLANT]), float(x[kernel.PLANT + 2])
         fresh, _ = prepared(self.axis, [], Until(self.axis.servo_period), self._steps // self._samples)
-        for place in (LAW_STATE, IO, MACHINE):  # the brake is open again
+        # The brake is open again, and a drive that has tripped has torque.
+        for place in (LAW_STATE, IO, MACHINE, BEFORE, AFTER):
             self._vectors[place][:] = fresh[place]
         shift, self._origin = at - self._origin, at  # a law begins at 0
         x[kernel.PLANT : kernel.PLANT + 7] = [motor - shift, 0.0, load - shift, 0.0, 0.0, 0.0, 0.0]

@@ -52,6 +52,7 @@ class SimulatedAxis:
         """How far the zero of the moving axis is from where the axis began."""
         self.is_homed = False
         self.is_enabled = True
+        self._is_tripped = False  # without torque, which the control has not noticed
         self.alarm: AlarmText | None = None
         """What stopped it, until `reset`."""
         self.travel: Travel | None = None
@@ -142,11 +143,26 @@ class SimulatedAxis:
             self._moving.emergency()
             self._left = COAST
 
+    def fail(self, kind: str) -> None:
+        """Have a fault of the machine, one of FAULTS. A control that is informed takes the drive away and
+        shows its words; another one goes on until its following error shows it. Raises SimulationError for a
+        fault that no page prints.
+        """
+        self.law.refuse_unknown_fault(kind)
+        words = self.law.faults.get(kind)
+        if words is not None:
+            self.switch_off()
+            self.alarm = words
+            return
+        self._is_tripped = True
+        self._moving.trip()
+
     def reset(self) -> None:
-        """Give the drive back; the command is where the axis is."""
+        """Give the drive back, mended; the command is where the axis is."""
         self.alarm, self.is_enabled = None, True
-        if self._moving.stop_number or self._moving.is_over:
+        if self._moving.stop_number or self._moving.is_over or self._is_tripped:
             self._moving.restart()
+        self._is_tripped = False
 
     def _forget_limit(self) -> None:
         """Forget what stopped the axis with its drive on, a limit: the next order leaves it, or meets the

@@ -19,7 +19,7 @@ BANNER = ("ACR8000 (c) 1993-1998 by AMCS Inc.", "Version 1.17.08 CARD 0")
 LONGEST = 128  # characters of a line; more are neither taken nor echoed (assumed)
 PIECE = 256
 BACKSPACE, DELETE, RETURN = 0x08, 0x7F, 0x0D
-COMMANDS = "power, patch COMMAND, echo on|off, home AXES, mdi G28 X1, stop, status, quit"
+COMMANDS = "power, patch COMMAND, echo on|off, home AXES, mdi G28 X1, stop, fault drive X, status, quit"
 _LISTED = {"VER": (*BANNER,), "HELP": (*BANNER, f"Commands: {COMMANDS_LISTED}")}
 """What the card lists of itself."""
 _LIVE = re.compile(r"(?:PRINT\s+|\?\s*)(P|BIT)\s*([0-9]{1,5})\s*", re.IGNORECASE)
@@ -136,6 +136,8 @@ class AcrCard:
                 return self.motion.mdi(rest)
             case "stop", "":
                 self.motion.stop()
+            case "fault", _ if re.fullmatch(r"drive [A-Z]", rest):
+                self.motion.trip(rest[-1])
             case "status", "":
                 return f"P{self._program:02d} {len(self._line)} characters of a line; {self.motion.status()}"
             case _:

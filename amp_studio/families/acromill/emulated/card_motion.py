@@ -236,6 +236,13 @@ class CardMotion:
         for axis in self._machine.axes.values():
             axis.stop(next(iter(axis.law.ramps.values())))
 
+    def trip(self, name: str) -> None:
+        """Have the drive of an axis trip: its excess error shows it once it is moved. Raises ValueError."""
+        try:
+            self._axis(name).fail("drive")
+        except (SimulationError, KeyError) as error:
+            raise ValueError(str(error)) from None
+
     def switch_off(self) -> None:
         """Lose the power."""
         self._machine.axes.clear()

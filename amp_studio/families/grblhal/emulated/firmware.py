@@ -494,6 +494,7 @@ class Firmware:
             case "state", _ if rest in _STATES:
                 self.state = rest
             case "alarm", _ if re.fullmatch(r"\d{1,2}", rest):
+                self._motion.halt()
                 self.state = "Alarm"
                 self._send(f"ALARM:{rest}")
             case "message", _ if rest.isprintable():

@@ -126,6 +126,17 @@ class GrblMotion:
         self._keep_place()
         return was
 
+    def halt(self) -> None:
+        """Stop at once, as an alarm does: an axis that moved has lost steps and its place."""
+        self._blocks.clear()
+        self._moving = self._paused = self._cycles = None
+        for axis in self._machine.axes.values():
+            if axis.is_busy:
+                axis.switch_off()
+                axis.reset()
+                axis.is_homed = False
+        self._keep_place()
+
     def switch_off(self) -> None:
         """Lose the power: the machine does not move, and its place is no longer known."""
         self._blocks.clear()

@@ -2,8 +2,8 @@
 and what its position screen shows (chapters 5, 6 and 8).
 
 Commands are keys: ``jog X+ second`` goes on until ``release``, ``jog X+ increment third`` is one increment,
-``manual-home X`` the home key (5-3),
-``mdi G28 X5``, ``mdi G0 X10 Y5`` and ``mdi G1 X10 F500`` a block, ``position`` the position screen.
+``manual-home X`` the home key (5-3), ``position`` the position screen; ``mdi G28 X5``, ``mdi G0 X10 Y5`` and
+``mdi G1 X10 F500`` are blocks, and ``fault drive X`` is a drive that trips.
 The house protocol shows no positions; a live page looks at the screen (``emulate --screen``).
 """
 
@@ -27,11 +27,14 @@ _BLOCK = re.compile(r"G(0|00|1|01|28)((?:\s*[A-Z]\s*[+-]?[0-9]*\.?[0-9]+)+)\s*",
 class MachineKeys:
     """What an operator moves at the control."""
 
-    words = "jog X+ [SPEED | increment NAME], release, manual-home AXIS, mdi G0 X10, position"
+    words = (
+        "jog X+ [SPEED | increment NAME], release, manual-home AXIS, mdi G0 X10, position, fault drive AXIS"
+    )
 
     def __init__(self) -> None:
         self._machine = FileMachine(LAW, bind_axis)
         self._content = b""
+        self._was_estop = False
 
     def started(self) -> None:
         """Begin as after a power-up: no axis is homed."""
@@ -39,14 +42,22 @@ class MachineKeys:
         self._content = b""
 
     def advance(self, control: Control, duration: float) -> None:
-        """Let time pass, s; E-stop takes the drives away."""
+        """Let time pass, s; E-stop takes the drives away, and an alarm of a servo puts the control into it
+        (7-20).
+        """
         if control.flags & Flags.ESTOP:
             self._machine.switch_off()
+        elif self._machine.has_lost_drive:
+            if self._was_estop:  # E-STOP RESET gives the drives back, and forgets what has stopped them
+                self._machine.reset()
+            else:
+                control.set_estop(True)
+        self._was_estop = bool(control.flags & Flags.ESTOP)
         self._machine.advance(duration)
 
     def operate(self, control: Control, verb: str, rest: str) -> str | None:
         """Do what a key does; None for other commands. Raises ValueError."""
-        if verb not in ("jog", "release", "manual-home", "mdi", "position"):
+        if verb not in ("jog", "release", "manual-home", "mdi", "position", "fault"):
             return None
         if verb == "position":
             return self._machine.screen()
@@ -54,6 +65,8 @@ class MachineKeys:
             self._machine.stop()
             return "released"
         try:
+            if verb == "fault":
+                return self._fault(control, rest)
             self._ready(control)
             if verb == "jog":
                 return self._jog(rest.split())
@@ -85,6 +98,12 @@ class MachineKeys:
         self._load_parameters(control)
         if not self._machine.is_busy:
             self._machine.reset()
+
+    def _fault(self, control: Control, rest: str) -> str:
+        """Have a fault of the machine, of the axis that is named."""
+        kind, _, axis = rest.strip().partition(" ")
+        self._load_parameters(control)
+        return self._machine.fail(axis.strip(), kind)
 
     def _jog(self, words: list[str]) -> str:
         match words:

@@ -21,13 +21,13 @@ from .parameter_memory import ParameterMemory
 
 XOFF = b"\x13"
 """End of a table as the control unloads it (page 13-10)."""
-VERBS = ("jog", "release", "homing", "position")
+VERBS = ("jog", "release", "homing", "position", "fault")
 
 
 class NumKeys:
     """What an operator moves at the control in its manual modes."""
 
-    words = "jog X+ [slow|normal|fast|reduced], release, homing X, position"
+    words = "jog X+ [slow|normal|fast|reduced], release, homing X, position, fault drive|feedback X"
 
     def __init__(self, parameters: ParameterMemory) -> None:
         self._parameters = parameters
@@ -47,6 +47,9 @@ class NumKeys:
             return "released"
         try:
             self._load_parameters()
+            if verb == "fault":
+                kind, _, axis = rest.strip().partition(" ")
+                return self._machine.fail(axis.strip(), kind)
             if not self._machine.is_busy:
                 self._machine.reset()
             if verb == "homing":

@@ -33,8 +33,15 @@ PASSIVE = 1 << 4  # of 67, "set feedback position on feedback marker pulse": inf
 DONE, ACKNOWLEDGE = 1 << 0, 1 << 15  # pages 4-43 and 4-36
 LOCKED, BUSY, HOMED, ENABLED = 1 << 1, 1 << 2, 1 << 5, 1 << 7  # ASSUMED, by the order of section 4.37
 POSITION_ERROR, VELOCITY_ERROR = 1 << 4, 1 << 5  # page 4-43
-OVERTRAVEL, FEEDBACK_FAULT, ILLEGAL, SYSTEM = 1 << 0, 1 << 6, 1 << 8, 1 << 9  # ASSUMED
-FAULTS = {"POSITION ERROR": POSITION_ERROR, "VELOCITY ERROR": VELOCITY_ERROR, "OVERTRAVEL": OVERTRAVEL}
+OVERTRAVEL, DRIVE, FEEDBACK_FAULT, ILLEGAL, SYSTEM = 1 << 0, 1 << 3, 1 << 6, 1 << 8, 1 << 9
+"""ASSUMED, by the order of section 4.38: bits 0 to 3 are the overtravels and the drive fault, as the mask
+037FH of page 5-6 has them."""
+FAULTS = {
+    "POSITION ERROR": POSITION_ERROR,
+    "VELOCITY ERROR": VELOCITY_ERROR,
+    "OVERTRAVEL": OVERTRAVEL,
+    "DRIVE FAULT": DRIVE,
+}
 """Alarm of the simulated axis -> bit of register 73."""
 IN_POSITION, MOST_ERROR, VELOCITY, ERROR, PERIOD = 10, 8, 78, 80, 83
 READ_ONLY = frozenset((*range(70, 83), *range(84, 88), *range(99, 104)))
@@ -79,6 +86,15 @@ class Module:
         """Have a severe fault: the control loop is disabled (page 4-35)."""
         self._set(axis + FAULT, 1 << bit)
         self._disable(axis)
+
+    def trip(self, axis: int) -> None:
+        """Have the drive of an axis trip: its input sets the fault bit where register 2 enables it (4-5),
+        else the following error shows it. Raises ValueError where the registers make no axis.
+        """
+        motion = self._motion[axis]
+        if not motion.bind(self.words) or motion.simulated is None:
+            raise ValueError("the registers of this axis make none that can move")
+        motion.simulated.fail("drive")
 
     def advance(self, duration: float) -> None:
         """Let time pass, s: the axes move, and their state is in registers 72 and 73 (continuously,

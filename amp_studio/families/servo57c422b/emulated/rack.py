@@ -14,7 +14,7 @@ from .module import AXES, NAME, REGISTERS, Module
 
 LONGEST = 80  # bytes of a request
 MOST = 32  # registers of one answer
-COMMANDS = "patch R3=160, show R72, fault BIT X|Y, stop-all, power, status, quit"
+COMMANDS = "patch R3=160, show R72, fault BIT X|Y, fault drive X|Y, stop-all, power, status, quit"
 
 _REQUEST = re.compile(
     rb"([0-9]{1,3}) (ID|R ([0-9]{1,4}) ([0-9]{1,2})|W ([0-9]{1,4}) ([0-9]{1,5}))\*([0-9A-F]{4})"
@@ -106,6 +106,10 @@ class Rack:
         self.module.fault(AXES[axis], int(bit))
         return f"fault {bit} of axis {axis}"
 
+    def _trip(self, axis: str) -> str:
+        self.module.trip(AXES[axis])
+        return f"the drive of axis {axis} has tripped"
+
     def _stop_all(self) -> str:
         self.module.stop_all()
         return "stopped: system fault"
@@ -126,6 +130,7 @@ _ORDERS: dict[str, Callable[..., str]] = {
     r"patch R([0-9]{1,4})\s*=\s*([0-9]{1,5})": Rack._patch,
     r"show R([0-9]{1,4})": Rack._show,
     r"fault (1?[0-9]) ([XY])": Rack._fault,
+    r"fault drive ([XY])": Rack._trip,
     "stop-all": Rack._stop_all,
     "power": Rack._power,
     "status": Rack._status,

@@ -27,6 +27,7 @@ STATES = {
 """Bits of register 72; 0, 8 to 10 and 15 are printed, the others follow from the order of section 4.37."""
 FAULTS = {
     0: "Overtravel",
+    3: "Drive fault",
     4: "Maximum position error exceeded",
     5: "Maximum velocity error exceeded",
     6: "Feedback fault",
