@@ -76,6 +76,7 @@ if TYPE_CHECKING:
         GearRoles,
         Group,
         Guide,
+        GuideStep,
         HelpNote,
         HomePlace,
         JogRoles,

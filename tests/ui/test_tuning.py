@@ -68,7 +68,8 @@ def test_the_command_opens_the_pages_of_the_manual(window: MainWindow, qtbot: Qt
     action(window, "Tuning").trigger()
     (tuning,) = window.findChildren(TuningView)
     pages = [tuning.pages.item(n).text() for n in range(tuning.pages.count())]
-    assert pages == ["Reversal Error", "Home Calibration", "Axis Calibration", "Servo", "Spindle"]
+    values = ["Reversal Error", "Home Calibration", "Axis Calibration", "Servo", "Spindle"]
+    assert pages == [*values, "Tuning a digital axis by appendix A"]
     assert window.page.turned_to == "tuning"
     assert all(dock.isHidden() for dock in window.docks.docks), "the page has the whole window"
     action(window, "Tuning").trigger()

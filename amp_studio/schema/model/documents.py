@@ -144,11 +144,24 @@ class Messages(Model):
         return listed, *(m.table() for m in self.messages if m.code and m.causes and m.cures)
 
 
+class SimulatedStep(Model):
+    """What the simulated axis shows at a step of tuning."""
+
+    scenario: str
+    figures: tuple[str, ...]
+    """Figures of its result."""
+    settings: dict[str, float | str] = {}
+    """``move.…`` of the run."""
+
+
 class GuideStep(Model):
     """One step of a guide: what to set, in this order."""
 
     title: str
     what: str = ""
+    look: str = ""
+    """What to look for when it is done."""
+    shows: SimulatedStep | None = None
     params: tuple[ParameterId, ...]
     page: Page
 

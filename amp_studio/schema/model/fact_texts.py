@@ -31,6 +31,7 @@ class StepTexts(Model):
 
     title: str
     what: str = ""
+    look: str = ""
 
 
 class OrderTexts(Model):

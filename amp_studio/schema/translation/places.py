@@ -66,6 +66,7 @@ def _english(compiled: Compiled, further: FurtherFacts) -> Iterator[tuple[TextPl
         for n, each in enumerate(guide.steps):
             yield ("guides", guide.id, "steps", n, "title"), each.title
             yield ("guides", guide.id, "steps", n, "what"), each.what
+            yield ("guides", guide.id, "steps", n, "look"), each.look
     yield from _of_motion(further.motion)
     for listed in further.messages:
         yield from _of_messages(listed)

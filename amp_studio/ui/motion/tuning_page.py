@@ -25,7 +25,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.calibration import compensation_of
 from amp_studio.files import RangeError
-from amp_studio.schema import registration_of
+from amp_studio.schema import Guide, registration_of
 from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask
@@ -45,6 +45,7 @@ if TYPE_CHECKING:
 
     from .calibration_page import CalibrationPage
     from .step_answer import StepAnswer
+    from .tuning_steps import TuningSteps
 
 Connect = Callable[[], "LiveTuning | None"]
 """Asks for a control and returns it, not yet read; None where the user names none."""
@@ -77,6 +78,8 @@ class TuningView(PageOfFile):
         self.pages, self.stack = QListWidget(), QStackedWidget()
         self.pages.setAccessibleName(self.tr("Pages"))
         self.answer: StepAnswer | None = None
+        self.guided: list[TuningSteps] = []
+        """The printed ways of tuning, each made when it is first shown."""
         self.values: list[ValuesPage] = []
         self._later: dict[QWidget, Callable[[], None]] = {}
         self.calibration: CalibrationPage | None = None
@@ -115,12 +118,16 @@ class TuningView(PageOfFile):
                 self._later[widget] = partial(self._make_answer, widget, values)
             titles.append((worded(page.title), widget))
         if offered.table is not None:
-            holder = QWidget()
-            QVBoxLayout(holder).setContentsMargins(0, 0, 0, 0)
+            holder = _empty_page()
             self._later[holder] = partial(self._make_calibration, holder)
             keys = [page.key for page in offered.pages]
             at = next((n for n, key in enumerate(keys) if key in ("servo", "filters", "steps")), len(titles))
             titles.insert(at, (self.tr("Axis Calibration"), holder))
+        for guide in self._workspace.file.schema.guides:
+            if any(step.shows for step in guide.steps):
+                holder = _empty_page()
+                self._later[holder] = partial(self._make_steps, holder, guide)
+                titles.append((worded(guide.title, family), holder))
         for n, (title, widget) in enumerate(titles):
             self.pages.addItem(title)
             item = self.pages.item(n)
@@ -138,14 +145,22 @@ class TuningView(PageOfFile):
         holder.addWidget(self.answer)
         self.answer.show_target(self.target)
 
+    def _make_steps(self, holder: QWidget, guide: Guide) -> None:
+        _load_plots()
+        from .tuning_steps import TuningSteps
+
+        steps = TuningSteps(guide, self.guarded)
+        self.guided.append(steps)
+        _put_into(holder, steps)
+        steps.show_target(self.target)
+        steps.show()
+
     def _make_calibration(self, holder: QWidget) -> None:
         _load_plots()
         from .calibration_page import CalibrationPage
 
         self.calibration = CalibrationPage(self.guarded, self.read_measured)
-        layout = holder.layout()
-        assert layout is not None
-        layout.addWidget(self.calibration)
+        _put_into(holder, self.calibration)
         self.calibration.show_target(self.target)
         self.calibration.show()
 
@@ -179,7 +194,7 @@ class TuningView(PageOfFile):
 
     def _show(self, target: TuningTarget) -> None:
         self.target = target
-        for page in (*self.values, self.calibration, self.answer):
+        for page in (*self.values, *self.guided, self.calibration, self.answer):
             if page is not None:
                 page.show_target(target)
         self.switch.show_choice("file" if target is self.file_target else "control")
@@ -383,5 +398,18 @@ def _step_of(event: QEvent) -> str | None:
 
 def _load_plots() -> None:
     """Load what draws and simulates: first in a thread, so that a page seldom waits for it."""
-    parts = ("calibration_page", "measured_dialog", "step_answer")
+    parts = ("calibration_page", "measured_dialog", "step_answer", "tuning_steps")
     load("amp_studio.sim", *(f"{__package__}.{part}" for part in parts))
+
+
+def _empty_page() -> QWidget:
+    """Return a page whose content is made when it is first shown."""
+    holder = QWidget()
+    QVBoxLayout(holder).setContentsMargins(0, 0, 0, 0)
+    return holder
+
+
+def _put_into(holder: QWidget, widget: QWidget) -> None:
+    layout = holder.layout()
+    assert layout is not None
+    layout.addWidget(widget)

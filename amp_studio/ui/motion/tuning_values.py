@@ -231,7 +231,7 @@ class ValuesPage(QWidget):
             self.step.clear()
             for text, step in zip(texts, steps, strict=True):
                 self.step.addItem(text, step)
-            self.step.setCurrentIndex(_usual(steps, file.get(address)))
+            self.step.setCurrentIndex(usual_step(steps, file.get(address)))
 
     # -- changing ----------------------------------------------------------------
 
@@ -306,7 +306,7 @@ class ValuesPage(QWidget):
         self.target.set(f"{what} {self.target.file.machine_schema.label(address)}", {address: value})
 
 
-def _usual(steps: tuple[Fraction, ...], value: Value | None) -> int:
+def usual_step(steps: tuple[Fraction, ...], value: Value | None) -> int:
     """Return which step is offered first: some hundredth of the value; the third one, a micrometre mostly,
     where it is 0.
     """

@@ -179,7 +179,10 @@ class StepsPanel(QWidget):
             below.setToolTip(
                 0,
                 self.tr("{title}, page {page}").format(title=worded(step.title, self._family), page=step.page)
-                + (f": {worded(step.what, self._family)}" if step.what else ""),
+                + "".join(
+                    f": {worded(text, self._family)}" if n == 0 else f"\n{worded(text, self._family)}"
+                    for n, text in enumerate(filter(None, (step.what, step.look)))
+                ),
             )
             item.addChild(below)
         self.tree.addTopLevelItem(item)

@@ -1,0 +1,372 @@
+"""The printed way of tuning an axis as steps: what to change, what to look for, what the simulated axis shows
+now; beside them the gains that the solver proposes for an aim, before and after.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from PySide6.QtCore import QSize, Qt, QTimer, QUrl
+from PySide6.QtWidgets import (
+    QComboBox,
+    QHBoxLayout,
+    QLabel,
+    QListWidget,
+    QListWidgetItem,
+    QPushButton,
+    QSplitter,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.drawing import linked
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address, Guide, Value, axis_name
+from amp_studio.sim import (
+    Recommendation,
+    SimulationError,
+    Trace,
+    address_of,
+    picture_of,
+    simulate,
+    simulated_axes,
+    value_text,
+)
+from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.plot import Plot
+from amp_studio.ui.base.task import Task
+from amp_studio.ui.base.theme import CONTROL, GAP, GAP2, SMALL_ICON, icon
+from amp_studio.ui.base.translated import sentenced, worded
+from amp_studio.ui.forms.pages import LINK
+from amp_studio.ui.forms.segment import Segment
+
+from .results import RecommendationsPage
+from .settings import scrolled
+from .step_detail import StepDetail
+from .tuning_target import TuningTarget
+
+SETTLE_MS = 250
+"""Milliseconds without a further change before it is simulated again."""
+_LEFT, _RIGHT = 262, 262
+"""Widths in pixels of the steps and of what is proposed."""
+_ROWS = 9
+"""Steps that are seen at once."""
+_FIGURES = ("Ms", "phase_margin", "gain_margin", "bandwidth", "stiffness", "velocity_loop_Ms")
+_TUNE, _MAP = "tune", "sweep"
+_DONE, _OPEN = "check-circle-fill", "circle"
+
+
+class TuningSteps(QWidget):
+    """One guide of tuning, at the file or at a control."""
+
+    def __init__(self, guide: Guide, guarded: Callable[[Callable[[], object]], object]) -> None:
+        """``guarded`` runs what may fail and shows the error."""
+        super().__init__()
+        self.guide, self._guarded = guide, guarded
+        self._target: TuningTarget | None = None
+        self._tasks: dict[str, Task] = {}
+        self._again: set[str] = set()
+        self._done: set[int] = set()
+        self.now: Trace | None = None
+        self.before: Trace | None = None
+        """The axis as it was when the step was opened."""
+        self.tuned: Trace | None = None
+        self._make_widgets()
+        self._arrange()
+        self._timer = QTimer(self)
+        self._timer.setSingleShot(True)
+        self._timer.setInterval(SETTLE_MS)
+        self._timer.timeout.connect(self.run)
+        self.steps.currentRowChanged.connect(lambda *_: self._open())
+        self.axis.currentIndexChanged.connect(lambda *_: self._open())
+        self.aim.chosen.connect(self._aimed)
+        self.chart.chosen.connect(self._charted)
+
+    def _make_widgets(self) -> None:
+        self.title = QLabel()
+        self.title.setWordWrap(True)
+        self.steps = QListWidget()
+        self.steps.setAccessibleName(self.tr("Steps of tuning"))
+        self.steps.setIconSize(QSize(SMALL_ICON, SMALL_ICON))
+        self.detail = StepDetail(self._guarded)
+        self.next, self.back = QPushButton(self.tr("Done, Ne&xt")), QPushButton(self.tr("Bac&k"))
+        self.page = QLabel()
+        self.next.clicked.connect(lambda: self._go(1))
+        self.back.clicked.connect(lambda: self._go(-1))
+        self.axis = QComboBox()
+        self.axis.setAccessibleName(self.tr("Simulated axis"))
+        self.plot, self.below = Plot(), Plot(has_cursors=False)
+        self.plot.setAccessibleName(self.tr("What the simulated axis shows"))
+        self.below.setAccessibleName(self.tr("The axis with the proposed gains"))
+        self.aim = Segment(
+            self.tr("Aim"),
+            (
+                ("quiet", self.tr("Quiet"), ""),
+                ("normal", self.tr("Normal"), ""),
+                ("stiff", self.tr("Stiff"), ""),
+            ),
+        )
+        self.aim.show_choice("normal")
+        self._aim = "normal"
+        self.chart = Segment(
+            self.tr("Below"),
+            ((_TUNE, self.tr("Load and Inertia"), ""), (_MAP, self.tr("Map of Both Gains"), "")),
+        )
+        self.chart.show_choice(_TUNE)
+        self._chart = _TUNE
+        self.proposed = RecommendationsPage(self._apply, self._follow)
+        self.figures, self.assumed = QLabel(), QLabel()
+        for label in (self.figures, self.assumed):
+            label.setWordWrap(True)
+            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+
+    def _arrange(self) -> None:
+        left, middle, right = QWidget(), QWidget(), QWidget()
+        column = QVBoxLayout(left)
+        column.setContentsMargins(GAP2, 0, GAP, GAP2)
+        row = QHBoxLayout()
+        for button in (self.next, self.back):
+            button.setAutoDefault(False)
+            row.addWidget(button)
+        row.addStretch()
+        row.addWidget(self.page)
+        column.addWidget(self.title)
+        column.addWidget(self.steps)
+        column.addWidget(scrolled(self.detail), 1)
+        column.addLayout(row)
+        head = QHBoxLayout()
+        label = QLabel(self.tr("Axi&s"))
+        label.setBuddy(self.axis)
+        head.addWidget(label)
+        head.addWidget(self.axis)
+        head.addStretch()
+        head.addWidget(self.chart)
+        column = QVBoxLayout(middle)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addLayout(head)
+        column.addWidget(self.plot, 1)
+        column.addWidget(self.below, 1)
+        column = QVBoxLayout(right)
+        column.setContentsMargins(GAP, 0, GAP2, GAP2)
+        column.setSpacing(GAP)
+        row = QHBoxLayout()
+        row.addWidget(self.aim)
+        row.addStretch()
+        column.addLayout(row)
+        column.addWidget(self.figures)
+        column.addWidget(self.proposed, 1)
+        column.addWidget(self.assumed)
+        left.setFixedWidth(_LEFT)
+        right.setFixedWidth(_RIGHT)
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        splitter = QSplitter(Qt.Orientation.Horizontal)
+        for widget in (left, middle, right):
+            splitter.addWidget(widget)
+        splitter.setChildrenCollapsible(False)
+        layout.addWidget(splitter)
+
+    # -- what is shown -------------------------------------------------------------
+
+    def show_target(self, target: TuningTarget) -> None:
+        """Show the values of a file, or of what a control contains."""
+        if self._target is not None:
+            self._target.changed.disconnect(self._changed)
+        self._target = target
+        target.changed.connect(self._changed)
+        family, file = target.file.schema.family.family, target.file
+        self.title.setText(worded(self.guide.title, family))
+        axis = self.axis.currentData()
+        self.axis.blockSignals(True)
+        self.axis.clear()
+        for each in simulated_axes(file):
+            letter = axis_name(file.evaluation, each)
+            self.axis.addItem(f"{each} {letter}" if letter and letter != each else each, each)
+        self.axis.setCurrentIndex(max(0, self.axis.findData(axis)))
+        self.axis.blockSignals(False)
+        self.steps.blockSignals(True)
+        row = max(0, self.steps.currentRow())
+        self.steps.clear()
+        for n, step in enumerate(self.guide.steps, 1):
+            item = QListWidgetItem(icon(_OPEN), f"{n}  {worded(step.title, family)}")
+            item.setSizeHint(QSize(0, CONTROL))
+            item.setToolTip(worded(step.title, family))
+            self.steps.addItem(item)
+        self.steps.setCurrentRow(row)
+        self.steps.setFixedHeight(min(self.steps.count(), _ROWS) * (CONTROL + 1) + GAP)
+        self.steps.blockSignals(False)
+        self._open()
+
+    def _open(self) -> None:
+        """Show the present step of the axis, from how it moves now."""
+        step = self.guide.steps[max(0, self.steps.currentRow())]
+        self.before = self.now = self.tuned = None
+        self.page.setText(worded(f"page {step.page}"))
+        self.back.setEnabled(self.steps.currentRow() > 0)
+        self._show_step()
+        self._timer.start()
+
+    def _show_step(self) -> None:
+        if self._target is not None and self.axis.currentData() is not None:
+            step = self.guide.steps[max(0, self.steps.currentRow())]
+            self.detail.show_step(self._target, step, str(self.axis.currentData()))
+
+    def _changed(self, *_: object) -> None:
+        self._show_step()
+        self._timer.start()
+
+    def showEvent(self, event: object) -> None:
+        """Simulate once it is seen."""
+        super().showEvent(event)  # type: ignore[arg-type]  # Qt gives the event of this kind
+        self._timer.start()
+
+    def _go(self, by: int) -> None:
+        """Tick the step and open the next one, or go back; no value is changed by it."""
+        row = self.steps.currentRow()
+        if by > 0:
+            self._done.add(row)
+        else:
+            self._done.discard(row - 1)
+        for n in range(self.steps.count()):
+            self.steps.item(n).setIcon(icon(_DONE if n in self._done else _OPEN))
+        self.steps.setCurrentRow(min(max(0, row + by), self.steps.count() - 1))
+
+    # -- what is computed ----------------------------------------------------------
+
+    def run(self) -> None:
+        """Simulate the step, and seek the gains, in threads; once more where something changed meanwhile."""
+        if self._target is None or not self.isVisible() or self.axis.currentData() is None:
+            return
+        file, axis = self._target.file.copy(), str(self.axis.currentData())
+        shows = self.guide.steps[self.steps.currentRow()].shows
+        if shows is not None:
+            scenario, settings = shows.scenario, dict(shows.settings)
+            on = None if scenario == "tap" else axis
+            self._begin("step", lambda: _simulated(file, scenario, on, settings), self._stepped)
+        else:
+            self.plot.clear_picture()
+        aim = self._aim
+        if self._chart == _MAP:
+            self._begin(_MAP, lambda: _simulated(file, "sweep", axis, {}), self._mapped)
+        self._begin(_TUNE, lambda: _simulated(file, "tune", axis, {"tune.for": aim}), self._tuned)
+
+    def _begin(self, key: str, work: Callable[[], Trace], done: Callable[[Trace], None]) -> None:
+        if key in self._tasks:
+            self._again.add(key)
+            return
+        task = Task(lambda *_: work(), None)
+        self._tasks[key] = task
+        task.done.connect(done)
+        task.failed.connect(lambda error: self._failed(key, error))
+        task.finished.connect(lambda: self._finished(key))
+        task.begin()
+
+    def _finished(self, key: str) -> None:
+        self._tasks.pop(key, None)
+        if key in self._again:
+            self._again.discard(key)
+            self._timer.start()
+
+    def _stepped(self, trace: Trace) -> None:
+        if self.before is None or self.before.scenario != trace.scenario:
+            self.before = trace
+        self.now = trace
+        picture = picture_of(trace, self.before if self.before is not trace else None)
+        # Of a move the position comes first, in which nothing is seen.
+        panels = picture.panels[1:3] if len(picture.panels) > 2 else picture.panels
+        self.plot.draw(replace(picture, panels=linked(panels)))
+        self.detail.show_figures(self.guide.steps[self.steps.currentRow()], trace, self.before)
+
+    def _tuned(self, trace: Trace) -> None:
+        assert self._target is not None
+        self.tuned = trace
+        if self._chart == _TUNE:
+            self.below.draw(picture_of(trace))
+        may = self._target.may_edit
+        schema = self._target.file.schema
+        self.proposed.show_all(
+            schema, trace.recommendations, lambda name: may and self._address(name) is not None
+        )
+        self.figures.setText(self._figures_text(trace))
+        assumed = [text for text in trace.assumptions if text.startswith("ASSUMED: model.")]
+        family = schema.family.family
+        self.assumed.setText("\n".join(sentenced(text.split(". ")[0] + ".", family) for text in assumed))
+
+    def _figures_text(self, trace: Trace) -> str:
+        """Return Ms, margins, bandwidth and stiffness in the file and as proposed, as a table."""
+        heads = (self.tr("in the file"), self.tr("proposed"))
+        rows = [f"<tr><td></td><td align=right>{heads[0]}</td><td align=right>{heads[1]}</td></tr>"]
+        for name in _FIGURES:
+            if name not in trace.result:
+                continue
+            cells = []
+            for key in (f"{name}_before", name):
+                value, unit = trace.result.get(key, (None, ""))
+                text = self.tr("unstable") if value is None and name == "Ms" else "–"
+                cells.append(text if value is None else written(value_text(value, digits=3)))
+            unit = trace.result[name][1]
+            rows.append(
+                f"<tr><td>{worded(name.replace('_', ' '))}&nbsp;</td><td align=right>{cells[0]}</td>"
+                f"<td align=right><b>&nbsp;{cells[1]}</b>&nbsp;{unit}</td></tr>"
+            )
+        return f"<table cellspacing=0 cellpadding=1 width=100%>{''.join(rows)}</table>"
+
+    def _mapped(self, trace: Trace) -> None:
+        if self._chart == _MAP:
+            self.below.draw(picture_of(trace))
+
+    def _failed(self, key: str, error: Exception) -> None:
+        family = self._target.file.schema.family.family if self._target else ""
+        text = sentenced(str(error), family)
+        if key == "step":
+            self.plot.clear_picture()
+            self.detail.show_figures(self.guide.steps[self.steps.currentRow()], None, None, text)
+        elif key == _TUNE:
+            self.tuned = None
+            self.figures.setText(text)
+            self.below.clear_picture()
+        else:
+            self.below.clear_picture()
+
+    # -- what is chosen ------------------------------------------------------------
+
+    def _aimed(self, key: str) -> None:
+        self._aim = key
+        self.aim.show_choice(key)
+        self._timer.start()
+
+    def _charted(self, key: str) -> None:
+        self._chart = key
+        self.chart.show_choice(key)
+        self._timer.start()
+
+    def _address(self, parameter: str) -> Address | None:
+        assert self._target is not None
+        return address_of(self._target.file, parameter, str(self.axis.currentData()))
+
+    def _apply(self, found: Sequence[Recommendation]) -> None:
+        """Set proposed values as one step, in the file or in the control."""
+        assert self._target is not None
+        target, values = self._target, dict[Address, Value | None]()
+        for each in found:
+            address = self._address(each.parameter)
+            if address is not None:
+                old = target.file.get(address)
+                whole = old is not None and isinstance(old.value, int) and each.value.is_integer()
+                values[address] = Value(int(each.value) if whole else each.value, each.unit)
+        self._guarded(lambda: target.set(self.tr("Apply Recommendation"), values))
+
+    def _follow(self, url: QUrl) -> None:
+        address = self._address(url.toString().removeprefix(LINK))
+        if address in self.detail.fields:
+            self.detail.fields[address].setFocus()
+
+
+def _simulated(
+    file: ParameterFile, scenario: str, axis: str | None, settings: dict[str, float | str]
+) -> Trace:
+    try:
+        return simulate(file, scenario, axis, settings, file.header.units)
+    except SimulationError as error:
+        raise ValueError(str(error)) from None
