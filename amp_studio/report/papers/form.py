@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator
 from datetime import datetime
 from itertools import product
 
@@ -74,7 +74,9 @@ def _tables(file: ParameterFile, everything: bool, language: Language) -> Iterat
             if len(places) == 1:
                 address = (parameter.id, places[0])
                 allowed = _allowed(file, parameter, language)
-                single.append((_number(file, address), parameter.name, allowed, _blank(file, address)))
+                single.append(
+                    (_number(file, address), parameter.name, allowed, _blank(file, address, language))
+                )
             elif places:
                 several.setdefault(places, []).append(parameter)
         if single:
@@ -93,7 +95,7 @@ def _matrix(
     is_ladder = len(places) > _MOST_PLACES
     width = len(parts[0])
     heads = [_filled(_labels(file, parameters[0], part, language), width) for part in parts]
-    columns, in_cells = ([""] * width, language) if is_ladder else (heads[0], None)
+    columns = [""] * width if is_ladder else heads[0]
     for n, part in enumerate(parts):
         if n and not is_ladder:
             strong |= set(product([len(rows)], range(2, width + 2)))
@@ -101,16 +103,10 @@ def _matrix(
         for parameter in parameters:
             is_named = n == 0 or not is_ladder
             about = (parameter.name, _allowed(file, parameter, language, not n)) if is_named else ("", "")
-            cells = _cells(file, parameter, part, in_cells)
+            cells = [_cell(file, (parameter.id, place), language, is_ladder) for place in part]
             rows.append((*about, *_filled(cells, width)))
     shares = (3.4, 4.2, *[2.1] * width)
     return PaperTable(title, (*_HEADS[1:3], *columns), tuple(rows), shares, frozenset(strong), values_from=1)
-
-
-def _cells(
-    file: ParameterFile, parameter: Parameter, places: Sequence[str], language: Language | None
-) -> list[str]:
-    return [_cell(file, (parameter.id, place), language) for place in places]
 
 
 def _filled(cells: list[str], width: int) -> list[str]:
@@ -128,23 +124,25 @@ def _number(file: ParameterFile, address: Address) -> str:
     return "" if here.is_disputed(address[0]) else here.number(address) or ""
 
 
-def _cell(file: ParameterFile, address: Address, language: Language | None) -> str:
-    """Return number and blank; where it has no number and there is a language, its place and blank."""
-    place = language.text(place_of(file, address)) if language else ""
-    return f"{_number(file, address) or place} {_blank(file, address)}".strip()
+def _cell(file: ParameterFile, address: Address, language: Language, is_ladder: bool) -> str:
+    """Return number and blank; in a ladder the place and blank of what has no number."""
+    place = language.text(place_of(file, address)) if is_ladder else ""
+    return f"{_number(file, address) or place} {_blank(file, address, language)}".strip()
 
 
-def _blank(file: ParameterFile, address: Address) -> str:
+def _blank(file: ParameterFile, address: Address, language: Language) -> str:
     """Return a line to write on, with the unit."""
-    return f"______ {unit_text(file.evaluation.unit(address, file.header.units))}".rstrip()
+    unit = unit_text(file.evaluation.unit(address, file.header.units))
+    return f"______ {language.unit(unit)}".rstrip()
 
 
 def _bit(bit: Bit, language: Language) -> str:
     """Return a box for a bit, a blank for a field of several; a line does not end within a short one."""
     last = bit.bit + bit.width - 1
+    label = language.label(bit.label)
     if last > bit.bit:
-        return f"{language.text(f'bits {bit.bit} to {last}')}: {bit.label} ____"
-    text = f"[ ] {bit.bit} {bit.label}"
+        return f"{language.text(f'bits {bit.bit} to {last}')}: {label} ____"
+    text = f"[ ] {bit.bit} {label}"
     return text.replace(" ", "\u00a0", -1 if len(text) < _SHORT else 3)
 
 
@@ -153,9 +151,9 @@ def _allowed(file: ParameterFile, parameter: Parameter, language: Language, in_f
     if not in_full:
         return ""
     if parameter.choices:
-        labels = [choice.label for choice in parameter.choices]
+        labels = [language.label(choice.label) for choice in parameter.choices]
         more = f" … ({len(labels)})" if len(labels) > _MOST_CHOICES else ""
         return " / ".join(labels[:_MOST_CHOICES]) + more
     if parameter.bits:
         return "   ".join(_bit(bit, language) for bit in parameter.bits)
-    return "; ".join(map(language.message, range_text(parameter.ranges, file.schema)))
+    return "; ".join(range_text(parameter.ranges, file.schema, language))

@@ -246,24 +246,25 @@ def _printed_ranges(schema: Schema, parameter: Parameter) -> list[str]:
     return [f"no bounds printed, in {units}"]
 
 
-def range_text(ranges: dict[str, Range] | None, schema: Schema) -> list[str]:
+def range_text(ranges: dict[str, Range] | None, schema: Schema, words: Language = ENGLISH) -> list[str]:
     """Return one line for each printed unit: ``0 to 214.1 mm``."""
     lines = []
-    for unit, (low, high) in (ranges or {}).items():
+    for printed, (low, high) in (ranges or {}).items():
+        unit = words.unit(unit_text(printed))
         if low is None and high is None:
-            lines.append(f"no bounds printed{f', in {unit_text(unit)}' if unit else ''}")
+            lines.append(words.text("no bounds printed") + (f", in {unit}" if unit else ""))
             continue
-        ends = [_end(schema, bound) for bound in (low, high)]
-        lines.append(f"{ends[0]} to {ends[1]} {unit_text(unit)}".rstrip())
+        ends = [_end(schema, bound, words) for bound in (low, high)]
+        lines.append(f"{ends[0]} {words.text('to')} {ends[1]} {unit}".rstrip())
     return lines
 
 
-def _end(schema: Schema, bound: object) -> str:
+def _end(schema: Schema, bound: object, words: Language) -> str:
     if bound is None:
         return "…"
     if isinstance(bound, BoundRef):
         return schema.parameters[bound.param].name
-    return write_number(float(bound))  # type: ignore[arg-type]  # a bound is a float, a reference or None
+    return words.number(write_number(float(bound)))  # type: ignore[arg-type]  # a bound is a float, a reference or None
 
 
 def _choice(choice: Choice, patchable: bool) -> str:
