@@ -6,9 +6,12 @@ import contextlib
 import os
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from .parameter_file import ParameterFile
 from .paths import real_path
+
+if TYPE_CHECKING:
+    from .parameter_file import ParameterFile
 
 MADE_FROM = "made_from"
 """Key of the header: the other file, as seen from the folder of this one."""

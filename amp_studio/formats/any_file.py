@@ -9,7 +9,7 @@ from amp_studio.files import ENDING, ParameterFile, ParameterFileError, file_con
 
 from .import_export import all_formats, import_file
 from .report_pdf import HEAD, is_pdf
-from .text_format import FamilyNotGivenError, FormatError, text_to_recognise
+from .text_format import FamilyNotGivenError, FormatError, plain_content, text_to_recognise
 
 
 def is_text_of_control(path: Path) -> bool:
@@ -19,10 +19,18 @@ def is_text_of_control(path: Path) -> bool:
     return path.suffix.casefold() != ENDING and _is_text(file_content(path))
 
 
+def is_parameter_file(path: Path) -> bool:
+    """Return whether a file begins as a parameter file does, whatever it is called (a backup); raises
+    ParameterFileError where it cannot be read.
+    """
+    content = file_content(path)
+    return not is_pdf(content) and HEAD.search(content) is not None
+
+
 def _is_text(content: bytes) -> bool:
     if is_pdf(content):
         return True
-    text = text_to_recognise(content)
+    text = text_to_recognise(plain_content(content))
     return not HEAD.search(content) and any(each.recognises(text) for each in all_formats())
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -37,12 +36,14 @@ from .account import Account, account_of_export, account_of_import
 from .bare_figures import system_of
 from .report_pdf import attached_machine, is_pdf
 from .text_format import (
+    WRITTEN_AROUND,
     FamilyNotGivenError,
     FormatError,
     ReadOptions,
     TextFormat,
     TextOffer,
     TextRead,
+    plain_content,
     text_to_recognise,
 )
 
@@ -91,9 +92,10 @@ def import_file(
     path = Path(path)
     if family:
         load_schema(family)  # of an unknown one nothing is a format
-    content = _as_utf8(read_file(path, _MOST_PDF if path.suffix.casefold() == ".pdf" else _MOST_BYTES))
+    content = read_file(path, _MOST_PDF if path.suffix.casefold() == ".pdf" else _MOST_BYTES)
     if is_pdf(content):
         return _machine_of_report(path, content, family, take_account)
+    content = plain_content(content)
     chosen = _format_for_reading(content, family, format_key)
     text = _decoded(content, chosen)
     schema = load_schema(family or _only_family(chosen, text))
@@ -137,7 +139,7 @@ def offer_of(path: Path) -> TextOffer | None:
     """
     if path.suffix.casefold() == ".pdf":
         return None
-    content = _as_utf8(read_file(path, _MOST_BYTES))
+    content = plain_content(read_file(path, _MOST_BYTES))
     try:
         chosen = _format_for_reading(content, None, None)
         if chosen.offer is None:
@@ -163,6 +165,9 @@ def _beside(path: Path) -> Callable[[str], str | None]:
 
 
 def _decoded(content: bytes, chosen: TextFormat) -> str:
+    for mark in WRITTEN_AROUND:
+        if mark not in chosen.around:
+            content = content.removeprefix(mark).removesuffix(mark)
     try:
         return content.decode(chosen.encoding)
     except UnicodeDecodeError as error:
@@ -170,13 +175,6 @@ def _decoded(content: bytes, chosen: TextFormat) -> str:
             return content.decode(chosen.otherwise, "replace")
         line = content[: error.start].count(b"\n") + 1
         raise FormatError(f"there is a byte that is no {chosen.encoding} text", line) from None
-
-
-def _as_utf8(content: bytes) -> bytes:
-    """Return a text of 16-bit characters, as a terminal of Windows saves it, in the usual encoding."""
-    if not content.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
-        return content
-    return content.decode("utf-16", "replace").encode("utf-8", "replace")
 
 
 def file_of(schema: Schema, read: TextRead, name: str) -> ParameterFile:

@@ -7,6 +7,7 @@ meant, and nothing is imported then.
 
 from __future__ import annotations
 
+from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
@@ -76,6 +77,10 @@ class TextOffer:
     """The machine type that the text decides on."""
 
 
+WRITTEN_AROUND = (BOM_UTF8, b"\x1a")
+"""What editors write before a text and DOS behind it."""
+
+
 @dataclass(frozen=True)
 class TextFormat:
     """One text format."""
@@ -104,6 +109,8 @@ class TextFormat:
     alone."""
     is_of: Callable[[str, Schema], bool] | None = None
     """Returns whether the names of a text are those of a family; None where a text does not show it."""
+    around: tuple[bytes, ...] = ()
+    """What it reads and writes before and behind its text; of ``WRITTEN_AROUND`` the rest is left out."""
     otherwise: str = ""
     """The encoding of a text that is not of ``encoding``; without it such a text is refused."""
 
@@ -113,8 +120,19 @@ class TextFormat:
         return (self.ending, *self.other_endings)
 
 
+def plain_content(content: bytes) -> bytes:
+    """Return the bytes of a text as its control wrote them, whatever wrote them down since: 16-bit characters
+    (a terminal or an editor of Windows), lines that end with a carriage return alone.
+    """
+    if content.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
+        content = content.decode("utf-16", "replace").encode("utf-8", "replace")
+    return content if b"\n" in content else content.replace(b"\r", b"\n")
+
+
 def text_to_recognise(content: bytes) -> str:
     """Return a text by which its format is recognised, whatever its encoding;
     a no-break space of a page or a chat is a space.
     """
+    for mark in WRITTEN_AROUND:
+        content = content.removeprefix(mark).removesuffix(mark)
     return content.replace(b"\xc2\xa0", b" ").decode("latin-1")

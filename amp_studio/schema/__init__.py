@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from .bit_fields import field_at, field_value, labels_of_word, with_field
     from .catalog import Schema, load_schema
     from .cel_engine import WORD_FUNCTIONS, Context, Program, functions_called
-    from .compiled_cache import cache_folder
     from .conditions import ACTIVE, Reference, StateInfo
     from .constraint import Limits, bounding, clip, fault, limits
     from .described import DescriptionError, described_schema
@@ -51,7 +50,7 @@ if TYPE_CHECKING:
         value_of,
     )
     from .file_error import FileError, ModelError, Slip, read_yaml_file, text_of
-    from .folder import database_folder
+    from .folder import cache_folder, database_folder
     from .load import DatabaseError, FactEntry, UnknownFamilyError, family_ids, read_entries
     from .machine_schema import MachineSchema, labelled
     from .model import (

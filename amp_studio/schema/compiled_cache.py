@@ -12,7 +12,6 @@ import json
 import logging
 import os
 import re
-import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -20,23 +19,7 @@ from typing import Any
 from .regular_file import read_file
 
 _log = logging.getLogger(__name__)
-_PROGRAM = "amp-studio"
 _MOST_BYTES = 64 * 2**20
-
-
-def cache_folder() -> Path:
-    """Return the user's folder of caches: that of platformdirs, which is loaded where it knows better only.
-
-    It loads tempfile with all of Python's compressions, a fiftieth of a check.
-    """
-    if sys.platform == "linux":
-        places = (Path(os.environ.get("XDG_CACHE_HOME", "")), Path(os.environ.get("HOME", ""), ".cache"))
-        found = next((place for place in places if place.is_absolute()), None)
-        if found is not None:
-            return found / _PROGRAM
-    import platformdirs
-
-    return Path(platformdirs.user_cache_dir(_PROGRAM))
 
 
 def read_cached(path: Path) -> bytes | None:

@@ -15,7 +15,7 @@ from typing import Literal, NamedTuple
 from .address import Address, UnknownParameterError, read_address, whole_of
 from .catalog import Schema
 from .cel_engine import WORD_FUNCTIONS
-from .expression import Decision, Key, program
+from .expression import Decision, Key, PartsDecision, program
 from .model import BoundRef, Parameter, ParameterState, Scope
 
 Asked = tuple[str, str, str | None]
@@ -71,7 +71,8 @@ class Question(NamedTuple):
 
 
 StateGroups = tuple[tuple[Address, ...], ...]
-"""Addresses, those together whose states are the same whatever the values."""
+"""Addresses, those together whose states are the same whatever the values, or that are parts of one
+instance."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,6 +101,12 @@ class Conditions:
             n: Decision(program(c.when), WORD_FUNCTIONS) for n, c in schema.family.conditions.items()
         }
         self.reaches: dict[str, Reach] = {n: self._reach(n) for n in self.decisions}
+        self.by_part = {
+            name: PartsDecision(decision, schema.family.conditions[name].when)
+            for name, decision in self.decisions.items()
+            if self._asks_part_alone(name)
+        }
+        """Conditions whose answer for the parts of one instance depends on the number of the part alone."""
         self.readers: dict[Address, set[Asked]] = {}
         """Address -> what was asked, in whatever file, that reads it."""
         self.plans_asking: dict[Asked, set[StatePlan]] = {}
@@ -119,10 +126,10 @@ class Conditions:
         self._answers: dict[tuple[Key, ...], Answers] = {}
 
     def _reach(self, name: str) -> Reach:
-        condition = self._schema.family.conditions[name]
-        if self.decisions[name].asks_instance:
-            return "each"
-        reads_all = True
+        return "each" if self.decisions[name].asks_instance else self._reach_of_reads(name)
+
+    def _reach_of_reads(self, name: str) -> Reach:
+        condition, reads_all = self._schema.family.conditions[name], True
         for parameter_id, which in map(read_address, condition.reads.values()):
             instances = self._here.instances(self._schema.parameters[parameter_id])
             if which in ("<", ">") or (which == "" and any("." in instance for instance in instances)):
@@ -130,16 +137,29 @@ class Conditions:
             reads_all &= which not in ("", ".") or (which == "" and instances == ("",))
         return "all" if reads_all else "whole"
 
+    def _asks_part_alone(self, name: str) -> bool:
+        always = self.decisions[name].always
+        return "part" in always and "instance" not in always and self._reach_of_reads(name) != "each"
+
     # -- states ----------------------------------------------------------------
+
+    def groups(self, addresses: Iterable[Address]) -> StateGroups:
+        """Return addresses by how their states are found."""
+        found: dict[object, list[Address]] = {}
+        for address in addresses:
+            name, instance = address
+            is_part = self.reach_of_states(name) == "each"
+            found.setdefault((name, whole_of(instance)) if is_part else self.state_plan(address), []).append(
+                address
+            )
+        return tuple(map(tuple, found.values()))
 
     def state_plan(self, address: Address) -> StatePlan:
         """Return how the state of an address is found."""
         found = self.plan_of.get(address)
         if found is None:
             name, instance = address
-            reach = self._reaches_of.get(name)
-            if reach is None:
-                reach = self._reaches_of[name] = self._reach_of_states(name)
+            reach = self.reach_of_states(name)
             alike = (name, "" if reach == "all" else whole_of(instance) if reach == "whole" else instance)
             found = self._plans_of.get(alike)
             if found is None:
@@ -147,21 +167,32 @@ class Conditions:
             self.plan_of[address] = found
         return found
 
-    def _reach_of_states(self, name: str) -> Reach:
+    def reach_of_states(self, name: str) -> Reach:
         """Return for which instances of a parameter the state is found in one way."""
-        rules = self._schema.parameters[name].states
-        reaches = {self.reaches.get(rule.when or rule.unless or "", "each") for rule in rules}
-        return "each" if "each" in reaches else "whole" if "whole" in reaches else "all"
+        found = self._reaches_of.get(name)
+        if found is None:
+            rules = self._schema.parameters[name].states
+            reaches = {self.reaches.get(rule.when or rule.unless or "", "each") for rule in rules}
+            found = "each" if "each" in reaches else "whole" if "whole" in reaches else "all"
+            self._reaches_of[name] = found
+        return found
+
+    def steps(self, name: str) -> tuple[tuple[tuple[str, bool, StateInfo], ...], StateInfo]:
+        """Return how the state of a parameter is found, whatever its instance: conditions, whether each has
+        to be true or false, and what the state is then, the first one decides; and what it is otherwise.
+        """
+        parameter, steps = self._schema.parameters[name], []
+        for rule in parameter.states:
+            asked = rule.when or rule.unless or ""
+            condition = self._schema.family.conditions[asked]
+            info = StateInfo(rule.state, condition.why, rule.page or condition.page)
+            steps.append((asked, rule.when is not None, info))
+        return tuple(steps), READ_ONLY if parameter.access == "read" else ACTIVE
 
     def _planned(self, address: Address) -> StatePlan:
-        parameter = self._schema.parameters[address[0]]
-        steps = []
-        for rule in parameter.states:
-            name = rule.when or rule.unless or ""
-            condition = self._schema.family.conditions[name]
-            info = StateInfo(rule.state, condition.why, rule.page or condition.page)
-            steps.append((self.asked(name, address[1], self.scopes[address[0]]), rule.when is not None, info))
-        otherwise = READ_ONLY if parameter.access == "read" else ACTIVE
+        named, otherwise = self.steps(address[0])
+        scope = self.scopes[address[0]]
+        steps = [(self.asked(name, address[1], scope), wanted, info) for name, wanted, info in named]
         plan = self._plans.setdefault((*steps, otherwise), StatePlan(tuple(steps), otherwise))
         for asked, _, _ in steps:
             self.plans_asking.setdefault(asked, set()).add(plan)

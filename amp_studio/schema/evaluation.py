@@ -6,12 +6,12 @@ until it is notified that an address changed; it never changes a value.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from .address import Address, UnknownParameterError
 from .addressing import resolve_address
 from .catalog import Schema
-from .conditions import Answers, Asked, Conditions, Reference, StateGroups, StateInfo, conditions_of
+from .conditions import Answers, Asked, Conditions, Question, Reference, StateGroups, StateInfo, conditions_of
 from .expression import Canonical, Circumstances, Key, Keys, canonical_value, value_of
 from .machine_schema import MachineSchema
 from .model import Condition, Scope
@@ -114,16 +114,17 @@ class Evaluation:
     def _evaluate(self, asked: Asked) -> bool:
         if asked[0] not in self.schema.family.conditions:
             self.condition(asked[0])  # raises
-        question, keys = self._conditions.question(asked), self.keys
-        given: tuple[Key, ...]
+        question = self._conditions.question(asked)
+        circumstances = Circumstances(self.machine, self._model, asked[1])
+        return question.decision.is_true(self._given(question), question.names, circumstances)
+
+    def _given(self, question: Question) -> tuple[Key, ...]:
+        keys = self.keys
         if question.plain:
             # Most conditions read single values alone, which need no look at what kind of reference
             # each is.
-            given = tuple([keys[a] for a in question.plain])
-        else:
-            given = tuple([None if r is None else self._key(r) for r in question.references])
-        circumstances = Circumstances(self.machine, self._model, asked[1])
-        return question.decision.is_true(given, question.names, circumstances)
+            return tuple([keys[a] for a in question.plain])
+        return tuple([None if r is None else self._key(r) for r in question.references])
 
     def _key(self, reference: Reference) -> Key:
         keys = self.keys
@@ -165,20 +166,50 @@ class Evaluation:
         """Return the states that were asked for already, until the next change."""
         return (self._answers or self._present()).by_address
 
+    def groups(self, addresses: Iterable[Address]) -> StateGroups:
+        """Return addresses in groups, of which ``active`` returns the active ones quickly."""
+        return self._conditions.groups(addresses)
+
     def active(self, groups: StateGroups) -> tuple[Address, ...]:
-        """Return the active ones of groups of addresses whose states are the same whatever the values."""
+        """Return the active ones of ``groups`` of addresses."""
         answers = self._answers or self._present()
         kept = answers.active.get(id(groups))
         if kept is None:
-            # One of each group is asked: the others have its state whatever the values.
-            found = tuple([a for alike in groups if self.state(alike[0]).is_active for a in alike])
+            found: list[Address] = []
+            for alike in groups:
+                if self._conditions.reach_of_states(alike[0][0]) == "each":
+                    found += self._active_parts(alike)
+                elif self.state(alike[0]).is_active:  # the others have its state whatever the values
+                    found += alike
             # The groups are kept with it, so that no other object can get their id.
-            kept = answers.active[id(groups)] = groups, found
+            kept = answers.active[id(groups)] = groups, tuple(found)
         return kept[1]
 
-    def state_plan(self, address: Address) -> Hashable:
-        """Return what is equal for addresses whose states are the same whatever the values."""
-        return self._conditions.state_plan(address)
+    def _active_parts(self, parts: Sequence[Address]) -> list[Address]:
+        """Return the active ones of the parts of one instance of a parameter, as ``state`` finds them."""
+        (name, _), left, active = parts[0], list(parts), list[Address]()
+        steps, otherwise = self._conditions.steps(name)
+        for condition, wanted, info in steps:
+            if not left:
+                break
+            answers = self._answers_for(condition, left)
+            if info.is_active:
+                active += [part for part, answer in zip(left, answers, strict=True) if answer == wanted]
+            left = [part for part, answer in zip(left, answers, strict=True) if answer != wanted]
+        return active + left if otherwise.is_active else active
+
+    def _answers_for(self, name: str, parts: Sequence[Address]) -> list[bool]:
+        """Return what a condition comes to for parts of one instance."""
+        conditions = self._conditions
+        scope = self.scope(parts[0])
+        if conditions.reaches[name] != "each":
+            return [self._answer(conditions.asked(name, parts[0][1], scope))] * len(parts)
+        by_part = conditions.by_part.get(name)
+        if by_part is None:
+            return [self._answer(conditions.asked(name, instance, scope)) for _, instance in parts]
+        question = conditions.question(conditions.asked(name, parts[0][1], scope))
+        circumstances = [Circumstances(self.machine, self._model, instance) for _, instance in parts]
+        return by_part.are_true(self._given(question), question.names, circumstances)
 
     def state_reads(self, address: Address) -> frozenset[Address]:
         """Return every address whose value can change the state of this one."""

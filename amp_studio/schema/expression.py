@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Collection, Hashable, Iterable, Mapping, Sequence
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from operator import attrgetter
 from typing import Any
 
@@ -34,6 +34,9 @@ It is the value itself but for true, false and minus zero: Python takes 1 and Tr
 too, by which CEL divides with different results.
 """
 _TRUE, _FALSE = object(), object()
+
+_PARTS = "_parts"
+"""The parts of an instance, in an expression over all of them."""
 
 NO_RESULT = object()
 """What an expression comes to that makes no sense of its values."""
@@ -189,6 +192,50 @@ class Decision(Expression):
             return context_of(functions, self.always, given, given.values(), circumstances)
 
         return self.result(keys, circumstances, context)
+
+
+class PartsDecision:
+    """A decision that asks nothing of an instance but which part of its whole it is, for many parts at once.
+
+    Parts beside each other mostly have one answer (the points that a cam uses, and those that it does not):
+    they are asked about in halves until it is one. An expression makes a list of nothing: CEL copies it with
+    each element.
+    """
+
+    def __init__(self, decision: Decision, text: str) -> None:
+        self._decision, self._text = decision, text
+
+    def are_true(
+        self, keys: tuple[Key, ...], names: Sequence[str], parts: Sequence[Circumstances]
+    ) -> list[bool]:
+        """Return whether it is true for each of the parts of one instance."""
+        if len(parts) == 1:
+            return [self._decision.is_true(keys, names, parts[0])]
+        for is_true, every in ((False, self._none), (True, self._all)):
+            if self._is_so(every, keys, names, parts):
+                return [is_true] * len(parts)
+        half = len(parts) // 2
+        return [*self.are_true(keys, names, parts[:half]), *self.are_true(keys, names, parts[half:])]
+
+    def _is_so(
+        self, every: Program, keys: tuple[Key, ...], names: Sequence[str], parts: Sequence[Circumstances]
+    ) -> bool:
+        # The name of the parts is none that an expression can read.
+        given = {**dict(zip(names, map(value_of, keys), strict=True)), _PARTS: [one.part for one in parts]}
+        functions = self._decision.functions
+        context = context_of(functions, self._decision.always, given, given.values(), parts[0])
+        try:
+            return every.execute(context) is True
+        except EVALUATION_ERRORS:
+            return False
+
+    @cached_property
+    def _none(self) -> Program:
+        return program(f"{_PARTS}.all(part, !({self._text}\n))")
+
+    @cached_property
+    def _all(self) -> Program:
+        return program(f"{_PARTS}.all(part, ({self._text}\n))")
 
 
 def _counting(function: Callable[..., Any], lists: Mapping[bytes, Any]) -> Callable[..., Any]:

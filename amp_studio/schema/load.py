@@ -16,10 +16,9 @@ from typing import Any, NamedTuple, TypeVar
 
 from amp_studio.errors import AmpStudioError
 
-from .compiled_cache import cache_folder
 from .consistency import faults_between, faults_of_experience, faults_of_messages, faults_of_order
 from .file_error import FileError, ModelError, Slip, read_yaml_file
-from .folder import database_folder
+from .folder import cache_folder, database_folder
 from .model import (
     Commissioning,
     Errata,

@@ -313,12 +313,12 @@ class MainWindow(PartsWindow):
         elif path.suffix.lower() == ENDING:
             self.files.open_path(path)
         else:
-            from amp_studio.formats import is_text_of_control  # not needed at program start
+            from amp_studio.formats import is_parameter_file  # not needed at program start
 
-            if path.suffix or is_text_of_control(path):
-                self.files.formats.read_from(path)
-            else:
+            if is_parameter_file(path):
                 self.files.open_path(path)
+            else:
+                self.files.formats.read_from(path)
 
 
 def _opening_page(names: Sequence[str]) -> QWidget:

@@ -10,18 +10,11 @@ from amp_studio.front_pages import front_page
 
 if TYPE_CHECKING:
     from .arguments import finite, not_negative, percent_of, positive, whole
-    from .beside import (
-        axes_by_letter,
-        companion_names,
-        companions_of,
-        earlier_beside,
-        machines_of,
-        rules_beside,
-        validator_of,
-    )
-    from .builder_rules import NO_RULES, RULES_FILE, BuilderRules, Suppressed
+    from .beside import axes_by_letter, earlier_beside, rules_beside, validator_of
+    from .builder_rules import NO_RULES, BuilderRules, Suppressed
     from .calculator import Calculator, calculate, calculators, shown_result
     from .cell_expression import Entered, enter, read_plain
+    from .companions import RULES_FILE, companion_names, companions_of, machines_of
     from .explanation import Explanation, SeenValue, explain, rule_title
     from .finding import NOT_SET, SEVERITIES, AddressedValue, Finding, addresses_not_set, family_of_rule
     from .findings_between import new_findings

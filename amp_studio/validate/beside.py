@@ -6,17 +6,15 @@ from __future__ import annotations
 
 import contextlib
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import lru_cache
 from pathlib import Path
 
 from amp_studio.files import (
-    ENDING,
     RECORD,
     ParameterFile,
     ParameterFileError,
     backup_path,
-    history_path,
     is_there,
     local_time,
     origin_of,
@@ -25,12 +23,10 @@ from amp_studio.files import (
 )
 from amp_studio.schema import Address, Value, read_file
 
-from .builder_rules import NO_RULES, RULES_FILE, BuilderRules
+from .builder_rules import NO_RULES, BuilderRules
+from .companions import LARGEST_FLEET, RULES_FILE, fleet_of
 from .plausible import Earlier, values_of_fleet
 from .validator import Validator
-
-LARGEST_FLEET = 40
-"""Machines in a folder that are compared; more of them are no fleet that is looked after by hand."""
 
 
 def rules_beside(path: Path, file: ParameterFile) -> BuilderRules:
@@ -86,39 +82,6 @@ def _earlier(path: Path, file: ParameterFile) -> Iterator[Earlier]:
     others = [values for other in fleet_of(path) if (values := _values(other, file)) is not None]
     if fleet := values_of_fleet(others):
         yield Earlier(f"of {len(others)} other machines in its folder", fleet, is_same_machine=False)
-
-
-def companions_of(path: Path) -> list[Path]:
-    """Return what ``earlier_beside`` reads beside what a file names itself; not all of it is there.
-    Raises OSError.
-    """
-    real = real_path(path)
-    return [backup_path(real), history_path(real), real.with_name(RECORD), *fleet_of(real)]
-
-
-def companion_names(name: str, machines: Iterable[str]) -> list[str]:
-    """Return the names of the same, of a file that is no link, where ``machines`` are those of its folder."""
-    return [f"{name}.bak", f"{name}.history", RECORD, *(other for other in machines if other != name)]
-
-
-def machines_of(folder: Path) -> tuple[str, ...]:
-    """Return the names of the parameter files of a folder; none where there are too few or too many.
-    Raises OSError.
-    """
-    return _machines_in(folder, folder.stat().st_mtime_ns)
-
-
-def fleet_of(path: Path) -> list[Path]:
-    """Return the other parameter files in the folder of a file; none where there are too few or too many.
-    Raises OSError.
-    """
-    return [path.with_name(name) for name in machines_of(path.parent) if name != path.name]
-
-
-@lru_cache(maxsize=16)
-def _machines_in(folder: Path, changed: int) -> tuple[str, ...]:  # noqa: ARG001  # another one after a change of the folder
-    names = sorted(each.name for each in folder.iterdir() if each.name.endswith(ENDING))
-    return tuple(names) if 4 <= len(names) <= LARGEST_FLEET else ()
 
 
 def _values(path: Path, file: ParameterFile) -> dict[Address, Value] | None:

@@ -10,7 +10,6 @@ from amp_studio.schema import Address, Evaluation, Rule, Suppression, resolve_ad
 
 from .finding import Finding
 
-RULES_FILE = "rules.yaml"
 LONGEST_TEXT = 4000
 """Characters of a text that a builder's rule sees; it does not run where there is a longer one."""
 

@@ -164,14 +164,9 @@ class Plan:
 
     @cached_property
     def needed(self) -> tuple[tuple[Address, ...], ...]:
-        """The addresses without which a file is not complete where they are active,
-        those of the same state together.
-        """
-        parameters, found = self.evaluation.schema.parameters, dict[object, list[Address]]()
-        for address in self.addresses:
-            if not parameters[address[0]].optional:
-                found.setdefault(self.evaluation.state_plan(address), []).append(address)
-        return tuple(map(tuple, found.values()))
+        """The addresses without which a file is not complete where they are active."""
+        parameters = self.evaluation.schema.parameters
+        return self.evaluation.groups(a for a in self.addresses if not parameters[a[0]].optional)
 
     @cached_property
     def read(self) -> Mapping[Address, None]:

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import json
+import sys
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import pytest
 
 from amp_studio import cli, sim
+from amp_studio.cli.checks.formats import CheckResult
+from amp_studio.cli.verbs.checks import validate
 from amp_studio.files import open_file
 from amp_studio.schema import Value
 
@@ -113,6 +117,29 @@ def test_several_processes_say_the_same_in_the_same_order(amp, machines: Path, m
         alone = amp("validate", mill, machines, "--jobs", 1, *options)
         shared = amp("validate", mill, machines, "--jobs", 2, *options)
         assert (alone.code, alone.out) == (shared.code, shared.out)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="a process is a copy of this one on Linux alone")
+def test_few_files_of_many_families_are_shared_among_processes_by_family(
+    amp, checkout: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folders = ("grblhal-router", "linuxcnc-mill", "syntec-mill")
+    paths = [next((checkout / "examples" / name).glob("*.amp")) for name in folders]
+    paths = [*paths, paths[0]]
+    alone = amp("validate", *paths, "--no-cache", "--jobs", 1)
+    shared: list[list[str]] = []
+
+    def here(
+        check: Callable[[Path], CheckResult], shares: Sequence[Sequence[Path]], workers: int
+    ) -> Iterator[CheckResult]:
+        shared.extend([path.name for path in share] for share in shares)
+        return (check(path) for share in shares for path in share)
+
+    monkeypatch.setattr(validate, "_shared", here)
+    monkeypatch.setattr(validate.os, "cpu_count", lambda: 2)
+    together = amp("validate", *paths, "--no-cache")
+    assert (together.code, together.out, together.err) == (alone.code, alone.out, alone.err)
+    assert [len(share) for share in shared] == [1, 1]  # the third one is checked here, before
 
 
 def test_how_far_it_is_is_on_standard_error(amp, machines: Path, mill: Path) -> None:

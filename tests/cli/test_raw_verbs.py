@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import codecs
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -11,7 +12,7 @@ from amp_studio import cli
 from amp_studio.cli.registry import verb_names
 from amp_studio.files import open_file
 from amp_studio.files.example_files import examples_folder
-from amp_studio.formats import export_file
+from amp_studio.formats import export_file, open_for_reading
 from amp_studio.formats.import_export import all_formats, formats_of
 from tests.campaigns import CAMPAIGN
 
@@ -159,3 +160,23 @@ def test_a_report_is_not_called_a_text_of_a_control(
     report.write_bytes(b"%PDF-1.7\n")
     assert cli.run(["set", str(report), "1300@X=1"]) == 2
     assert "is a report, which is not changed" in capsys.readouterr().err
+
+
+DISGUISES: dict[str, Callable[[bytes], bytes]] = {
+    "16-bit characters": lambda text: text.decode("latin-1").encode("utf-16"),
+    "a byte order mark": lambda text: codecs.BOM_UTF8 + text,
+    "the end of a DOS text": lambda text: text + b"\x1a",
+    "lines of an old Macintosh": lambda text: text.replace(b"\r\n", b"\n").replace(b"\n", b"\r"),
+}
+
+
+@pytest.mark.parametrize("key", [each.key for each in all_formats()])
+def test_a_text_is_read_whatever_wrote_it_down(texts: dict[str, Path], key: str, tmp_path: Path) -> None:
+    """An editor or a terminal of Windows saved it, under any name: every verb opens it as an import does."""
+    plain = texts[key].read_bytes()
+    family = texts[key].name.partition(".")[0]
+    values = open_for_reading(texts[key], family=family).values
+    for n, disguise in enumerate(DISGUISES.values()):
+        path = tmp_path / f"copy {n}"
+        path.write_bytes(disguise(plain))
+        assert open_for_reading(path, family=family).values == values

@@ -168,3 +168,15 @@ def test_the_picture_of_what_is_read_in_docs_is_what_is_read() -> None:
     assert evaluation.reference("spindle.gear_count", "2.3", "spindle").addresses == (
         ("spindle.gear_count", "2"),
     )
+
+
+@pytest.mark.parametrize(("mode", "points"), [(1, 0), (1, 33), (1, 4000), (2, 7), (5, 1), (0, 12)])
+def test_parts_of_an_array_are_active_as_each_is_by_itself(mode: int, points: int) -> None:
+    """Thousands of points are asked about in halves, and come to what each of them comes to."""
+    module = new_file("57c422b")
+    module.set(("cam.mode", "X"), Value(mode))
+    module.set(("cam.points", "X"), Value(points))
+    addresses = module.schema.on(module.machine).addresses[::5]
+    evaluation = module.evaluation
+    together = evaluation.active(evaluation.groups(addresses))
+    assert sorted(together) == sorted(a for a in addresses if evaluation.state(a).is_active)

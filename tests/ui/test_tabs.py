@@ -179,8 +179,9 @@ def test_the_left_side_is_never_empty(window: MainWindow, num: Path) -> None:
 
 def test_files_are_dropped_into_the_window(open_window, path: Path, other: Path) -> None:
     window: MainWindow = open_window()
+    backup = other.rename(path.with_name("other.amp.bak"))
     dropped = QMimeData()
-    dropped.setUrls([QUrl.fromLocalFile(str(path)), QUrl.fromLocalFile(str(other))])
+    dropped.setUrls([QUrl.fromLocalFile(str(path)), QUrl.fromLocalFile(str(backup))])
     event = QDropEvent(
         QPointF(50, 50),
         Qt.DropAction.CopyAction,
@@ -190,7 +191,7 @@ def test_files_are_dropped_into_the_window(open_window, path: Path, other: Path)
         QEvent.Type.Drop,
     )
     window.dropEvent(event)
-    assert names(window) == ["mill.amp", "other.amp"]
+    assert names(window) == ["mill.amp", "other.amp.bak"]
 
 
 def test_the_text_of_a_control_is_imported_whatever_it_is_called(

@@ -1,7 +1,8 @@
 """The formats in which ``validate`` prints what it found: for a person, for programs,
 and for the services that check a repository.
 
-Each gives what is printed of one file, and one document of all files.
+Each gives what is printed of one file, and one document of all files. What a single file needs is loaded
+with the first one: a run that finds all its results kept needs none of it.
 """
 
 from __future__ import annotations
@@ -14,23 +15,14 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from textwrap import indent
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 from urllib.parse import quote_from_bytes
 
-from amp_studio.files import value_lines
-from amp_studio.guide import Present
-from amp_studio.report import (
-    alike,
-    counted,
-    delivered_text,
-    finding_json,
-    finding_parts,
-    same_finding_text,
-    suppressed_text,
-)
-from amp_studio.schema import written
-from amp_studio.validate import SEVERITIES, Finding, Suppressed, Validator
 from amp_studio.version import __version__
+
+if TYPE_CHECKING:
+    from amp_studio.guide import Present
+    from amp_studio.validate import Finding, Suppressed, Validator
 
 _SARIF_SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 _SARIF_LEVELS = {"error": "error", "warning": "warning", "advice": "note"}
@@ -77,17 +69,23 @@ class FileFindings:
     @property
     def counts(self) -> dict[str, int]:
         """Severity -> number of findings."""
+        from amp_studio.validate import SEVERITIES
+
         return {s: sum(f.severity == s for f in self.findings) for s in SEVERITIES}
 
     @property
     def summary(self) -> str:
         """The numbers of findings in words."""
+        from amp_studio.report import counted
+
         text = ", ".join(counted(count, severity) for severity, count in self.counts.items())
         suppressed = len(self.validator.suppressed)
         return f"{self.path}: {text}" + (f", {suppressed} suppressed" if suppressed else "")
 
     def message(self, finding: Finding) -> str:
         """Return a finding in one line: what it is about, its page and its fix."""
+        from amp_studio.report import finding_parts
+
         return ". ".join(part[:1].upper() + part[1:] for part in finding_parts(self.validator.file, finding))
 
 
@@ -132,6 +130,8 @@ class CheckFormat:
             yield str(checked.motion)
 
     def _found(self, checked: FileFindings) -> Iterator[str]:
+        from amp_studio.report import alike, delivered_text, same_finding_text, suppressed_text
+
         validator = checked.validator
         for same in alike(checked.findings):
             yield same_finding_text(validator.file, same)
@@ -157,6 +157,8 @@ class JsonFormat(CheckFormat):
     alone = True
 
     def one(self, checked: FileFindings) -> str:
+        from amp_studio.report import finding_json
+
         file, counts = checked.validator.file, checked.counts
         return _dumped(
             {
@@ -179,6 +181,8 @@ class JsonFormat(CheckFormat):
         return '{\n  "files": [\n' + ",\n".join(_indented(entry, 4) for entry in entries) + "\n  ]\n}"
 
     def _finding(self, checked: FileFindings, finding: Finding) -> dict[str, Any]:
+        from amp_studio.report import finding_json
+
         validator = checked.validator
         found = finding_json(validator.file, finding)
         if checked.why:
@@ -240,6 +244,9 @@ class SarifFormat(CheckFormat):
         return _dumped({"$schema": _SARIF_SCHEMA, "version": "2.1.0", "runs": [run]})
 
     def _result(self, checked: FileFindings, lines: _Lines, finding: Finding) -> dict[str, Any]:
+        from amp_studio.report import finding_json
+        from amp_studio.schema import written
+
         file = checked.validator.file
         found = finding_json(file, finding)
         names = [
@@ -327,6 +334,8 @@ class JunitFormat(CheckFormat):
 
     def _cases(self, checked: FileFindings) -> Iterator[tuple[str, str, str]]:
         """Yield name, kind and message of each case."""
+        from amp_studio.report import suppressed_text
+
         file = checked.validator.file
         errors = [finding for finding in checked.findings if finding.severity == "error"]
         for finding in errors:
@@ -366,6 +375,8 @@ class JunitFormat(CheckFormat):
 
 
 def _case_name(checked: FileFindings, finding: Finding) -> str:
+    from amp_studio.report import finding_json
+
     names = finding_json(checked.validator.file, finding)["params"]
     return f"{finding.rule} {', '.join(names)}".rstrip()
 
@@ -388,6 +399,8 @@ class _Lines:
     """The lines of a file in which its values are."""
 
     def __init__(self, checked: FileFindings) -> None:
+        from amp_studio.files import value_lines
+
         has_any = checked.findings or checked.validator.suppressed
         self._known = value_lines(checked.path) if has_any else {}
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from amp_studio.schema.compiled_cache import cache_folder
+from amp_studio.schema.folder import cache_folder
 from amp_studio.schema.load import (
     Compiled,
     DatabaseError,

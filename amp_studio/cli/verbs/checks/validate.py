@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+import re
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -21,6 +22,8 @@ from amp_studio.cli.verb import Options, Verb, VerbArgument
 from amp_studio.trouble import keep_details
 
 if TYPE_CHECKING:
+    from multiprocessing.context import BaseContext
+
     from amp_studio import MachineParameters
     from amp_studio.cli.checks.formats import CheckFormat, CheckResult, FileFindings
     from amp_studio.validate import KeptValidators, Validator
@@ -61,6 +64,15 @@ VERB = Verb(
 
 MANY = 50
 """From so many files on it pays to start more processes."""
+
+FAMILIES = 3
+"""From so many families on it pays with fewer files too: what takes time is to load a family."""
+
+_STARTS_AT_ONCE = sys.platform == "linux"
+"""Whether another process is a copy of this one with all that it has loaded: the program has one thread. On
+macOS libraries of the system may not be used in such a copy."""
+
+_FAMILY = re.compile(rb"^family:[ \t]*(.+?)[ \t]*\r?$", re.MULTILINE)
 
 MOST = 61
 """Processes that Windows lets one wait for."""
@@ -208,35 +220,79 @@ def _each(
     check: Callable[[Path], CheckResult], paths: Sequence[Path], jobs: int | None
 ) -> Iterator[CheckResult]:
     """Yield the results of files, in their order, whichever process is ready first."""
-    from amp_studio.cli.checks.formats import CheckResult
-
-    wanted = min(MOST, jobs or (os.cpu_count() or 1 if len(paths) >= MANY else 1))
-    if wanted == 1:
+    workers = min(MOST, jobs or os.cpu_count() or 1)
+    if jobs is None and len(paths) < MANY:
+        shares = _by_family(paths) if workers > 1 and _STARTS_AT_ONCE else []
+        if len(shares) < FAMILIES:
+            yield from map(check, paths)
+            return
+        own = _check_each(check, shares.pop())  # which loads what a check of any family needs
+        done = {one.path: one for one in (*own, *_shared(check, shares, min(workers, len(shares))))}
+        yield from (done[path] for path in paths)
+    elif workers == 1:
         yield from map(check, paths)
-        return
+    else:
+        size = min(AT_A_TIME, -(-len(paths) // workers))
+        yield from _shared(check, [paths[n : n + size] for n in range(0, len(paths), size)], workers)
+
+
+def _by_family(paths: Sequence[Path]) -> list[list[Path]]:
+    """Return files by their family, which a process then loads once; what takes most first, by its length,
+    and before it what names no family.
+    """
+    shares: dict[bytes, list[Path]] = {}
+    sizes: dict[bytes, int] = {}
+    for path in dict.fromkeys(paths):
+        try:
+            content = path.read_bytes() if path.is_file() else b""
+        except OSError:
+            content = b""  # its check reports it
+        found = _FAMILY.search(content)
+        family = found[1] if found else b""
+        shares.setdefault(family, []).append(path)
+        sizes[family] = sizes.get(family, 0) + len(content)
+    order = sorted(shares, key=lambda family: (not family, sizes[family]), reverse=True)
+    return [shares[family] for family in order]
+
+
+def _shared(
+    check: Callable[[Path], CheckResult], shares: Sequence[Sequence[Path]], workers: int
+) -> Iterator[CheckResult]:
+    """Yield the results of shares of files, in their order."""
     from concurrent.futures.process import (  # a single file need not wait
         BrokenProcessPool,
         ProcessPoolExecutor,
     )
 
-    left = list(paths)
-    at_a_time = min(AT_A_TIME, -(-len(paths) // wanted))
+    from amp_studio.cli.checks.formats import CheckResult
+
+    left = list(shares)
     while left:
         try:
-            with ProcessPoolExecutor(wanted, initializer=_start) as pool:
-                for one in pool.map(check, left, chunksize=at_a_time):
+            with ProcessPoolExecutor(workers, _context(), initializer=_start) as pool:
+                for results in pool.map(partial(_check_each, check), left):
                     left.pop(0)
-                    yield one
-        except (
-            BrokenProcessPool
-        ):  # one of the next ones ended its process, for want of memory: each gets its own
-            for _ in range(min(at_a_time, len(left))):
-                path = left.pop(0)
+                    yield from results
+        except BrokenProcessPool:  # one of the next files ended its process, for want of memory
+            for path in left.pop(0):  # each gets its own
                 try:
-                    with ProcessPoolExecutor(1, initializer=_start) as pool:
+                    with ProcessPoolExecutor(1, _context(), initializer=_start) as pool:
                         yield pool.submit(check, path).result()
                 except BrokenProcessPool:
                     yield CheckResult(path, fault=f"{path}: its check was ended from outside")
+
+
+def _context() -> BaseContext | None:
+    """Return how processes are started: as copies of this one if the system allows it."""
+    if not _STARTS_AT_ONCE:
+        return None
+    import multiprocessing
+
+    return multiprocessing.get_context("fork")
+
+
+def _check_each(check: Callable[[Path], CheckResult], paths: Sequence[Path]) -> list[CheckResult]:
+    return [check(path) for path in paths]
 
 
 def _start() -> None:

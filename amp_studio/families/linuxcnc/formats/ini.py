@@ -8,6 +8,7 @@ A new value becomes a line at the end of its section.
 from __future__ import annotations
 
 import re
+from codecs import BOM_UTF8
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from operator import itemgetter
@@ -380,6 +381,7 @@ FORMAT = TextFormat(
     _read,
     _write,
     encoding="latin-1",
+    around=(BOM_UTF8, b"\x1a"),
     newline_of=_newline,
     included=_included,
 )

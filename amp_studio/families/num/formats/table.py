@@ -299,6 +299,7 @@ FORMAT = TextFormat(
     _read,
     _write,
     encoding="ascii",
+    around=(b"\x1a",),
     other_endings=(".num", ".txt"),
 )
 
