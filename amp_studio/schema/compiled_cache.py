@@ -16,6 +16,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from .folder import cache_folder
 from .regular_file import read_file
 
 _log = logging.getLogger(__name__)

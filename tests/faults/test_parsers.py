@@ -120,6 +120,7 @@ READERS = {
     "report/write.py": "hostile templates of a project",
     "report/templating/folder_copy.py": "hostile templates of a project",
     "report/templating/templates.py": "hostile templates of a project",
+    "schema/folder.py": "",  # the environment names the folder of caches
     "schema/compiled_cache.py": "damaged cache",
     "schema/file_error.py": "damaged YAML",
     "schema/load.py": "damaged facts",

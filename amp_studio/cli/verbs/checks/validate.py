@@ -240,11 +240,13 @@ def _by_family(paths: Sequence[Path]) -> list[list[Path]]:
     """Return files by their family, which a process then loads once; what takes most first, by its length,
     and before it what names no family.
     """
+    from amp_studio.schema import read_file
+
     shares: dict[bytes, list[Path]] = {}
     sizes: dict[bytes, int] = {}
     for path in dict.fromkeys(paths):
         try:
-            content = path.read_bytes() if path.is_file() else b""
+            content = read_file(path)
         except OSError:
             content = b""  # its check reports it
         found = _FAMILY.search(content)
