@@ -105,6 +105,16 @@ def test_the_inputs_of_a_module_are_those_that_register_2_uses() -> None:
     assert any("drive fault" in step.do for step in wiring.steps)
 
 
+def test_the_zero_point_of_a_syntec_is_set_by_the_steps_of_section_2_1() -> None:
+    """For an absolute encoder; any other is homed by a search."""
+    assert programs_of("syntec-mill/SYNTEC_MILL.amp", "1")["zero-point"].refusal
+    encoder = {"resolution__encoder_type": Value("absolute")}
+    steps = programs_of("syntec-mill/SYNTEC_MILL.amp", "1", **encoder)["zero-point"].steps
+    assert "Pn002 is 0000" in steps[0].see
+    assert "press F7" in steps[2].do
+    assert steps[2].see.endswith("Set OK")
+
+
 def test_a_family_that_prints_none_is_named() -> None:
     with pytest.raises(SimulationError, match="No test program is printed"):
         programs_of("grblhal-router/GRBL_ROUTER.amp")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from amp_studio.schema import Value
+from amp_studio.schema import Value, load_schema
 from amp_studio.sim import SimulationError, simulate
 from amp_studio.validate import calculate
 from tests.programs.test_block import example
@@ -69,3 +69,59 @@ def test_a_num_jogs_at_its_reduced_speed_while_the_plc_asks_for_it() -> None:
     for axis, speed, unit in (("0", 300.0, "mm/min"), ("3", 200.0, "deg/min")):
         found = simulate(file, "jog", axis, {"move.speed": "reduced", "move.hold": 0.2}, advise=False)
         assert found.result["feedrate"] == (pytest.approx(speed), unit)
+
+
+PRINTED_WORDS = {
+    ("setup.switches", 0x11C): (
+        "Home in Negative",
+        "Feedback Marker",
+        "Overtravel Switches",
+        "Drive Fault Input",
+    ),
+    ("setup.switches", 0x1D): ("Home Switch", "Home in Negative", "Feedback Marker", "Overtravel Switches"),
+    ("setup.encoder", 0x1414): ("Feedback", "Rotary", "Gearing", "Rotary"),
+    ("setup.drive", 0x2): ("Drive Reference Polarity",),
+}
+"""57C422B: words of the printed programs (4-48, 5-5, 5-6), and what their comments name, bit by bit."""
+
+
+def test_the_printed_words_of_a_module_are_the_bits_that_they_are_taken_for() -> None:
+    schema = load_schema("57c422b")
+    for (parameter, word), names in PRINTED_WORDS.items():
+        bits = [each for each in schema.parameters[parameter].bits or () if word >> each.bit & 1]
+        assert len(bits) == word.bit_count() == len(names)
+        assert [name for name, bit in zip(names, bits, strict=True) if name not in bit.label] == []
+    mode = {each.bit: each for each in schema.parameters["control.mode"].bits or ()}
+    assert "Profile" in mode[6].label
+    assert not (0x0AD | 0x0AF | 0x0BB) >> 6 & 1  # all three masks clear it
+    switches = {each.bit: each for each in schema.parameters["setup.switches"].bits or ()}
+    assert switches[12].label == "Enable Gearing Marker Pulse"
+    assert [bit for bit, each in switches.items() if "inferred" in each.label and not each.unknown] == []
+
+
+def test_both_printed_readings_of_coded_homing_are_in_its_result() -> None:
+    """9/PC: three markers on 5-5, two on 7-31 and B-1; 1310 is used on 5-14 and not on 5-11."""
+    notes = " ".join(simulate(example("lathe-ls176"), "home", "1", {}, advise=False).assumptions)
+    assert "pages 7-31 and B-1 say two markers" in notes
+    assert "by page 5-11 this position is not used" in notes
+
+
+def test_the_third_stroke_limit_of_a_syntec_has_its_own_messages() -> None:
+    """3.2: MOT-041 and 042 out of it, 045 into it; C83 of the PLC switches it on."""
+    file = example("syntec-mill")
+    for axis, (low, high) in {"1": (10_000, 25_000), "2": (15_000, 30_000)}.items():
+        file.set(("limit.third_negative", axis), Value(low))
+        file.set(("limit.third_positive", axis), Value(high))
+    move = {"move.start": "0,20", "move.to": "20,20", "move.feedrate": 3000.0, "move.zone": "3"}
+    codes = {}
+    for scope, start in (("inside", "0,20"), ("outside", "20,20")):
+        file.set(("limit.third_scope", ""), Value(scope))
+        moved = {**move, "move.start": start, "move.to": "20,20" if scope == "inside" else "30,20"}
+        codes[scope] = [alarm.code for alarm in simulate(file, "travel", "1,2", moved).alarms]
+    assert codes == {"inside": ["MOT-045"], "outside": ["MOT-041"]}
+
+
+def test_the_largest_value_of_a_time_cam() -> None:
+    """57C422B, 4-50: speed x counts x R129 x 0.00125."""
+    given = {"speed": "40", "counts_per_unit": "4000", "time_scans": "1"}
+    assert calculate("57c422b", "cam_largest_value", given) == pytest.approx(200.0)

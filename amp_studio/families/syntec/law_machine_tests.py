@@ -1,5 +1,5 @@
-"""The procedures of the Syntec slides as steps with this file's figures: homing (2.2),
-and the stroke limits (3.2).
+"""The procedures of the Syntec slides as steps with this file's figures: the zero point of an absolute
+encoder (2.1), homing (2.2), and the stroke limits (3.2).
 """
 
 from __future__ import annotations
@@ -8,11 +8,36 @@ import math
 
 from amp_studio.sim import AxisLaw, BoundMachine, MachineTest, MachineTestStep, SimulationError, value_text
 
+from .law_facts import ids
+
 
 def machine_tests(machine: BoundMachine, axis: AxisLaw) -> list[MachineTest]:
     """Return the procedures of one axis; they have no program."""
     letter = machine.letter(axis.axis) or axis.axis
-    return [_homing(axis, letter), _limits(axis, letter)]
+    is_absolute = machine.read(axis.axis).value(ids.encoder_type) == "absolute"
+    return [_zero_point(letter, is_absolute=is_absolute), _homing(axis, letter), _limits(axis, letter)]
+
+
+def _zero_point(letter: str, *, is_absolute: bool) -> MachineTest:
+    title = "Zero point of an absolute encoder"
+    if not is_absolute:
+        why = f"Axis {letter} has no absolute encoder (Pr201 to Pr220 = 3): it is homed by a search (2.2)."
+        return MachineTest("zero-point", title, "2.1", refusal=why)
+    steps = (
+        MachineTestStep(
+            f"Look at the motor of axis {letter}, and at Pn002 of its drive",
+            "the fourth digit of the motor is 3, a 20-bit absolute encoder; Pn002 is 0000",
+        ),
+        MachineTestStep(
+            f"Move axis {letter} to where its zero point shall be, and choose the mode HOME",
+            "the machine position is that place",
+        ),
+        MachineTestStep(
+            f"On the page of the serial parameters press F7, put the cursor on {letter}, and press F1",
+            "its status is no longer red, but yellow: Set OK",
+        ),
+    )
+    return MachineTest("zero-point", title, "2.1", steps=steps)
 
 
 def _homing(axis: AxisLaw, letter: str) -> MachineTest:
