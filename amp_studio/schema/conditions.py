@@ -15,7 +15,7 @@ from typing import Literal, NamedTuple
 from .address import Address, UnknownParameterError, read_address, whole_of
 from .catalog import Schema
 from .cel_engine import WORD_FUNCTIONS
-from .expression import Decision, Key, PartsDecision, program
+from .expression import Decision, ValueKey, PartsDecision, program
 from .model import BoundRef, Parameter, ParameterState, Scope
 
 Asked = tuple[str, str, str | None]
@@ -123,7 +123,7 @@ class Conditions:
         self.deciding = tuple(address for address in self._here.addresses if address[0] in read)
         """Every address that a condition may read."""
         self.decides = frozenset(self.deciding)
-        self._answers: dict[tuple[Key, ...], Answers] = {}
+        self._answers: dict[tuple[ValueKey, ...], Answers] = {}
 
     def _reach(self, name: str) -> Reach:
         return "each" if self.decisions[name].asks_instance else self._reach_of_reads(name)
@@ -201,7 +201,7 @@ class Conditions:
     # -- answers ---------------------------------------------------------------
 
     def answers(
-        self, keys: tuple[Key, ...], before: Answers | None = None, changed: Iterable[Address] = ()
+        self, keys: tuple[ValueKey, ...], before: Answers | None = None, changed: Iterable[Address] = ()
     ) -> Answers:
         """Return the answers for the keys of the ``deciding`` values, and of the model of the control.
 

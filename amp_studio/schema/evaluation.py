@@ -12,7 +12,7 @@ from .address import Address, UnknownParameterError
 from .addressing import resolve_address
 from .catalog import Schema
 from .conditions import Answers, Asked, Conditions, Question, Reference, StateGroups, StateInfo, conditions_of
-from .expression import Canonical, Circumstances, Key, Keys, canonical_value, value_of
+from .expression import Canonical, Circumstances, ValueKey, ValueKeys, canonical_value, value_of
 from .machine_schema import MachineSchema
 from .model import Condition, Scope
 from .quoting import quoted
@@ -33,7 +33,7 @@ class Evaluation:
         self.schema, self._value, self._asked_machine, self._application = schema, value, machine, application
         self._machine: str | None = None
         self._facts: Conditions | None = None
-        self.keys = Keys(value)
+        self.keys = ValueKeys(value)
         """The key of each value in canonical units."""
         self._answers: Answers | None = None
         self._before: Answers | None = None
@@ -118,7 +118,7 @@ class Evaluation:
         circumstances = Circumstances(self.machine, self._model, asked[1])
         return question.decision.is_true(self._given(question), question.names, circumstances)
 
-    def _given(self, question: Question) -> tuple[Key, ...]:
+    def _given(self, question: Question) -> tuple[ValueKey, ...]:
         keys = self.keys
         if question.plain:
             # Most conditions read single values alone, which need no look at what kind of reference
@@ -126,7 +126,7 @@ class Evaluation:
             return tuple([keys[a] for a in question.plain])
         return tuple([None if r is None else self._key(r) for r in question.references])
 
-    def _key(self, reference: Reference) -> Key:
+    def _key(self, reference: Reference) -> ValueKey:
         keys = self.keys
         return (
             tuple([keys[a] for a in reference.addresses])

@@ -27,7 +27,7 @@ ALWAYS_THERE = ("machine", "application", "instance", "part")
 EVALUATION_ERRORS = (TypeError, ValueError, RuntimeError, ArithmeticError, LookupError)
 """What CEL raises for a value of a kind that an expression does not speak of."""
 
-Key = float | str | object | None
+ValueKey = float | str | object | None
 """By what results are looked up: the key of a value, or a tuple of keys for a list.
 
 It is the value itself but for true, false and minus zero: Python takes 1 and True for equal, and 0 and -0
@@ -46,20 +46,22 @@ MOST_REMEMBERED = 5_000
 common. Such machines take 0.2 MB each."""
 
 
-def key_of(value: Value | None) -> Key:
+def key_of(value: Value | None) -> ValueKey:
     """Return the key of a value."""
     try:
         return value._key  # type: ignore[union-attr, no-any-return]  # any object may be asked; one without a key gets it below
     except AttributeError:
         found = canonical_value(value)
-        key: Key = (_TRUE if found else _FALSE) if found.__class__ is bool else 0.0 if found == 0 else found
+        key: ValueKey = (
+            (_TRUE if found else _FALSE) if found.__class__ is bool else 0.0 if found == 0 else found
+        )
         if value is not None:
             # Values are frozen and shared by many files: the key is worked out once for all of them.
             object.__setattr__(value, "_key", key)
         return key
 
 
-def value_of(key: Key) -> Canonical | list[Canonical]:
+def value_of(key: ValueKey) -> Canonical | list[Canonical]:
     """Return the value that has a key."""
     if key.__class__ is tuple:
         if _TRUE not in key and _FALSE not in key:
@@ -68,15 +70,15 @@ def value_of(key: Key) -> Canonical | list[Canonical]:
     return key is _TRUE if key is _TRUE or key is _FALSE else key  # type: ignore[return-value]  # what is left of a key is a number or a text
 
 
-class Keys(dict[Address, Key]):
+class ValueKeys(dict[Address, ValueKey]):
     """The keys of a file's values, each worked out when it is first asked for."""
 
     def __init__(self, value: Callable[[Address], Value | None]) -> None:
         self._value = value
 
-    def __missing__(self, address: Address) -> Key:
+    def __missing__(self, address: Address) -> ValueKey:
         value = self._value(address)
-        found: Key = None
+        found: ValueKey = None
         if value is not None:
             try:
                 found = value._key  # type: ignore[attr-defined]  # most are known: this is done for every value of a file
@@ -132,7 +134,7 @@ class Expression:
         """Keys of the values, with what is ``always`` there behind them -> what it came to."""
 
     def result(
-        self, keys: tuple[Key, ...], circumstances: Circumstances, context: Callable[[], Context]
+        self, keys: tuple[ValueKey, ...], circumstances: Circumstances, context: Callable[[], Context]
     ) -> Any:
         """Return what it comes to for values, given by their keys,
         in a ``context`` that is made when it is needed.
@@ -170,18 +172,20 @@ class Decision(Expression):
         """Whether it asks which instance, or which part, it is worked out for."""
         return "instance" in self.always or "part" in self.always
 
-    def is_true(self, keys: tuple[Key, ...], names: Sequence[str], circumstances: Circumstances) -> bool:
+    def is_true(self, keys: tuple[ValueKey, ...], names: Sequence[str], circumstances: Circumstances) -> bool:
         """Return whether it is true of the values of its names; it is not where it makes no sense of them."""
         return self.verdict(keys, names, circumstances) is True
 
     def verdict(
-        self, keys: tuple[Key, ...], names: Sequence[str], circumstances: Circumstances
+        self, keys: tuple[ValueKey, ...], names: Sequence[str], circumstances: Circumstances
     ) -> bool | None:
         """Return the same, and None where it makes no sense of the values."""
         found = self.result_of(keys, names, circumstances)
         return None if found is NO_RESULT else found is True
 
-    def result_of(self, keys: tuple[Key, ...], names: Sequence[str], circumstances: Circumstances) -> Any:
+    def result_of(
+        self, keys: tuple[ValueKey, ...], names: Sequence[str], circumstances: Circumstances
+    ) -> Any:
         """Return what it comes to for the values of its names, true or false or anything else."""
 
         def context() -> Context:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import ACTIVE, Address, Key
+from amp_studio.schema import ACTIVE, Address, ValueKey
 
 from .finding import Finding
 from .plan import FindingPlace, Plan
@@ -43,7 +43,7 @@ class Checks:
         """Yield all that is wrong, and where it is filed: what a full run finds."""
         file, order, evaluation = self._file, plan.order, self._file.evaluation
         keys, known = evaluation.keys, evaluation.known_states()
-        seen: list[tuple[Address, Key]] = []
+        seen: list[tuple[Address, ValueKey]] = []
         found: list[tuple[Address, Finding]] = []
         for address, value in file.values.items():
             if address not in order:

@@ -20,10 +20,10 @@ from amp_studio.schema import (
     Circumstances,
     Decision,
     Expression,
-    Key,
     Program,
     Remembered,
     Rule,
+    ValueKey,
     functions_called,
     program,
     quoted,
@@ -84,7 +84,7 @@ class _Part:
         self._places = [n for n, name in enumerate(names) if name in decision.named]
         self._names = [names[n] for n in self._places]
 
-    def result(self, keys: tuple[Key, ...], circumstances: Circumstances) -> Any:
+    def result(self, keys: tuple[ValueKey, ...], circumstances: Circumstances) -> Any:
         """Return what it comes to for the keys of all values of the rule."""
         return self._decision.result_of(tuple([keys[n] for n in self._places]), self._names, circumstances)
 
@@ -113,7 +113,7 @@ class Expressions:
         broken.
         """
 
-    def verdict(self, keys: tuple[Key, ...], circumstances: Circumstances) -> bool | None:
+    def verdict(self, keys: tuple[ValueKey, ...], circumstances: Circumstances) -> bool | None:
         """Return whether values break the rule: it applies and is not satisfied;
         None where it makes no sense of them.
 

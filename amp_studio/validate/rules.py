@@ -19,8 +19,8 @@ from amp_studio.schema import (
     Evaluation,
     Expression,
     InvalidValueError,
-    Key,
     Value,
+    ValueKey,
     angular,
     canonical_unit,
     checked,
@@ -46,7 +46,7 @@ _SHOWN = 4
 class _KeyedContext:
     """What the expressions of a check see: the values with their keys, and the context of the engine."""
 
-    def __init__(self, keys: tuple[Key, ...], make_context: Callable[[list[Any]], Context]) -> None:
+    def __init__(self, keys: tuple[ValueKey, ...], make_context: Callable[[list[Any]], Context]) -> None:
         self.keys, self._make_context = keys, make_context
 
     @cached_property
@@ -60,7 +60,7 @@ class _KeyedContext:
         return self._make_context(self.values)
 
 
-class _Active(dict[Address, Key]):
+class _Active(dict[Address, ValueKey]):
     """The keys of the values that are active, and None for the others;
     each looked up when it is first asked for.
     """
@@ -72,7 +72,7 @@ class _Active(dict[Address, Key]):
         super().clear()
         self._states = self._evaluation.known_states()
 
-    def __missing__(self, address: Address) -> Key:
+    def __missing__(self, address: Address) -> ValueKey:
         key = self._keys[address]
         if key is not None:
             state = self._states.get(address) or self._evaluation.state(address)
@@ -90,7 +90,7 @@ class RuleChecks:
         self._functions = rule_functions(file.schema.family.family)
         self._by_instance: dict[str, Circumstances] = {}
         self._seen = _Active(file.evaluation)
-        self._lists: dict[Listed, tuple[Key, ...]] = {}
+        self._lists: dict[Listed, tuple[ValueKey, ...]] = {}
 
     def look_again(self, changed: Iterable[Address] | None = None) -> None:
         """Forget the values, which may have changed; called before the checks of a round.
@@ -109,7 +109,7 @@ class RuleChecks:
                 keys, at = self._lists[listed], listed.places[address]
                 self._lists[listed] = (*keys[:at], self._seen[address], *keys[at + 1 :])
 
-    def look_at(self, read: Mapping[Address, None], seen: Iterable[tuple[Address, Key]]) -> None:
+    def look_at(self, read: Mapping[Address, None], seen: Iterable[tuple[Address, ValueKey]]) -> None:
         """Take the keys of values that are active, and None for the others:
         quicker than to look at one by one.
 
@@ -140,7 +140,7 @@ class RuleChecks:
 
     def findings_of(self, group: CheckGroup) -> Iterator[tuple[RuleCheck, Finding]]:
         """Yield the same of a group; one look at its values is enough where they were found sound before."""
-        keys: tuple[Key, ...] = tuple(map(self._seen.__getitem__, group.reads))
+        keys: tuple[ValueKey, ...] = tuple(map(self._seen.__getitem__, group.reads))
         if group.first is None and None in keys:  # some may count though they are inactive, others do not
             own = zip(keys, group.reads, strict=True)
             keys += tuple([self._inactive(address) for key, address in own if key is None])
@@ -162,7 +162,7 @@ class RuleChecks:
         keys = self._keys(check)
         return keys is not None and self._broken_by(check, keys) is not False
 
-    def _broken_by(self, check: RuleCheck, keys: tuple[Key, ...]) -> bool | None:
+    def _broken_by(self, check: RuleCheck, keys: tuple[ValueKey, ...]) -> bool | None:
         """Return whether a rule is broken by values; what it came to for equal ones before is remembered.
 
         None where a builder's rule makes no sense of values that are all there.
@@ -194,7 +194,7 @@ class RuleChecks:
 
     # -- values ----------------------------------------------------------------
 
-    def _keys(self, check: RuleCheck) -> tuple[Key, ...] | None:
+    def _keys(self, check: RuleCheck) -> tuple[ValueKey, ...] | None:
         """Return the keys of the values of a check's names; None when one it needs is not there."""
         keys = tuple(map(self._seen.__getitem__, check.reads))
         if None in keys and not (check.is_lenient and (keys := self._lenient_keys(check, keys))):
@@ -204,7 +204,7 @@ class RuleChecks:
         # A builder may write a rule over the points of a table that costs minutes.
         return None if check.is_own and _too_long(keys) else keys
 
-    def _lenient_keys(self, check: RuleCheck, keys: tuple[Key, ...]) -> tuple[Key, ...]:
+    def _lenient_keys(self, check: RuleCheck, keys: tuple[ValueKey, ...]) -> tuple[ValueKey, ...]:
         """Return the keys with those of inactive values that count too; none where one is still missing."""
         found = list(keys)
         for n, single in enumerate(check.singles):
@@ -214,11 +214,11 @@ class RuleChecks:
                 return ()
         return tuple(found)
 
-    def _inactive(self, address: Address) -> Key:
+    def _inactive(self, address: Address) -> ValueKey:
         evaluation = self._file.evaluation
         return evaluation.keys[address] if evaluation.state(address).state != "hidden" else None
 
-    def _list(self, listed: Listed) -> tuple[Key, ...]:
+    def _list(self, listed: Listed) -> tuple[ValueKey, ...]:
         seen, values = self._seen, self._file.values
         found = tuple([seen[a] if a in values else None for a in listed.addresses])  # thousands of a table
         self._lists[listed] = found
@@ -239,7 +239,7 @@ class RuleChecks:
             OWN_FAULT, "error", (), message, compared=check.addresses, instance=f"{rule.id} {check.instance}"
         )
 
-    def _finding(self, check: RuleCheck, keys: tuple[Key, ...]) -> Finding:
+    def _finding(self, check: RuleCheck, keys: tuple[ValueKey, ...]) -> Finding:
         """Return the finding of a broken rule: what is at fault, its message with the figures, its fix."""
         rule, effective = check.rule, check.expressions.finding.effective
         given = _KeyedContext(keys, lambda values: self._context(check, values))
@@ -386,7 +386,7 @@ class RuleChecks:
         return Value(int(number) if parameter.type in ("integer", "bits") else number, unit)
 
 
-def _is_any_missing(keys: Iterable[Key]) -> bool:
+def _is_any_missing(keys: Iterable[ValueKey]) -> bool:
     """Return whether a value, or one of a list, is not set or inactive."""
     return any(key is None or (isinstance(key, tuple) and None in key) for key in keys)
 
@@ -397,7 +397,7 @@ def _listed(given: list[str]) -> str:
     return ", ".join(given[:_SHOWN]) + more
 
 
-def _too_long(keys: Iterable[Key]) -> bool:
+def _too_long(keys: Iterable[ValueKey]) -> bool:
     """Return whether a text is longer than a builder's rule was found to bear;
     its own check reports that it is too long.
     """

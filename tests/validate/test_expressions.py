@@ -12,7 +12,7 @@ from amp_studio.files import open_file
 from amp_studio.files.example_files import examples_folder
 from amp_studio.schema import Rule, Value, expression, program
 from amp_studio.schema.cel_engine import Context
-from amp_studio.schema.expression import Circumstances, Key
+from amp_studio.schema.expression import Circumstances, ValueKey
 from amp_studio.validate import Validator
 from amp_studio.validate.expressions import Expressions, RuleError
 
@@ -63,7 +63,7 @@ def test_a_verdict_is_that_of_both_expressions_together(when: str) -> None:
     for check in CHECKS:
         expressions = Expressions(rule(when, check), {})
         for a, b, instance in product(VALUES, VALUES, ("1", "2")):
-            keys: tuple[Key, ...] = (a, b)
+            keys: tuple[ValueKey, ...] = (a, b)
             wanted = by_the_engine(when, check, a, b, instance)
             for _ in range(2):  # worked out, and remembered
                 assert expressions.verdict(keys, Circumstances("mill", "", instance)) is wanted, (check, keys)
