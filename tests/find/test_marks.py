@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile, open_file
-from amp_studio.find import MARKS, Mark, ValueMarks, rows_of_file
+from amp_studio.find import FILTER_NAMES, Mark, ValueFilters, rows_of_file
 from amp_studio.schema import Address
 from amp_studio.validate import Validator
 from tests.campaigns import some
@@ -22,13 +22,13 @@ def mill() -> ParameterFile:
 
 
 @pytest.fixture
-def marks(mill: ParameterFile) -> ValueMarks:
-    found = ValueMarks(mill, saved=dict(mill.values))
+def marks(mill: ParameterFile) -> ValueFilters:
+    found = ValueFilters(mill, saved=dict(mill.values))
     found.take_findings(Validator(mill).run())
     return found
 
 
-def listed(marks: ValueMarks, *wanted: Mark) -> set[Address]:
+def listed(marks: ValueFilters, *wanted: Mark) -> set[Address]:
     """Return every value of the file that has all of the marks."""
     return {
         a
@@ -39,7 +39,7 @@ def listed(marks: ValueMarks, *wanted: Mark) -> set[Address]:
     }
 
 
-def test_what_is_not_the_default_is_changed_and_what_is_not_on_disk_unsaved(marks: ValueMarks) -> None:
+def test_what_is_not_the_default_is_changed_and_what_is_not_on_disk_unsaved(marks: ValueFilters) -> None:
     file = marks.file
     assert listed(marks, "changed") == {
         a for row in rows_of_file(file) for a in row if file.get(a) is not None and not file.is_default(a)
@@ -53,7 +53,7 @@ def test_what_is_not_the_default_is_changed_and_what_is_not_on_disk_unsaved(mark
     assert EXCESS not in listed(marks, "changed")
 
 
-def test_not_set_is_what_the_check_counts(marks: ValueMarks) -> None:
+def test_not_set_is_what_the_check_counts(marks: ValueFilters) -> None:
     assert marks.counted("not-set", rows_of_file(marks.file)) == len(marks.not_set)
     marks.file.set(EXCESS, None)
     marks.forget([EXCESS])
@@ -61,7 +61,7 @@ def test_not_set_is_what_the_check_counts(marks: ValueMarks) -> None:
     assert EXCESS in listed(marks, "not-set")
 
 
-def test_axes_differ_where_two_of_a_kind_have_other_values(marks: ValueMarks) -> None:
+def test_axes_differ_where_two_of_a_kind_have_other_values(marks: ValueFilters) -> None:
     row = next(r for r in rows_of_file(marks.file) if r[0][0] == "servo.inposition_band")
     assert not marks.differs(row)  # 0.0254 mm on three axes and 0.0254 degrees on two
     marks.file.set(row[0], marks.file.read(row[0], "0.03 mm"))
@@ -71,21 +71,21 @@ def test_axes_differ_where_two_of_a_kind_have_other_values(marks: ValueMarks) ->
     assert not marks.differs(names)
 
 
-def test_what_differs_from_the_last_download_is_listed_once_that_is_known(marks: ValueMarks) -> None:
+def test_what_differs_from_the_last_download_is_listed_once_that_is_known(marks: ValueFilters) -> None:
     assert listed(marks, "since-download") == set()
     marks.downloaded = dict(marks.file.values)
     marks.file.set(EXCESS, marks.file.read(EXCESS, "13 mm"))
     assert listed(marks, "since-download") == {EXCESS}
 
 
-def test_marks_combine_on_the_same_value(marks: ValueMarks) -> None:
+def test_marks_combine_on_the_same_value(marks: ValueFilters) -> None:
     marks.recent, marks.bookmarked, marks.noted = [EXCESS], {"servo.excess_error", "feedrate.rapid"}, {EXCESS}
     assert listed(marks, "recent", "bookmarked", "noted") == {EXCESS}
     assert len(listed(marks, "bookmarked")) > 2
     assert listed(marks, "recent", "not-set") == set()
 
 
-def test_only_values_that_wait_for_a_restart_are_listed_as_such(marks: ValueMarks) -> None:
+def test_only_values_that_wait_for_a_restart_are_listed_as_such(marks: ValueFilters) -> None:
     file = marks.file
     found = listed(marks, "restart")
     levels = {(file.schema.parameters[a[0]].effect or file.schema.family.effect).level for a in found}
@@ -100,12 +100,12 @@ def test_after_any_edit_the_counts_are_those_of_a_fresh_start(example: str) -> N
     """What is remembered between edits is never stale."""
     file = open_file(EXAMPLES / f"{example}.amp").file
     validator = Validator(file)
-    kept = ValueMarks(file, saved=dict(file.values))
+    kept = ValueFilters(file, saved=dict(file.values))
     kept.take_findings(validator.run())
 
-    def counts(marks: ValueMarks) -> dict[Mark, int]:
+    def counts(marks: ValueFilters) -> dict[Mark, int]:
         rows = rows_of_file(file)
-        return {mark: marks.counted(mark, rows) for mark in MARKS}
+        return {mark: marks.counted(mark, rows) for mark in FILTER_NAMES}
 
     addresses: list[Address] = [a for a in file.values if not file.schema.parameters[a[0]].secret][::97]
     for address in addresses:
@@ -113,6 +113,6 @@ def test_after_any_edit_the_counts_are_those_of_a_fresh_start(example: str) -> N
             file.set(address, value)
             kept.forget([address])
             kept.take_findings(validator.update([address]))
-            fresh = ValueMarks(file, saved=kept.saved)
+            fresh = ValueFilters(file, saved=kept.saved)
             fresh.take_findings(validator.findings())
             assert counts(kept) == counts(fresh), address

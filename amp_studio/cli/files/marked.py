@@ -34,10 +34,10 @@ def with_marks(
     machine: MachineParameters, path: Path, found: Sequence[ResolvedAddress], wanted: list[Mark]
 ) -> list[ResolvedAddress]:
     """Return those of the values that have every mark; raises NoDownloadError where no download is known."""
-    from amp_studio.find import ValueMarks, noted, rows_of_file
+    from amp_studio.find import ValueFilters, noted, rows_of_file
 
     file = machine.file
-    marks = ValueMarks(file)
+    marks = ValueFilters(file)
     if "findings" in wanted:
         from amp_studio.guide import found_in
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from functools import partial
 
-from amp_studio.find import Mark
+from amp_studio.find import FilterName
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.page.file_page import FilePage
-from amp_studio.ui.table.filter_bar import mark_names
+from amp_studio.ui.table.filter_bar import filter_titles
 from amp_studio.ui.window.studio_window import StudioWindow
 
-_LETTERS: dict[Mark, str] = {
+_LETTERS: dict[FilterName, str] = {
     "not-set": "n",
     "changed": "c",
     "findings": "f",
@@ -32,7 +32,7 @@ def add(window: StudioWindow, page: FilePage) -> None:
     page.filters.download_wanted.connect(lambda: window.guarded(partial(_read_download, window, page)))
 
 
-def toggle(window: StudioWindow, mark: Mark) -> None:
+def toggle(window: StudioWindow, mark: FilterName) -> None:
     """Switch a filter on or off."""
     filters = window.page_in_front.filters
     filters.choose(mark, mark not in filters.active)
@@ -73,10 +73,10 @@ def toggle_bookmark(window: StudioWindow) -> None:
     window.show_status(text.format(name=name))
 
 
-def listed() -> list[tuple[Mark, str, str]]:
+def listed() -> list[tuple[FilterName, str, str]]:
     """Return each filter of the menu with its name, in which a letter is marked, and its tip."""
-    names = {mark: name for mark, (name, _) in mark_names().items()} | {"findings": tr("With findings")}
-    return [(mark, _lettered(names[mark], _LETTERS[mark]), tip) for mark, (_, tip) in mark_names().items()]
+    names = {mark: name for mark, (name, _) in filter_titles().items()} | {"findings": tr("With findings")}
+    return [(mark, _lettered(names[mark], _LETTERS[mark]), tip) for mark, (_, tip) in filter_titles().items()]
 
 
 def _lettered(name: str, letter: str) -> str:

@@ -13,7 +13,7 @@ from PySide6.QtCore import QSize, QTimer, Signal
 from PySide6.QtGui import QAction, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QLayout, QMenu, QToolButton, QWidget
 
-from amp_studio.find import MARKS, Mark, ValueMarks, noted
+from amp_studio.find import FILTER_NAMES, FilterName, ValueFilters, noted
 from amp_studio.schema import Address, Value
 from amp_studio.ui.base.theme import GAP, GAP2, SMALL_ICON, icon
 from amp_studio.ui.base.translated import tr
@@ -23,7 +23,7 @@ from amp_studio.ui.forms.segment import chip
 
 from .parameter_table import ParameterTable, TableRow
 
-_CHIPS: tuple[Mark, ...] = ("not-set", "changed", "findings", "axes-differ")
+_CHIPS: tuple[FilterName, ...] = ("not-set", "changed", "findings", "axes-differ")
 """The marks that have a chip where there is room; the others are in the funnel alone."""
 _RECENT = 50
 """Values that are remembered as edited lately."""
@@ -31,7 +31,7 @@ _TITLE = 200
 """Least width in pixels of the bar."""
 
 
-def mark_names() -> dict[Mark, tuple[str, str]]:
+def filter_titles() -> dict[FilterName, tuple[str, str]]:
     """Return each mark by its name and what it lists."""
     return {
         "not-set": (tr("Not set"), tr("Active values that are not set")),
@@ -64,8 +64,8 @@ class FilterBar(QWidget):
         self.setAccessibleName(self.tr("Filters of the table"))
         self._table, self._workspace = table, table.workspace
         workspace: Workspace = table.workspace
-        self.marks = ValueMarks(workspace.file)
-        self.active: set[Mark] = set()
+        self.marks = ValueFilters(workspace.file)
+        self.active: set[FilterName] = set()
         self._recent: dict[Address, None] = {}
         self.marks.recent = self._recent
         self._passed: set[tuple[str, str]] = set()
@@ -91,11 +91,11 @@ class FilterBar(QWidget):
         row.addWidget(title, 1)
         self.all = chip(self.tr("All"), self.tr("Every row of this list"))
         self.all.clicked.connect(self.clear)
-        self.chips: dict[Mark, QToolButton] = {}
-        self.actions_of: dict[Mark, QAction] = {}
-        """Mark -> its entry in the funnel."""
+        self.chips: dict[FilterName, QToolButton] = {}
+        self.actions_of: dict[FilterName, QAction] = {}
+        """FilterName -> its entry in the funnel."""
         self._menu = QMenu(self)
-        for mark, (name, tip) in mark_names().items():
+        for mark, (name, tip) in filter_titles().items():
             action = QAction(name, self)
             action.setCheckable(True)
             action.setToolTip(tip)
@@ -118,7 +118,7 @@ class FilterBar(QWidget):
 
     # -- choosing --------------------------------------------------------------------------
 
-    def choose(self, mark: Mark, on: bool) -> None:
+    def choose(self, mark: FilterName, on: bool) -> None:
         """Add a filter to those that are on, or take it away."""
         if mark == "since-download" and on and self.marks.downloaded is None:
             self._show_choice()
@@ -135,7 +135,7 @@ class FilterBar(QWidget):
         self.marks.downloaded = values
         self._set(self.active | {"since-download"})
 
-    def _set(self, active: set[Mark]) -> None:
+    def _set(self, active: set[FilterName]) -> None:
         if "since-download" not in active:
             self.marks.downloaded = None  # another download may come; it is read again when it is asked for
         self.active = active
@@ -198,7 +198,7 @@ class FilterBar(QWidget):
         """Write the counts of the present list on the chips."""
         self._is_stale = False
         rows = self._table.unfiltered()
-        names = mark_names()
+        names = filter_titles()
         counts = {mark: self.marks.counted(mark, rows) for mark in _CHIPS}
         for mark, button in self.chips.items():
             text = f"{names[mark][0]} {counts[mark]}"
@@ -218,8 +218,10 @@ class FilterBar(QWidget):
 
     def _name_funnel(self) -> None:
         """Name on the funnel the filters that have no chip there."""
-        names = mark_names()
-        own = [mark for mark in MARKS if mark in self.active and (self._is_narrow or mark not in _CHIPS)]
+        names = filter_titles()
+        own = [
+            mark for mark in FILTER_NAMES if mark in self.active and (self._is_narrow or mark not in _CHIPS)
+        ]
         nothing = self.tr("All") if self._is_narrow else ""
         self.funnel.setText(", ".join(names[mark][0] for mark in own) or nothing)
         self.funnel.setChecked(bool(own))

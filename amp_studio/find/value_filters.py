@@ -1,4 +1,4 @@
-"""ValueMarks of values, by which a list is filtered: not set, changed, with findings, unlike on the axes,
+"""ValueFilters of values, by which a list is filtered: not set, changed, with findings, unlike on the axes,
 changed since a download.
 
 A list is made of rows, each the addresses of one parameter on its axes. What is asked of one value is asked
@@ -15,7 +15,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value, read_address, same_value
 from amp_studio.validate import NOT_SET, Finding, addresses_not_set
 
-Mark = Literal[
+FilterName = Literal[
     "not-set",
     "changed",
     "findings",
@@ -27,12 +27,12 @@ Mark = Literal[
     "bookmarked",
     "noted",
 ]
-MARKS: tuple[Mark, ...] = get_args(Mark)
+FILTER_NAMES: tuple[FilterName, ...] = get_args(FilterName)
 _RESTART = ("restart", "reset")
 
 
 @dataclass
-class ValueMarks:
+class ValueFilters:
     """Which values of a file have a mark. What is remembered of a value is forgotten by ``forget``."""
 
     file: ParameterFile
@@ -76,11 +76,11 @@ class ValueMarks:
 
     # -- asking ------------------------------------------------------------------------
 
-    def has(self, mark: Mark, address: Address) -> bool:
+    def has(self, mark: FilterName, address: Address) -> bool:
         """Return whether a value by itself has a mark; whether axes differ is asked of the row."""
         return self._asks[mark](address)
 
-    def passing(self, marks: Collection[Mark], row: Sequence[Address]) -> int:
+    def passing(self, marks: Collection[FilterName], row: Sequence[Address]) -> int:
         """Return how many values of a row have all the marks; one of a row whose axes differ are all of
         it.
         """
@@ -89,7 +89,7 @@ class ValueMarks:
         asks = [self._asks[mark] for mark in marks if mark != "axes-differ"]
         return sum(all(ask(address) for ask in asks) for address in row)
 
-    def counted(self, mark: Mark, rows: Iterable[Sequence[Address]]) -> int:
+    def counted(self, mark: FilterName, rows: Iterable[Sequence[Address]]) -> int:
         """Return how many values of a list have a mark; of rows whose axes differ, how many rows."""
         if mark == "axes-differ":
             return sum(self.differs(row) for row in rows)
@@ -124,7 +124,7 @@ class ValueMarks:
         return False
 
     @property
-    def _asks(self) -> dict[Mark, Callable[[Address], bool]]:
+    def _asks(self) -> dict[FilterName, Callable[[Address], bool]]:
         return {
             "not-set": self.not_set.__contains__,
             "changed": self._is_own,
