@@ -86,7 +86,7 @@ if TYPE_CHECKING:
     from .parameter_file import (
         Change,
         Header,
-        Marks,
+        HeaderSnapshot,
         ParameterFile,
         RangeError,
         describe,

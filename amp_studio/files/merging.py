@@ -252,7 +252,7 @@ class Merge:
         """Put the result into a file that contains A or B; returns the values changed.
 
         A value that is the same already stays as it is written. An axis that begins to turn takes its lengths
-        along as angles, as everywhere. Marks of values out of range come with their values.
+        along as angles, as everywhere. HeaderSnapshot of values out of range come with their values.
         """
         changes: list[Change] = []
         for row in self.differing:

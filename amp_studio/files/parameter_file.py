@@ -85,7 +85,7 @@ _KEPT_APART = ("units", "signature")
 
 
 @dataclass(frozen=True)
-class Marks:
+class HeaderSnapshot:
     """The forced marks, the header and the entries that the schema does not know, of a file at one moment."""
 
     forced: dict[Address, str]
@@ -93,7 +93,7 @@ class Marks:
     unknown: dict[str, str]
 
     @classmethod
-    def of(cls, file: ParameterFile) -> Marks:
+    def of(cls, file: ParameterFile) -> HeaderSnapshot:
         header = {k: v for k, v in vars(file.header).items() if k not in _KEPT_APART}
         return cls(dict(file.forced), header, dict(file.unknown))
 
@@ -316,7 +316,7 @@ class ParameterFile:
         This is the only place that takes an edit back: ``set_checked``, the desktop's steps
         and the trial of a fix are made of it.
         """
-        before, changes = Marks.of(self), list[Change]()
+        before, changes = HeaderSnapshot.of(self), list[Change]()
         stop = self.listen(changes.append)
         try:
             yield changes
@@ -326,11 +326,11 @@ class ParameterFile:
             raise
         stop()
 
-    def take_back(self, changes: Iterable[Change], before: Marks) -> None:
+    def take_back(self, changes: Iterable[Change], before: HeaderSnapshot) -> None:
         """Undo changes, the last one first, and put marks and header back."""
         self.replay([change.reversed() for change in reversed(list(changes))], before)
 
-    def replay(self, changes: Iterable[Change], after: Marks) -> None:
+    def replay(self, changes: Iterable[Change], after: HeaderSnapshot) -> None:
         """Make changes again, with the marks and the header that were there after them."""
         for change in changes:
             self.apply(change)

@@ -17,7 +17,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
-from amp_studio.files import Change, Marks, ParameterFile, RangeError
+from amp_studio.files import Change, HeaderSnapshot, ParameterFile, RangeError
 from amp_studio.schema import Address, canonical, dimension
 
 from .builder_rules import BuilderRules, sort_out
@@ -146,7 +146,7 @@ class Trials:
         if file is None:
             file = self._file = self._original.copy()
             self._checks = Checks(file, self._own.places)
-        before = Marks.of(file)
+        before = HeaderSnapshot.of(file)
         try:
             changes = file.set_checked({setting.address: setting.value for setting in finding.fix})
         except RangeError as error:

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from amp_studio.files import ParameterFile, compare, content_of, new_file, read_content
 from amp_studio.files.merging import Merge, Row, Typed
-from amp_studio.files.parameter_file import Marks
+from amp_studio.files.parameter_file import HeaderSnapshot
 from amp_studio.schema import Address, Value, family_ids, load_schema
 from tests.campaigns import examples
 
@@ -150,7 +150,7 @@ def test_the_result_goes_into_a_file_as_one_step_that_can_be_taken_back_whole() 
     before = content_of(a)
     merge = Merge(a.copy(), b)
     merge.take("b")
-    marks = Marks.of(a)
+    marks = HeaderSnapshot.of(a)
     with a.step() as changes:
         merge.apply_to(a)
     assert content_of(a) == content_of(merge.result())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from amp_studio.files import Change, ParameterFile, RangeError
-from amp_studio.files.parameter_file import Marks
+from amp_studio.files.parameter_file import HeaderSnapshot
 from amp_studio.schema import Address, Value, load_schema
 
 HOME: Address = ("home.calibration", "1")
@@ -49,10 +49,10 @@ def test_a_step_inside_a_step_is_taken_back_by_itself(mill: ParameterFile) -> No
 
 
 def test_a_step_can_be_taken_back_and_made_again(mill: ParameterFile) -> None:
-    before = Marks.of(mill)
+    before = HeaderSnapshot.of(mill)
     with mill.step() as changes:
         mill.set_checked({ZONE: Value(2), HOME: None})
-    after = Marks.of(mill)
+    after = HeaderSnapshot.of(mill)
 
     mill.take_back(changes, before)
     assert (mill.values, mill.forced) == ({HOME: Value(2.0, "mm"), ZONE: Value(9)}, {ZONE: "on Monday"})

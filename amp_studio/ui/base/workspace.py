@@ -15,7 +15,7 @@ from amp_studio.files import (
     BlockEntry,
     Change,
     Document,
-    Marks,
+    HeaderSnapshot,
     Opened,
     ParameterFile,
     describe,
@@ -45,7 +45,12 @@ class _Edit(QUndoCommand):
     """One step of the undo stack: values changed together, with their forced marks."""
 
     def __init__(
-        self, workspace: Workspace, text: str, changes: list[Change], before: Marks, after: Marks
+        self,
+        workspace: Workspace,
+        text: str,
+        changes: list[Change],
+        before: HeaderSnapshot,
+        after: HeaderSnapshot,
     ) -> None:
         super().__init__(text)
         self._workspace, self._changes, self._before, self._after = workspace, changes, before, after
@@ -101,7 +106,7 @@ class Workspace(QObject):
         self.control: tuple[dict[Address, Value], str] | None = None
         """The values of the control when it was last read, and the time of that."""
         self.is_saving = False
-        self._saved = (Marks.of(document.file), document.file.header.units)
+        self._saved = (HeaderSnapshot.of(document.file), document.file.header.units)
         self._journal = QTimer(self)
         self._journal.setSingleShot(True)
         self._journal.timeout.connect(self._keep_unsaved)
@@ -204,10 +209,10 @@ class Workspace(QObject):
 
         An operation that raises leaves the file as it was.
         """
-        before = Marks.of(self.file)
+        before = HeaderSnapshot.of(self.file)
         with self.file.step() as changes:
             operation()
-        after = Marks.of(self.file)
+        after = HeaderSnapshot.of(self.file)
         if not changes and before == after:
             return False
         self.undo_stack.push(_Edit(self, text, changes, before, after))
@@ -248,7 +253,7 @@ class Workspace(QObject):
     @property
     def is_dirty(self) -> bool:
         """Whether there are unsaved changes."""
-        return self.document.is_dirty or self._saved != (Marks.of(self.file), self.file.header.units)
+        return self.document.is_dirty or self._saved != (HeaderSnapshot.of(self.file), self.file.header.units)
 
     def save(self, run: Callable[[Callable[[], None]], None] = lambda work: work()) -> None:
         """Save in place, through ``run`` (a thread); raises ChangedOnDiskError, SaveError, InUseError."""
@@ -262,7 +267,7 @@ class Workspace(QObject):
             raise
         finally:
             self.is_saving = False
-        self._saved = (Marks.of(self.file), self.file.header.units)
+        self._saved = (HeaderSnapshot.of(self.file), self.file.header.units)
         self._compare_again()
         self.saved.emit()
 

@@ -14,8 +14,8 @@ from pathlib import Path
 from PySide6.QtCore import QObject
 
 from amp_studio.files import (
+    HeaderSnapshot,
     HistoryEntry,
-    Marks,
     ParameterFile,
     as_axis,
     axis_letters,
@@ -323,7 +323,7 @@ def is_same_content(a: ParameterFile, b: ParameterFile) -> bool:
     """Return whether two states of a file are the same: values, marks,
     header and what the schema does not know.
     """
-    return a.values == b.values and Marks.of(a) == Marks.of(b)
+    return a.values == b.values and HeaderSnapshot.of(a) == HeaderSnapshot.of(b)
 
 
 def _stamp(path: Path) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from PySide6.QtCore import QObject, QTimer
 
-from amp_studio.files import Marks, RangeError
+from amp_studio.files import HeaderSnapshot, RangeError
 from amp_studio.schema import Address, Value
 from amp_studio.ui.base.workspace import Workspace
 
@@ -23,7 +23,7 @@ class ValueDrag(QObject):
         self.workspace = workspace
         self.before = {address: workspace.file.get(address) for address in addresses}
         """The values when the drag began."""
-        self._marks = Marks.of(workspace.file)
+        self._marks = HeaderSnapshot.of(workspace.file)
         self.refused = ""
         """Why the last place was not taken; the values are still those before it."""
         self._follow = QTimer(self)
