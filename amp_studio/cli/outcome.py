@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-Mark = tuple[int, int, int, int] | str | None
+FileIdentity = tuple[int, int, int, int] | str | None
 """What distinguishes one state of a file from another: device, number, size and time;
 None where there is no file.
 
@@ -21,24 +21,28 @@ class Target(NamedTuple):
     """A file that a verb may replace, and its backup, as they were before it began."""
 
     path: Path
-    mark: Mark
+    identity: FileIdentity
     backup: Path
-    backup_mark: Mark
+    backup_identity: FileIdentity
 
     def sentence(self) -> str:
         """Return what is true now where the file has been replaced; nothing where it is as it was."""
-        now = _mark(self.path)
-        if now == self.mark:
+        now = _identity_of(self.path)
+        if now == self.identity:
             return ""
-        if isinstance(now, str) or isinstance(self.mark, str):
+        if isinstance(now, str) or isinstance(self.identity, str):
             return self._remembered()
         if now is None:
             return f"{self.path} is no longer there"
-        if self.mark is None:
+        if self.identity is None:
             if now[2] == 0:
                 return f"{self.path} has been made and is empty: remove it"
             return f"{self.path} has been written and is complete"
-        kept = f"; its previous content is in {self.backup}" if _mark(self.backup) != self.backup_mark else ""
+        kept = (
+            f"; its previous content is in {self.backup}"
+            if _identity_of(self.backup) != self.backup_identity
+            else ""
+        )
         return f"{self.path} has been changed and contains the new content{kept}"
 
     def _remembered(self) -> str:
@@ -54,7 +58,8 @@ def targets(paths: Sequence[Path]) -> list[Target]:
         return []
     backups = [_backup(path) for path in paths]
     return [
-        Target(path, _mark(path), backup, _mark(backup)) for path, backup in zip(paths, backups, strict=True)
+        Target(path, _identity_of(path), backup, _identity_of(backup))
+        for path, backup in zip(paths, backups, strict=True)
     ]
 
 
@@ -68,7 +73,7 @@ def _backup(path: Path) -> Path:
         return path.with_name(path.name + ".bak")
 
 
-def _mark(path: Path) -> Mark:
+def _identity_of(path: Path) -> FileIdentity:
     try:
         found = path.stat()
     except (FileNotFoundError, NotADirectoryError, ValueError):
