@@ -20,7 +20,7 @@ Needs = Literal["", "file", "edit", "axes", "project", "units", "undo", "redo", 
 """What has to be there: nothing, an open file, the right to change it, axes as well, a project, several
 systems of units, a step to undo or redo, an emulated control that runs, a file and none that runs."""
 
-Keys = str | QKeySequence.StandardKey | tuple[str, ...]
+Shortcut = str | QKeySequence.StandardKey | tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Action(Generic[W]):
     text: str
     """Its name in the menu, with an Alt letter; ``…`` where it asks something first."""
     does: Callable[[W], object]
-    keys: Keys = ()
+    keys: Shortcut = ()
     needs: Needs = "file"
     icon: str = ""
     short: str = ""
