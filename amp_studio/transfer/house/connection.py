@@ -25,7 +25,7 @@ from .retry_timer import RetryPolicy
 from .streaming import window_limit
 from .transaction import NoAnswerError, Transaction
 
-Result = TypeVar("Result")
+_T = TypeVar("_T")
 
 PAUSE = 0.2  # seconds before a cut line is tried again; each pause is half as long again as the last,
 LONGEST_PAUSE = 2.0  # up to this
@@ -137,7 +137,7 @@ class Connection:
         self.welcome = welcome
         return welcome
 
-    def persist(self, action: Callable[[Transaction], Result]) -> Result:
+    def persist(self, action: Callable[[Transaction], _T]) -> _T:
         """Run ``action`` to its end, on as many lines as it takes, until patience ends.
 
         Raises RefusalError, ConnectionCutError, ControlSilentError, ControlBusyError, CancelledError.

@@ -25,7 +25,7 @@ from .retry_timer import RetryPolicy
 from .transaction import NoAnswerError
 from .upload_transfer import UploadTransfer
 
-Result = TypeVar("Result")
+_T = TypeVar("_T")
 
 RESTART_PAUSE = 0.02  # seconds between two calls to a control that restarts
 

@@ -17,7 +17,7 @@ TaskProgress = Callable[[str, int, int], None]
 """Takes a stage, how much is done and of how much; that of an exchange (``transfer.progress``)
 has the same arguments."""
 Work = Callable[[TaskProgress, threading.Event], Any]
-Result = TypeVar("Result")
+_T = TypeVar("_T")
 
 PATIENCE_MS = 300
 """Milliseconds that work may last before a progress dialog is shown."""
@@ -196,11 +196,11 @@ def _wait_quietly(task: Task, parent: QWidget | None) -> None:
         loop.exec(QEventLoop.ProcessEventsFlag.ExcludeUserInputEvents)
 
 
-def in_background(parent: QWidget | None, title: str, work: Callable[[], Result]) -> Result:
+def in_background(parent: QWidget | None, title: str, work: Callable[[], _T]) -> _T:
     """Return the result of ``work``, run in a thread while the window stays responsive; raises its errors."""
 
-    def run(_: TaskProgress, __: threading.Event) -> Result:
+    def run(_: TaskProgress, __: threading.Event) -> _T:
         return work()
 
-    result: Result = run_patiently(title, run, parent, f"{title} …", cancellable=False)
+    result: _T = run_patiently(title, run, parent, f"{title} …", cancellable=False)
     return result
