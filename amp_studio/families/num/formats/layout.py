@@ -18,7 +18,7 @@ from .words import Spelling, Word, name_of
 XOFF = "\x13"
 MOST_VALUES = 10
 """Values of one data line (page 13-14)."""
-Cells = dict[Word, str]
+WordTexts = dict[Word, str]
 """Every word of a table, as the control would spell it."""
 Heads = Mapping[int, tuple[int, int]]
 """Parameter -> type and number of its words."""
@@ -146,13 +146,13 @@ def _block(line: str) -> Placed:
 # -- from words to text ----------------------------------------------------------
 
 
-def compose(cells: Cells, heads: Heads, forms: Mapping[int, Spelling], layout: TableLayout) -> str:
+def compose(texts: WordTexts, heads: Heads, forms: Mapping[int, Spelling], layout: TableLayout) -> str:
     """Return the text of a table; raises FormatError for a line that is too long."""
     lines = [f"%{layout.job_reference}{layout.comment}"]
-    for block in _arranged(cells, layout):
+    for block in _arranged(texts, layout):
         head = heads.get(block.first[0]) if block.typed else None
         lines.append(name_of(block.first) + (f":t{head[0]}n{head[1]}" if head else ""))
-        lines.append(f"#{_data(block, cells, forms)}")
+        lines.append(f"#{_data(block, texts, forms)}")
     for line in lines:
         if len(line) > 0xFF:
             raise FormatError(f"a line has 255 characters at most, and this one {len(line)}: {line[:40]}…")
@@ -160,11 +160,11 @@ def compose(cells: Cells, heads: Heads, forms: Mapping[int, Spelling], layout: T
     return measured + (layout.end or layout.line_end + XOFF)
 
 
-def _arranged(cells: Cells, layout: TableLayout) -> list[Placed]:
+def _arranged(texts: WordTexts, layout: TableLayout) -> list[Placed]:
     """Return the lines of a table: those remembered as far as their words are there, the rest in its
     place.
     """
-    left = dict.fromkeys(sorted(cells), True)
+    left = dict.fromkeys(sorted(texts), True)
     arranged: list[Placed] = []
     for block in layout.blocks:
         there = [word for word in block.words if left.pop(word, False)]
@@ -194,8 +194,8 @@ def runs(words: Iterable[Word], typed: bool) -> Iterator[Placed]:
         yield Placed(first, count, typed)
 
 
-def _data(block: Placed, cells: Cells, forms: Mapping[int, Spelling]) -> str:
-    spelled = [cells[word] for word in block.words]
+def _data(block: Placed, texts: WordTexts, forms: Mapping[int, Spelling]) -> str:
+    spelled = [texts[word] for word in block.words]
     form = forms.get(block.first[0])
     if block.data is not None and form is not None:
         own = [block.data] if block.count == 1 else block.data.split(" ")

@@ -15,7 +15,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.formats import FormatError, ReadOptions, TextFormat, TextRead
 from amp_studio.schema import InvalidValueError, Schema, Value
 
-from .layout import MOST_VALUES, Cells, Placed, TableLayout, compose, runs
+from .layout import MOST_VALUES, Placed, TableLayout, WordTexts, compose, runs
 from .lines import HEADER, Block, blocks_of, split_table
 from .words import (
     WORD_TYPES,
@@ -262,7 +262,7 @@ def _write(file: ParameterFile) -> str:
     layout = TableLayout.from_header(file.header.extra.get(KEY))
     heads = _heads(known, layout, file.unknown)
     alone = {a for a, (code, count) in heads.items() if count == 1 and WORD_TYPES[code].is_text}
-    cells: Cells = {}
+    cells: WordTexts = {}
     for (parameter, first), _, data in _kept(file.unknown):
         for place, text in enumerate([data] if parameter in alone else data.split(" ")):
             cells[parameter, first + place] = text
