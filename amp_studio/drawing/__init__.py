@@ -17,12 +17,12 @@ if TYPE_CHECKING:
     from .scene import (
         LEAST,
         MOST,
-        CellMap,
         Curve,
         Dot,
         Drag,
         FilledArea,
         Handle,
+        HeatMap,
         NamedPlace,
         Picture,
         PictureNote,

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from amp_studio.schema import unit_text
 
-from .scene import CellMap, Curve, Dot, NamedPlace, Point, Polyline, Ring, Scale, Scene, ShapeSort, Text
+from .scene import Curve, Dot, HeatMap, NamedPlace, Point, Polyline, Ring, Scale, Scene, ShapeSort, Text
 from .ticks import figure_text, round_step
 
 if TYPE_CHECKING:
@@ -125,7 +125,7 @@ def map_scene(
     """
     logs = [_is_geometric(side) for side in (x[2], y[2])]
     edges = [_edges(side, log) for side, log in zip((x[2], y[2]), logs, strict=True)]
-    cells = CellMap(unit, edges[0], edges[1], values, safe, _ends(values, safe))
+    cells = HeatMap(unit, edges[0], edges[1], values, safe, _ends(values, safe))
     heading = f"{title} ({unit_text(unit)})" if unit else title
     up = f"{y[0]} ({unit_text(y[1])})" if y[1] else y[0]
     return Scene(
@@ -167,7 +167,7 @@ def _ends(values: NDArray[np.float64], safe: NDArray[np.bool_]) -> tuple[float, 
     return (low, high) if high > low else (low, low + 1.0)
 
 
-def _safe_edge(cells: CellMap) -> Iterator[Polyline]:
+def _safe_edge(cells: HeatMap) -> Iterator[Polyline]:
     """Yield the line between the safe cells and the others, cell by cell."""
     for n, k in zip(*np.nonzero(cells.safe[:, 1:] != cells.safe[:, :-1]), strict=True):
         x = float(cells.x[k + 1])

@@ -78,7 +78,7 @@ class Curve:
 
 
 @dataclass(frozen=True, eq=False)
-class CellMap:
+class HeatMap:
     """A figure over two values: a cell for each pair of them, pale where it is not safe."""
 
     unit: str
@@ -246,7 +246,7 @@ class Scene:
     with_point: Callable[[Point], tuple[Address, Value] | None] | None = field(default=None, compare=False)
     """What is set to put a point into a table; None where nothing can be put in."""
     curves: tuple[Curve, ...] = ()
-    cells: CellMap | None = None
+    cells: HeatMap | None = None
     levels: tuple[NamedPlace, ...] = ()
     """Values of y."""
     marks: tuple[NamedPlace, ...] = ()

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .frame import Placement
-from .scene import CellMap, Curve
+from .scene import Curve, HeatMap
 
 if TYPE_CHECKING:
     from .scene import Series
@@ -37,7 +37,7 @@ def strokes_of(frame: Placement, curve: Curve) -> tuple[Series, Series | None]:
     return _placed(frame, *((x, y) if curve.dots else thinned(x, y, columns, unseen))), None
 
 
-def cell_boxes(frame: Placement, cells: CellMap) -> Iterator[tuple[float, float, float, float, float, bool]]:
+def cell_boxes(frame: Placement, cells: HeatMap) -> Iterator[tuple[float, float, float, float, float, bool]]:
     """Yield left, top, width and height of each cell in points, its share of the scale of colours,
     and whether it is safe.
     """

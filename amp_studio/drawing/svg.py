@@ -9,7 +9,7 @@ from textwrap import wrap
 
 from .frame import Placement
 from .labels import SAMPLE, Heading, Label, heading_of, labels_of
-from .scene import CellMap, Curve, Dot, FilledArea, Picture, Point, Polyline, Scene, ShapeSort
+from .scene import Curve, Dot, FilledArea, HeatMap, Picture, Point, Polyline, Scene, ShapeSort
 from .ticks import figure_text
 
 WIDTH, HEIGHT = 720.0, 480.0
@@ -214,7 +214,7 @@ def _across(frame: Placement) -> Iterator[str]:
         yield f'<path d="M{x:.1f} {frame.top:.1f}V{bottom:.1f}" stroke="{COLOURS[mark.sort]}"{dash}/>'
 
 
-def _cells(frame: Placement, cells: CellMap) -> Iterator[str]:
+def _cells(frame: Placement, cells: HeatMap) -> Iterator[str]:
     from .strokes import cell_boxes  # see below
 
     for left, top, width, height, share, is_safe in cell_boxes(frame, cells):
@@ -234,7 +234,7 @@ def _cells(frame: Placement, cells: CellMap) -> Iterator[str]:
         yield f'<text x="{left + BAR + 5:.1f}" y="{y + 4:.1f}" fill="{DIM}">{escape(text)}</text>'
 
 
-def bar_figures(frame: Placement, cells: CellMap) -> list[tuple[float, str]]:
+def bar_figures(frame: Placement, cells: HeatMap) -> list[tuple[float, str]]:
     """Return the figures beside the scale of colours: where, and what."""
     least, most = cells.ends
     return [

@@ -14,11 +14,11 @@ from amp_studio.drawing import (
     BAR_STEPS,
     PALE,
     SAMPLE,
-    CellMap,
     Curve,
     Dot,
     FilledArea,
     Heading,
+    HeatMap,
     Label,
     Labels,
     Placement,
@@ -161,7 +161,7 @@ class ScenePainter:
             painter.drawPolyline(_polygon(line))
         painter.restore()
 
-    def _cells(self, cells: CellMap) -> None:
+    def _cells(self, cells: HeatMap) -> None:
         from amp_studio.drawing import cell_boxes  # numpy, see above
 
         painter, place = self._painter, self._place
