@@ -166,7 +166,7 @@ class SharedWindow:
         if first is not None:
             first.workspace.document.close()
         window.project = None
-        vars(window).pop("report_choice", None)
+        vars(window).pop("report_options", None)
         self._clean_folder()
         QSettings("AMP Studio", "AMP Studio").clear()
         window.show_workspace(Workspace(Document.open(self.path)), first)

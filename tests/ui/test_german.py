@@ -108,7 +108,7 @@ def test_a_finding_and_the_allowed_range_are_german_in_the_window_and_in_the_rep
 
 
 def test_the_report_has_the_language_of_the_window_until_another_is_chosen(window) -> None:
-    choice = window.report_choice
+    choice = window.report_options
     choice.contents = replace(choice.contents, sort="number")
     window.settings.keep_language("de")
     assert choice.contents.language == "de", "the order was chosen, not the language"

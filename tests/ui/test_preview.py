@@ -21,7 +21,7 @@ from amp_studio.ui.dialogs.file_dialogs import ReportDialog
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.paper import preview_panel
 from amp_studio.ui.paper.preview_panel import PreviewPanel
-from amp_studio.ui.window.report_options import ReportChoice
+from amp_studio.ui.window.report_options import ReportOptions
 from amp_studio.ui.window.settings import UserSettings
 
 from .conftest import WAIT_MS, User, action
@@ -62,7 +62,7 @@ def settled(qtbot: QtBot) -> Callable[[PreviewPanel], None]:
 @pytest.fixture
 def panel(window: MainWindow, qtbot: QtBot, settled) -> PreviewPanel:
     """Return the preview of the example router, opened by its command."""
-    window.report_choice.contents = SHORT
+    window.report_options.contents = SHORT
     action(window, "Report Preview").trigger()
     qtbot.waitUntil(
         lambda: window.preview.panel is not None and bool(window.preview.panel.view.pages), timeout=WAIT_MS
@@ -184,7 +184,7 @@ def test_the_contents_are_chosen_once_for_the_preview_and_the_dialog(
     assert (seen[0].paper, seen[0].changed_only) == ("letter", True)
     assert "signatures" in seen[0].without
     assert panel.head.options.answer("language") == "de"
-    assert ReportChoice(UserSettings()).contents == window.report_choice.contents
+    assert ReportOptions(UserSettings()).contents == window.report_options.contents
 
 
 def test_a_stored_choice_that_is_none_is_left_out(qapp) -> None:
@@ -192,7 +192,7 @@ def test_a_stored_choice_that_is_none_is_left_out(qapp) -> None:
     settings.keep_report(
         dict.fromkeys(("sort", "changed", "inactive", "units", "language", "without", "paper"), "?")
     )
-    assert ReportChoice(settings).contents == Contents()
+    assert ReportOptions(settings).contents == Contents()
 
 
 def test_the_preview_is_open_again_at_the_next_start_and_loaded_only_when_it_is_seen(
@@ -219,7 +219,7 @@ def test_drawings_of_the_simulator_come_when_they_are_ready(
     figure = PrintedFigure("Step, axis 1", "", ("Not simulated: no machine",))
     monkeypatch.setattr("amp_studio.dossier.motion_apart", lambda _file: (figure,))
     pages = len(panel.view.pages)
-    window.report_choice.contents = Contents(changed_only=True, without=SHORT.without - {"motion"})
+    window.report_options.contents = Contents(changed_only=True, without=SHORT.without - {"motion"})
     settled(panel)
     assert len(panel.view.pages) == pages + 1
     assert panel._known[window.workspace].motion == (figure,)

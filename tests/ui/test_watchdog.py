@@ -72,7 +72,7 @@ class Work:
     def read_the_report(self) -> None:
         """Change a value beside the preview of the report."""
         window = self.window
-        window.report_choice.contents = Contents(changed_only=True, without=frozenset(CHAPTERS))
+        window.report_options.contents = Contents(changed_only=True, without=frozenset(CHAPTERS))
         self.choose("report preview", "Report Preview", 100)
         self.qtbot.waitUntil(
             lambda: bool(window.preview.panel and window.preview.panel.view.places), timeout=WAIT_MS

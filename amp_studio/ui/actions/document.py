@@ -35,7 +35,7 @@ def form(window: StudioWindow) -> None:
     if not text:
         return
     path, file = path_of_kind(text, kind), workspace.file.copy()
-    language = window.report_choice.contents.language
+    language = window.report_options.contents.language
     check_output(path, workspace.path)
     notes: list[str] = []
     in_background(

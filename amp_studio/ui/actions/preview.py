@@ -75,7 +75,7 @@ class ReportPreview(QObject):
             return self.panel
         from amp_studio.ui.paper.preview_panel import PreviewPanel
 
-        panel = self.panel = PreviewPanel(self.window.report_choice)
+        panel = self.panel = PreviewPanel(self.window.report_options)
         head, view = panel.head, panel.view
         head.add_button("magnifying-glass-minus", self.tr("Smaller (-)"), partial(view.step_zoom, -1))
         head.add_button("magnifying-glass-plus", self.tr("Larger (+)"), partial(view.step_zoom, 1))

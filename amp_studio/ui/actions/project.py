@@ -150,7 +150,7 @@ def compare(window: StudioWindow) -> None:
     if window.beside.again(MachinesDialog, asked=asked) is not None:
         return
     dialog = MachinesDialog(
-        opened, paths, partial(show_at, window), window, window.report_choice.contents.language
+        opened, paths, partial(show_at, window), window, window.report_options.contents.language
     )
     window.beside.show(dialog, asked=asked)
     dialog.begin()

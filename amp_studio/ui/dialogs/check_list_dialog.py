@@ -37,7 +37,7 @@ def write_check_list_of(window: StudioWindow, workspace: Workspace) -> None:
         workspace.file.copy(),
         workspace.progress,
         workspace.path,
-        window.report_choice.contents.language,
+        window.report_options.contents.language,
         path,
         notes.append,
     )

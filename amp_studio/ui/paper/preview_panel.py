@@ -21,7 +21,7 @@ from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.forms.message_bar import MessageBar
 from amp_studio.ui.page.file_page import FilePage
-from amp_studio.ui.window.report_options import ReportChoice, answers_of
+from amp_studio.ui.window.report_options import ReportOptions, answers_of
 
 from .page_view import PageView, Spot
 from .preview_head import PreviewHead
@@ -62,7 +62,7 @@ class PreviewPanel(QWidget):
     value_wanted = Signal(object)
     """The address of a value that was clicked."""
 
-    def __init__(self, choice: ReportChoice) -> None:
+    def __init__(self, choice: ReportOptions) -> None:
         super().__init__()
         self.setAccessibleName(self.tr("Report preview"))
         self._choice = choice

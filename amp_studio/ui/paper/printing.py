@@ -31,11 +31,11 @@ def print_report(window: StudioWindow, workspace: Workspace) -> None:
     """Ask what a report contains, and write it or show it as it is printed;
     nothing where the dialog is cancelled.
     """
-    dialog = ReportDialog(workspace.path, window, window.report_choice.contents)
+    dialog = ReportDialog(workspace.path, window, window.report_options.contents)
     if not run_dialog(dialog):
         return
     path, show = dialog.output, dialog.form.answer("open")
-    window.report_choice.contents = dialog.contents()
+    window.report_options.contents = dialog.contents()
     if dialog.to_printer:
         _preview(window, workspace)
         return
@@ -47,7 +47,7 @@ def print_report(window: StudioWindow, workspace: Workspace) -> None:
 def write_to(window: StudioWindow, workspace: Workspace, path: Path) -> None:
     """Write the report as it was last chosen, in the format of the file's ending."""
     check_output(path, workspace.path)
-    file, contents = workspace.file.copy(), window.report_choice.contents
+    file, contents = workspace.file.copy(), window.report_options.contents
     notes: list[str] = []
 
     def work(_: TaskProgress, __: threading.Event) -> None:
@@ -72,7 +72,7 @@ def write_to(window: StudioWindow, workspace: Workspace, path: Path) -> None:
 
 def _set_for_paper(window: StudioWindow, workspace: Workspace) -> Sequence[bytes]:
     """Return the pages of the report for a printer."""
-    file, contents, notes = workspace.file.copy(), window.report_choice.contents, list[str]()
+    file, contents, notes = workspace.file.copy(), window.report_options.contents, list[str]()
 
     def work(_: TaskProgress, __: threading.Event) -> tuple[bytes, ...]:
         load("amp_studio.dossier")

@@ -19,7 +19,7 @@ from .settings import UserSettings
 _T = TypeVar("_T")
 
 
-class ReportChoice(QObject):
+class ReportOptions(QObject):
     """The contents of reports as a person last chose them."""
 
     changed = Signal()

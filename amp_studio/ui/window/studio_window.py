@@ -36,7 +36,7 @@ from .file_tabs import FileTabs
 from .settings import UserSettings
 
 if TYPE_CHECKING:
-    from .report_options import ReportChoice
+    from .report_options import ReportOptions
 
 
 class StudioWindow(QMainWindow):
@@ -63,11 +63,11 @@ class StudioWindow(QMainWindow):
         self.docks = Docks(self, self.settings)
 
     @cached_property
-    def report_choice(self) -> ReportChoice:
+    def report_options(self) -> ReportOptions:
         """What reports contain; loaded when the first is asked for."""
-        from .report_options import ReportChoice
+        from .report_options import ReportOptions
 
-        return ReportChoice(self.settings, self)
+        return ReportOptions(self.settings, self)
 
     # -- the project and the files -----------------------------------------------
 
