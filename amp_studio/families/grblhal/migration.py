@@ -26,10 +26,10 @@ _OPEN_LOOP = (
 
 def migrate(machine: MachineMeaning, answers: Mapping[str, str]) -> WrittenMachine:
     """Return the settings of a machine, with a grade for each concept."""
-    return _Settings(machine, answers).written()
+    return _SettingsWriter(machine, answers).written()
 
 
-class _Settings:
+class _SettingsWriter:
     def __init__(self, machine: MachineMeaning, answers: Mapping[str, str]) -> None:
         self.machine, self.answers, self.out = machine, answers, WrittenMachine()
         self.values: dict[int, str] = {}

@@ -428,7 +428,7 @@ def solve(trial: Tried, aim: Aim, *, slowest: float = math.inf) -> Solved:
     """
     gains = gains_of(trial)
     levels, filters = levels_of(aim, slowest), Filters(trial)
-    settings = _Settings(trial, gains, filters)
+    settings = _FilterSearches(trial, gains, filters)
     present = filters.present, tuple(gain.present_size for gain in gains)
     before = settings.candidate(present) or Candidate(trial.axis)
     # The present gains are judged without the reserve: what is proposed once must not be improved
@@ -458,7 +458,7 @@ Chosen = tuple[FilterSetting, GainPoint]
 """Filters and gains."""
 
 
-class _Settings:
+class _FilterSearches:
     """The searches of one axis, one for each setting of its filters that is tried."""
 
     def __init__(self, trial: Tried, gains: Sequence[Gain], filters: Filters) -> None:
@@ -532,7 +532,12 @@ class _Settings:
 
 
 def _worth(
-    settings: _Settings, present: Chosen, best: Chosen | None, now: int, level: int, levels: Sequence[Level]
+    settings: _FilterSearches,
+    present: Chosen,
+    best: Chosen | None,
+    now: int,
+    level: int,
+    levels: Sequence[Level],
 ) -> Chosen:
     """Return the best loop where it is better than the present one by more than is worth a change."""
     if best is None:
