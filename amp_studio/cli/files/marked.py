@@ -13,9 +13,9 @@ from amp_studio.schema import Address, ResolvedAddress
 
 if TYPE_CHECKING:  # most verbs about files ask for no mark, and start without what finds them
     from amp_studio import MachineParameters
-    from amp_studio.find import Mark
+    from amp_studio.find import FilterName
 
-_OPTIONS: dict[str, Mark] = {
+_OPTIONS: dict[str, FilterName] = {
     "changed": "changed",
     "axes_differ": "axes-differ",
     "with_findings": "findings",
@@ -25,13 +25,13 @@ _OPTIONS: dict[str, Mark] = {
 }
 
 
-def marks_asked(options: Options) -> list[Mark]:
+def marks_asked(options: Options) -> list[FilterName]:
     """Return the marks that the options name."""
     return [mark for option, mark in _OPTIONS.items() if getattr(options, option)]
 
 
 def with_marks(
-    machine: MachineParameters, path: Path, found: Sequence[ResolvedAddress], wanted: list[Mark]
+    machine: MachineParameters, path: Path, found: Sequence[ResolvedAddress], wanted: list[FilterName]
 ) -> list[ResolvedAddress]:
     """Return those of the values that have every mark; raises NoDownloadError where no download is known."""
     from amp_studio.find import ValueFilters, noted, rows_of_file
@@ -49,7 +49,7 @@ def with_marks(
     marks.noted = noted(file)
     row_of = {address: row for row in rows_of_file(file) for address in row}
 
-    def has(mark: Mark, address: Address) -> bool:
+    def has(mark: FilterName, address: Address) -> bool:
         return marks.differs(row_of.get(address, ())) if mark == "axes-differ" else marks.has(mark, address)
 
     return [resolved for resolved in found if all(has(mark, resolved.address) for mark in wanted)]

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile, open_file
-from amp_studio.find import FILTER_NAMES, Mark, ValueFilters, rows_of_file
+from amp_studio.find import FILTER_NAMES, FilterName, ValueFilters, rows_of_file
 from amp_studio.schema import Address
 from amp_studio.validate import Validator
 from tests.campaigns import some
@@ -28,7 +28,7 @@ def marks(mill: ParameterFile) -> ValueFilters:
     return found
 
 
-def listed(marks: ValueFilters, *wanted: Mark) -> set[Address]:
+def listed(marks: ValueFilters, *wanted: FilterName) -> set[Address]:
     """Return every value of the file that has all of the marks."""
     return {
         a
@@ -103,7 +103,7 @@ def test_after_any_edit_the_counts_are_those_of_a_fresh_start(example: str) -> N
     kept = ValueFilters(file, saved=dict(file.values))
     kept.take_findings(validator.run())
 
-    def counts(marks: ValueFilters) -> dict[Mark, int]:
+    def counts(marks: ValueFilters) -> dict[FilterName, int]:
         rows = rows_of_file(file)
         return {mark: marks.counted(mark, rows) for mark in FILTER_NAMES}
 
