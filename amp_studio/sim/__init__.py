@@ -87,7 +87,7 @@ if TYPE_CHECKING:
     from .probing import Probing
     from .rounding import rounded_down, rounded_up, value_text
     from .run import machine_tests, simulate, simulated_axes, sweep
-    from .scenario import Scenario, Settings, above_zero, number, refuse_unknown
+    from .scenario import Scenario, ScenarioSettings, above_zero, number, refuse_unknown
     from .scenarios.columns import alarms_of, column_units, per_minute
     from .scenarios.step import SCENARIO as STEP
     from .spindle import Gear, Orient, SpeedWatch, Spindle, Tapping

@@ -16,7 +16,7 @@ from .errors import SimulationError
 from .law import AxisLaw, BoundMachine, Law, law_of
 from .listings import known_settings
 from .machine_test import MachineTest
-from .scenario import Settings
+from .scenario import ScenarioSettings
 from .scenarios import SCENARIOS
 from .scenarios.circle import SECOND
 from .settings import read_settings, refuse_other_unit
@@ -116,7 +116,7 @@ def _of_one_axis(
     law: Law,
     bound: AxisLaw,
     model: Mapping[str, ParameterValue],
-    own: Settings,
+    own: ScenarioSettings,
     way: Way | None,
     *,
     advise: bool,
@@ -139,7 +139,9 @@ def _of_one_axis(
     return replace(trace, recommendations=found, assumptions=(*trace.assumptions, *notes))
 
 
-def _whole_run(law: Law, scenario: str, axis: str | None) -> Callable[[BoundMachine, Settings], Trace] | None:
+def _whole_run(
+    law: Law, scenario: str, axis: str | None
+) -> Callable[[BoundMachine, ScenarioSettings], Trace] | None:
     """Return how a scenario is run that is not about one axis; None for one that is.
     Raises SimulationError for several axes of such a one.
     """

@@ -12,7 +12,7 @@ from .axis_parameters import ParameterValue
 from .errors import SimulationError
 from .trace import Trace
 
-Settings = Mapping[str, ParameterValue]
+ScenarioSettings = Mapping[str, ParameterValue]
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class Scenario:
     """What makes it the same at the other end of the travel, which a check looks at too."""
 
 
-def number(settings: Settings, name: str) -> float | None:
+def number(settings: ScenarioSettings, name: str) -> float | None:
     """Return a setting as a number, None if it is not given; raises SimulationError for anything else."""
     setting = settings.get(name)
     if setting is None:
@@ -60,7 +60,7 @@ def number(settings: Settings, name: str) -> float | None:
     return float(setting)
 
 
-def above_zero(settings: Settings, name: str) -> float | None:
+def above_zero(settings: ScenarioSettings, name: str) -> float | None:
     """Return a setting that must be above 0."""
     value = number(settings, name)
     if value is not None and value <= 0.0:
@@ -68,7 +68,7 @@ def above_zero(settings: Settings, name: str) -> float | None:
     return value
 
 
-def refuse_unknown(settings: Settings, known: Mapping[str, str]) -> None:
+def refuse_unknown(settings: ScenarioSettings, known: Mapping[str, str]) -> None:
     """Raise SimulationError for a setting that the scenario does not have."""
     for name in settings:
         if name not in known:

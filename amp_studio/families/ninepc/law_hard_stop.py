@@ -19,7 +19,7 @@ from amp_studio.sim import (
     Figure,
     Motion,
     Scenario,
-    Settings,
+    ScenarioSettings,
     SimulationError,
     Trace,
     Until,
@@ -56,7 +56,7 @@ LONGEST = 30.0
 """s"""
 
 
-def run_hard_stop(machine: BoundMachine, settings: Settings) -> Trace:
+def run_hard_stop(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
     """Feed one axis against a stop; raises SimulationError for impossible settings and torques that are not
     set.
     """

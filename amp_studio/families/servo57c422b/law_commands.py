@@ -16,7 +16,7 @@ from amp_studio.sim import (
     Figure,
     Recommendation,
     Scenario,
-    Settings,
+    ScenarioSettings,
     SimulationError,
     Trace,
     Until,
@@ -79,7 +79,7 @@ _LONGEST = 60.0
 """Most seconds of a cam or a geared run."""
 
 
-def run_procedure(axis: AxisLaw, settings: Settings) -> Trace:
+def run_procedure(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Run one of the three tune commands (pages 4-29 to 4-31) and a move with what it leaves."""
     refuse_unknown(settings, TUNE)
     module = _module(axis)
@@ -107,7 +107,7 @@ def run_procedure(axis: AxisLaw, settings: Settings) -> Trace:
     )
 
 
-def _tune_gains(axis: ModuleAxis) -> tuple[tune.Left, Settings]:
+def _tune_gains(axis: ModuleAxis) -> tuple[tune.Left, ScenarioSettings]:
     increment = abs(
         axis.needed(ids.command_position, "tune gains moves by it, .25 to .5 turns of the motor (page 4-30)")
     )
@@ -116,7 +116,7 @@ def _tune_gains(axis: ModuleAxis) -> tuple[tune.Left, Settings]:
     return tune.gains(axis, axis.scales, increment), {"move.distance": increment}
 
 
-def _tune_dynamics(axis: ModuleAxis) -> tuple[tune.Left, Settings]:
+def _tune_dynamics(axis: ModuleAxis) -> tuple[tune.Left, ScenarioSettings]:
     travel = axis.needed(ids.setup_overtravel_positive, "tune dynamics takes its travel from it (page 4-30)")
     if travel < 1.0:
         raise SimulationError(
@@ -127,7 +127,7 @@ def _tune_dynamics(axis: ModuleAxis) -> tuple[tune.Left, Settings]:
     return left, {"move.distance": travel}
 
 
-def _tune_feed_forward(axis: ModuleAxis) -> tuple[tune.Left, Settings]:
+def _tune_feed_forward(axis: ModuleAxis) -> tuple[tune.Left, ScenarioSettings]:
     ends = [
         axis.needed(ids[f"setup_overtravel_{side}"], "tune feedforward takes its travel from it (page 4-31)")
         for side in ("positive", "negative")
@@ -142,14 +142,14 @@ def _tune_feed_forward(axis: ModuleAxis) -> tuple[tune.Left, Settings]:
     }
 
 
-_TUNES: Mapping[str, Callable[[ModuleAxis], tuple[tune.Left, Settings]]] = {
+_TUNES: Mapping[str, Callable[[ModuleAxis], tuple[tune.Left, ScenarioSettings]]] = {
     "gains": _tune_gains,
     "dynamics": _tune_dynamics,
     "feedforward": _tune_feed_forward,
 }
 
 
-def run_gear(axis: AxisLaw, settings: Settings) -> Trace:
+def run_gear(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Gear the axis to a reference that is already moving (pages 4-15, 4-20, 4-24)."""
     refuse_unknown(settings, GEAR)
     module = _module(axis)
@@ -192,7 +192,7 @@ def run_gear(axis: AxisLaw, settings: Settings) -> Trace:
     )
 
 
-def run_cam(axis: AxisLaw, settings: Settings) -> Trace:
+def run_cam(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Run the cam profile of registers 125 to 2046 (pages 4-49 to 4-56)."""
     refuse_unknown(settings, CAM)
     module = _module(axis)
@@ -222,7 +222,7 @@ def run_cam(axis: AxisLaw, settings: Settings) -> Trace:
     return _followed(axis, "cam", positions, {"points": (float(points), "")}, assumption)
 
 
-def _time_cam(axis: ModuleAxis, settings: Settings, points: int, cycles: int) -> list[float]:
+def _time_cam(axis: ModuleAxis, settings: ScenarioSettings, points: int, cycles: int) -> list[float]:
     if axis.bit(ids.cam_mode, 0):
         values = _table(axis, ids.time_points, points)
     else:
@@ -242,7 +242,7 @@ def _time_cam(axis: ModuleAxis, settings: Settings, points: int, cycles: int) ->
     return time_cam(values, scans, order, intervals, negative=_yes(settings, "cam.negative"))
 
 
-def _position_cam(axis: ModuleAxis, settings: Settings, points: int) -> list[float]:
+def _position_cam(axis: ModuleAxis, settings: ScenarioSettings, points: int) -> list[float]:
     table = _table(axis, ids.position_points, points)
     increment = int(
         axis.needed(ids.position_increment, "travel of the master from point to point (page 4-53)")
@@ -263,7 +263,7 @@ def _table(axis: ModuleAxis, parameter: str, points: int) -> list[int]:
     return [int(value) for value in values if value is not None]
 
 
-def run_backlash(axis: AxisLaw, settings: Settings) -> Trace:
+def run_backlash(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Make a move with automatic backlash compensation:
     against its sign it overruns and comes back (page 4-21).
     """
@@ -365,7 +365,7 @@ def _scans(time: float) -> int:
     return max(2, round(time / SCAN))
 
 
-def _yes(settings: Settings, name: str) -> bool:
+def _yes(settings: ScenarioSettings, name: str) -> bool:
     value = settings.get(name, "no")
     if value not in ("yes", "no"):
         raise SimulationError(f"{name} is {value!r}; it must be yes or no", name)

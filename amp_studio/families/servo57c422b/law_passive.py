@@ -14,7 +14,7 @@ from amp_studio.sim import (
     AxisLaw,
     Figure,
     Scenario,
-    Settings,
+    ScenarioSettings,
     SimulationError,
     Trace,
     above_zero,
@@ -41,7 +41,7 @@ WAITS = (
 LINES = "ASSUMED: an encoder of 1000 lines (page 4-48); move.turn gives another."
 
 
-def run_passive_home(axis: AxisLaw, settings: Settings) -> Trace:
+def run_passive_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Move over the first marker; raises SimulationError where register 2 uses no feedback marker."""
     refuse_unknown(settings, SETTINGS)
     assert isinstance(axis, ModuleAxis)

@@ -9,7 +9,7 @@ from amp_studio.sim.command.ramps import Override, blocks, end_of, move, overrid
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import RAMPS, AxisLaw, Ramp
 from amp_studio.sim.rounding import rounded_up
-from amp_studio.sim.scenario import Settings, above_zero, number
+from amp_studio.sim.scenario import ScenarioSettings, above_zero, number
 
 from .motion import Until
 
@@ -56,7 +56,7 @@ class Move:
         return self.ramp.acceleration / self.feedrate if self.ramp.acceleration > 0.0 else math.inf
 
 
-def move_of(axis: AxisLaw, settings: Settings) -> Move:
+def move_of(axis: AxisLaw, settings: ScenarioSettings) -> Move:
     """Return what is commanded; raises SimulationError for an impossible move."""
     feedrate, ramp = feedrate_of(axis, settings), ramp_of(axis, settings)
     count = axis.machine.position_count
@@ -85,7 +85,7 @@ def move_of(axis: AxisLaw, settings: Settings) -> Move:
     return Move(distance, feedrate, ramp, profile)
 
 
-def _overrides(settings: Settings) -> list[Override]:
+def _overrides(settings: ScenarioSettings) -> list[Override]:
     share, start = number(settings, "move.override"), number(settings, "move.override_time")
     resumed = number(settings, "move.resume_time")
     if share is None and start is None and resumed is None:
@@ -102,7 +102,7 @@ def _overrides(settings: Settings) -> list[Override]:
     return overrides
 
 
-def _parts(settings: Settings) -> int:
+def _parts(settings: ScenarioSettings) -> int:
     parts = number(settings, "move.blocks")
     if parts is None:
         return 1
@@ -113,7 +113,7 @@ def _parts(settings: Settings) -> int:
     return int(parts)
 
 
-def _exact(settings: Settings) -> bool:
+def _exact(settings: ScenarioSettings) -> bool:
     corner = settings.get("move.corner", "exact-stop")
     if corner not in ("exact-stop", "contour"):
         raise SimulationError(f"move.corner is '{corner}'; it must be exact-stop or contour", "move.corner")
@@ -135,7 +135,7 @@ def until_of(axis: AxisLaw, moved: Move, duration: float | None) -> Until:
     )
 
 
-def feedrate_of(axis: AxisLaw, settings: Settings) -> float:
+def feedrate_of(axis: AxisLaw, settings: ScenarioSettings) -> float:
     """Return the feedrate of a move in u/s; raises SimulationError if none is known."""
     given = above_zero(settings, "move.feedrate")
     if given is not None:
@@ -149,7 +149,7 @@ def feedrate_of(axis: AxisLaw, settings: Settings) -> float:
     return axis.feedrate
 
 
-def ramp_of(axis: AxisLaw, settings: Settings) -> Ramp:
+def ramp_of(axis: AxisLaw, settings: ScenarioSettings) -> Ramp:
     """Return the ramp of a move: the one asked for, else the axis' own."""
     kind = settings.get("move.mode")
     if kind is None:

@@ -18,7 +18,7 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.rounding import value_text
-from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
+from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Alarm, Figure, Trace
 from amp_studio.sim.tuning.linear import LinearModel, linear_model
@@ -71,7 +71,7 @@ class _Circle:
         return self.rise + (2.0 * math.pi * (self.turns + 1.5) - RISE) / self.rate
 
 
-def run_circle(axis: AxisLaw, settings: Settings, second: AxisLaw | None = None) -> Trace:
+def run_circle(axis: AxisLaw, settings: ScenarioSettings, second: AxisLaw | None = None) -> Trace:
     """Run two axes on a circle; ``second`` None takes the same axis twice.
     Raises SimulationError for impossible settings.
     """
@@ -113,7 +113,7 @@ def run_circle(axis: AxisLaw, settings: Settings, second: AxisLaw | None = None)
 
 
 def _circle(
-    axis: AxisLaw, other: AxisLaw, models: tuple[LinearModel, LinearModel], settings: Settings
+    axis: AxisLaw, other: AxisLaw, models: tuple[LinearModel, LinearModel], settings: ScenarioSettings
 ) -> _Circle:
     """Return the circle to run, at the feedrate that the control allows; raises SimulationError."""
     size = 1000.0 if axis.unit == "counts" else 1.0  # a count is taken as a thousandth

@@ -17,7 +17,7 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.rounding import value_text
-from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
+from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, refuse_unknown
 from amp_studio.sim.series import Response, Series
 from amp_studio.sim.trace import Alarm, Figure, Trace
 from amp_studio.sim.tuning.advice import stable_inertias
@@ -76,7 +76,7 @@ _LEAST_DIFFERENCE = 0.02
 """Share of the model's bandwidth from which the sweep's is another figure."""
 
 
-def run_frequency(axis: AxisLaw, settings: Settings) -> Trace:
+def run_frequency(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Sweep an axis; raises SimulationError for impossible settings."""
     refuse_unknown(settings, SETTINGS)
     models = axis_model(axis)
@@ -116,7 +116,7 @@ def run_frequency(axis: AxisLaw, settings: Settings) -> Trace:
     )
 
 
-def _span(loop: _Loop, settings: Settings) -> tuple[float, float, int]:
+def _span(loop: _Loop, settings: ScenarioSettings) -> tuple[float, float, int]:
     """Return lowest and highest frequency in Hz and the number of frequencies."""
     model = loop.model
     middle = loop.bandwidth or loop.margins.phase_frequency or 0.03 * model.nyquist
@@ -137,7 +137,7 @@ def _span(loop: _Loop, settings: Settings) -> tuple[float, float, int]:
     return low, high, _points(settings)
 
 
-def _points(settings: Settings) -> int:
+def _points(settings: ScenarioSettings) -> int:
     """Return the number of frequencies; raises SimulationError."""
     points = above_zero(settings, "move.points") or float(POINTS)
     if not (points.is_integer() and 2 <= points <= MOST_POINTS):
@@ -174,7 +174,7 @@ _UNITS = {"frequency_hz": "Hz"} | {
 
 
 def _measured(
-    loop: _Loop, curve: Series, places: npt.NDArray[np.int64], settings: Settings
+    loop: _Loop, curve: Series, places: npt.NDArray[np.int64], settings: ScenarioSettings
 ) -> tuple[_Swept, tuple[Alarm, ...], str]:
     """Sweep the axis; return closed and open loop, an alarm that ended it, and how the open loop was
     found.

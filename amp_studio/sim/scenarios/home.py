@@ -19,7 +19,7 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.rounding import page_text, value_text
-from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
+from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, number, refuse_unknown
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
 from .columns import alarms_of, column_units, per_minute
@@ -68,7 +68,7 @@ SEEN = (
 )
 
 
-def run_home(axis: AxisLaw, settings: Settings) -> Trace:
+def run_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Home an axis, as often as asked; raises SimulationError for impossible settings."""
     refuse_unknown(settings, SETTINGS)
     if axis.homing is None:
@@ -108,7 +108,7 @@ def run_home(axis: AxisLaw, settings: Settings) -> Trace:
     )
 
 
-def _refuse_switch(axis: AxisLaw, homing: Homing, settings: Settings) -> None:
+def _refuse_switch(axis: AxisLaw, homing: Homing, settings: ScenarioSettings) -> None:
     """Raise SimulationError for a setting of a switch that the sequence does not go to."""
     for name in OF_SWITCH:
         if settings.get(name) is not None and not homing.approach:
@@ -133,7 +133,7 @@ def _homed(axis: AxisLaw, homing: Homing, ramp: Ramp, around: Around) -> tuple[M
     return moving, found
 
 
-def _turned(homing: Homing, settings: Settings) -> Homing:
+def _turned(homing: Homing, settings: ScenarioSettings) -> Homing:
     """Return the sequence in the direction that is asked for."""
     direction = settings.get("move.direction")
     if direction not in (None, "plus", "minus"):
@@ -142,7 +142,7 @@ def _turned(homing: Homing, settings: Settings) -> Homing:
     return homing.turned() if direction is not None and is_other else homing
 
 
-def _around(axis: AxisLaw, homing: Homing, ramp: Ramp, settings: Settings) -> Around:
+def _around(axis: AxisLaw, homing: Homing, ramp: Ramp, settings: ScenarioSettings) -> Around:
     """Return where switch, markers and the end of the way are, from the start;
     raises SimulationError for impossible ones.
     """
@@ -176,7 +176,7 @@ def _around(axis: AxisLaw, homing: Homing, ramp: Ramp, settings: Settings) -> Ar
     return replace(around, marker=edge + off * (QUARTER * homing.turn if given is None else given))
 
 
-def _marker(axis: AxisLaw, homing: Homing, settings: Settings) -> tuple[float | None, bool]:
+def _marker(axis: AxisLaw, homing: Homing, settings: ScenarioSettings) -> tuple[float | None, bool]:
     """Return the distance to a marker, None if none is given, and whether there are markers."""
     if settings.get("move.marker") == "none":
         return None, False
@@ -190,7 +190,7 @@ def _marker(axis: AxisLaw, homing: Homing, settings: Settings) -> tuple[float | 
     return given, True
 
 
-def _on_scale(homing: Homing, settings: Settings) -> float:
+def _on_scale(homing: Homing, settings: ScenarioSettings) -> float:
     given = number(settings, "move.scale")
     if homing.scale is None:
         if given is not None:
@@ -199,7 +199,7 @@ def _on_scale(homing: Homing, settings: Settings) -> float:
     return ON_SCALE * homing.scale.small if given is None else given
 
 
-def _scattered(around: Around, homing: Homing, settings: Settings) -> list[Around]:
+def _scattered(around: Around, homing: Homing, settings: ScenarioSettings) -> list[Around]:
     """Return what is around the axis at the further homings: the switch at another place within its
     scatter.
     """

@@ -10,7 +10,7 @@ from amp_studio.schema import unknown_name
 from amp_studio.sim.axis_parameters import ParameterValue
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
+from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, refuse_unknown
 from amp_studio.sim.trace import Trace
 
 from .step import SCENARIO as STEP
@@ -25,7 +25,7 @@ PRESS_TIME = 1.0
 """s"""
 
 
-def run_jog(axis: AxisLaw, settings: Settings) -> Trace:
+def run_jog(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Run one jog; raises SimulationError for a speed that is not set or an unknown one."""
     refuse_unknown(settings, SETTINGS)
     if axis.jogging is None:

@@ -16,7 +16,7 @@ from amp_studio.sim.axis.motion import Motion, Until, run_axis
 from amp_studio.sim.engine.profiles import POLYNOMIAL
 from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.model import assumptions, torque_unit
-from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
+from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Figure, Trace
 from amp_studio.sim.tuning.loops import Loops
@@ -79,7 +79,7 @@ def _end(way: Series) -> float:
     return float(way[-max(1, len(way) // 10) :].mean())
 
 
-def run_load(axis: AxisLaw, settings: Settings) -> Trace:
+def run_load(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Push the load of an axis; raises SimulationError for impossible settings."""
     refuse_unknown(settings, SETTINGS)
     load = above_zero(settings, "move.load") or SHARE * _range(axis)

@@ -15,7 +15,7 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, BoundMachine
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.rounding import page_text, value_text
-from amp_studio.sim.scenario import Settings, above_zero, refuse_unknown
+from amp_studio.sim.scenario import ScenarioSettings, above_zero, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Alarm, Figure, PlaneArea, Trace
 from amp_studio.sim.zones import Zone
@@ -39,7 +39,7 @@ BY_LINE = (
 AT_ONCE = "ASSUMED: the command of every axis stops at once where no stop is printed."
 
 
-def run_plane(machine: BoundMachine, settings: Settings) -> Trace:
+def run_plane(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
     """Send several axes along a line; raises SimulationError for a point that is none
     or not allowed at the start.
     """
@@ -62,7 +62,7 @@ def run_plane(machine: BoundMachine, settings: Settings) -> Trace:
     return _travelled(machine, axes, start, to, zones, settings, is_program=mode == "program")
 
 
-def _point(settings: Settings, name: str, axes: Mapping[str, AxisLaw]) -> AxisPoint | None:
+def _point(settings: ScenarioSettings, name: str, axes: Mapping[str, AxisLaw]) -> AxisPoint | None:
     """Return a point, a figure for each axis, separated by commas or semicolons."""
     given = settings.get(name)
     if given is None:
@@ -84,7 +84,7 @@ def _point(settings: Settings, name: str, axes: Mapping[str, AxisLaw]) -> AxisPo
     return found
 
 
-def _active(machine: BoundMachine, axes: Mapping[str, AxisLaw], settings: Settings) -> list[Zone]:
+def _active(machine: BoundMachine, axes: Mapping[str, AxisLaw], settings: ScenarioSettings) -> list[Zone]:
     """Return the limits of the axes and the zones that are on;
     raises SimulationError for one that is not set.
     """
@@ -204,7 +204,7 @@ def _travelled(
     start: AxisPoint,
     to: AxisPoint,
     zones: Sequence[Zone],
-    settings: Settings,
+    settings: ScenarioSettings,
     *,
     is_program: bool,
 ) -> Trace:
@@ -296,7 +296,7 @@ def _unit(axes: Mapping[str, AxisLaw]) -> str:
     return next(iter(axes.values())).unit
 
 
-def _feedrate(axes: Mapping[str, AxisLaw], ways: AxisPoint, far: float, settings: Settings) -> float:
+def _feedrate(axes: Mapping[str, AxisLaw], ways: AxisPoint, far: float, settings: ScenarioSettings) -> float:
     given = above_zero(settings, "move.feedrate")
     if given is not None:
         return given / 60.0

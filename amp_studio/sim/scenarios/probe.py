@@ -16,7 +16,7 @@ from amp_studio.sim.law import AxisLaw, BoundMachine
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.probing import Probing
 from amp_studio.sim.rounding import page_text, value_text
-from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
+from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, number, refuse_unknown
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
 from .columns import alarms_of, column_units, per_minute
@@ -41,7 +41,7 @@ FARTHER = 2.0
 """Bands, or run-ups, behind the expected place at which a move without a signal ends."""
 
 
-def run_probe(machine: BoundMachine, settings: Settings) -> Trace:
+def run_probe(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
     """Meet a probe once; raises SimulationError for impossible settings."""
     refuse_unknown(settings, SETTINGS)
     if machine.law.probing is None:
@@ -94,7 +94,9 @@ class _Outcome:
     """How far the axis went over the place of the signal."""
 
 
-def _meeting(axis: AxisLaw, probing: Probing, speed: float, latency: float, settings: Settings) -> _Meeting:
+def _meeting(
+    axis: AxisLaw, probing: Probing, speed: float, latency: float, settings: ScenarioSettings
+) -> _Meeting:
     """Return where the probe is met; raises SimulationError for a place that is none."""
     ramp = probing.ramp or next(iter(axis.ramps.values()))
     way = run_up(axis, speed, ramp)
@@ -164,7 +166,7 @@ def _pushed_over(axis: AxisLaw, outcome: _Outcome, room: float | None) -> tuple[
     return (Alarm("PROBE OVERTRAVEL", moment, f"The probe is pushed {way} over, more than {most}"),)
 
 
-def _probed(axis: AxisLaw, meeting: _Meeting, latency_note: str, settings: Settings) -> Trace:
+def _probed(axis: AxisLaw, meeting: _Meeting, latency_note: str, settings: ScenarioSettings) -> Trace:
     """Return the trace of one cycle, with its alarms and figures."""
     outcome = _met(axis, meeting)
     probing, speed, captured, motion = meeting.probing, meeting.speed, outcome.captured, outcome.motion
@@ -206,7 +208,7 @@ def _probed(axis: AxisLaw, meeting: _Meeting, latency_note: str, settings: Setti
     )
 
 
-def _touch(settings: Settings, expected: float) -> float | None:
+def _touch(settings: ScenarioSettings, expected: float) -> float | None:
     """Return where the probe is met; None where it never is."""
     text = settings.get("move.touch")
     if text is None:

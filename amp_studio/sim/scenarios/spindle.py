@@ -12,7 +12,7 @@ import numpy as np
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import BoundMachine
 from amp_studio.sim.rounding import page_text, value_text
-from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
+from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, number, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.spindle import Gear, Orient, SpeedWatch, Spindle
 from amp_studio.sim.trace import Alarm, Figure, Trace
@@ -48,7 +48,7 @@ LAG = (
 )
 
 
-def run_spindle(machine: BoundMachine, settings: Settings) -> Trace:
+def run_spindle(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
     """Run one change of speed, or an orient; raises SimulationError where the spindle is not set."""
     refuse_unknown(settings, SETTINGS)
     machine.one_chosen("spindle")
@@ -92,7 +92,7 @@ def run_spindle(machine: BoundMachine, settings: Settings) -> Trace:
     )
 
 
-def _programmed(spindle: Spindle, settings: Settings) -> float:
+def _programmed(spindle: Spindle, settings: ScenarioSettings) -> float:
     """Return the programmed speed in rpm; raises SimulationError where none is given."""
     if settings.get("move.speed") == HIGHEST:
         return max((gear.high for gear in spindle.gears), default=0.0)
@@ -118,7 +118,7 @@ def _of_gear(spindle: Spindle, gear: Gear | None, commanded: float, lasts: float
     return {name: (figure, unit) for (name, unit), figure in zip(units.items(), figures, strict=True)}
 
 
-def spindle_of(machine: BoundMachine, settings: Settings) -> Spindle:
+def spindle_of(machine: BoundMachine, settings: ScenarioSettings) -> Spindle:
     """Return the spindle that is asked for; raises SimulationError where there is none."""
     law = machine.law
     if law.spindle is None:
@@ -128,7 +128,9 @@ def spindle_of(machine: BoundMachine, settings: Settings) -> Spindle:
     return law.spindle(machine.parameters, name)
 
 
-def _geared(spindle: Spindle, settings: Settings, speed: float) -> tuple[Gear | None, list[str], list[Alarm]]:
+def _geared(
+    spindle: Spindle, settings: ScenarioSettings, speed: float
+) -> tuple[Gear | None, list[str], list[Alarm]]:
     """Return the gear, notes, and the alarm where none has the speed."""
     notes: list[str] = []
     present = _name_of_gear(settings.get("move.gear"))
@@ -226,7 +228,7 @@ def _watched(
     }
 
 
-def _oriented(spindle: Spindle, settings: Settings) -> Trace:
+def _oriented(spindle: Spindle, settings: ScenarioSettings) -> Trace:
     """Orient a spindle: to the orient speed, to the marker where it is not known, then to the angle."""
     orient = spindle.orient
     if orient is None:

@@ -12,7 +12,7 @@ from amp_studio.sim.axis.moves import MOVE_SETTINGS, Move, move_of, until_of
 from amp_studio.sim.engine.kernel import STANDSTILL
 from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
+from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Figure, Trace
 
@@ -28,7 +28,7 @@ RUN_OUT = (
 )
 
 
-def run_step(axis: AxisLaw, settings: Settings) -> Trace:
+def run_step(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Run one move; raises SimulationError if it is not possible."""
     refuse_unknown(settings, MOVE_SETTINGS)
     moved = move_of(axis, settings)

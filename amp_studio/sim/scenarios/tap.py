@@ -17,7 +17,7 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, BoundMachine
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.rounding import page_text, value_text
-from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
+from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.spindle import Gear, Spindle, Tapping
 from amp_studio.sim.trace import Alarm, Figure, Trace
@@ -52,7 +52,7 @@ LED = (
 )
 
 
-def run_tap(machine: BoundMachine, settings: Settings) -> Trace:
+def run_tap(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
     """Tap one hole; raises SimulationError where spindle, gear or pitch do not allow it."""
     refuse_unknown(settings, SETTINGS)
     law = machine.law
@@ -87,7 +87,7 @@ def run_tap(machine: BoundMachine, settings: Settings) -> Trace:
     )
 
 
-def _speed(spindle: Spindle, settings: Settings) -> float:
+def _speed(spindle: Spindle, settings: ScenarioSettings) -> float:
     """Return the speed that is asked for, rpm: the highest one that a gear has while tapping, or the one
     given.
     """

@@ -16,7 +16,7 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.rounding import page_text, value_text
-from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
+from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, number, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
@@ -61,7 +61,7 @@ class _Approach:
         return self.edge - self.start
 
 
-def run_travel(axis: AxisLaw, settings: Settings) -> Trace:
+def run_travel(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Move an axis against the next limit in its way; raises SimulationError where there is none."""
     refuse_unknown(settings, SETTINGS)
     approach = _approach(axis, settings)
@@ -94,7 +94,7 @@ def run_travel(axis: AxisLaw, settings: Settings) -> Trace:
     )
 
 
-def _approach(axis: AxisLaw, settings: Settings) -> _Approach:
+def _approach(axis: AxisLaw, settings: ScenarioSettings) -> _Approach:
     """Return how the axis goes against the next limit; raises SimulationError where there is none."""
     if axis.travel is None:
         raise SimulationError(f"What stops axis {axis.axis} at a limit of its travel is not printed")
@@ -138,7 +138,7 @@ def _met_from_far(travel: Travel, sign: float, *, is_zone: bool) -> tuple[str, f
     return min(finite, key=lambda end: sign * end[1], default=None)
 
 
-def _driven(course: MovingAxis, approach: _Approach, settings: Settings) -> Seen | None:
+def _driven(course: MovingAxis, approach: _Approach, settings: ScenarioSettings) -> Seen | None:
     """Drive the axis over its limit and let the control stop it; returns the sample that noticed it."""
     travel, sign, ramp = approach.travel, approach.sign, approach.ramp
     farthest = abs(approach.limit) + approach.run_up
@@ -215,7 +215,7 @@ def _figures(
 
 
 def _slowed(
-    travel: Travel, settings: Settings, sign: float, start: float, edge: float
+    travel: Travel, settings: ScenarioSettings, sign: float, start: float, edge: float
 ) -> tuple[float, float] | None:
     """Return where an external deceleration is requested, and the feedrate behind it in u/s;
     None where nothing requests it.
@@ -252,7 +252,7 @@ def _hit(axis: AxisLaw, hard: float | None, sign: float, columns: dict[str, Seri
     return (Alarm("HARD STOP", float(columns["time_s"][at]), text),)
 
 
-def _zone(travel: Travel, settings: Settings) -> dict[str, tuple[float, float]] | None:
+def _zone(travel: Travel, settings: ScenarioSettings) -> dict[str, tuple[float, float]] | None:
     """Return the zone that is asked for; raises SimulationError for one that is not set."""
     wanted = settings.get("move.zone")
     if wanted is None:

@@ -15,7 +15,7 @@ import numpy as np
 from amp_studio.schema import unknown_name
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.model import assumptions, torque_unit
-from amp_studio.sim.scenario import Scenario, Settings, refuse_unknown
+from amp_studio.sim.scenario import Scenario, ScenarioSettings, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Figure, Recommendation, Trace
 from amp_studio.sim.tuning.advice import gain_recommendations, none_sound, why_not_sound
@@ -40,7 +40,7 @@ LATER = (
 NOTHING = "No other gains are more than 3 % stiffer: nothing to change."
 
 
-def run_tune(trial: Trial, settings: Settings, others: Sequence[Trial]) -> Trace:
+def run_tune(trial: Trial, settings: ScenarioSettings, others: Sequence[Trial]) -> Trace:
     """Return the gains for an aim; ``others`` are the axes that make contours with this one.
 
     Raises SimulationError for an axis without a closed position loop or a word that is no aim.
@@ -68,7 +68,7 @@ def run_tune(trial: Trial, settings: Settings, others: Sequence[Trial]) -> Trace
     )
 
 
-def _aim(settings: Settings) -> Aim:
+def _aim(settings: ScenarioSettings) -> Aim:
     word = settings.get(FOR) or "normal"
     if word not in AIMS:
         raise SimulationError(unknown_name("aim", str(word), AIMS), FOR)

@@ -16,7 +16,7 @@ from amp_studio.sim.command.ramps import move
 from amp_studio.sim.engine.signals import VELOCITY_LOOP
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
+from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Figure, Trace
 from amp_studio.sim.tuning.linear import LinearModel, axis_model
@@ -40,7 +40,7 @@ POSITIONS = ("command_position", "measured_position", "following_error")
 """Columns that mean nothing while no position is commanded."""
 
 
-def run_velocity(axis: AxisLaw, settings: Settings) -> Trace:
+def run_velocity(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Run one step of the velocity; raises SimulationError if it is not possible."""
     refuse_unknown(settings, SETTINGS)
     speed = feedrate_of(axis, settings) * (1.0 if settings.get("move.feedrate") is not None else SHARE)

@@ -24,7 +24,7 @@ from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, law_of
 from amp_studio.sim.model import with_model
-from amp_studio.sim.scenario import Settings
+from amp_studio.sim.scenario import ScenarioSettings
 from amp_studio.sim.tuning.linear import LawMatrices
 from amp_studio.sim.tuning.loops import Loops
 from amp_studio.sim.tuning.sampled import Matrix
@@ -105,7 +105,7 @@ class _Moves:
     def __init__(self) -> None:
         self._known: dict[tuple[object, ...], Move] = {}
 
-    def of(self, axis: AxisLaw, settings: Settings) -> Move:
+    def of(self, axis: AxisLaw, settings: ScenarioSettings) -> Move:
         """Return the move of an axis."""
         ramps, count = tuple(axis.ramps.items()), axis.machine.position_count
         key = (*settings.items(), axis.feedrate, axis.position_rate, axis.servo_period, count, *ramps)
@@ -166,7 +166,7 @@ class Axes:
         bound = self._possible(point)
         return None if bound is None else bound[0]
 
-    def _own(self, point: Sequence[float]) -> Settings:
+    def _own(self, point: Sequence[float]) -> ScenarioSettings:
         """Return the settings of the move of a point."""
         numbers = {each.name: number for each, number in zip(self.job.varied, point, strict=True)}
         return self.move | {name: number for name, number in numbers.items() if name.startswith("move.")}

@@ -22,7 +22,7 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.model import assumptions, model_settings, present_setting, torque_unit
 from amp_studio.sim.rounding import value_text
-from amp_studio.sim.scenario import Scenario, Settings, number, refuse_unknown
+from amp_studio.sim.scenario import Scenario, ScenarioSettings, number, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Figure, Trace
 from amp_studio.sim.tuning.aims import NORMAL
@@ -67,7 +67,9 @@ class Way:
     output: Path | None = None
 
 
-def run_sweep(trial: Trial, settings: Settings, _others: Sequence[Trial] = (), way: Way = Way()) -> Trace:
+def run_sweep(
+    trial: Trial, settings: ScenarioSettings, _others: Sequence[Trial] = (), way: Way = Way()
+) -> Trace:
     """Return the figures of all variations; raises SimulationError for impossible settings."""
     refuse_unknown(settings, SETTINGS)
     samples, seed, figure = _whole(settings, SAMPLES), _whole(settings, SEED), _figure(settings)
@@ -84,7 +86,7 @@ def run_sweep(trial: Trial, settings: Settings, _others: Sequence[Trial] = (), w
     return _trace(job, trial, points, found, figure or ("stiffness" if loops else "settle_time"))
 
 
-def _gain_map(trial: Trial, move: Settings, figure: str, way: Way) -> Trace:
+def _gain_map(trial: Trial, move: ScenarioSettings, figure: str, way: Way) -> Trace:
     """Return the map of two gains; where none of it is safe, with the other gains as the solver has them."""
     motion = figure not in LOOP_FIGURES
     varied = _two_gains(trial, {})
@@ -115,7 +117,7 @@ def _other_gains_in_words(others: Mapping[str, float]) -> Iterator[str]:
 def _job(
     trial: Trial,
     varied: tuple[Varied, ...],
-    move: Settings,
+    move: ScenarioSettings,
     *,
     motion: bool,
     loops: bool,
@@ -155,14 +157,14 @@ def _run(job: SweepJob, points: Matrix, way: Way) -> Matrix:
     )
 
 
-def _whole(settings: Settings, name: str) -> int | None:
+def _whole(settings: ScenarioSettings, name: str) -> int | None:
     given = number(settings, name)
     if given is not None and not (given.is_integer() and given >= 0.0):
         raise SimulationError(f"{name} is {value_text(given)}; it must be a whole number", name)
     return None if given is None else int(given)
 
 
-def _figure(settings: Settings) -> str | None:
+def _figure(settings: ScenarioSettings) -> str | None:
     figure = settings.get(FIGURE)
     known = (*FIGURES[1:], *LOOP_FIGURES[:-1])
     if figure is not None and figure not in known:
