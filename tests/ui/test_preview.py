@@ -117,7 +117,7 @@ def test_the_pages_turn_to_the_selected_value_or_its_absence_is_reported_and_a_c
     panel.set_follows(True)
     assert view.viewport().rect().contains(point_of(panel, FIRST).toPoint())
 
-    view.mark(TRAVEL, scroll=True)
+    view.highlight(TRAVEL, scroll=True)
     QTest.mouseClick(view.viewport(), Qt.MouseButton.LeftButton, pos=point_of(panel, TRAVEL).toPoint())
     assert window.selected() == TRAVEL
     window.go_to(("general.arc_tolerance", ""))  # at its default, and only changed values are printed

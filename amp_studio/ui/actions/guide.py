@@ -62,7 +62,7 @@ def _step(window: StudioWindow) -> SetupStep:
     return (now_at.current or now_at.steps[0]).step
 
 
-def mark(window: StudioWindow, step: SetupStep | None = None) -> None:
+def tick_step(window: StudioWindow, step: SetupStep | None = None) -> None:
     """Tick a step as done, that of the selected value by default, or take the tick away;
     it is saved with the file.
     """

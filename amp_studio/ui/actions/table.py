@@ -239,7 +239,7 @@ def _guide() -> Menu[PartsWindow]:
         tr("&Guide"),
         (
             Action("guide.next", tr("&Next Not Set"), guide.go_on, "Ctrl+."),
-            Action("guide.done", tr("Mark Step as &Done"), guide.mark, "Ctrl+Shift+.", "edit"),
+            Action("guide.done", tr("Mark Step as &Done"), guide.tick_step, "Ctrl+Shift+.", "edit"),
             Action("guide.defaults", tr("Keep De&faults of This Step"), guide.keep_defaults, needs="edit"),
             None,
             Action(

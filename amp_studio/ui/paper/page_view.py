@@ -121,7 +121,7 @@ class PageView(QAbstractScrollArea):
         if 1 <= page <= len(self._tops):
             self.verticalScrollBar().setValue(self._tops[page - 1] - GAP)
 
-    def mark(self, address: Address | None, *, scroll: bool) -> bool:
+    def highlight(self, address: Address | None, *, scroll: bool) -> bool:
         """Mark the place of a value and let it be seen; returns whether it has one."""
         self._marked = address
         place = self.places.get(address) if address is not None else None

@@ -279,7 +279,7 @@ class PreviewPanel(QWidget):
     # -- from the table, and back --------------------------------------------------------------
 
     def _follow(self, address: object) -> None:
-        self.view.mark(address, scroll=self.follows)  # type: ignore[arg-type]  # a signal of Qt has no type of an address
+        self.view.highlight(address, scroll=self.follows)  # type: ignore[arg-type]  # a signal of Qt has no type of an address
 
     def set_follows(self, follows: bool) -> None:
         """Turn the pages to the selected value from now on, or only mark it."""
@@ -292,6 +292,6 @@ class PreviewPanel(QWidget):
         address = self._page.table_view.address() if self._page is not None else None
         if address is None or self._page is None or not self.view.places:
             return
-        if not self.view.mark(address, scroll=True):
+        if not self.view.highlight(address, scroll=True):
             name = describe(self._page.workspace.file, address)
             self.bar.say(self.tr("{name} is not in this report.").format(name=name))
