@@ -15,13 +15,13 @@ if TYPE_CHECKING:
     from .import_export import all_formats, export_file, export_of, file_of, formats_of, import_file, offer_of
     from .passthrough_lines import (
         PassthroughLine,
+        escaped,
         keep_lines,
         lines_kept,
-        mark,
-        marked,
         neighbours,
-        plain,
-        without_marks,
+        placeholder,
+        placeholder_in,
+        unescaped,
     )
     from .spreadsheet_block import BlockCell, block_html, block_text, read_block, two_ways
     from .text_format import FamilyNotGivenError, FormatError, ReadOptions, TextFormat, TextOffer, TextRead

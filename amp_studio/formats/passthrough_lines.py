@@ -1,7 +1,7 @@
 """What a script contains besides settings: kept in the parameter file, and written back in its place.
 
 Each line that is not understood is an unknown entry of the parameter file (``acr line 5: PLC0``). Where they
-were is kept in the header, as the list of all lines of the script: a setting is there as a mark,
+were is kept in the header, as the list of all lines of the script: a setting is there as a placeholder,
 ``{axes.pulses@X}``, so that its value is in one place only, and so is a line that is not understood,
 ``{line 5}``.
 """
@@ -66,31 +66,31 @@ def lines_kept(file: ParameterFile, kind: str) -> list[str] | None:
 
 
 def _row_text(row: PassthroughLine) -> str:
-    return mark(f"line {row.kept_as}") if row.kept_as else row.text
+    return placeholder(f"line {row.kept_as}") if row.kept_as else row.text
 
 
-# -- marks
+# -- placeholders
 
 
-def mark(what: str) -> str:
-    """Return the mark of a setting."""
+def placeholder(what: str) -> str:
+    """Return what is in the place of a setting."""
     return f"{{{what}}}"
 
 
-def marked(text: str) -> str | None:
-    """Return what a mark means; None for text that is none."""
+def placeholder_in(text: str) -> str | None:
+    """Return what a placeholder is for; None for text that is none."""
     text = text.strip()
     return text[1:-1] if text.startswith("{") and not text.startswith("{{") and text.endswith("}") else None
 
 
-def plain(text: str) -> str:
-    """Return text so that it is not taken for a mark; ``without_marks`` gives it back."""
+def escaped(text: str) -> str:
+    """Return text so that it is not taken for a placeholder; ``unescaped`` gives it back."""
     at = len(text) - len(text.lstrip())
     return text[:at] + "{" + text[at:] if text[at:].startswith("{") else text
 
 
-def without_marks(text: str) -> str:
-    """Return the text that ``plain`` made safe."""
+def unescaped(text: str) -> str:
+    """Return the text that ``escaped`` made safe."""
     at = len(text) - len(text.lstrip())
     return text[:at] + text[at + 1 :] if text[at:].startswith("{{") else text
 

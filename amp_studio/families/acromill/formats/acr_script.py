@@ -26,16 +26,16 @@ from amp_studio.formats import (
     TextFormat,
     TextRead,
     default_system,
+    escaped,
     file_of,
     keep_lines,
     lines_kept,
-    mark,
-    marked,
     neighbours,
-    plain,
+    placeholder,
+    placeholder_in,
     read_figure,
     system_of,
-    without_marks,
+    unescaped,
     write_figure,
 )
 from amp_studio.schema import Address, InvalidValueError, Schema, Value, load_schema, same_value, written
@@ -350,8 +350,8 @@ def _values(schema: Schema, argument: CommandArgument, line: int, system: str) -
 def _layout(line: _ScriptLine) -> PassthroughLine:
     """Return what is kept of a line."""
     if line.arguments:
-        return PassthroughLine(mark(_SET + line.text))
-    return PassthroughLine(plain(line.text), str(line.number) if line.fault else "")
+        return PassthroughLine(placeholder(_SET + line.text))
+    return PassthroughLine(escaped(line.text), str(line.number) if line.fault else "")
 
 
 def _recognises(text: str) -> bool:
@@ -381,7 +381,7 @@ def _write(file: ParameterFile) -> str:
         )
         return "\n".join([name, *units, *rows.values(), ""])
     is_clear = system == default_system(file.schema) or any(
-        _UNITS.fullmatch(without_marks(row)) for row in layout
+        _UNITS.fullmatch(unescaped(row)) for row in layout
     )
     return "\n".join([*([] if is_clear else units), *_filled(file, layout, rows)])
 
@@ -430,7 +430,7 @@ def _filled(file: ParameterFile, layout: list[str], rows: dict[Address, str]) ->
     named = {written(a): (a, row) for a, row in rows.items()}
     system = system_of(file)
     for n, row in enumerate(layout):
-        text, what = without_marks(row), marked(row)
+        text, what = unescaped(row), placeholder_in(row)
         if what is not None or (n == len(layout) - 1 and not text):
             yield from new.pop(None, [])
         if what is None:
@@ -453,7 +453,7 @@ def _line_of_each(
         for argument in line.arguments
         for address in argument.setting.addresses
     }
-    at |= {what: n for n, row in enumerate(layout) if (what := marked(row)) and n not in kept_lines}
+    at |= {what: n for n, row in enumerate(layout) if (what := placeholder_in(row)) and n not in kept_lines}
     return {a: at[written(a)] for a in rows if written(a) in at}
 
 
@@ -473,7 +473,7 @@ def _kept_lines(layout: list[str], commands: list[Command]) -> dict[int, _Script
     """Return the kept lines that set something; raises FormatError for one that sets nothing any more."""
     lines: dict[int, _ScriptLine] = {}
     for n, row in enumerate(layout):
-        if (what := marked(row) or "").startswith(_SET):
+        if (what := placeholder_in(row) or "").startswith(_SET):
             lines[n] = _ScriptLine(n + 1, what.removeprefix(_SET))
             lines[n].arguments = list(_arguments(lines[n], commands))
     return lines

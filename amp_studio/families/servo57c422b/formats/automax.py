@@ -17,13 +17,13 @@ from amp_studio.formats import (
     ReadOptions,
     TextFormat,
     TextRead,
+    escaped,
     keep_lines,
     lines_kept,
-    mark,
-    marked,
     neighbours,
-    plain,
-    without_marks,
+    placeholder,
+    placeholder_in,
+    unescaped,
 )
 from amp_studio.schema import Address, InvalidValueError, Schema, is_low_first, show_value
 
@@ -233,7 +233,7 @@ def _filled(layout: list[str], settings: list[tuple[int, int]], statements: dict
         for statement in line.statements:
             mine = _marked_registers(statement)
             if not mine:
-                line.replace(statement, [without_marks(statement.text)])
+                line.replace(statement, [unescaped(statement.text)])
             else:
                 found = [r for first in mine if first in statements for r in (first, *beside.get(first, []))]
                 line.replace(statement, front + [statements[r] for r in found])
@@ -247,7 +247,7 @@ def _filled(layout: list[str], settings: list[tuple[int, int]], statements: dict
 
 def _marked_registers(statement: BasicStatement) -> tuple[int, ...]:
     """Return the registers whose mark a statement is; none for any other."""
-    what = marked(statement.text) or ""
+    what = placeholder_in(statement.text) or ""
     return tuple(map(int, what.split("+"))) if re.fullmatch(r"[0-9]{1,9}(\+[0-9]{1,9})*", what) else ()
 
 
@@ -283,9 +283,9 @@ def _row(line: BasicLine, settings: dict[int, Written]) -> PassthroughLine:
     for statement in line.statements:
         if id(statement) in settings:
             one = settings[id(statement)]
-            line.replace(statement, [mark("+".join(str(one.register + n) for n in range(one.words)))])
+            line.replace(statement, [placeholder("+".join(str(one.register + n) for n in range(one.words)))])
         else:
-            line.replace(statement, [plain(statement.text)])
+            line.replace(statement, [escaped(statement.text)])
     return PassthroughLine(line.text, "" if is_known else line.number)
 
 
