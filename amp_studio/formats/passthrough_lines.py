@@ -22,7 +22,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class PassthroughLine:
-    """A line of a script: text with marks in it, and the name it is kept by where it is not understood."""
+    """A line of a script: text with placeholders in it, and the name it is kept by where it is not understood."""
 
     text: str
     kept_as: str = ""
@@ -42,7 +42,7 @@ def keep_lines(result: TextRead, kind: str, rows: Sequence[PassthroughLine], *, 
 
 
 def lines_kept(file: ParameterFile, kind: str) -> list[str] | None:
-    """Return the lines of a file's script, with marks for its settings; None where nothing is kept.
+    """Return the lines of a file's script, with placeholders for its settings; None where nothing is kept.
 
     Raises FormatError for a kept line whose place is lost: what it does there is unknown.
     """

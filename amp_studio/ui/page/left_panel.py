@@ -35,7 +35,7 @@ class LeftPanel(QWidget):
     """Title and parameters."""
     turned = Signal(str)
     """The person chose one of the sides."""
-    wanted, next_wanted, mark_wanted = Signal(object), Signal(), Signal(object)
+    wanted, next_wanted, tick_wanted = Signal(object), Signal(), Signal(object)
     defaults_wanted, print_wanted = Signal(object), Signal()
     """Those of the steps."""
 
@@ -67,7 +67,7 @@ class LeftPanel(QWidget):
         steps.chosen.connect(self.chosen)
         steps.wanted.connect(self.wanted)
         steps.next_wanted.connect(self.next_wanted)
-        steps.mark_wanted.connect(self.mark_wanted)
+        steps.tick_wanted.connect(self.tick_wanted)
         steps.defaults_wanted.connect(self.defaults_wanted)
         steps.print_wanted.connect(self.print_wanted)
         return steps

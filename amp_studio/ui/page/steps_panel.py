@@ -63,7 +63,7 @@ class StepsPanel(QWidget):
     wanted = Signal(object)
     """An address to go to."""
     next_wanted = Signal()
-    mark_wanted = Signal(object)
+    tick_wanted = Signal(object)
     """A step is to be ticked as done, or its tick taken away."""
     defaults_wanted = Signal(object)
     """What is not set in a step is to be set to the defaults."""
@@ -319,7 +319,7 @@ class StepsPanel(QWidget):
         """Tick the step of a place, or take its tick away."""
         step = item.data(0, KEY)
         if isinstance(step, SetupStep) and self._workspace.may_edit:
-            self.mark_wanted.emit(step)
+            self.tick_wanted.emit(step)
 
     def _menu(self, item: QTreeWidgetItem | None) -> None:
         """Show what can be done with a step."""
@@ -329,7 +329,7 @@ class StepsPanel(QWidget):
         each, menu = self._workspace.progress.of(step), QMenu(self)
         done = self.tr("Mark as Not &Done") if each.ticked else self.tr("Mark as &Done")
         for text, signal in (
-            (done, self.mark_wanted),
+            (done, self.tick_wanted),
             (self.tr("Keep De&faults of This Step"), self.defaults_wanted),
         ):
             action = menu.addAction(text)
