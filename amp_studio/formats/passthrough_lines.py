@@ -22,7 +22,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class PassthroughLine:
-    """A line of a script: text with placeholders in it, and the name it is kept by where it is not understood."""
+    """A line of a script: text with placeholders, and the name it is kept by where it is not understood."""
 
     text: str
     kept_as: str = ""
