@@ -17,7 +17,7 @@ from amp_studio.sim.command.ramps import end_of
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import FAULTS, AxisLaw
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
+from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, refuse_unknown
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
 from .columns import alarms_of, column_units, per_minute
@@ -36,7 +36,7 @@ UNSEEN = (
 NO_ALARM = "The drive has tripped, and no limit of the following error shows it: the command ends as usual"
 
 
-def run_fault(axis: AxisLaw, settings: Settings) -> Trace:
+def run_fault(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Run one move with a fault in it; raises SimulationError for one that no page prints."""
     refuse_unknown(settings, SETTINGS)
     kind = str(settings.get("move.fault", "drive"))
