@@ -15,7 +15,7 @@ from typing import Literal, NamedTuple
 from .address import Address, UnknownParameterError, read_address, whole_of
 from .catalog import Schema
 from .cel_engine import WORD_FUNCTIONS
-from .expression import Decision, ValueKey, PartsDecision, program
+from .expression import Decision, PartsDecision, ValueKey, program
 from .model import BoundRef, Parameter, ParameterState, Scope
 
 Asked = tuple[str, str, str | None]
