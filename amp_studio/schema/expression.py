@@ -210,7 +210,7 @@ class PartsDecision:
         self._decision, self._text = decision, text
 
     def are_true(
-        self, keys: tuple[Key, ...], names: Sequence[str], parts: Sequence[Circumstances]
+        self, keys: tuple[ValueKey, ...], names: Sequence[str], parts: Sequence[Circumstances]
     ) -> list[bool]:
         """Return whether it is true for each of the parts of one instance."""
         if len(parts) == 1:
@@ -222,7 +222,7 @@ class PartsDecision:
         return [*self.are_true(keys, names, parts[:half]), *self.are_true(keys, names, parts[half:])]
 
     def _is_so(
-        self, every: Program, keys: tuple[Key, ...], names: Sequence[str], parts: Sequence[Circumstances]
+        self, every: Program, keys: tuple[ValueKey, ...], names: Sequence[str], parts: Sequence[Circumstances]
     ) -> bool:
         # The name of the parts is none that an expression can read.
         given = {**dict(zip(names, map(value_of, keys), strict=True)), _PARTS: [one.part for one in parts]}
