@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from amp_studio.report.language import Language, language_of
 from amp_studio.report.model import ExchangeLine, ProgramState, Report, ReportRow
+from amp_studio.report.wording import state_name
 from amp_studio.schema import write_figure
 
 from .workbook import WorkbookCell, WorkbookSheet, workbook
@@ -99,7 +100,7 @@ def _values(report: Report, words: Language) -> WorkbookSheet:
         value, default = (_number(text, row) for text in (row.value, row.plain_default))
         yes_no = ("yes" if row.is_changed else "no"), ("no" if row.no_default else "yes")
         changed, printed = map(words.text, yes_no)
-        place, state = words.text(row.place), words.title(row.state)
+        place, state = words.text(row.place), words.title(state_name(row.state))
         identity = (row.number, row.id, row.instance, place, row.name, row.group)
         values.append((*identity, value, row.unit, default, changed, state, row.forced, printed, row.note))
     return WorkbookSheet("Values", _VALUE_HEADS, values)
