@@ -365,7 +365,7 @@ class ProgramLimit:
     @property
     def texts(self) -> tuple[str, str]:
         """Time in s and share in %, as they are printed."""
-        return f"{self.time_s:.4g}", f"{100.0 * self.share:.1f}"
+        return f"{self.time_s:.3f}", f"{100.0 * self.share:.1f}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -463,7 +463,11 @@ class Report:
     @property
     def program_figures(self) -> tuple[PrintedFigure, ...]:
         """Their paths."""
-        return tuple(PrintedFigure(each.name, each.svg, each.notes) for each in self.programs)
+        words = language_of(self.contents.language, self.family_id)
+        return tuple(
+            PrintedFigure(each.name, each.svg, tuple(map(words.sentence, each.notes)))
+            for each in self.programs
+        )
 
     @property
     def machine_name(self) -> str:

@@ -35,9 +35,10 @@ def report(checkout: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(dossier, "programs_of", lambda _file, paths: iter([FOUND] if paths else ()))
     file = open_file(checkout / "examples" / "acromill-router" / "ROUTER.amp").file
 
-    def written(ending: str, *programs: Path) -> str:
+    def written(ending: str, *programs: Path, **contents) -> str:
         path = tmp_path / f"report.{ending}"
-        dossier.write_report(file, path, Contents(without=BARE, changed_only=True, programs=programs))
+        chapters = Contents(without=BARE, changed_only=True, programs=programs, **contents)
+        dossier.write_report(file, path, chapters)
         return path.read_text("utf-8")
 
     return written
@@ -49,6 +50,14 @@ def test_the_chapter_is_there_where_a_program_is_given(report, ending: str) -> N
     for words in ("plate.nc", "21 blocks, 2 s", "at most 9 µm in line 3", "beyond X", "75.0", "speeds.rapid"):
         assert words in text
     assert "plate.nc" not in report(ending)
+
+
+def test_a_german_chapter_has_its_limits_and_notes_in_german(report) -> None:
+    text = " ".join(report("txt", Path("plate.nc"), language="de").split())
+    assert "TEILEPROGRAMM plate.nc" in text
+    assert "B 1,500 s 75,0 % Rapid Speed" in text
+    assert "A 0,500 s 25,0 % Verweilzeit" in text
+    assert "21 Sätze, 2 s" in text
 
 
 def test_the_data_has_what_limits_each_program(report) -> None:

@@ -15,7 +15,7 @@ def render_html(report: Report, own: Path | None = None) -> bytes:
     """Return the page in UTF-8; every text is escaped. ``own`` is a template of the project.
     Raises TemplateMistakeError.
     """
-    language = language_of(report.contents.language)
+    language = language_of(report.contents.language, report.family_id)
     help_texts = {
         parameter: [(GRADES.get(title, ""), language.of_help(title), text) for title, text in parts]
         for parameter, parts in report.help.items()

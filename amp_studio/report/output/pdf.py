@@ -118,7 +118,12 @@ def typst_source(report: Report, own: Path | None = None, *, places: bool = Fals
     With ``places`` it has marks at each value.
     """
     source = filled_template(
-        "report.typ.j2", own, language_of(report.contents.language), report=report, marks=MARKS, places=places
+        "report.typ.j2",
+        own,
+        language_of(report.contents.language, report.family_id),
+        report=report,
+        marks=MARKS,
+        places=places,
     )
     if own is not None and _PACKAGE.search(source):
         raise TemplateMistakeError(own, "imports a package of Typst, which would be loaded from the network")

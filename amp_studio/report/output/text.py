@@ -18,7 +18,7 @@ _HEAD = ("Number", "Parameter", "", "Value", "Default", "")
 
 def render_text(report: Report) -> bytes:
     """Return the text in UTF-8; no line is longer than ``WIDTH``."""
-    words = language_of(report.contents.language)
+    words = language_of(report.contents.language, report.family_id)
     return ("\n".join(line.rstrip() for line in _lines(report, words)) + "\n").encode("utf-8")
 
 
@@ -85,7 +85,7 @@ def _programs(report: Report, words: Language) -> Iterator[str]:
         yield from _heading(f"{words.text('Part program').upper()} {each.name}")
         for limit in each.limits:
             name = f"{words.sentence(limit.name)}  {limit.param}".rstrip()
-            time, share = limit.texts
+            time, share = map(words.number, limit.texts)
             yield f"  {limit.letter}  {time:>7} s  {share:>5} %  {name}"
         for line in each.notes:
             yield from _wrapped(words.sentence(line), "")

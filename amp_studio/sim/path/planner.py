@@ -35,6 +35,8 @@ AS_PROGRAMMED = PathLimit(math.inf, None, "feed as programmed")
 DWELLS = PathLimit(0.0, None, "dwell")
 EVERY = 16384
 """Rows between two reports of progress, each of which may cancel the planning."""
+_ROUNDING = 1e-9
+"""Share of the time of a program that is only the rounding of sums."""
 SAME = 1e-12
 """Share of the way below which an axis does not move in a row: what is left of it is rounding."""
 
@@ -90,7 +92,7 @@ class ProgramPlan:
         return float(self.start[-1] + self.times[-1].sum() + self.rest[-1]) if len(self.start) else 0.0
 
     def time_by_cause(self) -> PathRows:
-        """Return the time in s of each limit, (causes,)."""
+        """Return the time in s of each limit, (causes,); 0 for one whose time is the rounding of a sum."""
         found = np.zeros(len(self.causes))
         for cause, time in (
             (self.faster_by, self.times[:, 0]),
@@ -99,7 +101,7 @@ class ProgramPlan:
             (self.rest_by, self.rest),
         ):
             found += np.bincount(cause, time, len(found))
-        return found
+        return np.where(found > _ROUNDING * found.sum(), found, 0.0)
 
     def time_of_lines(self) -> dict[int, float]:
         """Return line of the program -> its time in s."""
