@@ -11,11 +11,11 @@ PhraseWords = Callable[[str], str]
 """English phrase -> the phrase of a language, or the same."""
 
 
-def scene_in_words(scene: Scene, words: PhraseWords) -> Scene:
-    """Return a scene with its phrases in a language."""
+def scene_in_words(scene: Scene, words: PhraseWords, unit: PhraseWords = str) -> Scene:
+    """Return a scene with its phrases, and the units of its scales, in a language."""
 
     def scale(own: Scale) -> Scale:
-        return replace(own, label=words(own.label)) if own.label else own
+        return replace(own, label=words(own.label) if own.label else "", unit=unit(own.unit))
 
     texts = tuple(replace(t, text=words(t.text), value=words(t.value)) for t in scene.texts)
     notes = tuple(replace(note, text=words(note.text)) for note in scene.notes)

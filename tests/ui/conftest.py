@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -33,6 +34,8 @@ from amp_studio.transfer import decode_image, encode_image, patch_image
 from amp_studio.transfer.emulated.control import Control as EmulatedMemory
 from amp_studio.transfer.emulated.emulator import serve
 from amp_studio.transfer.emulated.record import Identity
+from amp_studio.transfer.links import parse_endpoint
+from amp_studio.transfer.links.security import Security
 from amp_studio.ui.base import garbage
 from amp_studio.ui.base.menu_commands import commands
 from amp_studio.ui.base.task import ProgressDialog
@@ -355,7 +358,9 @@ def editor(window: MainWindow) -> QWidget:
 class Control:
     """An emulated 9/PC with its operator, in a thread: a process would load the program for each."""
 
-    def __init__(self, state: Path, *, estop: bool = True, file: ParameterFile | None = None) -> None:
+    def __init__(
+        self, state: Path, *, estop: bool = True, file: ParameterFile | None = None, password: str = ""
+    ) -> None:
         """Start one that contains a file, or a new one: a mill differs from that in 460 values."""
         file = file or new_file("9pc", "mill")
         identity = Identity("9pc", file.schema.signature, "CNC_1", "emulated")
@@ -367,7 +372,7 @@ class Control:
         self._typed, self._stop = typed, threading.Event()
         self._thread = threading.Thread(
             target=serve,
-            args=("tcp://127.0.0.1:0", memory),
+            args=(replace(parse_endpoint("tcp://127.0.0.1:0"), security=Security(password)), memory),
             kwargs={
                 "patch": patch_image,
                 "panel": NinePcPanel(axes_supported({})),

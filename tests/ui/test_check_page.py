@@ -78,3 +78,13 @@ def test_an_edit_checks_again_once_the_page_is_seen_and_a_row_is_wanted_as_a_mot
     with qtbot.waitSignal(page.motion_wanted) as wanted:
         page.motion.click()
     assert wanted.args == ["jog", "X"]
+
+
+def test_what_is_bad_comes_first_and_a_row_stays_its_own_check(router: Workspace, qtbot: QtBot) -> None:
+    page = CheckPage(router, print)
+    qtbot.addWidget(page)
+    for verdict, axis in (("good", "X"), ("not possible", "S"), ("bad", "Y"), ("good", "Z"), ("bad", "Z")):
+        page.show_check(MotionCheck("jog", axis, axis, verdict))
+    assert [page.table.item(row, 2).text() for row in range(5)] == ["Y", "Z", "X", "Z", "S"]
+    assert [check.letter for check in page.checks] == ["Y", "Z", "X", "Z", "S"]
+    assert page.summary.text() == "2 bad, 2 good, 1 not possible"

@@ -8,6 +8,7 @@ import threading
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -22,7 +23,9 @@ from amp_studio.transfer.client import parameters
 from amp_studio.transfer.exchange import Exchange
 from amp_studio.ui.actions import project
 from amp_studio.ui.base.theme import colour, scheme
+from amp_studio.ui.control.conditions import conditions_of
 from amp_studio.ui.control.differences import CONTROL
+from amp_studio.ui.control.session import ControlSession
 from amp_studio.ui.main_window import MainWindow
 
 from .at_control import at_control, nearly, sent, settled
@@ -446,3 +449,58 @@ def test_a_control_that_stays_in_estop_stays_so_in_the_menu_and_its_reason_is_sh
     window.control.emulated.line_shown.emit(f"refused: {reason}")
     assert estop.isChecked()
     assert window.statusBar().currentMessage() == f"Emulated control: refused: {reason}"
+
+
+def test_what_was_asked_before_the_line_was_lost_is_no_longer_known(window: MainWindow) -> None:
+    session = ControlSession("tcp://127.0.0.1:9", "9pc")
+    control = SimpleNamespace(revision="1", family="9pc", signature="")
+    session.seen = SimpleNamespace(
+        control=control, abilities=SimpleNamespace(lasting_states=(), maps_numbers=True)
+    )
+    session.in_estop = True
+    assert [c.met for c in conditions_of(session, window.workspace.file)][:3] == [True, True, True]
+    session.error = "nothing answers there"
+    lost = conditions_of(session, window.workspace.file)
+    assert [c.met for c in lost] == [False, None, None, None]
+    assert lost[0].text == "Not connected"
+
+
+def test_controls_of_one_name_are_told_apart_by_their_addresses(window: MainWindow) -> None:
+    here, there = "tcp://10.0.0.1:9600", "tcp://10.0.0.2:9600"
+    for address in (here, there):
+        window.control.exchanges.remember_contact(
+            address, "connect", reached=True, family="9pc", name="CNC_1"
+        )
+    window.control.exchanges.remember_contact("COM3", "connect", reached=True, family="9pc", name="CNC_2")
+    names = [window.control._name_of(address) for address in (here, there, "COM3")]
+    assert names == ["CNC_1 (10.0.0.1:9600)", "CNC_1 (10.0.0.2:9600)", "CNC_2"]
+
+
+def test_a_password_is_asked_in_the_page_until_it_is_right(
+    window: MainWindow, start_control: Start, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("amp_studio.transfer.links.password.ROUNDS", 10)
+    page = at_control(window, start_control(password="open sesame").address, "compare", qtbot)
+    assert page.session.seen is None
+    assert page.password.isVisible()
+    assert "asks for its password" in page.bar.text.text()
+    page.password.setText("open cesame")
+    page._enter_password()
+    assert page.password.isVisible(), "what is typed on would go to another field"
+    settled(window, qtbot)
+    assert page.password.isVisible()
+    assert not page.password.isReadOnly()
+    assert "the password is wrong" in page.bar.text.text()
+
+
+def test_a_password_that_is_right_opens_the_page_and_is_named_among_the_conditions(
+    window: MainWindow, start_control: Start, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("amp_studio.transfer.links.password.ROUNDS", 10)
+    page = at_control(window, start_control(password="open sesame").address, "compare", qtbot)
+    page.password.setText("open sesame")
+    page._enter_password()
+    settled(window, qtbot)
+    assert page.session.seen is not None
+    assert not page.password.isVisible()
+    assert "Password accepted" in [c.text for c in conditions_of(page.session, window.workspace.file)]

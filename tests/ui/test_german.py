@@ -7,14 +7,17 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import replace
+from datetime import UTC, datetime
 
 import pytest
 from PySide6.QtWidgets import QApplication
 
 from amp_studio.report import language_of
-from amp_studio.schema import Value, program_texts
+from amp_studio.schema import Value, program_texts, unit_named, unit_text
+from amp_studio.schema.units import UNITS
 from amp_studio.ui.base.figures import sentence, written
-from amp_studio.ui.base.translated import speak, worded
+from amp_studio.ui.base.time_words import in_words
+from amp_studio.ui.base.translated import speak, unit_in_words, worded
 from amp_studio.ui.table.value_delegate import allowed_text
 from amp_studio.validate.plausible.experience import TITLES
 
@@ -145,3 +148,32 @@ def test_how_an_exchange_ended_is_german() -> None:
 )
 def test_why_a_file_is_not_written_is_german(english: str, german: str) -> None:
     assert language_of("de").message(english) == german
+
+
+def test_units_are_german_where_they_are_shown_and_both_are_read(german: None, window) -> None:
+    own = language_of("de").units
+    shown = {unit: own.get(unit_text(unit), unit) for unit in UNITS if unit}
+    read = {unit: unit_named(text) for unit, text in shown.items() if " " not in text}
+    assert read == {unit: unit for unit in read}
+    assert unit_in_words("in/min") == "Zoll/min"
+    for typed in ("0.5 in", "0,5 Zoll"):
+        window.edits.commit(("servo.excess_error", "1"), typed)
+        assert window.workspace.file.get(("servo.excess_error", "1")) == Value(0.5, "in")
+
+
+def test_a_day_has_its_point(german: None) -> None:
+    then, now = datetime(2026, 3, 12, 8, 30, tzinfo=UTC), datetime(2026, 11, 29, 9, tzinfo=UTC)
+    assert in_words(then, now).startswith("12. Mär")
+
+
+def test_the_left_panel_is_as_narrow_as_in_english_whichever_side_it_shows(german: None, open_window, path):
+    window = open_window(path)
+    window.resize(1366, 768)
+    left = window.page.left
+    for side in ("groups", "steps", "project"):
+        left.show_side(side)
+        window.docks.reset()
+        QApplication.processEvents()
+        assert left.width() == 212, side
+        cut = [b.text() for b in left.segment.buttons.values() if b.width() < b.minimumSizeHint().width()]
+        assert not cut, side

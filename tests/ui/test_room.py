@@ -150,7 +150,7 @@ def sizes(window: MainWindow) -> list[object]:
     ]
 
 
-@pytest.mark.parametrize("size", [(1366, 768), (1024, 700)])
+@pytest.mark.parametrize("size", [(1366, 768), (1024, 700), (2560, 1440)])
 def test_panels_that_open_and_close_twice_leave_every_size_as_it_was(opened, size: tuple[int, int]) -> None:
     window = opened("mill-1394", *size)
     window.go_to(EXCESS)
@@ -241,3 +241,29 @@ def test_the_page_at_the_control_takes_no_room_from_the_panels(opened, size: tup
     assert (window.width(), window.height()) == size
     window.control.leave()
     assert sizes(window) == before
+
+
+def test_the_one_line_of_the_findings_is_never_cut_before_its_link(opened) -> None:
+    window = opened("mill-1394", 960, 540)
+    findings = window.page.findings
+    findings.hint.setText("38 as delivered, to be set in steps 5, 6, 7, 8, 10, 20 " * 2)
+    findings.summary.setText('none in this file · 336 active parameters are not set <a href="unset">Show</a>')
+    findings.summary.show()
+    QApplication.processEvents()
+    assert findings.summary.width() >= findings.summary.sizeHint().width()
+
+
+def test_a_choice_is_read_whole_where_there_is_room_for_it(opened) -> None:
+    window = opened("mill-1394", 3200, 1440)
+    window.go_to(("servo.position_feedback_type", "1"))
+    QApplication.processEvents()
+    view, table = window.table_view, window.table
+    index = view.currentIndex()
+    look = table.look(index.row(), index.column())
+    assert look.short, "one that has a shorter text"
+    assert view.columnWidth(index.column()) >= view._delegate.painter.needed(look, 0)
+
+
+def test_the_row_of_tabs_has_no_line_that_ends_before_its_corner(opened) -> None:
+    window = opened("mill-1394")
+    assert not any(side.tabBar().drawBase() for side in window.tabs.sides)

@@ -62,7 +62,7 @@ def open_driver_at(address: str, family: str = "", exchange: Exchange = QUIET) -
         try:
             place = replace(place, protocol=_recognise(place, exchange))
         except PasswordError as error:  # tried again it would be one more wrong guess
-            raise NoConnectionError(f"no connection to the control ({error})", "") from None
+            raise NoConnectionError(f"no connection to the control ({error})", "") from error
         except LinkError:
             pass
     return open_driver(place, family)

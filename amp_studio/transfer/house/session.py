@@ -98,6 +98,7 @@ class Session:
             return self._line.greet()
         except LinkError as error:
             failure: TransferError = NoConnectionError(f"no connection to the control ({error})")
+            failure.__cause__ = error  # whether it is the password is asked by who has a field for one
         except NoAnswerError:
             failure = ControlSilentError("the control does not answer")
         except RefusalError as refusal:

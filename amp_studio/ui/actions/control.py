@@ -253,6 +253,13 @@ class ControlDesk(Translated):
             self.window.show_status("; ".join(session.notes))
 
     def _name_of(self, address: str) -> str:
+        """Return the name of a control, with its address where another one is called the same."""
+        name, place = self._own_name_of(address), address.partition("://")[2] or address
+        others = (each for each in self.exchanges.known_addresses() if each != address)
+        is_shared = name != place and any(self._own_name_of(each) == name for each in others)
+        return f"{name} ({place})" if is_shared else name
+
+    def _own_name_of(self, address: str) -> str:
         project = self.window.project
         if project is not None and project.info.control == address and project.info.control_name:
             return project.info.control_name
@@ -381,7 +388,7 @@ def state_in_words(session: ControlSession | None) -> tuple[str, bool]:
     if session.phase == "ready" and session.in_estop is False:
         return tr("not in E-stop"), True
     words = {
-        "away": tr("connection lost") if session.error else tr("not connected"),
+        "away": _lost(session) if session.error else tr("not connected"),
         "connecting": tr("connecting"),
         "ready": tr("ready"),
         "running": tr("sending"),
@@ -391,6 +398,10 @@ def state_in_words(session: ControlSession | None) -> tuple[str, bool]:
     return words[session.phase], session.phase == "failed" or (
         session.phase == "away" and bool(session.error)
     )
+
+
+def _lost(session: ControlSession) -> str:
+    return tr("not reached") if session.seen is None else tr("connection lost")
 
 
 def check_copy(copy: Copy, path: Path) -> None:

@@ -10,7 +10,7 @@ import re
 from amp_studio import schema
 from amp_studio.schema import Parameter, Value
 
-from .translated import message_in_words, tr
+from .translated import message_in_words, tr, unit_in_words
 
 _NUMBER = re.compile(r"(?<![\w.$@])[-−]?\d+\.\d+(?![\w]|\.\d)")
 """A number in a sentence; no address (``P3N0.5``, ``$22.0``), version or network address."""
@@ -47,7 +47,10 @@ def show_value(parameter: Parameter, value: Value | None, *, secrets: bool = Fal
     """
     text = schema.show_value(parameter, value, secrets=secrets)
     is_number = value is not None and isinstance(value.value, (int, float)) and not parameter.choices
-    return written(text) if is_number and (secrets or not parameter.secret) else text
+    if value is None or not is_number or (parameter.secret and not secrets):
+        return text
+    unit = schema.unit_text(value.unit)
+    return written(text.removesuffix(unit) + unit_in_words(value.unit))
 
 
 def write_figure(number: float) -> str:

@@ -37,7 +37,7 @@ from amp_studio.drawing import (
 from .figures import written
 from .scene_painter import ScenePainter, caption_fonts, paint_heading, panel_heading
 from .theme import colour, scheme
-from .translated import sentenced
+from .translated import sentenced, unit_in_words
 
 LEFT, RIGHT, GAP = 70.0, 14.0, 6.0
 """Room in logical pixels beside the panels, and above the heading of each."""
@@ -90,8 +90,8 @@ class Plot(QWidget):
         same = self.picture is not None and self.picture.panels[0].x.label == picture.panels[0].x.label
         self.picture = replace(
             picture,
-            panels=linked([scene_in_words(panel, sentenced) for panel in picture.panels]),
-            above=picture.above and scene_in_words(picture.above, sentenced),
+            panels=linked([scene_in_words(panel, sentenced, unit_in_words) for panel in picture.panels]),
+            above=picture.above and scene_in_words(picture.above, sentenced, unit_in_words),
         )
         self.panels = self.picture.panels
         low, high = self.span

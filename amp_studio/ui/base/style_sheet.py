@@ -56,6 +56,7 @@ QToolButton[segment="first"] { border-top-left-radius: 4px; border-bottom-left-r
 QToolButton[segment="middle"], QToolButton[segment="last"] { border-left: 0; }
 QToolButton[segment="last"] { border-top-right-radius: 4px; border-bottom-right-radius: 4px; }
 QToolButton[segment="only"] { border-radius: 4px; }
+QToolButton[segment][tight="true"] { padding: 3px 2px; }
 QToolButton[segment]:hover { background: $hover; }
 QToolButton[segment]:checked { background: $selbg; }
 QToolButton[segment]:focus { border-color: $sel; }

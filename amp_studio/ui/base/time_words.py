@@ -19,5 +19,7 @@ def in_words(moment: datetime, now: datetime) -> str:
     if moment.date() == (now - timedelta(days=1)).date():
         return tr("yesterday {time}").format(time=time)
     day = QDate(moment.year, moment.month, moment.day)
-    month = QLocale(tr("en", "language of the names of months")).toString(day, "d MMM")
+    month = QLocale(tr("en", "language of the names of months")).toString(
+        day, tr("d MMM", "day and month, as QDate writes them")
+    )
     return f"{month} {time}" if moment.year == now.year else f"{month} {moment.year}"

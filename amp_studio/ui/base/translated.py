@@ -16,7 +16,7 @@ from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 from amp_studio.languages import language_codes, name_of_language
 from amp_studio.report import Language, language_of
 from amp_studio.report import counted as english_count
-from amp_studio.schema import Schema, program_texts
+from amp_studio.schema import Schema, program_texts, unit_text
 from amp_studio.validate import Finding, family_of_rule
 
 LANGUAGES: Final = {code: name_of_language(code) for code in language_codes()}
@@ -55,6 +55,16 @@ def _worded(code: str, text: str, family: str) -> str:
 def scenario_in_words(name: str) -> str:
     """Return the name of a scenario of the simulator in the language of the window."""
     return language_of(_spoken).scenario(name)
+
+
+def unit_in_words(unit: str) -> str:
+    """Return a unit as it is shown in the language of the window: ``in`` is ``Zoll`` in a German one."""
+    return unit_text(unit) if _spoken == "en" else _unit(_spoken, unit_text(unit))
+
+
+@lru_cache(maxsize=512)
+def _unit(code: str, printed: str) -> str:
+    return language_of(code).unit(printed)
 
 
 def facts_in_words(schema: Schema) -> Language:

@@ -11,7 +11,7 @@ from PySide6.QtGui import QFontMetrics, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from amp_studio.files import ParameterFile
-from amp_studio.ui.base.theme import GAP2, GAP3, GAP4, SMALL_ICON, Token, colour, font, icon
+from amp_studio.ui.base.theme import GAP, GAP2, GAP3, GAP4, SMALL_ICON, FontRole, Token, colour, font, icon
 from amp_studio.ui.base.translated import tr, worded
 
 from .session import ControlSession
@@ -29,7 +29,9 @@ class ControlCondition:
 def conditions_of(session: ControlSession | None, file: ParameterFile) -> list[ControlCondition]:
     """Return the conditions in their fixed order."""
     seen = session.seen if session else None
-    if session is None or seen is None:
+    if (
+        session is None or seen is None or session.error
+    ):  # what was asked before the line was lost is no longer known
         state = None if session is None or not session.error else False
         waits = [tr("Same machine"), tr("E-stop"), tr("Password")]
         if session is not None and session.needs_password:
@@ -42,7 +44,7 @@ def conditions_of(session: ControlSession | None, file: ParameterFile) -> list[C
             ControlCondition(tr("Not connected"), state),
             *(ControlCondition(text, None) for text in waits),
         ]
-    conditions = [ControlCondition(tr("Connected"), not session.error, worded(seen.control.revision))]
+    conditions = [ControlCondition(tr("Connected"), True, worded(seen.control.revision))]
     conditions.append(_same_machine(session, file))
     age = _age(session.asked_at)
     if session.in_estop is None:
@@ -51,9 +53,7 @@ def conditions_of(session: ControlSession | None, file: ParameterFile) -> list[C
         text = tr("E-stop is pressed") if session.in_estop else tr("E-stop is not pressed")
         conditions.append(ControlCondition(text, session.in_estop, age))
     conditions.append(
-        ControlCondition(
-            tr("Password accepted") if session.needs_password else tr("No password needed"), True
-        )
+        ControlCondition(tr("Password accepted") if session.has_password else tr("No password needed"), True)
     )
     if seen.abilities.lasting_states:
         conditions.append(
@@ -119,20 +119,25 @@ class ConditionLine(QWidget):
         self._write()
 
     def _write(self) -> None:
-        """Show each with its details, or without them where they do not all have the room."""
-        conditions, metrics = self._conditions, QFontMetrics(font("text"))
-        words = " ".join(f"{c.text} {c.detail}" for c in conditions)
-        needed = (
-            metrics.horizontalAdvance(words) + len(conditions) * (SMALL_ICON + 2 * GAP2 + GAP4) + 2 * GAP3
-        )
-        has_room = needed <= self.width()
+        """Show each with its details, or without them where they do not all have the room, or smaller."""
+        conditions = self._conditions
+        has_room = self._needed([f"{c.text} {c.detail}" for c in conditions], "text", GAP4) <= self.width()
+        is_small = not has_room and self._needed([c.text for c in conditions], "text", 0) > self.width()
+        self._row.setSpacing(GAP if is_small else GAP2)
         for n, (mark, text) in enumerate(self._made):
             text.setContentsMargins(0, 0, GAP4 if has_room else 0, 0)
+            text.setFont(font("small" if is_small else "text"))
             is_there = n < len(conditions)
             mark.setVisible(is_there)
             text.setVisible(is_there)
             if is_there:
                 _show(mark, text, conditions[n], has_detail=has_room)
+
+    @staticmethod
+    def _needed(texts: list[str], letters: FontRole, aside: int) -> int:
+        """Return the width of texts with their marks, each with ``aside`` pixels after it."""
+        words = QFontMetrics(font(letters)).horizontalAdvance(" ".join(texts))
+        return words + len(texts) * (SMALL_ICON + 2 * GAP2 + aside) + 2 * GAP3
 
 
 def _show(mark: QLabel, text: QLabel, condition: ControlCondition, *, has_detail: bool) -> None:

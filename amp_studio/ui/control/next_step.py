@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from typing import Literal
 
 from amp_studio.files import ParameterFile
-from amp_studio.ui.base.translated import finding_in_words, message_in_words, tr
+from amp_studio.ui.base.translated import finding_in_words, tr
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.message_bar import MessageKind
 
 from .conditions import conditions_of
 from .session import ControlSession
-from .session_words import ControlBackup, doubts_of, text_of_failure
+from .session_words import ControlBackup, doubts_of, error_in_words, text_of_failure
 
 ExchangeDirection = Literal["compare", "send", "read", "hand"]
 """What is done with the control; "hand" is the sheet of values that a person keys in at it."""
@@ -135,8 +135,10 @@ def bar_message(state: PageState) -> BarMessage | None:
     session, workspace = state.session, state.workspace
     if session is None or session.is_busy:
         return None
+    if session.phase == "away" and session.needs_password:
+        return BarMessage(_about_password(session), "warning")
     if session.phase == "away" and session.error:
-        return BarMessage(message_in_words(session.error), "warning", ((tr("Try Again"), "read"),))
+        return BarMessage(error_in_words(session), "warning", ((tr("Try Again"), "read"),))
     if session.phase == "failed":
         return BarMessage(text_of_failure(session), "error")
     if session.phase == "done":
@@ -150,6 +152,12 @@ def bar_message(state: PageState) -> BarMessage | None:
         doubts = doubts_of(state.backup)
         return BarMessage(doubts, "warning") if doubts else None
     return _message_of_file(workspace, state.accepted_errors) if workspace is not None else None
+
+
+def _about_password(session: ControlSession) -> str:
+    if session.has_password:
+        return tr("{why}. The control asks for its password again.").format(why=error_in_words(session))
+    return tr("The control asks for its password. It is known until the program ends.")
 
 
 def _message_of_file(workspace: Workspace, accepted_errors: bool) -> BarMessage | None:

@@ -5,6 +5,7 @@ Nothing of it asks in a box.
 from __future__ import annotations
 
 from collections.abc import Callable
+from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,7 +16,7 @@ from PySide6.QtWidgets import QFileDialog
 from amp_studio.files import ParameterFile, describe, write_atomic
 from amp_studio.schema import Value
 from amp_studio.ui.base.theme import scheme
-from amp_studio.ui.base.translated import message_in_words
+from amp_studio.ui.base.translated import message_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 
 from .conditions import conditions_of
@@ -311,18 +312,29 @@ class ControlPage(ControlPageParts):
     def _show_middle(self, summary: str) -> None:
         session = self.session
         if session is not None and session.phase == "done":
-            self.empty.setText(text_of_proof(session, self.name, self._kept_names()))
-            self.middle.setCurrentWidget(self.empty)
+            self._show_text(text_of_proof(session, self.name, self._kept_names()), is_proof=True)
             return
         if self.table.rows and session is not None and session.seen is not None:
             self.middle.setCurrentWidget(self.table)
             return
-        self.middle.setCurrentWidget(self.empty)
         text = text_of_content(session, self.name, summary)
-        only = self.workspace.file.schema.family.by_hand if self.workspace is not None else ""
-        if only and (session is None or session.seen is None):
-            text += "\n\n" + self.tr("{only}: “By Hand” makes the sheet for that.").format(only=only)
+        family = self.workspace.file.schema.family if self.workspace is not None else None
+        only = family.by_hand if family is not None else ""
+        if family is not None and only and (session is None or session.seen is None):
+            words = worded(only, family.family)
+            text += "\n\n" + self.tr("{only}: “By Hand” makes the sheet for that.").format(only=words)
+        self._show_text(text.strip())
+
+    def _show_text(self, text: str, *, is_proof: bool = False) -> None:
+        """Show a text in the place of the table: a proof from its head on, in the middle what is one line."""
+        align = Qt.AlignmentFlag
+        self.empty.setAlignment(align.AlignTop | align.AlignLeft if is_proof else align.AlignCenter)
+        if is_proof:
+            head, *rest = map(escape, text.split("\n\n"))
+            text = "".join((f"<p><b>{head}</b></p>", *(f"<p>{each}</p>" for each in rest)))
+        self.empty.setTextFormat(Qt.TextFormat.RichText if is_proof else Qt.TextFormat.PlainText)
         self.empty.setText(text)
+        self.middle.setCurrentWidget(self.empty)
 
     def _kept_names(self) -> list[str]:
         """Return the values that the control keeps, by name."""
@@ -333,12 +345,15 @@ class ControlPage(ControlPageParts):
 
     def _show_bar(self, state: PageState) -> None:
         session = self.session
-        is_needed = (
-            session is not None and session.needs_password and session.seen is None and not session.is_busy
-        )
-        self.password.setVisible(is_needed)
-        if is_needed:
-            self.password.setFocus()
+        is_needed = session is not None and session.needs_password and session.seen is None
+        is_busy = session is not None and session.is_busy
+        if is_busy and not self.password.isHidden():  # it stays: what is typed on would go to another field
+            self.password.setReadOnly(True)
+        else:
+            self.password.setReadOnly(False)
+            self.password.setVisible(is_needed)
+            if is_needed:
+                self.password.setFocus()
         message = bar_message(state)
         if message is None:
             self.bar.hide()

@@ -52,6 +52,7 @@ class ControlPageParts(QWidget):
         self.hand = HandSheet()
         self.history = ExchangeHistory()
         self.heading = ElidedLabel()
+        self.heading.cut = Qt.TextElideMode.ElideMiddle
         self.heading.setFont(font("text", own=True))
         self.directions = Segment(
             tr("Direction"),
@@ -75,7 +76,7 @@ class ControlPageParts(QWidget):
         self.filter.setMaximumWidth(220)
         self.table = DifferenceTable()
         self.empty = QLabel()
-        self.empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.empty.setContentsMargins(GAP3, GAP2, GAP3, GAP2)
         self.empty.setWordWrap(True)
         self.middle = QStackedWidget()
         self.middle.addWidget(self.table)

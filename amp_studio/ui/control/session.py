@@ -66,6 +66,8 @@ class ControlSession(QObject):
         """Why the last download or restore did not reach its end."""
         self.outcome: Outcome | None = None
         self.needs_password = False
+        self.has_password = False
+        """Whether one was entered for it here."""
         self.notes: list[str] = []
         self._task: Task | None = None
         self._compared: tuple[object, ImageComparison] | None = None
@@ -93,6 +95,7 @@ class ControlSession(QObject):
         from amp_studio.transfer.links import enter_password, parse_endpoint
 
         enter_password(parse_endpoint(self.address), password)
+        self.has_password = bool(password)
         self.read()
 
     def _driver(self, exchange: Exchange) -> ControlDriver:
@@ -134,7 +137,11 @@ class ControlSession(QObject):
         self.in_estop, self.asked_at = control.in_estop, datetime.now(UTC).astimezone()
 
     def _not_reached(self, error: Exception) -> None:
+        from amp_studio.transfer.links import PasswordError
+
         self.error, self.phase = str(error), "away"
+        if isinstance(error.__cause__, PasswordError):
+            self.needs_password = True  # a wrong one is asked for again
         self.ended.emit("connect", False)
 
     def present(self, file: ParameterFile) -> ParameterFile | None:

@@ -36,13 +36,19 @@ def text_of_content(session: ControlSession | None, name: str, summary: str) -> 
     if session.phase == "connecting":
         return tr("Reading what {name} contains …").format(name=name)
     if session.seen is None:
-        return message_in_words(session.error)
+        return "" if session.needs_password else error_in_words(session)
     if session.seen.why_unreadable:
         return message_in_words(session.seen.why_unreadable)
     if not session.seen.content:
         return tr("The control contains no parameters.")
     now = datetime.now(UTC).astimezone()
     return summary or tr("Read at {time}").format(time=in_words(session.seen.when, now))
+
+
+def error_in_words(session: ControlSession) -> str:
+    """Return why a control was not reached, as a sentence."""
+    text = message_in_words(session.error)
+    return text[:1].upper() + text[1:]
 
 
 def text_of_proof(session: ControlSession, name: str, kept: Sequence[str]) -> str:

@@ -8,7 +8,8 @@ from collections.abc import Callable
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDialog, QPushButton, QVBoxLayout, QWidget
 
-from amp_studio.schema import Address, unit_text
+from amp_studio.schema import Address
+from amp_studio.ui.base.translated import unit_in_words
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.form import Field, FieldForm
 from amp_studio.validate import Calculator, calculate, calculators, shown_result
@@ -87,7 +88,7 @@ class CalculatorDialog(QDialog):
 
     def _offer_as_value(self, address: Address) -> None:
         """Offer the result as the value of a parameter, in the unit in which it would be typed."""
-        unit = unit_text(self._workspace.typed_unit(address))
+        unit = unit_in_words(self._workspace.typed_unit(address))
         text = self.tr("Use the result as the value of {label}{what}").format(
             label=self._workspace.file.machine_schema.label(address), what=f", in {unit}" if unit else ""
         )

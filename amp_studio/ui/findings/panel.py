@@ -29,6 +29,7 @@ from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.base.theme import FINDING_ROW, GAP2, colour, font, icon, paint_icon, scheme, severity_icon
 from amp_studio.ui.base.translated import counted, finding_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.forms.segment import Segment, chip
 from amp_studio.validate import NOT_SET, SEVERITIES, Finding, Suppressed, addresses_not_set
 
@@ -164,10 +165,9 @@ class FindingsPanel(QWidget):
         self.scope.show_choice("file")
         self.suppressed = chip("")
         self.suppressed.clicked.connect(self._refresh)
-        self.hint = QLabel()
+        self.hint = ElidedLabel()
         self.hint.setFont(font("small"))
         self.hint.setForegroundRole(self.hint.palette().ColorRole.PlaceholderText)
-        self.hint.linkActivated.connect(self._follow)
         self.several = QPushButton(self.tr("Fi&x Several…"))
         self.several.setIcon(icon("magic-wand"))
         self.several.clicked.connect(self.several_requested)

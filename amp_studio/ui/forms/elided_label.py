@@ -12,6 +12,9 @@ _LEAST = 20
 class ElidedLabel(QLabel):
     """A label of one line that never keeps its place wide."""
 
+    cut = Qt.TextElideMode.ElideRight
+    """Where it is cut: in the middle what is at its end is read too."""
+
     def minimumSizeHint(self) -> QSize:
         return QSize(_LEAST, super().minimumSizeHint().height())
 
@@ -26,7 +29,7 @@ class ElidedLabel(QLabel):
 
     def _elided(self) -> str:
         measure = QFontMetrics(self.font())
-        return measure.elidedText(self.text(), Qt.TextElideMode.ElideRight, self.contentsRect().width())
+        return measure.elidedText(self.text(), self.cut, self.contentsRect().width())
 
     def _show_tip(self) -> None:
         self.setToolTip("" if self._elided() == self.text() else self.text())

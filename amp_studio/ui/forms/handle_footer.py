@@ -7,9 +7,10 @@ from PySide6.QtGui import QPalette, QResizeEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLineEdit
 
 from amp_studio.drawing import Handle, figure_text
-from amp_studio.schema import Address, Value, convert, dimension, unit_text, write_figure, write_value
+from amp_studio.schema import Address, Value, convert, dimension, write_figure, write_value
 from amp_studio.ui.base.figures import sentence, show_value, written
 from amp_studio.ui.base.theme import CONTROL, GAP3, font
+from amp_studio.ui.base.translated import unit_in_words
 from amp_studio.ui.base.workspace import Workspace
 
 from .elided_label import ElidedLabel
@@ -62,7 +63,7 @@ class HandleFooter(QFrame):
             return
         self.name.setText(handle.label)
         drag = handle.drags[0]
-        step = f"{written(figure_text(drag.step))} {unit_text(drag.unit)}".strip()
+        step = f"{written(figure_text(drag.step))} {unit_in_words(drag.unit)}".strip()
         self.keys.setText(self.tr("← → {step}, Shift 10").format(step=step))
         if has_one and not self.field.hasFocus():
             self.field.setText(written(self._typed(drag.address)))

@@ -16,12 +16,15 @@ class Segment(QWidget):
     chosen = Signal(str)
     """The key of the button that a person pressed."""
 
-    def __init__(self, name: str, options: Sequence[tuple[str, str, str]] = ()) -> None:
+    def __init__(
+        self, name: str, options: Sequence[tuple[str, str, str]] = (), *, is_tight: bool = False
+    ) -> None:
         """Return a segment with an accessible name; each option is its key,
-        its text and the name of an icon or nothing.
+        its text and the name of an icon or nothing. A tight one is for a narrow panel.
         """
         super().__init__()
         self.setAccessibleName(name)
+        self._is_tight = is_tight
         self._row = QHBoxLayout(self)
         self._row.setContentsMargins(0, 0, 0, 0)
         self._row.setSpacing(0)
@@ -51,6 +54,7 @@ class Segment(QWidget):
             ends = (n == 0, n == len(options) - 1)
             places = {(True, True): "only", (True, False): "first", (False, True): "last"}
             button.setProperty("segment", places.get(ends, "middle"))
+            button.setProperty("tight", self._is_tight)
             button.clicked.connect(lambda *_, key=key: self._press(key))
             self._row.addWidget(button)
             self.buttons[key] = button

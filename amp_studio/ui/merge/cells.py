@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from amp_studio.files import Merge, Row, in_one_unit
-from amp_studio.schema import MASKED, Parameter, Value, labels_of_word, unit_text, visible
+from amp_studio.schema import MASKED, Parameter, Value, labels_of_word, visible
 from amp_studio.ui.base.figures import show_value
-from amp_studio.ui.base.translated import tr
+from amp_studio.ui.base.translated import tr, unit_in_words
 from amp_studio.ui.table.cell_look import grouped
 
 
@@ -50,7 +50,7 @@ def _cell(parameter: Parameter, value: Value | None, *, masked: bool) -> MergeCe
     if isinstance(value.value, (str, bool)) or not value.unit:
         return _bare_cell(parameter, value)
     bare = show_value(parameter, Value(value.value), secrets=True)
-    return MergeCell(grouped(bare), unit_text(value.unit))
+    return MergeCell(grouped(bare), unit_in_words(value.unit))
 
 
 def _bare_cell(parameter: Parameter, value: Value) -> MergeCell:

@@ -109,6 +109,7 @@ class MigrationWindow(QDialog):
         scroll = QScrollArea()
         scroll.setWidget(left)
         scroll.setWidgetResizable(True)
+        scroll.setFrameShape(QScrollArea.Shape.NoFrame)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         right, rows = QWidget(), QVBoxLayout()
         rows.setContentsMargins(0, 0, 0, 0)

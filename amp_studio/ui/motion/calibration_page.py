@@ -41,9 +41,9 @@ from amp_studio.calibration import (
     shown_unit,
 )
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Value, read_exact, unit_text
+from amp_studio.schema import Value, read_exact
 from amp_studio.ui.base.theme import GAP2, ROW, colour, font, scheme
-from amp_studio.ui.base.translated import sentenced, worded
+from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.forms.form import Field, FieldForm
 
 from .error_plot import ErrorPlot, ErrorTrace
@@ -257,7 +257,7 @@ class CalibrationPage(QWidget):
         form = self._offered(self.target.file).table if self.target else None
         assert form is not None
         unit, size = shown_unit(self._file(), table)
-        unit = unit_text(unit)
+        unit = unit_in_words(unit)
         figure = {"measurement": self.tr("Measured"), "deviation": self.tr("Deviation")}.get(
             table.input, self.tr("Correction")
         )

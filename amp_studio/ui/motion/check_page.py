@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import html
 import threading
+from bisect import bisect_right
 from collections import Counter
 from collections.abc import Callable
 
@@ -62,6 +63,10 @@ class _Checking(QObject):
         return ""
 
 
+_ORDER = {"bad": 0, "doubtful": 1, "good": 2, "not possible": 3}
+"""Places of the verdicts in the list."""
+
+
 class CheckPage(PageOfFile):
     """Runs every scenario in a thread and shows each check as soon as it is done; again after edits, once the
     page is seen.
@@ -98,9 +103,11 @@ class CheckPage(PageOfFile):
         self.table.setSelectionBehavior(QTableWidget.SelectionBehavior.SelectRows)
         self.table.setWordWrap(True)
         self.table.verticalHeader().hide()
-        self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        for wide in (3, 4):
-            self.table.horizontalHeader().setSectionResizeMode(wide, QHeaderView.ResizeMode.Stretch)
+        head = self.table.horizontalHeader()
+        head.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        head.setHighlightSections(False)
+        head.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        head.setStretchLastSection(True)
         self.table.currentCellChanged.connect(lambda *_: self._show_detail())
         self.detail = QLabel()
         self.detail.setWordWrap(True)
@@ -178,9 +185,9 @@ class CheckPage(PageOfFile):
             self.summary.setText(str(why))
 
     def show_check(self, check: MotionCheck) -> None:
-        """Add one check at the end."""
-        self.checks.append(check)
-        row = self.table.rowCount()
+        """Add one check: what is bad comes first, then in the order in which it was tried."""
+        row = bisect_right([_ORDER[each.verdict] for each in self.checks], _ORDER[check.verdict])
+        self.checks.insert(row, check)
         self.table.insertRow(row)
         figures = ", ".join(_figure(name, value, unit) for name, (value, unit) in check.figures.items())
         mark, colour_name = MARKS[check.verdict]
@@ -209,8 +216,8 @@ class CheckPage(PageOfFile):
         }[verdict]
 
     def _sum_up(self) -> None:
-        counts = Counter(check.verdict for check in self.checks)
-        words = [f"{count} {self._word(verdict)}" for verdict, count in counts.items()]
+        counts = Counter[str](check.verdict for check in self.checks)
+        words = [f"{counts[verdict]} {self._word(verdict)}" for verdict in _ORDER if counts[verdict]]
         if self._task is not None:
             words.append(self.tr("checking …"))
         self.summary.setText(", ".join(words))

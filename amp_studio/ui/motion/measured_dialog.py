@@ -27,12 +27,11 @@ from amp_studio.calibration import (
     read_measured_file,
 )
 from amp_studio.files import ParameterFile
-from amp_studio.schema import unit_text
 from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3, colour
-from amp_studio.ui.base.translated import sentenced
+from amp_studio.ui.base.translated import sentenced, unit_in_words
 from amp_studio.ui.forms.form import Field, FieldForm
 
 from .error_plot import ErrorPlot, ErrorTrace
@@ -110,8 +109,8 @@ class MeasuredDialog(QDialog):
         inputs = [(key, names[key]) for key in reversed(table.inputs if table else ())]
         ends = {"-": self.tr("most negative position"), "+": self.tr("most positive position")}
         starts = [(key, ends[key]) for key in reversed(table.starts if table else ())]
-        units = [named, *((unit, unit_text(unit)) for unit in POSITION_UNITS)]
-        error_units = [named, *((unit, unit_text(unit)) for unit in ERROR_UNITS)]
+        units = [named, *((unit, unit_in_words(unit)) for unit in POSITION_UNITS)]
+        error_units = [named, *((unit, unit_in_words(unit)) for unit in ERROR_UNITS)]
         is_compensated = self._is_compensated()
         return (
             Field("unit", self.tr("&Positions in"), "choice", "", units),
@@ -241,13 +240,13 @@ class MeasuredDialog(QDialog):
 
     def _lines(self, measurement: Measurement, proposal: Proposal) -> list[str]:
         """Return what was read, the figures of ISO 230-2, and what would be set."""
-        figures, unit = proposal.figures, unit_text(proposal.unit)
+        figures, unit = proposal.figures, unit_in_words(proposal.unit)
         used = measurement.answers
         if measurement.is_circle:
             return [
                 self.tr("%n circles of a ball-bar", "", len(measurement.runs)),
                 self.tr("Read as {error_unit}, {sign}").format(
-                    error_unit=unit_text(used.error_unit), sign=used.sign
+                    error_unit=unit_in_words(used.error_unit), sign=used.sign
                 ),
                 "",
                 *self._set_lines(proposal),
@@ -257,7 +256,7 @@ class MeasuredDialog(QDialog):
                 count=len(measurement.targets), up=figures.runs_rising, down=figures.runs_falling
             ),
             self.tr("Read as {unit} and {error_unit}, {sign}").format(
-                unit=unit_text(used.unit), error_unit=unit_text(used.error_unit), sign=used.sign
+                unit=unit_in_words(used.unit), error_unit=unit_in_words(used.error_unit), sign=used.sign
             ),
             "",
         ]

@@ -425,7 +425,7 @@ class ProgramPage(PageOfFile):
         time = written(value_text(run.plan.time, "s", 4))
         words = [f"{self._name}: {run.plan.path.blocks} {self.tr('blocks')}", time]
         if run.contour is not None:
-            error = written(path_error_text(run.contour.largest, length_unit(self._file)))
+            error = sentenced(path_error_text(run.contour.largest, length_unit(self._file)))
             words.append(self.tr("largest contour error {error}").format(error=error))
         self.title.setText(", ".join(words))
         alarms = [

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QSl
 
 from amp_studio.drawing import ShapeSort
 from amp_studio.sim import value_text
+from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.scene_painter import TOKENS
 from amp_studio.ui.base.theme import GAP2, colour, font, scheme
 
@@ -46,7 +47,9 @@ class TimeBar(QWidget):
     def show_parts(self, parts: Sequence[TimePart]) -> None:
         """Show other parts."""
         self.parts = parts
-        words = "\n".join(f"{each.letter} {each.name}: {value_text(each.seconds, 's', 3)}" for each in parts)
+        words = "\n".join(
+            f"{each.letter} {each.name}: {written(value_text(each.seconds, 's', 3))}" for each in parts
+        )
         self.setToolTip(words)
         self.setAccessibleDescription(words)
         self.update()
@@ -61,7 +64,7 @@ class TimeBar(QWidget):
             box = QRectF(left, 0.0, max(wide - 1.0, 1.0), self.height())
             painter.fillRect(box, colour(TOKENS[part.sort]))
             painter.setPen(colour("base"))
-            for text in (f"{part.letter} {value_text(part.seconds, 's', 2)}", part.letter):
+            for text in (f"{part.letter} {written(value_text(part.seconds, 's', 2))}", part.letter):
                 if painter.fontMetrics().horizontalAdvance(text) + 8 < wide:
                     painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
                     break
@@ -136,5 +139,5 @@ class PlayBar(QWidget):
             self.pause()
 
     def _slid(self, _place: int) -> None:
-        self.time.setText(value_text(self.moment, "s", 3))
+        self.time.setText(written(value_text(self.moment, "s", 3)))
         self.moved.emit(self.moment)

@@ -18,11 +18,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.schema import Schema, unit_text
+from amp_studio.schema import Schema
 from amp_studio.sim import Recommendation, Trace, value_text
 from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.theme import severity_colour, state_colour
-from amp_studio.ui.base.translated import sentenced, worded
+from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.forms.pages import LINK
 
 PREDICTED, SWEPT = "predicted_", "swept_"
@@ -82,7 +82,7 @@ def _rows(trace: Trace, before: Trace | None, before_name: str) -> list[str]:
         words = worded(name.replace("_", " "))
         rows.append(
             f"<tr><td>{words}</td><td"
-            f" align=right><b>{_number(value)}</b>&nbsp;{unit_text(unit)}</td>{beside}</tr>"
+            f" align=right><b>{_number(value)}</b>&nbsp;{unit_in_words(unit)}</td>{beside}</tr>"
         )
     return rows
 
@@ -137,7 +137,7 @@ class RecommendationsPage(QScrollArea):
         column.setSpacing(2)
         head, shade = QHBoxLayout(), severity_colour("advice").name()
         name = html.escape(name_of(schema, each.parameter))
-        value = html.escape(written(value_text(each.value, unit_text(each.unit), 9)))
+        value = html.escape(written(value_text(each.value, unit_in_words(each.unit), 9)))
         title = QLabel(f'<a href="{LINK}{each.parameter}" style="color:{shade}">{name}</a> = <b>{value}</b>')
         title.setWordWrap(True)
         title.linkActivated.connect(lambda url: self._follow(QUrl(url)))

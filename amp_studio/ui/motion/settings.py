@@ -8,7 +8,7 @@ from PySide6.QtCore import QEvent, QObject, QSize, Qt
 from PySide6.QtWidgets import QLineEdit, QScrollArea, QWidget
 
 from amp_studio.schema import dimension, read_number, unit_named, unit_text
-from amp_studio.ui.base.translated import sentenced, worded
+from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.forms.form import Field, FieldForm
 
 MODE = "move.mode"
@@ -72,7 +72,7 @@ class SettingsForm(FieldForm):
         default = meaning.partition("default: ")[2] or "automatic"
         unit = unit or ("" if name in (*LENGTHS, FEEDRATE) else meaning.partition(" (")[2].partition(")")[0])
         empty = f"{self.tr('empty:')} {sentenced(default)}"
-        return f"{unit_text(unit)}, {empty}" if unit else empty
+        return f"{unit_in_words(unit)}, {empty}" if unit else empty
 
     def _unit(self, name: str) -> str:
         return self._units[0] if name in LENGTHS else self._units[1] if name == FEEDRATE else ""

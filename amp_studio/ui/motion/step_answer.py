@@ -9,13 +9,13 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBox
 
 from amp_studio.drawing import linked
 from amp_studio.files import ParameterFile
-from amp_studio.schema import axis_name, unit_text
+from amp_studio.schema import axis_name
 from amp_studio.sim import SimulationError, Trace, picture_of, simulate, simulated_axes
 from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import GAP
-from amp_studio.ui.base.translated import sentenced
+from amp_studio.ui.base.translated import sentenced, unit_in_words
 
 from .tuning_target import TuningTarget
 
@@ -143,7 +143,7 @@ class StepAnswer(QWidget):
             old = self.before.result.get(key, (None, ""))[0] if self.before is not None else None
             if now is None:
                 continue
-            text = f"{name} {written(f'{now:.4g}')} {unit_text(unit)}"
+            text = f"{name} {written(f'{now:.4g}')} {unit_in_words(unit)}"
             if old is not None and f"{old:.4g}" != f"{now:.4g}":
                 text += self.tr(" (before {value})").format(value=written(f"{old:.4g}"))
             parts.append(text)

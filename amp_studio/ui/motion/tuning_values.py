@@ -23,11 +23,11 @@ from PySide6.QtWidgets import (
 
 from amp_studio.calibration import CalibrationError, TuningPage, stepped, steps_of
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, Value, limits, read_exact, unit_text, write_number
+from amp_studio.schema import Address, Value, limits, read_exact, write_number
 from amp_studio.ui.base.figures import sentence, show_value, written
 from amp_studio.ui.base.places import place_in_words
 from amp_studio.ui.base.theme import GAP2, ROW, colour, scheme
-from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.translated import unit_in_words, worded
 from amp_studio.ui.forms.table_items import item_at
 
 from .tuning_target import TuningTarget, effect_words
@@ -226,7 +226,7 @@ class ValuesPage(QWidget):
             return
         file = self.target.file
         steps, unit = steps_of(file, address), file.evaluation.unit(address, file.header.units)
-        texts = [f"{written(write_number(float(step)))} {unit_text(unit)}".strip() for step in steps]
+        texts = [f"{written(write_number(float(step)))} {unit_in_words(unit)}".strip() for step in steps]
         if texts != [self.step.itemText(n) for n in range(self.step.count())]:
             self.step.clear()
             for text, step in zip(texts, steps, strict=True):
@@ -264,7 +264,7 @@ class ValuesPage(QWidget):
         if address is None or self.target is None:
             return
         file = self.target.file
-        unit = unit_text(file.evaluation.unit(address, file.header.units))
+        unit = unit_in_words(file.evaluation.unit(address, file.header.units))
         question = self.tr("Add to {name}, now {value} ({unit}):").format(
             name=file.machine_schema.label(address),
             value=show_value(file.schema.parameters[address[0]], file.get(address)),

@@ -12,6 +12,7 @@ from amp_studio.schema import Address, Value
 from amp_studio.sim import path_error_text, path_error_unit, value_text
 from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.theme import GAP, GAP2, font
+from amp_studio.ui.base.translated import unit_in_words
 
 from .program_tables import TableLook, fill, read_table
 
@@ -95,7 +96,7 @@ class WhatIfPanel(QWidget):
     def show_lengths_in(self, length: str) -> None:
         """Show the errors of the tries to come in the unit of a file, whose length is in ``mm`` or ``in``."""
         self._length = length
-        unit = path_error_unit(length)[0]
+        unit = unit_in_words(path_error_unit(length)[0])
         self.table.horizontalHeaderItem(3).setText(self.tr("Error, {unit}").format(unit=unit))
 
     def clear(self) -> None:

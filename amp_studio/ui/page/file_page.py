@@ -12,11 +12,11 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from amp_studio.files import axis_letter, describe
-from amp_studio.schema import Address, Parameter, unit_text
+from amp_studio.schema import Address, Parameter
 from amp_studio.ui.base.figures import write_figure
 from amp_studio.ui.base.modal import is_alive
 from amp_studio.ui.base.places import place_in_words
-from amp_studio.ui.base.translated import counted
+from amp_studio.ui.base.translated import counted, unit_in_words
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.findings.panel import FindingsPanel
 from amp_studio.ui.forms.front_stack import FrontStack
@@ -294,7 +294,7 @@ class FilePage(QWidget):
             of = ", ".join(filter(None, (name, span)))
             parts = [self.tr("%n cells of {name}", "", len(chosen)).format(name=of)]
         if numbers and len(numbers) == len(values) and len({v.unit for v in values}) == 1:
-            unit = f" {unit_text(values[0].unit)}" if values[0].unit else ""
+            unit = f" {unit_in_words(values[0].unit)}" if values[0].unit else ""
             parts.append(self.tr("min {number}").format(number=f"{write_figure(min(numbers))}{unit}"))
             parts.append(self.tr("max {number}").format(number=f"{write_figure(max(numbers))}{unit}"))
         return "   ".join(parts)

@@ -88,6 +88,7 @@ class LeftPanel(QWidget):
                 ("groups", self.tr("Groups"), ""),
                 ("project", self.tr("Project"), ""),
             ],
+            is_tight=True,
         )
         self.segment.chosen.connect(self._turn)
         head = QWidget()

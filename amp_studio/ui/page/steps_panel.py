@@ -25,6 +25,7 @@ from amp_studio.ui.base.places import short_place
 from amp_studio.ui.base.theme import FIGURE_SPACE, GAP, GAP2, GAP3, SMALL_CONTROL, Token, colour, font, icon
 from amp_studio.ui.base.translated import counted, worded
 from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.forms.place_tree import COUNTS, KEY, PICTURE, RIGHT, TOKEN, PlaceTree
 from amp_studio.validate import SEVERITIES
 
@@ -102,9 +103,10 @@ class StepsPanel(QWidget):
         self.steps_done, self.values_set, self.bar = QLabel(), QLabel(), _Bar()
         not_set = QLabel(self.tr("not set"))
         not_set.setFont(font("caption"))
+        self.values_set.setFont(font("caption"))
         for label in (self.values_set, not_set):
             label.setForegroundRole(label.palette().ColorRole.PlaceholderText)
-            label.setAlignment(Qt.AlignmentFlag.AlignRight)
+        not_set.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.steps_done.setAccessibleName(self.tr("Steps that are done"))
         order = self._workspace.file.schema.commissioning
         if order is not None:
@@ -115,14 +117,14 @@ class StepsPanel(QWidget):
         head = QGridLayout()
         head.setContentsMargins(GAP3, GAP2, GAP2, GAP)
         head.setVerticalSpacing(GAP2)
-        head.addWidget(self.steps_done, 0, 0)
-        head.addWidget(self.values_set, 0, 1)
+        head.addWidget(self.steps_done, 0, 0, 1, 2)
         head.addWidget(self.bar, 1, 0, 1, 2)
-        head.addWidget(not_set, 2, 0, 1, 2)
+        head.addWidget(self.values_set, 2, 0)
+        head.addWidget(not_set, 2, 1)
         return head
 
     def _foot(self) -> QVBoxLayout:
-        self.later, self.show_later = QLabel(), QToolButton()
+        self.later, self.show_later = ElidedLabel(), QToolButton()
         self.later.setFont(font("small"))
         self.later.setForegroundRole(self.later.palette().ColorRole.PlaceholderText)
         self.show_later.setFont(font("small"))
@@ -130,6 +132,7 @@ class StepsPanel(QWidget):
         self.show_later.setCursor(Qt.CursorShape.PointingHandCursor)
         self.show_later.clicked.connect(lambda: self._workspace.show_later(not self._workspace.shows_later))
         self.next = QPushButton(self.tr("Next Not Set  (Ctrl+.)"))
+        self.next.setToolTip(self.tr("Go to the next value that is not set"))
         self.next.clicked.connect(self.next_wanted)
         self.print = QToolButton()
         self.print.setIcon(icon("printer"))

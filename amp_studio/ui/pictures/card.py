@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from html import escape
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QLocale, Qt, Signal
 from PySide6.QtGui import QPalette, QResizeEvent
 from PySide6.QtWidgets import (
     QComboBox,
@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 from amp_studio.drawing import Scene, scene_in_words
 from amp_studio.pictures import FASTEST, FilePicture
 from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, colour, font, icon, scheme
-from amp_studio.ui.base.translated import sentenced, worded
+from amp_studio.ui.base.translated import language_of_window, sentenced, unit_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.forms.segment import Segment
@@ -67,6 +67,7 @@ class PictureCard(QFrame):
         self.speed.setDecimals(1)
         self.speed.setRange(0.1, FASTEST)
         self.speed.setValue(FASTEST)
+        self.speed.setLocale(QLocale(language_of_window()))
         self.speed.setSuffix(" %")
         self.speed.setToolTip(self.tr("Speed of the signals, in % of the rapid feedrate"))
         self.speed.setAccessibleName(self.speed.toolTip())
@@ -110,7 +111,7 @@ class PictureCard(QFrame):
         self._describe()
 
     def _draw(self, like: Scene | None) -> Scene:
-        return scene_in_words(self.picture.scene(self.part, like), self._words)
+        return scene_in_words(self.picture.scene(self.part, like), self._words, unit_in_words)
 
     def _words(self, text: str) -> str:
         return sentenced(text, self._workspace.file.schema.family.family)

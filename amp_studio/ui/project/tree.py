@@ -17,7 +17,7 @@ from PySide6.QtWidgets import QHBoxLayout, QMenu, QPushButton, QTreeWidgetItem, 
 from amp_studio.guide import FileSummary
 from amp_studio.ui.base.modal import pop_up
 from amp_studio.ui.base.task import Task
-from amp_studio.ui.base.theme import GAP2
+from amp_studio.ui.base.theme import GAP, GAP2
 from amp_studio.ui.base.time_words import in_words
 from amp_studio.ui.forms.folder_view import show_in_folder
 from amp_studio.ui.forms.place_tree import COUNTS, KEY, PICTURE, RIGHT, TOKEN, PlaceTree
@@ -68,7 +68,7 @@ class ProjectTree(QWidget):
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
         row.setContentsMargins(GAP2, GAP2, GAP2, GAP2)
-        row.setSpacing(GAP2)
+        row.setSpacing(GAP)
         for text, act in ((self.tr("Add File…"), self._add), (self.tr("Check All"), self._check)):
             button = QPushButton(text)
             button.clicked.connect(act)

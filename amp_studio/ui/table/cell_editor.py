@@ -4,7 +4,7 @@ and below it why a value is refused.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from PySide6.QtCore import QRect, Qt
@@ -75,8 +75,7 @@ class CellEditor(QLineEdit):
             if self._frame is None:
                 self._frame = RefusalFrame(view)
                 self.destroyed.connect(self._frame.deleteLater)
-            keys = [k for k in self.keys if refusal.can_force or not k[0].startswith("Ctrl+Shift")]
-            self._frame.fill(refusal, keys)
+            self._frame.fill(refusal, self.keys if refusal.can_force else self.keys[:-1])
             below = QRect(self.mapTo(view, self.rect().topLeft()), self.size())
             self._frame.place_below(below)
             if self.bits is not None:
@@ -169,7 +168,7 @@ class RefusalFrame(QFrame):
             layout.addWidget(label, row, 1)
         layout.setColumnStretch(1, 1)
         self.text = ""
-        self._filled: tuple[Refusal, list[tuple[str, str]]] | None = None
+        self._filled: tuple[Refusal, Sequence[tuple[str, str]]] | None = None
         self._apply_colours()
         scheme().changed.connect(self._apply_colours)
 
@@ -183,7 +182,7 @@ class RefusalFrame(QFrame):
         if self._filled is not None:
             self.fill(*self._filled)
 
-    def fill(self, refusal: Refusal, keys: list[tuple[str, str]]) -> None:
+    def fill(self, refusal: Refusal, keys: Sequence[tuple[str, str]]) -> None:
         """Show a refusal."""
         self._filled = refusal, keys
         allowed = self.tr("Allowed: {range}").format(range=refusal.allowed) if refusal.allowed else ""

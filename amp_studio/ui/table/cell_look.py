@@ -23,11 +23,10 @@ from amp_studio.schema import (
     Value,
     convert,
     labels_of_word,
-    unit_text,
     write_value,
 )
 from amp_studio.ui.base.figures import show_value
-from amp_studio.ui.base.translated import Translated, finding_in_words, tr, worded
+from amp_studio.ui.base.translated import Translated, finding_in_words, tr, unit_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.validate import NOT_SET
 
@@ -336,6 +335,6 @@ def _show_plain(look: CellLook, parameter: Parameter, value: Value) -> None:
     """Give a cell a value that is in the unit it is shown in."""
     plain = show_value(parameter, Value(value.value, ""), secrets=True)
     look.text = grouped(plain) if look.is_number else plain.replace("\n", " ⏎ ")
-    look.unit = unit_text(value.unit)
+    look.unit = unit_in_words(value.unit)
     if parameter.choices:
         look.short = short_labels(tuple(c.label for c in parameter.choices)).get(plain, "")

@@ -141,7 +141,8 @@ def _widest(painter: CellPainter, looks: list[CellLook], slot: int, *, is_short:
     most = LEAST_COLUMN
     for look in looks:
         needed = painter.needed(look, slot, is_short=is_short)
-        if not look.is_number and look.kind == "value" and not (is_short and look.short):
+        is_printed = bool(look.short) and (is_short or not look.unit)  # a choice; of a mask the shorter names
+        if not look.is_number and look.kind == "value" and not is_printed:
             needed = min(needed, _LEAST_TEXT if is_short else _MOST_TEXT)
         most = max(most, needed)
     return most

@@ -16,20 +16,11 @@ from amp_studio.files import (
     with_days_and_times,
 )
 from amp_studio.report import GRADES, facts, help_parts, severity_name, state_name, tables_of
-from amp_studio.schema import (
-    Address,
-    Parameter,
-    Value,
-    labels_of_word,
-    limits,
-    real_value,
-    same_value,
-    unit_text,
-)
+from amp_studio.schema import Address, Parameter, Value, labels_of_word, limits, real_value, same_value
 from amp_studio.ui.base.figures import sentence, show_value
 from amp_studio.ui.base.hazard import hazard_html
 from amp_studio.ui.base.theme import colour, icon_html, severity_html
-from amp_studio.ui.base.translated import Translated, facts_in_words, finding_in_words, worded
+from amp_studio.ui.base.translated import Translated, facts_in_words, finding_in_words, unit_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.pages import drawn, link
 from amp_studio.validate import NOT_SET, Finding, calculators, family_of_rule, rule_title
@@ -134,7 +125,7 @@ class DetailPage(Translated):
         unit = self._workspace.typed_unit(address)
         found = limits(file.evaluation, address, unit)
         if found is None:
-            return self.tr("no bounds printed, in {shown}").format(shown=unit_text(unit)) if unit else ""
+            return self.tr("no bounds printed, in {shown}").format(shown=unit_in_words(unit)) if unit else ""
         sources = [s for s in (found.low_from, found.high_from) if s]
         text = sentence(found.text()) + "".join(
             self.tr(" (set by {name})").format(name=file.machine_schema.label(s)) for s in sources
@@ -211,9 +202,9 @@ class DetailPage(Translated):
             lines.append(f'<p><a href="{FOLD}rules">{more}</a></p>')
         title = self.tr("Rules")
         if rules or broken:
-            count = self.tr("{unmet} of {number} not met").format(
-                unmet=len(unmet), number=len({r.id for r in rules} | unmet)
-            )
+            number = len({r.id for r in rules} | unmet)
+            text = self.tr("{unmet} of {number} not met") if unmet else self.tr("all {number} met")
+            count = text.format(unmet=len(unmet), number=number)
             title += f" &nbsp; {count}"
         return title, "".join(lines) or f"<p>{self.tr('No rule uses this parameter.')}</p>"
 

@@ -11,9 +11,10 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFontMetrics, QPainter, QPaintEvent, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from amp_studio.schema import unit_text, write_number
+from amp_studio.schema import write_number
 from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.theme import GAP, RADIUS, Token, colour, font
+from amp_studio.ui.base.translated import unit_in_words
 
 _BAR, _TOP, _SIDE = 8, 22, 12
 
@@ -77,7 +78,7 @@ class RangeBar(QWidget):
             ends = self.tr("{low} to {high} {unit}").format(
                 low=written(write_number(found.low)),
                 high=written(write_number(found.high)),
-                unit=unit_text(found.unit),
+                unit=unit_in_words(found.unit),
             )
             self.setAccessibleDescription(", ".join(filter(None, (ends, self.words))))
         self.update()
@@ -102,7 +103,7 @@ class RangeBar(QWidget):
         below = int(_TOP + _BAR + GAP)
         ends = (
             written(write_number(found.low)),
-            f"{written(write_number(found.high))} {unit_text(found.unit)}".rstrip(),
+            f"{written(write_number(found.high))} {unit_in_words(found.unit)}".rstrip(),
         )
         painter.setPen(colour("dim"))
         painter.drawText(QPointF(_SIDE, below + metrics.ascent()), ends[0])

@@ -18,9 +18,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.schema import Address, InvalidValueError, Limits, Value, fault, limits, unit_text, write_value
+from amp_studio.schema import Address, InvalidValueError, Limits, Value, fault, limits, write_value
 from amp_studio.ui.base.figures import sentence, show_value
 from amp_studio.ui.base.model_index import ModelIndex
+from amp_studio.ui.base.translated import unit_in_words
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.choice_box import ChoiceBox
 from amp_studio.ui.forms.mask_list import MaskList
@@ -42,7 +43,7 @@ def allowed_text(workspace: Workspace, address: Address) -> str:
     if workspace.file.schema.parameters[address[0]].choices:
         return ""
     found = limits_of(workspace, address)
-    return sentence(found.text()) if found else unit_text(workspace.typed_unit(address))
+    return sentence(found.text()) if found else unit_in_words(workspace.typed_unit(address))
 
 
 class ValueDelegate(QStyledItemDelegate):
@@ -133,9 +134,9 @@ class ValueDelegate(QStyledItemDelegate):
         kept = "" if self._workspace.is_masked(address) else self._table.shown_value(address)
         keys = [
             ("Esc", self.tr("keep {value}").format(value=kept)),
-            ("Ctrl+Shift+Enter", self.tr("force and mark")),
+            (self.tr("Ctrl+Shift+Enter"), self.tr("force and mark")),
         ]
-        fill = [("Ctrl+Enter", self.tr("fill %n cells", "", count))] if count > 1 else []
+        fill = [(self.tr("Ctrl+Enter"), self.tr("fill %n cells", "", count))] if count > 1 else []
         return tuple(fill + keys)
 
     def _preview(self, address: Address, text: str) -> Preview:

@@ -408,10 +408,8 @@ def _worded_examples() -> tuple[Example, ...]:
 
 
 def _all_families() -> list[_Family]:
-    families = [load_schema(key) for key in family_ids()]
+    loaded = map(load_schema, family_ids())
+    families = [(schema.family, len(schema.parameters)) for schema in loaded]
     return [
-        _Family(
-            s.family.family, s.family.name, s.family.short or s.family.name, s.family.what, len(s.parameters)
-        )
-        for s in families
+        _Family(s.family, s.name, s.short or s.name, worded(s.what, s.family), count) for s, count in families
     ]

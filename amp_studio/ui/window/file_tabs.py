@@ -48,6 +48,7 @@ class FileTabs(QSplitter):
         side.setUsesScrollButtons(True)
         side.setAccessibleName(name)
         bar = side.tabBar()
+        bar.setDrawBase(False)  # its line and that of the corner are not at one height
         bar.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
         bar.customContextMenuRequested.connect(partial(self._menu, side))
         side.currentChanged.connect(partial(self._turn, side))

@@ -16,8 +16,10 @@ from .studio_window import StudioWindow
 
 _FILE_WIDE = 1600
 """Width in logical pixels from which the buttons of the file have their words too."""
-_FIND_WIDTH, _FIND_LEAST = 440, 160
+_FIND_WIDTH, _FIND_LEAST = 440, 120
 """Most that the find box takes, in logical pixels, and what it needs."""
+_CONTROL_WIDTH = 170
+"""Of the button of the control, whatever its state: nothing beside it moves when that changes."""
 
 
 class MainToolBar(QToolBar):
@@ -54,6 +56,7 @@ class MainToolBar(QToolBar):
         self.addActions(views)
         self.addSeparator()
         self.addActions(control)
+        (self._control,) = self._buttons(control)
         self.fit(window.width())
 
     def take_find_box(self, box: QWidget) -> None:
@@ -79,14 +82,16 @@ class MainToolBar(QToolBar):
         """Return the width at which everything is seen."""
         parts = [self.widgetForAction(action) for action in self.actions()]
         spacing = self.layout().spacing() * len(parts) + 2 * GAP4
-        return (
-            sum(part.sizeHint().width() for part in parts if part is not self._slot) + _FIND_LEAST + spacing
-        )
+        own = (self._slot, self._control)
+        widths = (part.sizeHint().width() for part in parts if part not in own)
+        return sum(widths) + _CONTROL_WIDTH + _FIND_LEAST + spacing
 
     def _show_words(self, has_words: bool, of_file: bool) -> None:
         style = Qt.ToolButtonStyle
         words, bare = style.ToolButtonTextBesideIcon, style.ToolButtonIconOnly
         self.setToolButtonStyle(words if has_words else bare)
+        self._control.setMinimumWidth(_CONTROL_WIDTH if has_words else 0)
+        self._control.setMaximumWidth(_CONTROL_WIDTH)
         for button in self._bare:
             button.setToolButtonStyle(bare)
         for button in self._of_file:
