@@ -465,7 +465,7 @@ def test_what_was_asked_before_the_line_was_lost_is_no_longer_known(window: Main
     assert lost[0].text == "Not connected"
 
 
-def test_controls_of_one_name_are_told_apart_by_their_addresses(window: MainWindow) -> None:
+def test_controls_of_one_name_have_their_addresses_too(window: MainWindow) -> None:
     here, there = "tcp://10.0.0.1:9600", "tcp://10.0.0.2:9600"
     for address in (here, there):
         window.control.exchanges.remember_contact(

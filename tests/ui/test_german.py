@@ -152,8 +152,8 @@ def test_why_a_file_is_not_written_is_german(english: str, german: str) -> None:
 
 def test_units_are_german_where_they_are_shown_and_both_are_read(german: None, window) -> None:
     own = language_of("de").units
-    shown = {unit: own.get(unit_text(unit), unit) for unit in UNITS if unit}
-    read = {unit: unit_named(text) for unit, text in shown.items() if " " not in text}
+    units = {unit: own.get(unit_text(unit), unit) for unit in UNITS if unit}
+    read = {unit: unit_named(text) for unit, text in units.items() if " " not in text}
     assert read == {unit: unit for unit in read}
     assert unit_in_words("in/min") == "Zoll/min"
     for typed in ("0.5 in", "0,5 Zoll"):
@@ -177,3 +177,9 @@ def test_the_left_panel_is_as_narrow_as_in_english_whichever_side_it_shows(germa
         assert left.width() == 212, side
         cut = [b.text() for b in left.segment.buttons.values() if b.width() < b.minimumSizeHint().width()]
         assert not cut, side
+
+
+def test_a_line_that_is_cut_has_its_reason_in_the_same_language(german: None) -> None:
+    text = "the line to the control is cut and could not be made again for 20 s (tcp://10.0.0.1:9600: {})"
+    for why in ("nothing listens there", "no answer in time"):
+        assert why not in sentence(text.format(why))

@@ -267,3 +267,16 @@ def test_a_choice_is_read_whole_where_there_is_room_for_it(opened) -> None:
 def test_the_row_of_tabs_has_no_line_that_ends_before_its_corner(opened) -> None:
     window = opened("mill-1394")
     assert not any(side.tabBar().drawBase() for side in window.tabs.sides)
+
+
+def test_the_parameter_panel_keeps_its_width_from_value_to_value(opened) -> None:
+    window = opened("mill-1394", 1366, 768)
+    panel = window.page.detail
+    widths = set()
+    for address in (("control.type", ""), EXCESS, ("axis.type", "2"), ("servo.position_feedback_type", "1")):
+        window.go_to(address)
+        for _ in range(4):
+            QApplication.processEvents()
+        widths.add(panel.width())
+        assert panel.value.width() >= panel.value.minimumSizeHint().width(), address
+    assert len(widths) == 1

@@ -62,7 +62,8 @@ class ControlDesk(Translated):
     def show_state(self, action: QAction) -> None:
         """Show in the action of the page the control of the file in front and its state."""
         name, state, warns = self.state_of(self.window.workspace)
-        action.setIconText(f"{name}  {state}" if self.exchanges.address_of(self.window.workspace) else name)
+        address = self.exchanges.address_of(self.window.workspace)
+        action.setIconText(f"{self._own_name_of(address)}  {state}" if address else name)
         action.setToolTip(self.tr("{name}: {state} (Alt+0)").format(name=name, state=state))
         action.setIcon(icon("warning-fill", "warn") if warns else icon("cpu"))
 
@@ -254,7 +255,7 @@ class ControlDesk(Translated):
 
     def _name_of(self, address: str) -> str:
         """Return the name of a control, with its address where another one is called the same."""
-        name, place = self._own_name_of(address), address.partition("://")[2] or address
+        name, place = self._own_name_of(address), _place_of(address)
         others = (each for each in self.exchanges.known_addresses() if each != address)
         is_shared = name != place and any(self._own_name_of(each) == name for each in others)
         return f"{name} ({place})" if is_shared else name
@@ -266,7 +267,7 @@ class ControlDesk(Translated):
         known = next((c for c in self.window.settings.controls() if c.address == address), None)
         if address == self.emulated.address:
             return self.tr("Emulated control")
-        return known.name if known is not None and known.name else address.partition("://")[2] or address
+        return known.name if known is not None and known.name else _place_of(address)
 
     def _listed(self, address: str) -> ListedControl:
         from amp_studio.ui.control.known_list import ListedControl
@@ -281,7 +282,7 @@ class ControlDesk(Translated):
             if known
             else ""
         )
-        return ListedControl(address, self._name_of(address), family, state, warns)
+        return ListedControl(address, self._own_name_of(address), family, state, warns)
 
     def _family(self, key: str) -> str:
         """Return the short name of a family where the file in front is of it, else its key."""
@@ -398,6 +399,11 @@ def state_in_words(session: ControlSession | None) -> tuple[str, bool]:
     return words[session.phase], session.phase == "failed" or (
         session.phase == "away" and bool(session.error)
     )
+
+
+def _place_of(address: str) -> str:
+    """Return an address as a name: ``tcp://10.0.0.1:9600?protocol=peripheral`` is ``10.0.0.1:9600``."""
+    return (address.partition("://")[2] or address).partition("?")[0]
 
 
 def _lost(session: ControlSession) -> str:

@@ -12,8 +12,8 @@ from amp_studio.schema import Parameter, Value
 
 from .translated import message_in_words, tr, unit_in_words
 
-_NUMBER = re.compile(r"(?<![\w.$@])[-−]?\d+\.\d+(?![\w]|\.\d)")
-"""A number in a sentence; no address (``P3N0.5``, ``$22.0``), version or network address."""
+_NUMBER = re.compile(r"(?<![\w.$@])(?<!figure )[-−]?\d+\.\d+(?![\w]|\.\d)")
+"""A number in a sentence; no address (``P3N0.5``, ``$22.0``), version, network address, printed figure."""
 _POINT = re.compile(r"(?<=\d)\.(?=\d)")
 _POWER = re.compile(r"(?<=\d)e([+-]?)0*(\d+)")
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

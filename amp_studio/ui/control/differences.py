@@ -63,6 +63,7 @@ class DifferenceTable(QTreeWidget):
         self._secrets = self._is_narrow = False
         self.itemClicked.connect(self._click)
         self.header().setStretchLastSection(True)
+        self.header().setTextElideMode(Qt.TextElideMode.ElideRight)
         scheme().changed.connect(self._colour)
 
     def _colour(self) -> None:

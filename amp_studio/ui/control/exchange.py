@@ -62,8 +62,16 @@ class ControlExchange(Translated):
         """
         project, settings = self.window.project, self.window.settings
         own = settings.control_of(workspace.path) if workspace is not None else ""
-        known = (own, project.info.control if project else "", self._emulated.address, settings.control())
+        known = (own, project.info.control if project else "", self._emulated.address, self._last(workspace))
         return next(filter(None, known), "")
+
+    def _last(self, workspace: Workspace | None) -> str:
+        """Return the control of the last exchange, unless it is of another family than the file."""
+        last = self.window.settings.control()
+        known = (control.family for control in self.window.settings.controls() if control.address == last)
+        family = next(known, "")
+        own = workspace.file.schema.family.family if workspace is not None else family
+        return last if family in ("", own) else ""
 
     def chosen_address(self) -> str | None:
         """Return the control chosen for the file in front; without one the page is shown,

@@ -67,7 +67,7 @@ class _ControlDelegate(QStyledItemDelegate):
                 font("small"),
                 "warn" if listed.warns else "dim",
                 listed.state,
-                listed.address,
+                listed.address.removeprefix("tcp://"),
                 place.center().y() + 1,
             ),
         )

@@ -236,10 +236,13 @@ class ControlPage(ControlPageParts):
         assert session is not None
         if self._needs_sheet and not session.is_busy:
             self._sheet_after_reading(session)
+        was_running = not self.cancel.isHidden()
         if session.phase in ("ready", "done") and not session.is_busy:
             self._fill()
         else:
             self.refresh()
+        if was_running and session.phase in ("done", "failed") and self.isVisible():
+            self.primary.setFocus()  # the button that had it is gone, and the next step is here
         needs = session.phase == "ready" and session.in_estop is False and self.direction == "send"
         self._asking.start() if needs and self.isVisible() else self._asking.stop()
         self.state_changed.emit()
@@ -350,9 +353,10 @@ class ControlPage(ControlPageParts):
         if is_busy and not self.password.isHidden():  # it stays: what is typed on would go to another field
             self.password.setReadOnly(True)
         else:
+            is_new = is_needed and self.password.isHidden()
             self.password.setReadOnly(False)
             self.password.setVisible(is_needed)
-            if is_needed:
+            if is_new:  # once: an address may be typed beside it
                 self.password.setFocus()
         message = bar_message(state)
         if message is None:

@@ -81,7 +81,7 @@ def text_of_failure(session: ControlSession) -> str:
     }
     head = heads.get(state, tr("It is not known what the control contains."))
     danger = "" if state in ("old", "", "new") else tr("Do not move the machine before it was read.")
-    return " ".join(filter(None, (head, danger, message_in_words(session.error))))
+    return " ".join(filter(None, (head, danger, error_in_words(session))))
 
 
 def doubts_of(backup: ControlBackup) -> str:

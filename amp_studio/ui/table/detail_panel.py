@@ -54,7 +54,7 @@ class DetailPanel(QWidget):
         self._is_stale = False
         self._writer = DetailPage(workspace)
         self.head = self._make_head()
-        self.axes = Segment(self.tr("Axis"))
+        self.axes = Segment(self.tr("Axis"), is_tight=True)
         self.axes.chosen.connect(self._choose_axis)
         self.value = QLabel()
         self.value.setFont(font("title"))
@@ -66,15 +66,15 @@ class DetailPanel(QWidget):
         self.page.setAccessibleName(self.tr("Parameter"))
         self.page.document().setDocumentMargin(GAP3)
         self.page.anchorClicked.connect(self._follow)
-        top = QHBoxLayout()
-        top.setContentsMargins(GAP3, GAP2, GAP3, 0)
-        top.addWidget(self.axes)
-        top.addStretch(1)
-        top.addWidget(self.value)
+        self._top = QBoxLayout(QBoxLayout.Direction.LeftToRight)
+        self._top.setContentsMargins(GAP3, GAP2, GAP3, 0)
+        self._top.addWidget(self.axes)
+        self._top.addStretch(1)
+        self._top.addWidget(self.value)
         self._side = QWidget(self)
         self._beside = QVBoxLayout(self._side)
         self._beside.setContentsMargins(0, 0, 0, 0)
-        self._beside.addLayout(top)
+        self._beside.addLayout(self._top)
         self._beside.addWidget(self.bar)
         self._beside.addStretch()
         self._rows = QBoxLayout(QBoxLayout.Direction.TopToBottom, self)
@@ -135,6 +135,17 @@ class DetailPanel(QWidget):
             QBoxLayout.Direction.LeftToRight if is_wide else QBoxLayout.Direction.TopToBottom
         )
         self._side.setMaximumWidth(_SIDE_WIDTH if is_wide else 16_777_215)
+        self._place_value()
+
+    def _place_value(self) -> None:
+        """Show the value beside the axes, or below them where it has no room: the panel keeps its width."""
+        room = min(self.width(), self._side.maximumWidth()) - 2 * GAP3
+        self.value.setWordWrap(False)
+        axes = 0 if self.axes.isHidden() else self.axes.sizeHint().width() + self._top.spacing()
+        is_beside = axes + self.value.sizeHint().width() <= room
+        directions = QBoxLayout.Direction
+        self._top.setDirection(directions.LeftToRight if is_beside else directions.TopToBottom)
+        self.value.setWordWrap(not is_beside)
 
     def showEvent(self, event: QShowEvent) -> None:
         super().showEvent(event)
@@ -168,6 +179,7 @@ class DetailPanel(QWidget):
             hex_text(word) if isinstance(word, int) else self._writer.value_html(address, value)
         )
         self._show_axes(address)
+        self._place_value()
         self.bar.show_range(self._in_range(address))
         if self.bar.isVisibleTo(self):
             self._pause.start()
