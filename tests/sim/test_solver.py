@@ -18,8 +18,10 @@ from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.law import law_of
 from amp_studio.sim.tuning.advice import OTHER_SIGN
 from amp_studio.sim.tuning.aims import AIMS
+from amp_studio.sim.tuning.gains import gains_of
+from amp_studio.sim.tuning.levels import Candidate, levels_of
 from amp_studio.sim.tuning.loops import SOUND
-from amp_studio.sim.tuning.solver import Candidate, gains_of, levels_of, solve
+from amp_studio.sim.tuning.solver import solve
 from amp_studio.sim.tuning.trial import Trial
 from tests.campaigns import CAMPAIGN
 from tests.sim.tuning_campaign import Plant, faults, random_plants

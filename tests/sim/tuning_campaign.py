@@ -23,8 +23,10 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import law_of
 from amp_studio.sim.tuning.aims import AIMS
 from amp_studio.sim.tuning.filters import Filters, FilterSetting
+from amp_studio.sim.tuning.gains import Gain, gains_of
+from amp_studio.sim.tuning.levels import Candidate, levels_of
 from amp_studio.sim.tuning.loops import SOUND, Loops
-from amp_studio.sim.tuning.solver import Candidate, Gain, Search, Solved, gains_of, levels_of, solve
+from amp_studio.sim.tuning.solver import Search, Solved, solve
 from amp_studio.sim.tuning.trial import Trial, address_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -20,9 +20,10 @@ from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Figure, Recommendation, Trace
 from amp_studio.sim.tuning.advice import gain_recommendations, none_sound, why_not_sound
 from amp_studio.sim.tuning.aims import AIMS, Aim
+from amp_studio.sim.tuning.levels import Candidate, levels_of
 from amp_studio.sim.tuning.linear import LinearModel
 from amp_studio.sim.tuning.loops import Loops, with_inertia
-from amp_studio.sim.tuning.solver import Candidate, Solved, levels_of, solve
+from amp_studio.sim.tuning.solver import Solved, solve
 from amp_studio.sim.tuning.trial import Trial
 
 FOR = "tune.for"

@@ -15,9 +15,10 @@ from amp_studio.sim.rounding import value_text
 from amp_studio.sim.trace import Recommendation
 
 from .aims import NORMAL
+from .gains import Gain
 from .linear import LinearModel, Margins, linear_model
 from .loops import Loops
-from .solver import Gain, Solved, solve
+from .solver import Solved, solve
 from .tried import Tried
 
 INERTIAS = (1.0 / 16.0, 16.0)

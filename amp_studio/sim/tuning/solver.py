@@ -15,17 +15,11 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
-
-import numpy as np
-
-from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.rounding import rounded
 
 from .aims import Aim
 from .filters import Filters, FilterSetting
-from .linear import LawMatrices
-from .loops import SOUND, LoopDemand, Loops, spread_of
+from .gains import Gain, GainPoint, gains_of
+from .levels import Candidate, Level, levels_of
 from .tried import Tried
 
 SHARES = (1.0, 0.87, 0.74, 0.6, 0.45, 0.3, 0.15)
@@ -34,16 +28,12 @@ one."""
 COARSE = 2.0
 """Factor between two gains on the way down to the first sound one."""
 CLOSE = 1.06
-"""Factor within which the largest sound gain is found."""
+"""Factor within which the largest sound gain is found; the steps that follow are finer than that."""
 STEPS = (1.25, 1.1, 1.04, 1.015)
 """Factors by which the best gains are moved about."""
 STARTS = 3
 """Points, of different innermost gains, from which is moved about:
 the best gains of one may be in another valley."""
-DIGITS = 3
-"""Digits of a gain that is no whole number."""
-SMALLEST, LARGEST = 1e-8, 1e5
-"""Gains between which is sought where the manual prints no bound."""
 WORTH = 1.03
 """Less stiffness than this factor is not worth a change."""
 FILTER_WORTH = 1.1
@@ -55,113 +45,6 @@ TRIED_FIRST = 3
 """Of the filters with which there are sound gains at all, where the present ones leave none."""
 SEARCHED = 1
 """Other filters that look best by them, with which the gains are sought: each search takes seconds."""
-RESERVE = 0.99
-"""Share of every limit that is used: what is tried is computed within half a percent."""
-FULL_PERCENT = 100.0
-
-
-@dataclass(frozen=True)
-class Gain:
-    """One gain that is sought."""
-
-    name: str
-    """Its figure in `AxisLaw.sources`."""
-    parameter: str
-    present: float
-    low: float
-    """The smallest value above 0 that is tried."""
-    high: float
-    whole: bool
-    sign: float
-    decimals: int | None
-    may_be_none: bool
-    """Whether 0 is a value of it: an integral gain."""
-
-    @property
-    def present_size(self) -> float:
-        """The present value without the sign that is right; below 0 where the present sign is the other."""
-        return self.sign * self.present
-
-    def nearest(self, value: float) -> float:
-        """Return the value that the control can have, without its sign."""
-        if value <= 0.0:
-            return 0.0
-        near = float(round(value)) if self.whole else rounded(value, DIGITS)
-        near = near if self.decimals is None else round(near, self.decimals)
-        return min(max(near, self.low), self.high)
-
-
-GainPoint = tuple[float, ...]
-"""Values of the gains, without their signs."""
-
-
-class Candidate:
-    """An axis with gains that are tried."""
-
-    def __init__(self, axis: AxisLaw, *, exact: bool = False) -> None:
-        self.axis, self._exact = axis, exact
-        self.law = LawMatrices.of(axis)
-
-    @cached_property
-    def loops(self) -> Loops:
-        """The loops on the machine as it is taken to be."""
-        return Loops(self.axis, self.law, exact=self._exact)
-
-    @cached_property
-    def others(self) -> list[Loops]:
-        """The loops on the machines that it may be."""
-        return [Loops(axis, self.law, exact=self._exact) for axis in spread_of(self.axis)]
-
-    @cached_property
-    def jolt(self) -> float:
-        """By which share of its range one count of the feedback moves the output."""
-        machine = self.axis.machine
-        full = FULL_PERCENT if self.axis.output_unit == "%" else machine.output_limit
-        count = max(machine.motor_count, machine.position_count)
-        return self.law.jolt() * count / full if math.isfinite(full) else 0.0
-
-
-@dataclass(frozen=True)
-class Level:
-    """How much of an aim is kept; the first one is all of it."""
-
-    need: LoopDemand
-    spread: LoopDemand | None
-    jolt: float
-    slowest: float = math.inf
-    """1/s: the greatest position gain."""
-
-    def keeps(self, tried: Candidate, reserve: float = RESERVE) -> bool:
-        """Return whether a candidate keeps it."""
-        # The cheapest question first: loops on the machines that it may be cost most.
-        if tried.axis.position_rate > self.slowest * (1.0 + 1e-9) or tried.jolt > self.jolt:
-            return False
-        if not tried.loops.sound(_tighter(self.need, reserve)):
-            return False
-        spread = self.spread
-        return spread is None or all(each.sound(_tighter(spread, reserve)) for each in tried.others)
-
-
-def _tighter(need: LoopDemand, reserve: float) -> LoopDemand:
-    return LoopDemand(
-        1.0 + (need.sensitivity - 1.0) * reserve,
-        need.phase / reserve,
-        need.inner_phase / reserve,
-        need.gain / reserve,
-        need.damping,
-    )
-
-
-def levels_of(aim: Aim, slowest: float = math.inf) -> list[Level]:
-    """Return all of an aim; without its counts; on the machine as it is taken to be alone;
-    what a sound axis keeps.
-    """
-    return [
-        Level(aim.need, aim.spread, aim.jolt, slowest),
-        Level(aim.need, aim.spread, math.inf, slowest),
-        Level(aim.need, None, math.inf, slowest),
-        Level(SOUND, None, math.inf, slowest),
-    ]
 
 
 @dataclass(frozen=True)
@@ -195,54 +78,6 @@ class Solved:
     def sound(self) -> bool:
         """Whether a sound axis comes out."""
         return self.after.loops.sound()
-
-
-def gains_of(trial: Tried) -> list[Gain]:
-    """Return the gains of an axis, from the inner loop outwards, that have a value and move its loops."""
-    gains: list[Gain] = []
-    for name in trial.axis.gains:
-        source = trial.axis.sources.get(name)
-        value = trial.value(source.parameter) if source else None
-        if source is None or value is None:
-            continue
-        present = float(value.value)
-        low, high = trial.range_of(source.parameter)
-        is_integral = "integral" in name
-        # The sign of a gain is the wiring of a feedback: a search over both signs would try a loop that runs
-        # away, so only the size is sought, on the side of zero where it is. An integral gain of the other
-        # sign than the gain before it pushes away from the target: that one's sign is right for both.
-        sign = gains[-1].sign if is_integral and gains else math.copysign(1.0, present or 1.0)
-        most = min(LARGEST if high is None else high, source.largest) if sign > 0.0 else -(low or -LARGEST)
-        least = max(low or 0.0, 0.0) if sign > 0.0 else 0.0
-        whole = source.whole or isinstance(value.value, int)
-        decimals = trial.decimals(source.parameter)
-        smallest = 1.0 if whole else SMALLEST if decimals is None else 10.0**-decimals
-        gain = Gain(
-            name,
-            source.parameter,
-            present,
-            max(least, smallest),
-            most,
-            whole,
-            sign,
-            decimals,
-            is_integral and least == 0.0,
-        )
-        if _moves(trial, gain):
-            gains.append(gain)
-    return gains
-
-
-def _moves(trial: Tried, gain: Gain) -> bool:
-    """Return whether the gain has a part in the loops: an integral gain that waits at rest has none."""
-    tried = [trial.bound({gain.parameter: gain.sign * gain.nearest(each)}) for each in (gain.low, gain.high)]
-    laws = [None if axis is None else LawMatrices.of(axis) for axis in tried]
-    if laws[0] is None or laws[1] is None:
-        return False
-    same = np.array_equal(laws[0].position, laws[1].position)
-    if laws[0].velocity is None or laws[1].velocity is None:
-        return not same
-    return not (same and np.array_equal(laws[0].velocity, laws[1].velocity))
 
 
 class Search:

@@ -26,9 +26,10 @@ from amp_studio.sim.scenario import Scenario, ScenarioSettings, number, refuse_u
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Figure, Trace
 from amp_studio.sim.tuning.aims import NORMAL
+from amp_studio.sim.tuning.gains import gains_of
 from amp_studio.sim.tuning.loops import SOUND
 from amp_studio.sim.tuning.sampled import Matrix
-from amp_studio.sim.tuning.solver import gains_of, solve
+from amp_studio.sim.tuning.solver import solve
 from amp_studio.sim.tuning.trial import Trial, address_of
 
 from .batch import FIGURES
