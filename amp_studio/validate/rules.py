@@ -26,6 +26,7 @@ from amp_studio.schema import (
     checked,
     context_of,
     convert,
+    dimension,
     key_of,
     show_value,
     unit_text,
@@ -313,8 +314,8 @@ class RuleChecks:
         return expression.result(given.keys, self._circumstances(check), lambda: given.context)
 
     def _text(self, found: Any, unit: str, entered: set[str]) -> str:
-        """Return what was worked out: a figure in inches where the file, or a value it comes from, is;
-        a list in commas.
+        """Return what was worked out: a figure in the unit of the values it comes from, or in inches where
+        the file is; a list in commas.
         """
         if found is NO_RESULT:
             return "?"
@@ -324,8 +325,10 @@ class RuleChecks:
             return str(found)
         if unit:
             inch = unit.replace("mm", "in", 1)
-            if inch != unit and (self._file.header.units == "inch" or inch in entered):
-                found, unit = convert(float(found), unit, inch), inch
+            alike = sorted(each for each in entered if dimension(each) == dimension(unit))
+            other = alike[0] if alike else inch if self._file.header.units == "inch" else unit
+            if other != unit:
+                found, unit = convert(float(found), unit, other), other
         number, unit_name = write_figure(found), unit_text(unit)
         return f"{number}{unit_name}" if unit_name == "°" else f"{number} {unit_name}".rstrip()
 

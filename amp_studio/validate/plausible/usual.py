@@ -17,6 +17,7 @@ from amp_studio.schema import (
     Usual,
     Value,
     canonical,
+    convert,
     dimension,
     show_value,
     unit_text,
@@ -178,8 +179,14 @@ def _not_usual(facts: _Known, usual: Usual, number: float, unit: str) -> str:
     span = facts.spans.get(measures)
     if span is None or span[0] <= canonical(number, unit) <= span[1]:
         return ""
-    printed, (low, high) = next((u, b) for u, b in usual.between.items() if dimension(u) == measures)
-    return f"usual is {write_figure(low)} to {write_figure(high)} {unit_text(printed)}".rstrip()
+    printed, bounds = next((u, b) for u, b in usual.between.items() if dimension(u) == measures)
+    low, high = (_in_unit(bound, printed, unit) for bound in bounds)
+    return f"usual is {write_figure(low)} to {write_figure(high)} {unit_text(unit)}".rstrip()
+
+
+def _in_unit(bound: float, printed: str, unit: str) -> float:
+    """Return a bound in another unit, with the two digits that such a bound has."""
+    return bound if unit == printed else float(f"{convert(bound, printed, unit):.2g}")
 
 
 def _doubt(facts: _Known, value: Value) -> str:
