@@ -263,7 +263,8 @@ def migration_lines(migration: Migration) -> Iterator[str]:
         [f"{q.id}: {q.question}" for q in migration.written.open],
     )
     yield from _section("To be measured at the machine", _of_axes(migration.written.measure))
-    yield from _section("HAL is a template: it moves nothing, and nothing of the old wiring is in it", [])
+    if any(name.endswith(".hal") for name in migration.written.texts):
+        yield from _section("HAL is a template: it moves nothing, and nothing of the old wiring is in it", [])
     for outcome, title in (
         ("exact", "Taken over exactly"),
         ("approximate", "Approximated"),

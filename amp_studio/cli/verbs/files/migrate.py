@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
 
 from amp_studio.cli.arguments import JSON, LANGUAGE, PATH, TEXT
 from amp_studio.cli.console import print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
+from amp_studio.cli.output import check_new
 from amp_studio.cli.verb import Options, Verb, VerbArgument
+
+if TYPE_CHECKING:
+    from amp_studio.meaning import Migration
 
 VERB = Verb(
     __doc__,
@@ -19,7 +25,8 @@ VERB = Verb(
         "-o",
         "--output",
         type=Path,
-        help="new folder for the configuration and the report, or a new file for the configuration alone",
+        help="new folder for the configuration and the report, or a new file for the configuration alone:"
+        " the parameter file of the new control (.amp), or its own text",
     ),
     VerbArgument("--answers", type=Path, help="file of answers to the questions: one line each, id: answer"),
     VerbArgument(
@@ -38,6 +45,8 @@ def run(options: Options) -> int:
     from amp_studio.meaning import MeaningError, TargetError, migrate, migration_json, migration_lines
     from amp_studio.report import write_migration_folder
 
+    if options.output:
+        check_new(options.output, "a migration", options.path)
     file = opened(options.path, options).file
     answers = _answers(options.answers) if options.answers else {}
     try:
@@ -56,6 +65,9 @@ def run(options: Options) -> int:
         )
     if options.output is None:
         return 0
+    if options.output.suffix.lower() == ".amp":
+        _write_parameter_file(options, migration)
+        return 0
     try:
         written = write_migration_folder(
             migration, options.output, notify=print_remark, language=options.language
@@ -64,6 +76,20 @@ def run(options: Options) -> int:
         raise UsageError(f"{options.output}: {error.strerror or error}; nothing was written") from None
     print_remark(f"{options.output}: {', '.join(written)}")
     return 0
+
+
+def _write_parameter_file(options: Options, migration: Migration) -> None:
+    """Write the new machine as a parameter file, as an import of its configuration does."""
+    from amp_studio import import_text
+    from amp_studio.cli.output import write_new
+
+    name, text = next(iter(migration.written.texts.items()))
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / name
+        path.write_text(text, encoding="utf-8")
+        machine = import_text(path, options.to)
+    write_new(machine, options.output)
+    print_remark(f"{options.output}: a parameter file of {options.to}")
 
 
 def _answers(path: Path) -> dict[str, str]:
