@@ -203,7 +203,8 @@ class Validator:
 
     def rules_of(self, address: Address) -> tuple[Rule, ...]:
         """Return the rules that read an address itself."""
-        checks = (check for check in self._plan.checks if address in check.addresses)
+        woken = self._plan.rule_readers.get(address, ())  # also by what a state depends on
+        checks = [check for check in woken if address in check.addresses]
         return tuple({check.rule.id: check.rule for check in checks}.values())
 
     def check_of(self, finding: Finding) -> RuleCheck | None:

@@ -210,7 +210,10 @@ def test_every_text_format_of_every_family_is_damaged() -> None:
     assert all((family, f.key) in texts._FORMATS for family in family_ids() for f in formats_of(family))
 
 
-_SPELLED = re.compile(rf"\b({'|'.join(name.rpartition('.')[2] for name in sorted(CALLS | NAMES))})\b")
+_SPELLED = re.compile(
+    rf"(?<!def )\b({'|'.join(name.rpartition('.')[2] for name in sorted(CALLS))})\("
+    rf"|\.({'|'.join(sorted(NAMES))})\b"
+)
 
 
 def _reads(path: Path) -> bool:

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 import pytest
 
+from amp_studio.families.ninepc.law_events import CODED
 from amp_studio.files import ParameterFile, open_file
 from amp_studio.files.example_files import examples_folder
 from amp_studio.report.language import language_of
@@ -36,15 +37,25 @@ def stated(file: ParameterFile) -> Iterator[str]:
         yield from (check.why for check in check_motion(file))
 
 
+def english_in(sentences: list[str], file: ParameterFile) -> list[str]:
+    """Return the German sentences in which English words remain beside the names of parameters."""
+    names = sorted((p.name for p in file.schema.parameters.values()), key=len, reverse=True)
+    known = re.compile("|".join((*map(re.escape, names), QUOTED)))
+    return [text for text in sentences if FUNCTION_WORDS.search(known.sub("", text))]
+
+
+def test_the_home_of_a_coded_scale_is_stated_with_the_names_that_the_parameters_have() -> None:
+    file = open_file(EXAMPLES["lathe-ls176"]).file
+    assert english_in([language_of("de", "9pc").sentence(text) for text in CODED[:2]], file) == []
+
+
 @pytest.mark.parametrize("example", EXAMPLES if CAMPAIGN else sorted(QUICK))
 def test_no_sentence_of_a_motion_has_english_words(example: str) -> None:
     file = open_file(EXAMPLES[example]).file
     words = language_of("de", file.schema.family.family)
-    names = sorted((p.name for p in file.schema.parameters.values()), key=len, reverse=True)
-    known = re.compile("|".join((*map(re.escape, names), QUOTED)))
     german = {text: words.sentence(text) for text in stated(file) if text}
     assert len(german) > 3
-    assert [de for de in german.values() if FUNCTION_WORDS.search(known.sub("", de))] == []
+    assert english_in([*german.values()], file) == []
     assert [text for text, de in german.items() if re.search(r"[a-z] [a-z]{3,} ", text) and text == de] == []
 
 

@@ -65,12 +65,13 @@ class StatusLine(QObject):
 
     def show_file(self, workspace: Workspace | None) -> None:
         """Show the state of a file, or nothing."""
-        every = (*self.counts.values(), self.not_set, self.changes, self.file)
-        for widget in every:
-            widget.setVisible(workspace is not None)
+        # Each label that comes or goes has the bar laid out again: none is shown only to be hidden.
         if workspace is None:
+            for widget in (*self.counts.values(), self.not_set, self.changes, self.file):
+                widget.hide()
             self.file.clear()
             return
+        self.file.show()
         for severity, button in self.counts.items():
             number = workspace.count(severity)
             self._show(button, number, worded(severity_name(severity)))
