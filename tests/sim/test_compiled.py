@@ -39,7 +39,7 @@ def test_the_same_law_has_the_same_name_in_every_process() -> None:
         capture_output=True,
         text=True,
         check=True,
-        env={"PYTHONPATH": ".", "PYTHONHASHSEED": "7"},
+        env={**os.environ, "PYTHONPATH": ".", "PYTHONHASHSEED": "7"},
     )
     assert reported.stdout.strip() == kernel_name(law.position_sample, law.velocity_sample)
 

@@ -117,8 +117,9 @@ class ParameterTable(QAbstractTableModel):
 
     def filter_rows(self, wanted: RowFilter | None) -> None:
         """Show only the rows that pass; None shows all of them again."""
-        self._filter = wanted
-        self.show_again()
+        if wanted is not None or self._filter is not None:
+            self._filter = wanted
+            self.show_again()
 
     def unfiltered(self) -> list[list[Address]]:
         """Return the values of each row that the list has without the filter, in the columns that are
