@@ -1,7 +1,7 @@
 """Measured points from a text: plain columns of a spreadsheet or a laser's own file, in one or several runs.
 
 Nothing is guessed that could turn or scale an error: units, sign and decimal comma come from the heads of the
-columns or from a person, and what nobody has answered is listed in ``Measurement.assumed``. Docs:
+columns or from a person, and what was not answered is listed in ``Measurement.assumed``. Docs:
 docs/tuning.md.
 """
 
@@ -55,7 +55,7 @@ def read_measured_file(path: Path, answers: MeasurementAnswers, usual_unit: str 
 
 
 def read_measurement(text: str, answers: MeasurementAnswers, usual_unit: str = "mm") -> Measurement:
-    """Read measured points; ``usual_unit`` is that of the axis, assumed where nobody names one.
+    """Read measured points; ``usual_unit`` is that of the axis, assumed where none is named.
     Raises MeasurementError.
     """
     _check(answers)

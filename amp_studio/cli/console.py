@@ -104,7 +104,7 @@ def progress(of: str = "") -> Callable[[str, int, int], None]:
 
 
 WAITING = {"restart": "waiting for the control to restart"}
-"""What the person reads while a stage waits for somebody else."""
+"""What the person reads while a stage waits for another program."""
 
 
 def assignments(texts: Sequence[str], form: str = "PARAM=VALUE") -> list[tuple[str, str]]:

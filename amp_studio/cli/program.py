@@ -156,7 +156,7 @@ def _quit() -> int:
 
 
 def _one_line(text: str) -> str:
-    """Return a message in one line that can be read, whatever somebody wrote that it repeats;
+    """Return a message in one line that can be read, whatever the text is that it repeats;
     its end describes the present state.
     """
     line = " ".join(text.split())

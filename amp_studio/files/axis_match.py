@@ -40,7 +40,7 @@ def matched_by_letter(file: ParameterFile, like: ParameterFile) -> MatchedAxes:
     """Return a file with each axis at the number that its letter has in ``like``; both are of one schema.
 
     An axis whose letter ``like`` does not have gets a number that is free there, its own if possible. Where a
-    letter occurs twice in one of the files nobody knows which axis is meant, and all stay where they are.
+    letter occurs twice in one of the files it is not known which axis is meant, and all stay where they are.
     """
     mine, theirs = axis_letters(file), axis_letters(like)
     wanted = dict(zip(theirs.values(), theirs, strict=True))

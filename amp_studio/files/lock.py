@@ -119,7 +119,7 @@ class EditLock:
         return visible(left[:_LONGEST_NOTE])
 
     def _write_owner(self) -> None:
-        """Write who has the lock into a file of his own: a link that somebody put there is removed,
+        """Write who has the lock into a file of his own: a link that was put there is removed,
         not followed.
         """
         who = f"{user()} on {socket.gethostname()}, process {os.getpid()}, since {now()}"

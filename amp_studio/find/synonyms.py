@@ -97,5 +97,5 @@ def nearest_synonym(query: str) -> str:
 
 
 def prepare_synonyms() -> None:
-    """Read the table now, in a thread that nobody waits for."""
+    """Read the table now, in a thread that is not waited for."""
     _table()

@@ -195,7 +195,7 @@ def file_of(schema: Schema, read: TextRead, name: str) -> ParameterFile:
     file.header.extra.update(read.extra)
     for key, text in read.value_notes.items():
         set_value_note(file, read_address(key), text)
-    # A bare number that somebody types is in the unit of the text.
+    # A bare number that a user types is in the unit of the text.
     file.header.units = system_of(file)
     return file
 

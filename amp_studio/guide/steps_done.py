@@ -37,7 +37,7 @@ class StepProgress:
 
     step: SetupStep
     total: int
-    """Values that somebody has to give: active ones without a printed default, and open ones."""
+    """Values that the user has to give: active ones without a printed default, and open ones."""
     open: tuple[Address, ...]
     """Those of them that are not set, parameter by parameter."""
     active: int
@@ -64,8 +64,8 @@ class StepProgress:
     def state(self) -> StepState:
         """How far it is.
 
-        It is done when nothing is open, nothing about it is an error, and all that somebody had to give is
-        given. Where every value has a default nobody had to give any: then it is done when a person ticks it.
+        It is done when nothing is open, nothing about it is an error, and all that the user had to give is
+        given. Where every value has a default the user had to give none: then it is done when it is ticked.
         """
         if not self.active or (self.step.id == REST and not (self.total or self.own)):
             return "not needed"
@@ -90,7 +90,7 @@ class GuideProgress:
 
     @property
     def total(self) -> int:
-        """Values that somebody has to give."""
+        """Values that the user has to give."""
         return sum(each.total for each in self.steps)
 
     @property

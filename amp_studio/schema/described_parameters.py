@@ -3,7 +3,7 @@ of the same parameters by their numbers.
 
 The description counts: which parameters there are, their names, types, labels, bounds and marks. What is
 known of a number adds the id, which stays the same for every control, our own help, and the conditions and
-rules that go by the id. A parameter that nobody knows gets an id of its group and its name. How a description
+rules that go by the id. A parameter that is not known gets an id of its group and its name. How a description
 is written is a matter of its family, which hands over DescribedParameters.
 """
 

@@ -39,7 +39,7 @@ def size_of(evaluation: Evaluation, address: Address, unit: str) -> Size | None:
     """
     scale = evaluation.schema.family.scales.get(unit)
     if scale is None or (scale.angle is not None and evaluation.scope(address) != "axis"):
-        return None  # of a value that no axis has nobody knows whether it is a length or an angle
+        return None  # of a value that no axis has it is not known whether it is a length or an angle
     entry = scale.angle if evaluation.turns(address) else scale.length
     if entry is None:
         return None

@@ -44,7 +44,7 @@ class Waiting:
         return self._exchange.is_stopped
 
     def look(self) -> None:
-        """Notify of silence; raises CancelledError where somebody has asked to stop."""
+        """Notify of silence; raises CancelledError where a stop was asked for."""
         if self.is_stopped:
             raise CancelledError("stopped")
         now = self.now()

@@ -130,7 +130,7 @@ class ValueChecks:
         return self._finding(address, value, message, None if facts.keys else self._nearest(address, value))
 
     def _nearest(self, address: Address, value: Value) -> Value | None:
-        """Return the nearest allowed value; None where nobody can say that it is the one that is meant.
+        """Return the nearest allowed value; None where it is not known to be the one that is meant.
 
         What lies far beyond a printed bound is a slip of the hand or has another unit, and the bound is often
         the highest gain or speed that there is. 0 is never the nearest to another number: a speed or a limit
@@ -193,7 +193,7 @@ class ValueChecks:
     def _finding(self, address: Address, value: Value, text: str, mended: Value | None) -> Finding:
         parameter = self._facts[address[0]].parameter
         allowed = mended is not None and mended != value
-        allowed = allowed and not parameter.secret  # a password that nobody chose locks everybody out
+        allowed = allowed and not parameter.secret  # a password that no user chose locks all of them out
         fix = (AddressedValue(address, mended),) if mended is not None and allowed else ()
         forced = (
             f" It was forced {with_local_times(self._file.forced[address])}."

@@ -28,7 +28,7 @@ from .plan import FindingPlace, Plan, RuleCheck, make_plan
 MOST_STEPS = 20_000_000
 """That a builder's rules may take in all trials of a file: about a second."""
 _LEAP, _CUT = 0.03, 0.3
-"""The least part of a speed or ramp that a fix leaves, and that one leaves which nobody asked for."""
+"""The least part of a speed or ramp that a fix leaves, and that one leaves which was not asked for."""
 _MOTIONS = ("velocity", "acceleration", "count rate")
 _ASKED = 1000
 """Steps that it takes to ask a rule at all."""

@@ -107,7 +107,7 @@ class Validator:
         later fixes are not tried.
 
         One whose fix brings a warning is returned only where no other one is left. One whose cause is likely
-        another value, which is wrong by itself or by a slip, has a doubtful fix: none for which nobody asked.
+        another value, which is wrong by itself or by a slip, has a doubtful fix: none that was not asked for.
         """
         too_many = self._trials.too_many(self._filed)
         fixable = [
@@ -270,7 +270,7 @@ class Validator:
                 yield order, self._trials.offered(place, finding, self._filed)
 
     def _doubted(self) -> frozenset[Address]:
-        """Return the values that are wrong by themselves, or by a slip that nobody has suppressed."""
+        """Return the values that are wrong by themselves, or by a slip that is not suppressed."""
         asked = tuple(f for f in self._experience.findings() if f.rule in OF_A_SLIP)
         if self.own.suppressions:
             asked = sort_out(asked, self.own.suppressions, self.file.evaluation)[0]

@@ -17,7 +17,7 @@ _MOVED = {
 }
 """Settings that another one may have moved."""
 _MANY = 3
-"""Settings nobody has touched that are others now: more than a byte that the line has changed can do."""
+"""Settings that were not touched and are others now: more than a byte that the line has changed can do."""
 
 
 def after_break(

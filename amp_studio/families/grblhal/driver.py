@@ -130,7 +130,7 @@ class GrblDriver(GrblContentKind, LineDriver):
         try:
             with self._opened_line() as line:
                 self._check_rest(line, writing)
-                # The plan was made from an earlier reading: what somebody has changed since at the
+                # The plan was made from an earlier reading: what was changed since at the
                 # machine is not overwritten.
                 if write_content(self._read(line)) != replacement.current:
                     raise ImageChangedError("somebody has changed the settings since they were read")

@@ -301,7 +301,7 @@ def _as_shown(text: str, reported: str) -> str:
 
 
 def _moved(settings: dict[int, str], wanted: Mapping[int, str], *, has_rates: bool) -> dict[int, str]:
-    """Return the settings with those that others move and nobody has set (settings.c
+    """Return the settings with those that others move and that were not set (settings.c
     ``set_homing_enable``).
     """
     hidden = COMMON_RATES.keys() if has_rates else PER_AXIS_RATES

@@ -41,7 +41,7 @@ ASK = 1.0
 QUIET = 0.15  # seconds without a byte after which nothing more comes of what was asked before
 ANSWER = 8.0  # seconds without a byte of an answer
 ANSWER_ENDS = 60.0  # seconds for the whole answer
-LINGER = 0.15  # seconds a command that writes is seen through after somebody has asked to stop
+LINGER = 0.15  # seconds a command that writes is seen through after a stop was asked for
 LONGEST_LINE = 8_192  # bytes
 LONGEST_ANSWER = 1 << 20  # bytes
 MESSAGES = 100  # pushed lines that are remembered
@@ -111,18 +111,18 @@ class GrblLine:
             self._sleep(min(left, SLICE))
 
     def close(self) -> None:
-        """Hang up."""
+        """Close the line."""
         self._link.close()
 
     def go_on(self) -> None:
-        """Raise CancelledError where somebody has asked to stop before anything more is sent."""
+        """Raise CancelledError where a stop was asked for before anything more is sent."""
         self._begin(ANSWER_ENDS, lingers=False)
         self.look()
 
     def ask(self, command: str, *, writes: bool = False) -> list[str]:
         """Send a command and return the lines of its answer, without ``ok``.
 
-        With ``writes`` the answer is waited for a moment even after somebody has asked to stop. Raises
+        With ``writes`` the answer is waited for a moment even after a stop was asked for. Raises
         GrblRefusalError, GrblRestartedError, LinkError, ControlSilentError, ProtocolMismatchError,
         CancelledError.
         """

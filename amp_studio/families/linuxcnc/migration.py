@@ -107,7 +107,7 @@ class _Migration:
         return self.out.answer(question, self.answers, f"[{''.join(free)}]").upper()
 
     def _home_order(self) -> dict[str, int]:
-        """Return letter -> step of Home All; empty where nobody has answered."""
+        """Return letter -> step of Home All; empty where it was not answered."""
         steps = self.out.home_steps([self.letters[a.instance] for a in self.ordered], self.answers)
         return {letter: n for n, step in enumerate(steps) for letter in step}
 

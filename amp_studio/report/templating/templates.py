@@ -1,6 +1,6 @@
 """Templates of documents: those of the program, and those of a project that extend or replace them.
 
-A project's template is the text of somebody else: it is run in jinja2's sandbox, sees the report and nothing
+A project's template is the text of another author: it is run in jinja2's sandbox, sees the report and nothing
 else, and has a bound for its size and its time. Its mistakes have their line.
 """
 

@@ -230,6 +230,7 @@ def run(
         else:
             position_sample(p, s, io)
             error = abs(io[COMMAND] - io[REFERENCE_LAG] - io[POSITION])
+            # An axis that waits in the middle of its command is not at its end, however still it is.
             if piece < last or error > timing[REST_BAND]:
                 restless = sample
             if piece == last:
@@ -242,9 +243,11 @@ def run(
                     return row
             if start >= timing[EMERGENCY]:
                 io[STOP] = EMERGENCY_STOP
+            # While a piece waits for the axis to be in position, the time of the command does not go on.
             if profile[piece * WIDTH + KIND] != IN_POSITION or error <= timing[IN_POSITION_BAND]:
                 moment, share = fed(timing, begun, share, io[FEED_SHARE])
         sampled, velocity = io[COMMAND], io[COMMAND_VELOCITY]
+        # By this the time of the command goes on between two samples: 1 but for an override or a wait.
         rate = (moment - begun) / period
         for k in range(samples):
             if coasting == 0.0:
@@ -280,6 +283,7 @@ def run(
                     for n in range(monitors):
                         rows[row, 9 + n] = io[MONITOR + n]
                     row += 1
+                    # The law goes on with the command of its sample: that of the row was for the row alone.
                     io[COMMAND], io[COMMAND_VELOCITY] = sampled, velocity
                 if io[STOP] != 0.0 and coasting == 0.0:
                     x[ALARM_ROW] = float(row - 1)
@@ -289,7 +293,7 @@ def run(
                     # The control takes the output away and goes on with the command no more.
                     io[OUTPUT] = output = rate = 0.0
                     io[COMMAND_VELOCITY] = velocity = share = 0.0
-                    most = rows.shape[0]
+                    most = rows.shape[0]  # the rows that were kept free for the way after an alarm
                     brake(m)
                     brake(before)
                     brake(after)

@@ -56,6 +56,7 @@ def delayed(line: Vector, slot: int, steps: int, output: float) -> tuple[float, 
     ``line`` are the outputs of the last steps, ``slot`` the place of this one;
     the delay is ``steps`` physics steps, or a share of one more.
     """
+    # The line is a ring: its oldest output is written over, so nothing is moved in a step.
     line[slot] = output
     newer = slot - steps
     if newer < 0:
@@ -107,6 +108,8 @@ def speed_after(m: Vector, k: int, speed: float, push: float) -> float:
         dry = math.copysign(m[k + COULOMB], speed)
     after = m[k + KEEP] * speed + m[k + KICK] * (push - dry)
     if after * dry < 0.0:
+        # After the speed was 0, after / (push - dry) of the kick is left, and friction, now against the other
+        # way, makes it push + dry.
         return after * (push + dry) / (push - dry) if abs(push) > m[k + STATIC] else 0.0
     return after
 

@@ -342,6 +342,7 @@ def _look_ahead(
 ) -> tuple[PathRows, Causes]:
     """Return the speed at which each row begins, and what bounds it."""
     count = len(joint)
+    # A row begins with the joint before it; the first one at rest, which nothing of the file bounds.
     entry_by = np.concatenate([[-1], joint_by[:-1]]).astype(np.int16) if count else joint_by
     most = np.concatenate([[0.0], joint[:-1]]) if count else joint
     straight = all(ramp.kind in ("none", "linear") for ramp in (rules.feed_ramp, rules.rapid_ramp))

@@ -116,7 +116,7 @@ class Control:
         self._remember(estop=on)
 
     def keep_in_estop(self, reason: str) -> None:
-        """Keep the control in E-stop for a reason; "" lets it out again when somebody releases it."""
+        """Keep the control in E-stop for a reason; "" lets it out again when the operator releases it."""
         self._estop_reason = reason
         if reason and not self._record.estop:
             self._remember(estop=True)

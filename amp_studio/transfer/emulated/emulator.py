@@ -37,7 +37,7 @@ PIECE = 2_048  # bytes of one client that are worked on before anybody else has 
 COMMANDS_WAITING = 256  # operator's commands that are kept until there is time for them
 COMMANDS_A_TURN = 16
 LONGEST_COMMAND = 4_096  # bytes
-LONGEST_LINE = 300  # characters the operator sees of what somebody else has sent
+LONGEST_LINE = 300  # characters the operator sees of what another program has sent
 
 Patch = Callable[[bytes, str, str], bytes]
 
@@ -250,7 +250,7 @@ class Emulator:
 
     def _prepare_start(self) -> None:
         """Ask the panel for the next start, while there is time;
-        again if somebody has changed the control since.
+        again if the control was changed since.
         """
         state = self._control.sha256, self._control.flags & Flags.CHANGED_AT_CONTROL
         if self._start is None or self._start[0] != state:
@@ -372,7 +372,7 @@ def _screen_of(panel: OperatorPanel | None, control: Control) -> Callable[[], Co
 
 
 def print_line(line: str) -> None:
-    """Print a line for the operator; where nobody reads it, the control goes on without a word."""
+    """Print a line for the operator; where it is not read, the control goes on without a word."""
     try:
         print(line, flush=True)
     except (OSError, ValueError):
@@ -382,7 +382,7 @@ def print_line(line: str) -> None:
 
 
 def standard_input() -> Iterator[str]:
-    """Yield the lines of standard input where somebody can write there: at a terminal or through a pipe.
+    """Yield the lines of standard input where an operator can write there: at a terminal or through a pipe.
 
     It reads the handle itself: a thread that waits inside ``sys.stdin`` would delay the end of the program.
     """

@@ -54,7 +54,7 @@ class Memory:
         temporary = self.folder / (name + TEMPORARY)
         try:
             self.on_step(f"write {temporary.name}")
-            temporary.unlink(missing_ok=True)  # whatever somebody put there is not written to
+            temporary.unlink(missing_ok=True)  # whatever was put there is not written to
             with self._open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL) as handle:
                 write_all(handle, content)
                 self.on_step(f"sync {temporary.name}")
@@ -104,7 +104,7 @@ class Memory:
     @contextlib.contextmanager
     def _open(self, path: Path, flags: int) -> Iterator[int]:
         """Open a file to write to it; raises OSError for a link,
-        a pipe or a device that somebody put in its place.
+        a pipe or a device that was put in its place.
         """
         try:
             handle = os.open(path, flags | NO_LINK | HARMLESS, 0o666)

@@ -32,7 +32,7 @@ LONGEST_PAUSE = 2.0  # up to this
 SLICE = 0.1  # seconds a pause may last before the cancel event is read again
 SILENT_AFTER = 1.8  # seconds without an answer until the waiting caller is notified
 SILENT_EVERY = 1.0  # seconds until he is notified again
-LINGER = 5.0  # seconds a commit is seen through after somebody has asked to stop
+LINGER = 5.0  # seconds a commit is seen through after a stop was asked for
 
 # Patience starts again only with a step of so many bytes (fewer of a small image, on a slow line, or at the
 # end): a control cannot keep a client for ever by giving it a byte every few seconds.
@@ -87,11 +87,11 @@ class Connection:
 
     @property
     def rate(self) -> float | None:
-        """Bytes a second of the present line; None where nobody knows it."""
+        """Bytes a second of the present line; None where it is not known."""
         return None if self._talk is None else self._talk.link.bytes_per_second
 
     def close(self) -> None:
-        """Hang up."""
+        """Close the line."""
         if self._talk is not None:
             self._talk.link.close()
             self._talk = None

@@ -69,5 +69,5 @@ class HouseDriver(HouseContent):
         return self.session.wait_restarted(receipt.boot_count, seconds, exchange) is not None
 
     def close(self) -> None:
-        """Hang up."""
+        """Close the line."""
         self.session.close()

@@ -81,7 +81,7 @@ class Session:
         self.close()
 
     def close(self) -> None:
-        """Hang up."""
+        """Close the line."""
         self._line.close()
 
     # -- asking ------------------------------------------------------------------------------------

@@ -2,7 +2,7 @@
 and only then obeyed (page 91).
 
 A line that was damaged on its way is therefore never obeyed,
-and half a line that somebody has left is taken away first.
+and half a line that was left is taken away first.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from amp_studio.transfer import (
 )
 from amp_studio.transfer.links import Link, LinkError
 
-LONGEST = 160  # characters of half a line that somebody may have left
+LONGEST = 160  # characters of half a line that may be left
 TRIES = 8  # of one line
 ECHO_WAIT = 1.5  # seconds until the echo of a line begins
 ECHO_GAP = 0.4  # seconds between two characters of an echo: one that was lost does not come any more
@@ -34,7 +34,7 @@ QUIET = 0.06  # seconds without a sign after which a line that was cleared is qu
 MOST_LATE = 100  # pieces that may come behind the prompt of a line that was cleared
 PATIENCE = 20.0  # seconds for which a line that is cut is made again
 PAUSE = 0.3
-GRACE = 0.2  # seconds a setting that is under way may take on after somebody has asked to stop
+GRACE = 0.2  # seconds a setting that is under way may take on after a stop was asked for
 LARGEST = 1 << 15  # bytes of an answer
 
 BACKSPACE = b"\b"
@@ -66,7 +66,7 @@ class Terminal:
         """Of the last prompt: ``00``."""
 
     def close(self) -> None:
-        """Hang up."""
+        """Close the line."""
         if self._link is not None:
             self._link.close()
             self._link = None
@@ -77,7 +77,7 @@ class Terminal:
     ) -> list[str]:
         """Have the card obey a line, in at most so many seconds; raises TransferError.
 
-        ``sent`` is called before the sign that has the line obeyed goes out. It may go out again after a
+        ``sent`` is called before the character that has the line obeyed goes out. It may go out again after a
         fault, so that only commands are sent whose repetition changes nothing.
         """
         self.look()
@@ -100,7 +100,7 @@ class Terminal:
 
     @contextlib.contextmanager
     def seen_through(self) -> Iterator[None]:
-        """See commands through, if they do not take long, before somebody who asked to stop is obeyed."""
+        """See commands through, if they do not take long, before a stop that was asked for is obeyed."""
         self._sees_through, self._stopped_at = True, None
         try:
             yield
@@ -108,7 +108,7 @@ class Terminal:
             self._sees_through = False
 
     def look(self) -> None:
-        """Be called while something waits; raises CancelledError where somebody has asked to stop."""
+        """Be called while something waits; raises CancelledError where a stop was asked for."""
         if self._sees_through and self._waiting.is_stopped:
             self._stopped_at = self._stopped_at or self._waiting.now()
             if self._waiting.now() - self._stopped_at <= GRACE:
@@ -131,7 +131,9 @@ class Terminal:
         except CancelledError:
             self._is_clear = False
             with contextlib.suppress(LinkError):
-                link.write(BACKSPACE * len(line))  # nobody else's line is to be glued to this one
+                link.write(
+                    BACKSPACE * len(line)
+                )  # the next line of another program is not to be glued to this one
             raise
         except BaseException:
             self._is_clear = False  # the next one takes away what is there of the line

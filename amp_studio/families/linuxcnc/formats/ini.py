@@ -1,4 +1,4 @@
-"""The configuration file of LinuxCNC, byte for byte: what nobody changed is written back as it was read.
+"""The configuration file of LinuxCNC, byte for byte: what was not changed is written back as it was read.
 
 Its lines are kept in the parameter file, with those of the files that it includes. A changed value is another
 one in its line; what is behind a number, the order of the lines and every remark stay.

@@ -59,7 +59,7 @@ class NinePcPanel:
     # -- at a start ------------------------------------------------------------------
 
     def started(self, control: Control) -> Start:
-        """Return the messages of a power-up and why E-Stop stays; nobody is logged on after it (assumed)."""
+        """Return the messages of a power-up and why E-Stop stays; no user is logged on after it (assumed)."""
         self._has_level_0, self._edited = False, None
         self._online.started()
         self._keys.started()

@@ -96,7 +96,7 @@ class NumControl:
         return bytes(self._with_parity(byte) for byte in piece)
 
     def receive(self, data: bytes) -> None:
-        """Take bytes of the peripheral; outside a load or a check nobody reads them."""
+        """Take bytes of the peripheral; outside a load or a check they are not read."""
         if self._doing == "sending":
             for byte in data:
                 self._is_paused = {XOFF: True, XON: False}.get(byte & 0x7F, self._is_paused)
@@ -112,7 +112,7 @@ class NumControl:
 
     def _keep_for_later(self, data: bytes) -> None:
         """Keep what came while the peripheral was stopped, as far as there is room;
-        outside a load nobody reads it.
+        outside a load it is not read.
         """
         if self._doing in ("reading", "held"):
             self._later += data[: BUFFER - len(self._later)]

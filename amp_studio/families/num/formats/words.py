@@ -55,7 +55,7 @@ class Spelling:
     """How the words of a parameter are spelled."""
 
     code: int | None
-    """Of the type; None where nobody knows it."""
+    """Of the type; None where it is not known."""
     is_text: bool
     is_floating: bool
     low: int

@@ -187,7 +187,7 @@ class RegisterDriver(RegisterContent, LineDriver):
         return f"Axis {AXES[axis]} has taken its setups over (change default setups, acknowledged)."
 
     def _take_back(self, axis: int, error: TransferError) -> None:
-        """Leave no command behind, also if somebody asked to stop."""
+        """Leave no command behind, also after a stop was asked for."""
         # The stop that ended the wait would end the writing of this register too, and leave the command
         # where it is.
         if isinstance(error, CancelledError):

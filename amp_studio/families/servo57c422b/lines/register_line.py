@@ -54,7 +54,7 @@ class RegisterLine:
         self._buffer = b""
 
     def close(self) -> None:
-        """Hang up."""
+        """Close the line."""
         if self._link is not None:
             self._link.close()
             self._link = None
@@ -112,7 +112,7 @@ class RegisterLine:
         link = self._link
         if link is None:
             link = self._link = self._open_link(self._waiting.look)
-            link.write(b"\r\n")  # ends half a line that somebody has left
+            link.write(b"\r\n")  # ends half a line that was left
         self._number = (self._number + 1) % NUMBERS
         link.write(framed(self._number, request))
         end = self._waiting.now() + ANSWER_WAIT

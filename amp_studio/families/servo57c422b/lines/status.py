@@ -100,7 +100,7 @@ def _axis(registers: AxisRegisters) -> AxisStatus:
 
 
 def _faults(registers: AxisRegisters) -> Iterator[ActiveFault]:
-    """Yield the active faults; the feedback fault of a loop that nobody has switched on is none."""
+    """Yield the active faults; the feedback fault of a loop that is not switched on is none."""
     fault, is_on = registers.word(FAULT), bool(registers.word(MODE) & 1)
     for bit in range(16):
         if fault >> bit & 1 and (bit != 6 or is_on):
