@@ -166,7 +166,7 @@ ALLOWED_NAMES = {
     ("amp_studio/families/acromill/formulas/geometry.py", "wear"): "the wear offset of a tool",
     ("amp_studio/families/ninepc/formulas/tools.py", "wear"): "the wear offset of a tool",
     ("amp_studio/families/ninepc/formulas/tools.py", "geometry_as_wear"): "the wear offset of a tool",
-    ("amp_studio/report/model.py", "says"): "templates of builders read it",
+    ("amp_studio/report/chapters.py", "says"): "templates of builders read it",
     ("amp_studio/schema/model/documents.py", "says"): "a key of the facts",
     ("amp_studio/schema/model/parameter.py", "says"): "a key of the facts",
     ("amp_studio/schema/model/family.py", "absent_when"): "a key of the facts",

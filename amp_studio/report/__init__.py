@@ -12,21 +12,14 @@ from amp_studio.front_pages import front_page
 
 if TYPE_CHECKING:
     from .axes import place_of
+    from .chapters import CheckedFigure, CheckedMotion, Danger, ExchangeLine, PrintedProgram, ProgramLimit
     from .contents import CHAPTERS, PAPER_SIZES, SORTS, UNIT_CHOICES, Contents
     from .dangers import dangers_of_change
     from .findings.alike import alike, same_finding_text
     from .findings.by_rule import FindingGroup, finding_axes, finding_groups, fix_lines, fix_text
     from .findings.lines import finding_json, finding_parts, finding_text, suppressed_text
     from .language import Language, language_of
-    from .model import (
-        CheckedFigure,
-        CheckedMotion,
-        Danger,
-        ExchangeLine,
-        PrintedFigure,
-        PrintedProgram,
-        ProgramLimit,
-    )
+    from .model import PrintedFigure
     from .output.pdf import PrintedPlace, SetReport, typeset
     from .papers.check_list import OpenValue, PrintedTest, build_check_list, open_value, write_check_list
     from .papers.differences import (

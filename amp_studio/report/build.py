@@ -31,12 +31,13 @@ from amp_studio.validate import NO_RULES, BuilderRules, Finding, validator_of
 from amp_studio.version import __version__
 
 from .axes import printed_axes, scope_of
+from .chapters import CheckedMotion, ExchangeLine, PrintedProgram, ProgramState
 from .contents import SORTS, UNIT_CHOICES, Contents
 from .dangers import dangers_of
 from .drawings import drawings
 from .findings.alike import printed_findings, printed_suppressed
 from .language import Language, language_of
-from .model import CheckedMotion, ExchangeLine, PrintedFigure, PrintedProgram, ProgramState, Report, ReportRow
+from .model import PrintedFigure, Report, ReportRow
 from .parameter.manual_page import help_parts
 from .rows import Rows, row_of, rows_of
 from .sections import numbers_of, sections_of

@@ -8,8 +8,9 @@ from amp_studio.files import Difference, ParameterFile
 from amp_studio.schema import Schema
 
 from .axes import place_of
+from .chapters import Danger
 from .language import ENGLISH, Language
-from .model import Danger, ReportRow
+from .model import ReportRow
 from .wording import joined_places
 
 

@@ -1,4 +1,4 @@
-"""The words of severities and states, and counts as a person reads them."""
+"""The words of severities and states, counts as a person reads them, and texts as paper takes them."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from amp_studio.validate import SEVERITIES, Finding
 
+NO_BREAK = "\u00a0"
 _SEVERITIES = {"advice": "recommendation", "suppressed": "suppressed finding"}
 _STATES = {"in-force": "active", "ignored": "ignored", "unusable": "not available", "hidden": "hidden"}
 
@@ -43,3 +44,16 @@ def joined_places(places: Iterable[str]) -> str:
         texts.append(rest if rest and first == word else place)
         word = first
     return ", ".join(texts)
+
+
+def note_lines(text: str) -> list[str]:
+    """Return the lines of what a person wrote; blanks at the start of one are kept on paper."""
+    lines = text.expandtabs(4).splitlines()
+    return [NO_BREAK * (len(line) - len(line.lstrip(" "))) + line.strip(" ") for line in lines]
+
+
+def printable(text: str) -> str:
+    """Return a text without control characters for printers, terminals and text direction."""
+    return (
+        text if text.isprintable() else "".join(c if c.isprintable() or c == NO_BREAK else " " for c in text)
+    )

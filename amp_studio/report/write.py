@@ -12,8 +12,9 @@ from amp_studio.validate import NO_RULES, BuilderRules
 
 from .apart import What, made_apart
 from .build import build_report
+from .chapters import CheckedMotion, ExchangeLine, PrintedProgram
 from .contents import Contents
-from .model import CheckedMotion, ExchangeLine, PrintedFigure, PrintedProgram, Report
+from .model import PrintedFigure, Report
 from .output.data import render_json
 from .output.everything import render_workbook
 from .output.page import render_html

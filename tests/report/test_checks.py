@@ -46,7 +46,7 @@ def test_a_german_report_has_its_checks_in_german(report) -> None:
     text = " ".join(report("txt", check=True, language="de").split())
     assert "PRÜFUNG IN BEWEGUNG" in text
     assert "gut Referenzfahrt X Referenzposition 0,5 mm" in text
-    assert "schlecht Geschwindigkeit Y Phasenreserve: 26°, unter 30 1: Hard limit" in text
+    assert "schlecht Geschwindigkeit Y Phasenreserve: 26°, unter 30 1: Hardwareendschalter" in text
 
 
 def test_a_german_workbook_has_german_heads(report, tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ import pytest
 from amp_studio.files import ParameterFile
 from amp_studio.files.notes import set_machine_note, set_value_note
 from amp_studio.report import Contents
-from amp_studio.report.model import note_lines
+from amp_studio.report.wording import note_lines
 from amp_studio.report.write import print_report
 from tests.report.conftest import DATE
 

@@ -11,8 +11,9 @@ import json
 from dataclasses import asdict
 from typing import Any
 
+from amp_studio.report.chapters import CheckedMotion, Danger, ExchangeLine, ProgramState
 from amp_studio.report.findings.printed_finding import PrintedFinding
-from amp_studio.report.model import CheckedMotion, Danger, ExchangeLine, ProgramState, Report, ReportRow
+from amp_studio.report.model import Report, ReportRow
 
 FORMAT = 2
 _FACTS = {

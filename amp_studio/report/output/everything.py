@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from amp_studio.report.chapters import ExchangeLine, ProgramState
 from amp_studio.report.language import Language, language_of
-from amp_studio.report.model import ExchangeLine, ProgramState, Report, ReportRow
+from amp_studio.report.model import Report, ReportRow
 from amp_studio.report.wording import state_name
 from amp_studio.schema import write_figure
 

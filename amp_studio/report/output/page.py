@@ -6,9 +6,10 @@ from base64 import b64encode
 from pathlib import Path
 
 from amp_studio.report.language import ENGLISH, Language, language_of
-from amp_studio.report.model import MARKS, Report, printable
+from amp_studio.report.model import MARKS, Report
 from amp_studio.report.parameter.manual_page import GRADES
 from amp_studio.report.templating.templates import filled
+from amp_studio.report.wording import printable
 
 
 def render_html(report: Report, own: Path | None = None) -> bytes:

@@ -19,8 +19,9 @@ from pathlib import Path
 from typing import Any
 
 from amp_studio.report.language import ENGLISH, Language, language_of
-from amp_studio.report.model import MARKS, Report, printable
+from amp_studio.report.model import MARKS, Report
 from amp_studio.report.templating.templates import TEMPLATES, TemplateMistakeError, filled, line_of_source
+from amp_studio.report.wording import printable
 from amp_studio.schema import Address
 
 from .data import render_json

@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from amp_studio.report.findings.printed_finding import PrintedFinding
 from amp_studio.report.language import Language, language_of
-from amp_studio.report.model import MARKS, Grid, Listing, Report, ReportRow, note_lines, printable
+from amp_studio.report.model import MARKS, Grid, Listing, Report, ReportRow
+from amp_studio.report.wording import note_lines, printable
 
 WIDTH = 100
 

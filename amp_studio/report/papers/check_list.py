@@ -13,10 +13,9 @@ from pathlib import Path
 from amp_studio.files import Notify, ParameterFile, axis_letter, with_local_times
 from amp_studio.guide import GuideProgress, StepProgress
 from amp_studio.report.language import ENGLISH, Language, language_of
-from amp_studio.report.model import printable
 from amp_studio.report.output.page import filled_page
 from amp_studio.report.output.pdf import filled_template, typeset
-from amp_studio.report.wording import counted
+from amp_studio.report.wording import counted, printable
 from amp_studio.schema import Address, limits, unit_text
 from amp_studio.validate import SEVERITIES
 from amp_studio.version import __version__

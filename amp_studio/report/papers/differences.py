@@ -19,9 +19,9 @@ from amp_studio.files import (
     without_secrets,
 )
 from amp_studio.report.axes import place_of
+from amp_studio.report.chapters import Danger
 from amp_studio.report.dangers import dangers_of_change
 from amp_studio.report.language import Language, language_of
-from amp_studio.report.model import Danger
 from amp_studio.report.wording import counted
 from amp_studio.schema import Address, Value, same_value, show_value
 

@@ -12,10 +12,9 @@ from pathlib import Path
 
 from amp_studio.files import Notify, text_cell
 from amp_studio.report.language import Language, language_of
-from amp_studio.report.model import printable
 from amp_studio.report.output.page import filled_page
 from amp_studio.report.output.pdf import filled_template, typeset
-from amp_studio.report.wording import counted
+from amp_studio.report.wording import counted, printable
 from amp_studio.sheet import Instruction, Sheet, SheetEntry, Stage
 from amp_studio.version import __version__
 

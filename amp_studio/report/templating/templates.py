@@ -83,7 +83,8 @@ def filled(
     """
     from jinja2 import Environment, StrictUndefined, TemplateError, TemplateNotFound
 
-    from amp_studio.report.model import Listing, note_lines
+    from amp_studio.report.model import Listing
+    from amp_studio.report.wording import note_lines
 
     whole: dict[str, Any] = {"loader": _loader(own), "trim_blocks": True, "lstrip_blocks": True}
     if own is None:
