@@ -37,9 +37,6 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-import numpy.typing as npt
-
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema import (
     NO_MOTION,
@@ -51,25 +48,30 @@ from amp_studio.schema import (
     why_not_simulated,
 )
 
-from .axis_parameters import AxisParameters, ParameterValue
-from .command.events import RAMPS, Homing, Jogging, Ramp, Travel
-from .engine.compiled import Sample
-from .engine.machine import Machine
+from .command.events import RAMPS, Ramp
 from .errors import SimulationError
-from .machine_test import MachineTest
-from .path_rules import PathRules
-from .probing import Probing
-from .scenario import Scenario
-from .spindle import Gear, Spindle, Tapping
-from .trace import Recommendation, Trace
-from .zones import Zone
 
 if TYPE_CHECKING:
+    # A picture of the loops binds an axis and runs nothing: it loads neither numpy nor the scenarios.
+    import numpy as np
+    import numpy.typing as npt
+
+    from .axis_parameters import AxisParameters, ParameterValue
     from .cam import CamForm
+    from .command.events import Homing, Jogging, Travel
+    from .engine.compiled import Sample
+    from .engine.machine import Machine
+    from .machine_test import MachineTest
+    from .path_rules import PathRules
+    from .probing import Probing
+    from .scenario import Scenario
+    from .spindle import Gear, Spindle, Tapping
+    from .trace import Recommendation, Trace
+    from .zones import Zone
 
 FAULTS = ("drive", "feedback")
 """Faults of a machine: a drive that has tripped, and a position device that is lost."""
-Leader = Callable[["AxisLaw"], Mapping[str, npt.NDArray[np.float64]]]
+Leader = Callable[["AxisLaw"], "Mapping[str, npt.NDArray[np.float64]]"]
 
 
 @dataclass(frozen=True)
@@ -232,7 +234,7 @@ class Law:
     ``bind``       one axis from a file; raises SimulationError naming the parameter
     ``axes``       the axes of a file that can be simulated
     ``advise``     the family's own recommendations after a scenario
-    ``own``        scenarios of the family alone, by name
+    ``own``        own() -> scenarios of the family alone, by name; they are loaded when one is asked for
     ``spindle``    spindle(values of the machine, its number) -> the spindle; None where no output to one is
                    printed
     ``tapping``    tapping(machine, spindle, gear, axis, pitch) -> how both follow each other; None where it
@@ -248,7 +250,7 @@ class Law:
     bind: Callable[[AxisParameters], AxisLaw]
     axes: Callable[[ParameterFile], Sequence[str]] = fitted_axes
     advise: Callable[[AxisLaw, Trace], Sequence[Recommendation]] = _no_recommendation
-    own: Mapping[str, Scenario] = field(default_factory=dict)
+    own: Callable[[], Mapping[str, Scenario]] = dict
     spindle: Callable[[AxisParameters, str], Spindle] | None = None
     tapping: Callable[[BoundMachine, Spindle, Gear, AxisLaw, float], Tapping] | None = None
     probing: Callable[[AxisParameters, AxisLaw, str], Probing] | None = None

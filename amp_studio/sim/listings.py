@@ -38,7 +38,7 @@ class SimulationListing:
 
 def known_settings(law: Law, scenario: str) -> dict[str, str]:
     """Return every setting of a scenario and of the machine -> what it is."""
-    return {**model_settings(), **law.motion.settings, **{**SCENARIOS, **law.own}[scenario].settings}
+    return {**model_settings(), **law.motion.settings, **{**SCENARIOS, **law.own()}[scenario].settings}
 
 
 def listing(file: ParameterFile, system: str | None = None) -> SimulationListing:
@@ -46,7 +46,7 @@ def listing(file: ParameterFile, system: str | None = None) -> SimulationListing
     SimulationError for a family without a law.
     """
     law, length = law_of(file.schema.family.family), length_unit(file, system)
-    scenarios = [*(SCENARIOS[name] for name in law.motion.scenarios), *law.own.values()]
+    scenarios = [*(SCENARIOS[name] for name in law.motion.scenarios), *law.own().values()]
     entries = [ScenarioEntry(each.name, each.title, _described(each.settings, length)) for each in scenarios]
     model = _described({**model_settings(), **law.motion.settings}, length)
     axes = tuple(law.axes(file))

@@ -61,7 +61,7 @@ def check_motion(file: ParameterFile, axis: str | None = None) -> Iterator[Motio
     made = [_unmade(file, law, each) or each for each in (axes if axis is None else (axis,))]
     yield from (each for each in made if isinstance(each, MotionCheck))
     chosen = [each for each in made if isinstance(each, str)]
-    for scenario in filter(partial(_is_checked, law), {**SCENARIOS, **law.own}.values()):
+    for scenario in filter(partial(_is_checked, law), {**SCENARIOS, **law.own()}.values()):
         if not (scenario.once and scenario.of_machine):
             for each in chosen[:1] if scenario.once else chosen:
                 yield _checked(file, law, scenario, each)
@@ -90,7 +90,7 @@ def _not_possible(
 
 
 def _is_checked(law: Law, scenario: Scenario) -> bool:
-    return bool(scenario.checked) and scenario.name in (*law.motion.scenarios, *law.own)
+    return bool(scenario.checked) and scenario.name in (*law.motion.scenarios, *law.own())
 
 
 def _of_spindle(file: ParameterFile, law: Law, scenario: Scenario) -> MotionCheck | None:

@@ -93,7 +93,7 @@ def _always_doubts(law: Law, scenario: str) -> bool:
     """Return whether a scenario names its doubts even without recommendations: one that the law
     brings, and one that tries gains.
     """
-    return scenario in law.own or SCENARIOS[scenario].tried
+    return scenario in law.own() or SCENARIOS[scenario].tried
 
 
 def _listed(axes: str) -> tuple[str, ...]:
@@ -101,12 +101,12 @@ def _listed(axes: str) -> tuple[str, ...]:
 
 
 def _refuse_unknown_scenario(file: ParameterFile, law: Law, scenario: str) -> None:
-    if scenario not in {**SCENARIOS, **law.own}:
-        raise SimulationError(unknown_name("scenario", scenario, {**SCENARIOS, **law.own}))
-    if scenario not in (*law.motion.scenarios, *law.own):
+    if scenario not in {**SCENARIOS, **law.own()}:
+        raise SimulationError(unknown_name("scenario", scenario, {**SCENARIOS, **law.own()}))
+    if scenario not in (*law.motion.scenarios, *law.own()):
         raise SimulationError(
             f"{file.schema.family.name} has no scenario '{scenario}':"
-            f" {', '.join((*law.motion.scenarios, *law.own))}"
+            f" {', '.join((*law.motion.scenarios, *law.own()))}"
         )
 
 
@@ -122,8 +122,8 @@ def _of_one_axis(
     advise: bool,
 ) -> Trace:
     """Run a scenario of one axis, with what it and the law recommend."""
-    if scenario in law.own:
-        trace = law.own[scenario].run(bound, own)
+    if scenario in law.own():
+        trace = law.own()[scenario].run(bound, own)
         return replace(trace, recommendations=(*trace.recommendations, *law.advise(bound, trace)))
     chosen = SCENARIOS[scenario]
     if chosen.tried:
@@ -145,7 +145,7 @@ def _whole_run(
     """Return how a scenario is run that is not about one axis; None for one that is.
     Raises SimulationError for several axes of such a one.
     """
-    chosen = law.own.get(scenario) or SCENARIOS.get(scenario)
+    chosen = law.own().get(scenario) or SCENARIOS.get(scenario)
     if chosen is not None and chosen.of_machine:
         return chosen.run
     if axis is None or "," not in axis:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from .law import AxisLaw
 from .trace import Trace
 
@@ -17,6 +15,8 @@ def error_at_speed(trace: Trace) -> float | None:
 
     None where the scenario found no steady error.
     """
+    import numpy as np  # a picture of the loops needs the signals alone
+
     feedrate = trace.result.get("feedrate", (None, ""))[0]
     if not feedrate or trace.result.get("steady_following_error", (None, ""))[0] is None:
         return None

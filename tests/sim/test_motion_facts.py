@@ -79,7 +79,7 @@ def test_each_assumed_figure_that_a_law_asks_for_is_a_fact(family: str) -> None:
 @pytest.mark.parametrize("family", OURS)
 def test_no_module_that_reads_the_facts_writes_an_id_out(family: str) -> None:
     written = {node.value for node in nodes(family) if isinstance(node, ast.Constant)}
-    settings = {name for each in law_of(family).own.values() for name in each.settings}
+    settings = {name for each in law_of(family).own().values() for name in each.settings}
     ids = load_schema(family).parameters.keys() - settings
     assert {each for each in written if isinstance(each, str)} & ids == set()
 

@@ -13,7 +13,7 @@ from amp_studio.sim.scenarios import SCENARIOS
 
 
 def test_every_scenario_of_every_family_is_named() -> None:
-    own = {family: tuple(law_of(family).own) for family in simulated_families()}
+    own = {family: tuple(law_of(family).own()) for family in simulated_families()}
     assert {family: names for family, names in own.items() if names} == OWN
     assert scenario_names() == tuple(
         dict.fromkeys([*SCENARIOS, *(n for names in own.values() for n in names)])
@@ -21,19 +21,23 @@ def test_every_scenario_of_every_family_is_named() -> None:
     assert all(SCENARIOS[name].name == name for name in SCENARIOS)
 
 
-def test_the_names_are_there_without_the_simulator() -> None:
+def test_the_names_are_there_without_the_simulator_and_a_law_without_numpy() -> None:
     script = """
 import sys
 from amp_studio.cli.manual import sections
 from amp_studio.cli.registry import module_of
 print([lines for title, lines in sections(module_of("simulate").VERB) if title == "scenarios"])
 print([name for name in sys.modules if name in ("numba", "pydantic") or name.startswith("amp_studio.s")])
+from amp_studio.sim import law_of  # the pictures of a report without motion bind axes by it
+law_of("9pc")
+print([name for name in sys.modules if name in ("numpy", "amp_studio.sim.scenario")])
 """
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-    listed, loaded = done.stdout.splitlines()
+    listed, loaded, by_law = done.stdout.splitlines()
     assert (
         listed
         == "[('step, velocity, frequency, tune, load, sweep, circle, home, jog, travel, spindle, tap, probe,"
         " fault, procedure, hard-stop, gear, cam, backlash, passive-home',)]"
     )
     assert loaded == "['amp_studio.scenarios']"
+    assert by_law == "[]"

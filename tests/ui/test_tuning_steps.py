@@ -93,6 +93,6 @@ def test_what_the_steps_of_a_family_show_are_scenarios_that_it_has() -> None:
         schema = load_schema(family)
         for step in (step for guide in schema.guides for step in guide.steps if step.shows):
             law = law_of(family)
-            assert step.shows.scenario in (*law.motion.scenarios, *law.own), step.title
+            assert step.shows.scenario in (*law.motion.scenarios, *law.own()), step.title
             families.add(family)
     assert families == {"9pc", "num", "syntec", "57c422b", "acromill"}

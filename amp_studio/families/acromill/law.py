@@ -10,6 +10,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from typing import TYPE_CHECKING
 
 from amp_studio.files import ParameterFile
 from amp_studio.sim import (
@@ -34,8 +35,10 @@ from . import law_sample as loop
 from .law_facts import MOTION, ids
 from .law_filters import PASS, Biquad, lopass, notch
 from .law_machine_tests import machine_tests
-from .law_path import path_rules
 from .law_spindle import probing, spindle
+
+if TYPE_CHECKING:
+    from amp_studio.sim import BoundMachine, PathRules
 
 NORMAL_DAC_GAIN = 3276.8
 """Words of the converter for 1 V (page 114)."""
@@ -326,6 +329,12 @@ SAME = 0.005
 """Share of the Vel FFwd by which another one is the same."""
 
 
+def _path_rules(machine: BoundMachine) -> PathRules:
+    from .law_path import path_rules
+
+    return path_rules(machine)
+
+
 LAW = Law(
     bind=bind,
     axes=axes,
@@ -333,5 +342,5 @@ LAW = Law(
     spindle=spindle,
     probing=probing,
     machine_tests=machine_tests,
-    path=path_rules,
+    path=_path_rules,
 )

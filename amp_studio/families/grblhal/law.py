@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import partial
+from typing import TYPE_CHECKING
 
 from amp_studio.files import ParameterFile
 from amp_studio.sim import (
@@ -27,8 +28,10 @@ from amp_studio.sim import (
 
 from . import law_sample as loop
 from .law_facts import MOTION, ids
-from .law_path import path_rules
 from .law_spindle import probing, spindle
+
+if TYPE_CHECKING:
+    from amp_studio.sim import BoundMachine, PathRules
 
 COMMON = (ids.seek_rate, ids.locate_rate)
 OWN = (ids.homing_seek_rate, ids.homing_locate_rate)
@@ -191,4 +194,10 @@ def travel(read: AxisParameters) -> Travel:
     return Travel({"the soft limit": edges}, "ALARM:2", SOURCE, (LIMITED,), refuses=True)
 
 
-LAW = Law(bind, axes, spindle=spindle, probing=probing, path=path_rules)
+def _path_rules(machine: BoundMachine) -> PathRules:
+    from .law_path import path_rules
+
+    return path_rules(machine)
+
+
+LAW = Law(bind, axes, spindle=spindle, probing=probing, path=_path_rules)

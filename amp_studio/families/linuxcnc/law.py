@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from functools import partial
+from typing import TYPE_CHECKING
 
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.sim import (
@@ -26,7 +27,9 @@ from amp_studio.sim import (
 from . import law_sample as loop
 from .kinematics import joint_letters
 from .law_facts import MOTION, ids
-from .law_path import path_rules
+
+if TYPE_CHECKING:
+    from amp_studio.sim import BoundMachine, PathRules
 
 NO_LOOP = (
     "ASSUMED: the file has no P for the joint, so its HAL closes the loop elsewhere: a loop of 100 1/s with"
@@ -216,4 +219,10 @@ def travel(read: AxisParameters) -> Travel:
     return Travel({"the limit of the axis": edges}, "exceed limit", "CM218", (LIMITED,), refuses=True)
 
 
-LAW = Law(bind, axes, path=path_rules)
+def _path_rules(machine: BoundMachine) -> PathRules:
+    from .law_path import path_rules
+
+    return path_rules(machine)
+
+
+LAW = Law(bind, axes, path=_path_rules)

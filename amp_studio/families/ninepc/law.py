@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
+from typing import TYPE_CHECKING
 
 from amp_studio.schema import canonical, load_schema
 from amp_studio.sim import (
@@ -33,15 +34,15 @@ from .law_drives import FILTER_OFF, Parts, analog, digital, third_party
 from .law_facts import ids
 from .law_feedback import Feedback, feedback_of
 from .law_figures import Loop, predictions
-from .law_hard_stop import SCENARIO as HARD_STOP
 from .law_machine_tests import machine_tests
-from .law_path import path_rules
 from .law_probing import probing
 from .law_ramps import ramps_of
 from .law_reading import above_zero, demand, if_set, not_negative
 from .law_spindle import spindle, tapping
-from .law_tune import SCENARIO as PROCEDURE
 from .law_zones import zones
+
+if TYPE_CHECKING:
+    from amp_studio.sim import BoundMachine, PathRules, Scenario
 
 LOWEST_FILTER = 40.0
 """Hz: a torque filter below it leaves no velocity loop that is of use."""
@@ -285,14 +286,27 @@ def _bounded(source: Source, unit: str) -> Source:
     return Source(source.parameter, source.scale, source.unit, source.whole, largest, source.page)
 
 
+def _own_scenarios() -> dict[str, Scenario]:
+    from .law_hard_stop import SCENARIO as HARD_STOP
+    from .law_tune import SCENARIO as PROCEDURE
+
+    return {each.name: each for each in (PROCEDURE, HARD_STOP)}
+
+
+def _path_rules(machine: BoundMachine) -> PathRules:
+    from .law_path import path_rules
+
+    return path_rules(machine)
+
+
 LAW = Law(
     bind,
     advise=advise,
-    own={each.name: each for each in (PROCEDURE, HARD_STOP)},
+    own=_own_scenarios,
     spindle=spindle,
     tapping=tapping,
     probing=probing,
     zones=zones,
     machine_tests=machine_tests,
-    path=path_rules,
+    path=_path_rules,
 )

@@ -8,8 +8,6 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from amp_studio.sim import AxisLaw, Recommendation, Source, Trace, rounded_down, rounded_up, value_text
 
 from . import law_samples as samples
@@ -167,6 +165,8 @@ def _step(m: SimulatedMove) -> float:
 
 def _ramp(m: SimulatedMove) -> Iterator[Recommendation]:
     """Ramps against the torque there is and against the servo's own response (10-2)."""
+    import numpy as np  # what binds an axis only needs none
+
     ramp = m.axis.ramps.get("linear")
     acceleration = np.abs(np.diff(m.trace.columns["command_velocity"] / 60.0)) / _step(m)
     used = float(acceleration.max()) if acceleration.size else 0.0
@@ -203,6 +203,8 @@ def _available(m: SimulatedMove) -> float:
 
 
 def _time_at_limit(m: SimulatedMove) -> float:
+    import numpy as np
+
     torque = np.abs(m.trace.columns["torque"])
     limit = (
         min(m.p[samples.LIMIT_POSITIVE], m.p[samples.LIMIT_NEGATIVE]) or m.axis.machine.torque_limit_positive

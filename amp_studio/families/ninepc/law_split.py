@@ -6,9 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-
-import numpy as np
-import numpy.typing as npt
+from typing import TYPE_CHECKING
 
 from amp_studio.sim import AlarmText, AxisLaw, AxisParameters, Leader, SimulationError, value_text
 
@@ -16,8 +14,12 @@ from . import law_samples as samples
 from .law_facts import MOTION, ids
 
 SETS = ((ids.deskew_master, ids.deskew_slave, "1"), (ids.master_2, ids.slave_2, "2"))
-Positions = npt.NDArray[np.float64]
-Leads = Mapping[str, Positions]
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    Positions = npt.NDArray[np.float64]
+    Leads = Mapping[str, Positions]
 
 SLAVE = (
     "This servo is the slave of axis {0}: command, ramps and feedrates are those of its master (32-4), whose"
@@ -148,6 +150,8 @@ def _joined(master: AxisLaw, slave: AxisLaw, stiffness: float, run: Leader) -> t
         goes = pulled(_following(slave, leads), leads["position"])
         return feels, goes, run(goes)["position"]
 
+    import numpy as np  # most axes have one servo
+
     same = SAME * max(master.machine.position_count, 1e-6)
     given: list[Positions] = []
     answers: list[Positions] = []
@@ -171,6 +175,8 @@ def _mixed(given: list[Positions], answers: list[Positions]) -> Positions:
     """Return the mixture of the last answers whose error is least (D. G. Anderson, Journal of the ACM 12,
     1965).
     """
+    import numpy as np
+
     length = max(map(len, [*given, *answers]))
     g, a = (
         np.array([np.pad(each, (0, length - len(each)), "edge") for each in kept])

@@ -12,6 +12,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
+from typing import TYPE_CHECKING
 
 from amp_studio.files import ParameterFile
 from amp_studio.sim import (
@@ -36,9 +37,11 @@ from .law_loop import loop
 from .law_machine_tests import machine_tests
 from .law_notes import ALWAYS, CLAMPED, NOT_SIMULATED
 from .law_pair import drive_axis, is_synchronised, refuse_chain, synchronised
-from .law_path import path_rules
 from .law_spindle import spindle, tapping
 from .law_words import Words, above, read_words
+
+if TYPE_CHECKING:
+    from amp_studio.sim import BoundMachine, PathRules
 
 SCALE = "model.scale"
 
@@ -236,6 +239,12 @@ def _sources(read: AxisParameters, words: Words) -> dict[str, Source]:
     }
 
 
+def _path_rules(machine: BoundMachine) -> PathRules:
+    from .law_path import path_rules
+
+    return path_rules(machine)
+
+
 LAW = Law(
-    bind, axes, advise=advise, spindle=spindle, tapping=tapping, machine_tests=machine_tests, path=path_rules
+    bind, axes, advise=advise, spindle=spindle, tapping=tapping, machine_tests=machine_tests, path=_path_rules
 )

@@ -7,8 +7,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-import numpy as np
-
 from amp_studio.sim import AxisLaw, Recommendation, Source, Trace, rounded_down, value_text
 
 from . import law_sample as sample
@@ -144,6 +142,8 @@ def _tolerance(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
     """
     if axis.unit != "mm" or axis.parameters[sample.TOLERANCE] >= 0.0 or trace.alarms or not _fits(axis):
         return
+    import numpy as np  # what binds an axis only needs none
+
     theory, real = trace.columns["theoretical_speed"], trace.columns["measured_speed"]
     slow, fast = (
         np.minimum(sample.SLOWEST * theory, sample.FASTEST * theory),

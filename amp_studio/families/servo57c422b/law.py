@@ -10,6 +10,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from typing import TYPE_CHECKING
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import load_schema
@@ -32,14 +33,15 @@ from . import law_plant as plant
 from . import law_sample as loop
 from .law_axis import ModuleAxis
 from .law_cam_table import CAM
-from .law_commands import COMMANDS
 from .law_facts import MOTION, ids
 from .law_home import homing, jogging, travel
 from .law_machine_tests import machine_tests
-from .law_passive import SCENARIO as PASSIVE
 from .law_registration import probing
 from .law_tune import Scales
 from .switch_bits import DRIVE_FAULT
+
+if TYPE_CHECKING:
+    from amp_studio.sim import Scenario
 
 NEEDED = (
     ids.gain_proportional,
@@ -358,12 +360,19 @@ SAME = 5e-4
 """Difference of two feed-forward shares that is not worth a change: 4 of 8192."""
 
 
+def _own_scenarios() -> dict[str, Scenario]:
+    from .law_commands import COMMANDS
+    from .law_passive import SCENARIO as PASSIVE
+
+    return {**COMMANDS, PASSIVE.name: PASSIVE}
+
+
 LAW = Law(
     bind=bind,
     axes=axes,
     advise=advise,
     probing=probing,
-    own={**COMMANDS, PASSIVE.name: PASSIVE},
+    own=_own_scenarios,
     machine_tests=machine_tests,
     cam=CAM,
 )

@@ -11,6 +11,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
+from typing import TYPE_CHECKING
 
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.sim import (
@@ -42,8 +43,10 @@ from .formulas.resolution import STANDARD_BLU
 from .law_advice import advise
 from .law_facts import MOTION, ids
 from .law_machine_tests import machine_tests
-from .law_path import path_rules
 from .law_zones import zones
+
+if TYPE_CHECKING:
+    from amp_studio.sim import BoundMachine, PathRules
 
 SHORTEST, LONGEST = 1e-4, 0.1
 """s: interpolation times that are simulated."""
@@ -369,4 +372,10 @@ def _sources(read: AxisParameters, axis: _Axis) -> dict[str, Source]:
     }
 
 
-LAW = Law(bind, axes, advise=advise, zones=zones, machine_tests=machine_tests, path=path_rules)
+def _path_rules(machine: BoundMachine) -> PathRules:
+    from .law_path import path_rules
+
+    return path_rules(machine)
+
+
+LAW = Law(bind, axes, advise=advise, zones=zones, machine_tests=machine_tests, path=_path_rules)

@@ -11,8 +11,7 @@ plain or as machine code; both give equal results.
 
 from __future__ import annotations
 
-import numpy as np
-import numpy.typing as npt
+from typing import TYPE_CHECKING
 
 from .arrays import Vector
 from .counts import nearest
@@ -44,6 +43,10 @@ from .signals import (
     TIME,
     TORQUE,
 )
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
 
 COLUMNS = (
     "time_s",
