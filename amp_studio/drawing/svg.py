@@ -273,7 +273,9 @@ def _curve(frame: Placement, curve: Curve) -> Iterator[str]:
 
 
 def _joined(points: Sequence[Sequence[float]]) -> str:
-    return " ".join(f"{_short(x)},{_short(y)}" for x, y in points)
+    """Return points in the coordinates of ``_short``: thousands of a curve, shortened all at once."""
+    text = " ".join([f"{x:.1f},{y:.1f}" for x, y in points])
+    return text.replace(".0,", ",").replace(".0 ", " ").removesuffix(".0")
 
 
 def _short(value: float) -> str:

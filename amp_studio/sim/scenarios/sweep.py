@@ -114,12 +114,12 @@ def sweep(axis: AxisLaw, tones: Sequence[Tone], *, feed_forward: bool = True) ->
     swept = axis if axis.sweep_parameters is None else replace(axis, parameters=axis.sweep_parameters)
     motion = run_axis(swept, rows, Until(tones[-1].end), thin=True, feed_forward=feed_forward)
     columns = {name: column[:: motion.rows_per_servo_period] for name, column in motion.columns.items()}
-    time = columns["time_s"]
+    time = np.ascontiguousarray(columns["time_s"])
     found = np.full((2, len(tones)), np.nan, dtype=np.complex128)
     for n, tone in enumerate(tones):
         if time[-1] < tone.end - 2.0 * axis.servo_period:
             break
-        inside = (time >= tone.begin - 1e-9) & (time < tone.end - 1e-9)
+        inside = slice(*np.searchsorted(time, (tone.begin - 1e-9, tone.end - 1e-9)))  # time only grows
         for row, name in enumerate(("position", "measured_position")):
             answer = _fitted(time[inside] - tone.start, columns[name][inside], tone)
             if abs(answer) * tone.amplitude >= LEAST * axis.machine.position_count:
