@@ -34,11 +34,13 @@ def measures(folder: Path, full: Path, printed: Path, example: Path, times: int)
     yield Measure("validate, cold process", program("validate", full), 25 * bare)
     picture = program("simulate", example, "step", "-o", folder / "step.svg")
     yield Measure("simulate a move and draw it, cold process", picture, 1.0)
-    yield Measure("report to PDF, cold process", program("report", printed, "-o", folder / "full.pdf"), 3.0)
+    yield Measure("report to PDF, cold process", program("report", printed, "-o", folder / "full.pdf"), 2.0)
     page = program("report", printed, "-o", folder / "full.html", "--without", "motion")
     yield Measure("report to a web page without motion, cold process", page, 0.5)
+    whole = program("report", printed, "-o", folder / "whole.html")
+    yield Measure("report to a web page with motion, cold process", whole, 1.0)
     paint = [_until_painted(example, settings) for _ in range(runs)][-times:]
-    yield Measure("first paint of the desktop program, cold process", tuple(paint), 1.5)
+    yield Measure("first paint of the desktop program, cold process", tuple(paint), 0.75)
 
 
 def _private(folder: Path, own_bytecode: bool) -> Mapping[str, str]:
