@@ -258,7 +258,7 @@ def test_a_line_that_is_pulled_while_sending_ends_with_the_truth_and_one_next_st
     page.press()
     settled(window, qtbot)
     assert page.session.phase == "away"
-    assert "no connection to the control" in page.bar.text.text()
+    assert "No connection to the control" in page.bar.text.text()
     assert [button.text() for button in page.bar.buttons] == ["Try Again"]
 
 
@@ -281,7 +281,7 @@ def test_a_control_that_is_not_there_and_an_address_that_is_none(
     window: MainWindow, user: User, qtbot: QtBot
 ) -> None:
     page = at_control(window, "tcp://127.0.0.1:1", "compare", qtbot)
-    assert "no connection to the control" in page.bar.text.text()
+    assert "No connection to the control" in page.bar.text.text()
     page.known.field.setText("over there")
     page.known._enter()
     assert "over there" in user.reads()
@@ -504,3 +504,22 @@ def test_a_password_that_is_right_opens_the_page_and_is_named_among_the_conditio
     assert page.session.seen is not None
     assert not page.password.isVisible()
     assert "Password accepted" in [c.text for c in conditions_of(page.session, window.workspace.file)]
+
+
+def test_without_a_control_the_keyboard_is_where_one_is_chosen_or_added(window: MainWindow) -> None:
+    window.control.exchanges.remember_contact("COM3", "connect", reached=False, family="57c422b")
+    window.settings.keep_control("")
+    window.control.show("compare")
+    QApplication.processEvents()
+    known = window.control.page.known
+    assert known.list.hasFocus()
+    QTest.keyClicks(known.list, "+")
+    assert known.field.hasFocus()
+
+
+def test_a_file_does_not_take_the_last_control_of_another_family(window: MainWindow) -> None:
+    exchanges, here = window.control.exchanges, "tcp://10.0.0.1:9600"
+    window.settings.keep_control(here)
+    assert exchanges.address_of(window.workspace) == here, "nobody knows what it is"
+    exchanges.remember_contact(here, "connect", reached=True, family="57c422b")
+    assert exchanges.address_of(window.workspace) == ""

@@ -198,6 +198,8 @@ class ControlDesk(Translated):
             self.use(place)
         else:
             self._list()
+            page.known.setFocus()  # one is chosen there, or "+" asks for an address
+            return
         page.setFocus()
 
     def _has_a_way(self, workspace: Workspace) -> bool:

@@ -30,7 +30,7 @@ from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import Translated, counted, message_in_words
 from amp_studio.ui.base.workspace import Workspace, earlier_of
-from amp_studio.ui.merge.comparisons import FILTER, Comparisons
+from amp_studio.ui.merge.comparisons import Comparisons, parameter_files
 from amp_studio.ui.page.file_page import FilePage
 from amp_studio.ui.window.recent_files import RecentFiles
 from amp_studio.ui.window.studio_window import StudioWindow
@@ -101,7 +101,7 @@ class Files(Translated):
             self.window,
             title,
             str(self._own_folder() / near.with_suffix(".amp")),
-            FILTER,
+            parameter_files(),
             options=QFileDialog.Option.DontConfirmOverwrite,
         )
         if not text:
@@ -159,7 +159,7 @@ class Files(Translated):
         """Ask for a file and open it."""
         project, workspace = self.window.project, self.window.workspace
         folder = workspace.path.parent if workspace else project.folder if project else ""
-        text, _ = QFileDialog.getOpenFileName(self.window, self.tr("Open"), str(folder), FILTER)
+        text, _ = QFileDialog.getOpenFileName(self.window, self.tr("Open"), str(folder), parameter_files())
         if text:
             self.open_path(Path(text))
 

@@ -14,7 +14,7 @@ from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.task import in_background, run_patiently
 from amp_studio.ui.base.translated import counted, tr
-from amp_studio.ui.merge.comparisons import FILTER
+from amp_studio.ui.merge.comparisons import parameter_files
 from amp_studio.ui.window.studio_window import StudioWindow
 
 
@@ -176,7 +176,7 @@ def copy(window: StudioWindow) -> None:
 def copy_from(window: StudioWindow) -> None:
     """Copy a file of another project into this one."""
     folder = str(_the_project(window).folder.parent)
-    text, _ = QFileDialog.getOpenFileName(window, tr("Copy from another project"), folder, FILTER)
+    text, _ = QFileDialog.getOpenFileName(window, tr("Copy from another project"), folder, parameter_files())
     _copy(window, Path(text) if text else None)
 
 

@@ -16,8 +16,6 @@ from amp_studio.validate import rules_beside
 if TYPE_CHECKING:
     from amp_studio.ui.control.page import ControlPage
 
-_FILES = "Parameter files and backups of a control (*.amp *.img);;All files (*)"
-
 
 def sheet_of_control(page: ControlPage) -> None:
     """Make the sheet against what the chosen control contains, which is read first if that is not known."""
@@ -45,7 +43,12 @@ def sheet_of_file(page: ControlPage) -> None:
     """
     assert page.workspace is not None
     folder = str(page.workspace.path.parent)
-    text, _ = QFileDialog.getOpenFileName(page, tr("What the control contains"), folder, _FILES)
+    text, _ = QFileDialog.getOpenFileName(
+        page,
+        tr("What the control contains"),
+        folder,
+        tr("Parameter files and backups of a control (*.amp *.img);;All files (*)"),
+    )
     if text:
         path = Path(text)
         _make(page, in_background(page, tr("Opening"), partial(_read, path)), path.name)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, QSize, Qt, Signal
-from PySide6.QtGui import QFontMetrics, QPainter
+from PySide6.QtGui import QFontMetrics, QKeySequence, QPainter, QShortcut
 from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
@@ -122,6 +122,10 @@ class KnownList(QWidget):
         self.list.setAccessibleName(self.tr("Controls"))
         self.list.itemClicked.connect(lambda item: self.chosen.emit(item.data(_KEY)))
         self.list.itemActivated.connect(lambda item: self.chosen.emit(item.data(_KEY)))
+        plus = QShortcut(QKeySequence("+"), self.list)
+        plus.setContext(Qt.ShortcutContext.WidgetShortcut)
+        plus.activated.connect(self.ask)
+        self.setFocusProxy(self.list)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
@@ -166,3 +170,4 @@ class KnownList(QWidget):
                 self.list.setCurrentItem(item)
         if not listed:
             self.field.show()
+        self.setFocusProxy(self.list if listed else self.field)

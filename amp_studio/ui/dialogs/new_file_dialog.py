@@ -22,7 +22,7 @@ from amp_studio.files import (
     why_axes_are_fixed,
 )
 from amp_studio.schema import Schema, family_ids, load_schema
-from amp_studio.ui.base.translated import tr, worded
+from amp_studio.ui.base.translated import message_in_words, tr, worded
 from amp_studio.ui.forms.form import Field, FormDialog
 
 from .file_dialogs import family_choices
@@ -130,7 +130,7 @@ class NewFileDialog(FormDialog):
                 name=source.name, own=", ".join(p.name for p in of_one_machine(self._schema))
             )
         elif fixed:
-            hint = self.tr("{reason}.").format(reason=fixed)
+            hint = self.tr("{reason}.").format(reason=message_in_words(fixed))
         else:
             hint = self._hint_of_axes()
         self.form.set_answer("hint", hint)

@@ -26,6 +26,7 @@ from amp_studio.files import (
 )
 from amp_studio.ui.base.side_windows import bring
 from amp_studio.ui.base.task import in_background
+from amp_studio.ui.base.translated import tr
 from amp_studio.ui.window.studio_window import StudioWindow
 
 from .columns import BASE, B
@@ -38,7 +39,12 @@ if TYPE_CHECKING:
     from .sources import MergeSources, ReadSource
     from .window import MergeWindow
 
-FILTER = "Parameter files (*.amp);;All files (*)"
+
+def parameter_files() -> str:
+    """Return what a dialog for files offers."""
+    return tr("Parameter files (*.amp);;All files (*)")
+
+
 COPIES = "Copies of a control (*.img *.before-*.amp);;All files (*)"
 AskPath = Callable[[str, Path], Path | None]
 WriteNew = Callable[[Path, Callable[[], Document]], None]
@@ -144,7 +150,7 @@ class Comparisons(QObject):
     # -- what is asked for -------------------------------------------------------------
 
     def _ask_file(self, sources: MergeSources) -> ReadSource | None:
-        path = self._asked_path(sources, self.tr("Compare with"), FILTER)
+        path = self._asked_path(sources, self.tr("Compare with"), parameter_files())
         return None if path is None else sources.from_copy(sources.other_file, path)
 
     def _ask_copy(self, sources: MergeSources) -> ReadSource | None:

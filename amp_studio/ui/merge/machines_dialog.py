@@ -38,7 +38,7 @@ from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.dialogs.file_dialogs import PAPER_KINDS, path_of_kind
 from amp_studio.ui.forms.message_bar import MessageBar
 
-from .comparisons import FILTER
+from .comparisons import parameter_files
 from .machines_model import MachinesFilter, MachinesModel
 
 _ROW_HEAD, _COLUMN = 290, 130
@@ -202,7 +202,7 @@ class MachinesDialog(QDialog):
     def add(self) -> None:
         """Ask for other files and compare them too."""
         near = str(self._machines[0].path.parent) if self._machines else ""
-        texts, _ = QFileDialog.getOpenFileNames(self, self.tr("Add files"), near, FILTER)
+        texts, _ = QFileDialog.getOpenFileNames(self, self.tr("Add files"), near, parameter_files())
         added = [
             _Machine(Path(text), None)
             for text in texts

@@ -16,7 +16,7 @@ from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.window.settings import UserSettings
 
 from .columns import BASE, A, B
-from .comparisons import FILTER
+from .comparisons import parameter_files
 from .sources import MergeSource, MergeSources, Offer, ReadSource
 from .window import MergeWindow
 
@@ -57,7 +57,9 @@ def tool_window(
         window.close()
 
     def ask_file() -> ReadSource | None:
-        text, _ = QFileDialog.getOpenFileName(window, tr("Compare with"), str(sources.folder), FILTER)
+        text, _ = QFileDialog.getOpenFileName(
+            window, tr("Compare with"), str(sources.folder), parameter_files()
+        )
         return sources.from_copy(sources.other_file, Path(text)) if text else None
 
     sources = MergeSources(workspace)

@@ -50,7 +50,6 @@ if TYPE_CHECKING:
 Connect = Callable[[], "LiveTuning | None"]
 """Asks for a control and returns it, not yet read; None where the user names none."""
 _LIST_WIDTH = 190
-_FILES = "Measured points (*.csv *.txt *.rtl *.pos *.dat);;All files (*)"
 
 
 class TuningView(PageOfFile):
@@ -295,7 +294,12 @@ class TuningView(PageOfFile):
         from .measured_dialog import MeasuredDialog
 
         folder = str(self._workspace.path.parent)
-        text, _ = QFileDialog.getOpenFileName(self, self.tr("Measured Points"), folder, _FILES)
+        text, _ = QFileDialog.getOpenFileName(
+            self,
+            self.tr("Measured Points"),
+            folder,
+            self.tr("Measured points (*.csv *.txt *.rtl *.pos *.dat);;All files (*)"),
+        )
         if not text:
             return
         dialog = MeasuredDialog(self.target.file, axis, Path(text), self)

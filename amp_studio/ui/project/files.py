@@ -26,7 +26,7 @@ from amp_studio.files import (
 from amp_studio.schema import UnknownFamilyError, load_schema
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.task import in_background, run_patiently
-from amp_studio.ui.merge.comparisons import FILTER, Comparisons
+from amp_studio.ui.merge.comparisons import Comparisons, parameter_files
 from amp_studio.ui.page.file_page import FilePage
 from amp_studio.ui.window.studio_window import StudioWindow
 
@@ -111,7 +111,9 @@ class ProjectFiles(QObject):
 
     def add(self, folder: Path) -> None:
         """Ask for a file and copy it into a folder."""
-        text, _ = QFileDialog.getOpenFileName(self.window, self.tr("Add a file"), str(folder.parent), FILTER)
+        text, _ = QFileDialog.getOpenFileName(
+            self.window, self.tr("Add a file"), str(folder.parent), parameter_files()
+        )
         if text:
             self.take(Path(text), folder)
 

@@ -16,9 +16,9 @@ from .studio_window import StudioWindow
 
 _FILE_WIDE = 1600
 """Width in logical pixels from which the buttons of the file have their words too."""
-_FIND_WIDTH, _FIND_LEAST = 440, 120
+_FIND_WIDTH, _FIND_LEAST = 440, 106
 """Most that the find box takes, in logical pixels, and what it needs."""
-_CONTROL_WIDTH = 170
+_CONTROL_WIDTH = 184
 """Of the button of the control, whatever its state: nothing beside it moves when that changes."""
 
 
