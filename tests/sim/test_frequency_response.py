@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -141,6 +142,52 @@ def test_a_chirp_is_answered_by_h1_within_three_percent(tmp_path: Path) -> None:
     assert result["inertia_ratio"][0] == pytest.approx(ratio, rel=TOLERANCE)
 
 
+def test_two_resonances_are_a_velocity_and_nothing_else() -> None:
+    """A position with a third pair that creeps fitted as well, and the velocity was called doubtful."""
+    frequency = np.geomspace(2.0, 400.0, 90)
+    s, dice = 2j * math.pi * frequency, np.random.default_rng(5)
+    response = 27.8 / (s + 0.67) * np.exp(-0.0021 * s)
+    for before, at, damping in ((62.0, 84.0, 0.03), (140.0, 171.0, 0.022)):
+        zero, pole = 2.0 * math.pi * before, 2.0 * math.pi * at
+        response *= (s * s / zero**2 + 2.0 * damping * s / zero + 1.0) / (
+            s * s / pole**2 + 2.0 * damping * s / pole + 1.0
+        )
+    noise = 0.01 * (dice.standard_normal(90) + 1j * dice.standard_normal(90))
+    found = fit_plant(coherent(frequency, response * np.exp(noise), None), None)
+    assert (found.quantity, found.sure) == ("velocity", True)
+    assert [pair.resonance for pair in found.pairs] == pytest.approx([84.0, 171.0], rel=TOLERANCE)
+    assert found.figures["acceleration_per_output"][0] == pytest.approx(27.8, rel=TOLERANCE)
+
+
+@pytest.mark.parametrize(
+    ("heads", "columns"),
+    [
+        (
+            "frequency_hz,gain_db,phase_deg",
+            lambda f, h: (f, 20.0 * np.log10(abs(h)), np.degrees(np.angle(h))),
+        ),
+        ("omega (rad/s),gain_abs,phase_rad", lambda f, h: (2.0 * math.pi * f, abs(h), np.angle(h))),
+        (
+            "frequency [kHz],magnitude [(mm/s)/%],Phase [°]",
+            lambda f, h: (f / 1e3, abs(h), np.degrees(np.angle(h))),
+        ),
+        ("freq,real,imag", lambda f, h: (f, h.real, h.imag)),
+        (
+            "Frequenz (1/s),Betrag (abs),Winkel (Grad)",
+            lambda f, h: (2.0 * math.pi * f, abs(h), np.degrees(np.angle(h))),
+        ),
+    ],
+)
+def test_a_response_is_read_in_the_units_of_its_heads(
+    heads: str, columns: Callable[..., tuple[np.ndarray, ...]]
+) -> None:
+    _, response, _ = hidden_plant(1)
+    rows = zip(*(each.tolist() for each in columns(FREQUENCIES, response)), strict=True)
+    found = response_of_text("\n".join([heads, *(",".join(map(repr, row)) for row in rows)]))
+    assert found.frequency == pytest.approx(FREQUENCIES, rel=1e-9)
+    assert found.response == pytest.approx(response, rel=1e-9)
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -150,6 +197,9 @@ def test_a_chirp_is_answered_by_h1_within_three_percent(tmp_path: Path) -> None:
         ("frequency_hz,gain_db,phase_deg\n1,x,3\n", "is no number"),
         (table(FREQUENCIES, 1.0 / FREQUENCIES + 0j, 0.7), "coherence is below 0.8"),
         (table(FREQUENCIES, 1.0 / FREQUENCIES + 0j, 1.7), "between 0 and 1"),
+        ("frequency_hz,gain,phase_deg\n1,2,-90\n", "gain_db or gain_abs"),
+        ("frequency_hz,gain_db,phase\n1,2,-1.6\n", "phase_deg or phase_rad"),
+        ("frequency (rpm),gain_db,phase_deg\n1,2,-90\n", "rpm of the frequency is not known"),
     ],
 )
 def test_what_is_no_response_is_one_sentence(text: str, message: str) -> None:

@@ -34,8 +34,8 @@ WORSE = 1.5
 """Of the mean square residual: another quantity or side that is so much worse is another one."""
 MOST_CORNER = 0.3
 """Share of the highest frequency: an axis whose friction decides up to there is another quantity."""
-LOWEST_PAIR = 1.5
-"""Times the lowest frequency above which a resonance is one."""
+LOWEST_PAIR, HIGHEST_PAIR = 1.5, 1.2
+"""Times the lowest and the highest frequency between which a resonance is one."""
 LEAST_FIT = 0.35
 """Root mean square residual (Np and rad) from which a model does not describe a response."""
 
@@ -49,6 +49,8 @@ class Pair:
     resonance: float
     damping: float
     antiresonance: float | None
+    most_damping: float
+    """The larger damping ratio of resonance and antiresonance."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +128,7 @@ def fit_plant(response: FrequencyResponse, quantity: str | None = None) -> Plant
         for name in QUANTITIES
         if quantity in (None, name)
         for shape, fitted in _fits(response, name)
-        if _is_inside(shape, fitted, float(response.frequency[0]))
+        if _is_inside(shape, fitted, response)
         if quantity is not None or _corner(fitted) < MOST_CORNER * response.frequency[-1]
     ]
     count = 2 * len(response.frequency)
@@ -168,9 +170,17 @@ def _rates(response: FrequencyResponse) -> Response:
     return np.asarray(2j * np.pi * response.frequency, dtype=np.complex128)
 
 
-def _is_inside(shape: _Shape, fitted: LeastSquares, lowest: float) -> bool:
-    """Return whether every resonance is among the frequencies: one below them looks like another quantity."""
-    return all(pair.resonance > LOWEST_PAIR * lowest for pair in _pairs(shape, fitted))
+def _is_inside(shape: _Shape, fitted: LeastSquares, response: FrequencyResponse) -> bool:
+    """Return whether every resonance is among the frequencies and swings.
+
+    One beside them, or one that creeps, takes the place of an integral or a difference, so that another
+    quantity would fit as well.
+    """
+    lowest, highest = float(response.frequency[0]), float(response.frequency[-1])
+    return all(
+        LOWEST_PAIR * lowest < pair.resonance < HIGHEST_PAIR * highest and pair.most_damping < 1.0
+        for pair in _pairs(shape, fitted)
+    )
 
 
 def _criterion(fitted: LeastSquares, count: int) -> float:
@@ -193,7 +203,6 @@ def _fits(response: FrequencyResponse, quantity: str) -> Iterator[tuple[_Shape, 
             if _criterion(fitted, count) >= _criterion(best, count):
                 break
             shape, best = more, fitted
-        if shape is not rigid:
             yield shape, best
 
 
@@ -264,6 +273,9 @@ def _figures(shape: _Shape, fitted: LeastSquares) -> dict[str, tuple[float, floa
 
 def _pairs(shape: _Shape, fitted: LeastSquares) -> Iterator[Pair]:
     for n in range(shape.pairs):
-        rate, ratio, damping, _ = (math.exp(each) for each in fitted.parameters[3 + 4 * n : 7 + 4 * n])
+        rate, ratio, damping, before_it = (
+            math.exp(each) for each in fitted.parameters[3 + 4 * n : 7 + 4 * n]
+        )
         before = None if shape.at_load and n == 0 else rate / math.sqrt(1.0 + ratio) / (2.0 * math.pi)
-        yield Pair(rate / (2.0 * math.pi), damping, before)
+        most = damping if before is None else max(damping, before_it)
+        yield Pair(rate / (2.0 * math.pi), damping, before, most)

@@ -8,7 +8,9 @@ differences is taken out again exactly.
 
 from __future__ import annotations
 
+import math
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -32,11 +34,30 @@ HIGHEST = 0.25
 LEAST_EXCITATION = 1e-4
 """Share of the strongest torque in a frequency from which it is excited."""
 _HEADS = {
-    "frequency": r"(frequency|freq|f|frequenz)([ _(\[]*hz[)\]]?)?",
-    "gain": r"(gain|magnitude|mag|amplitude|verst.rkung)([ _(\[]*db[)\]]?)?",
-    "phase": r"(phase|winkel)([ _(\[]*(deg|°|grad)[)\]]?)?",
-    "coherence": r"(coherence|coh|koh.renz)",
+    "frequency": r"(?:frequency|frequenz|freq|f)",
+    "omega": r"(?:omega|ω|w|angular frequency|kreisfrequenz)",
+    "gain": r"(?:gain|magnitude|mag|amplitude|betrag|verst.rkung)",
+    "phase": r"(?:phase|winkel)",
+    "real": r"(?:real part|realteil|real|re)",
+    "imaginary": r"(?:imaginary part|imagin.rteil|imaginary|imag|im)",
+    "coherence": r"(?:coherence|coh|koh.renz)",
 }
+"""What a column is -> its name, which its unit follows in brackets or behind a blank or _."""
+_UNIT = r"(?:[ _]*\[(.+)\]|[ _]*\((.+)\)|[ _]+([^\s_()\[\]]+))?"
+_HERTZ = {"hz": 1.0, "khz": 1e3, "rad/s": 0.5 / math.pi, "rad/sec": 0.5 / math.pi, "1/s": 0.5 / math.pi}
+_DEGREES, _RADIANS = ("deg", "degree", "degrees", "°", "grad"), ("rad", "radian", "radians")
+_ABSOLUTE = ("abs", "absolute", "absolut", "lin", "linear", "ratio", "-", "1")
+_LEAST_DEGREES = 30.0
+_DECIBELS = 1000.0
+"""dB: a larger one is no gain."""
+
+
+@dataclass(frozen=True)
+class _Column:
+    """Where a column is and the unit that its head has; "" for none."""
+
+    index: int
+    unit: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,8 +90,8 @@ def is_response(path: Path) -> bool:
 
 
 def read_response(path: Path) -> FrequencyResponse:
-    """Read frequency (Hz), gain (dB), phase (deg) and coherence; raises SimulationError with the file's
-    name.
+    """Read frequency (Hz, rad/s), gain (dB, absolute), phase (deg, rad) or the parts of the response, and
+    coherence; raises SimulationError with the file's name.
     """
     try:
         return response_of_text(read_table_text(path))
@@ -85,33 +106,80 @@ def response_of_text(text: str) -> FrequencyResponse:
         raise SimulationError(
             "No line has the heads frequency_hz, gain_db and phase_deg, and coherence where it is known"
         )
-    names = [name for name in ("frequency", "gain", "phase", "coherence") if name in heads]
-    table = dict(zip(names, read_number_table(text, [heads[name] for name in names]), strict=True))
-    frequency = table["frequency"]
-    if (frequency <= 0.0).any() or (np.abs(table["gain"]) > 1000.0).any():
-        raise SimulationError("A frequency must be above 0 Hz, and a gain between -1000 and 1000 dB")
+    columns = read_number_table(text, [column.index for column in heads.values()])
+    table = dict(zip(heads, columns, strict=True))
+    frequency = _hertz(table, heads)
+    if (frequency <= 0.0).any():
+        raise SimulationError("A frequency must be above 0 Hz")
     order = np.argsort(frequency, kind="stable")
-    size, phase = 10.0 ** (table["gain"] / 20.0), np.radians(table["phase"])
-    answer = size * np.cos(phase) + 1j * size * np.sin(phase)
+    answer = _answer(table, heads)
     coherence = table.get("coherence")
-    if coherence is not None and not ((coherence >= 0.0) & (coherence <= 1.0 + 1e-9)).all():
-        raise SimulationError("A coherence must be between 0 and 1")
+    if coherence is not None:
+        coherence = coherence / 100.0 if heads["coherence"].unit == "%" else coherence
+        if not ((coherence >= 0.0) & (coherence <= 1.0 + 1e-9)).all():
+            raise SimulationError("A coherence must be between 0 and 1")
     return coherent(frequency[order], answer[order], None if coherence is None else coherence[order])
 
 
-def _heads(text: str) -> dict[str, int]:
-    """Return what each column is, by the first line that names frequency, gain and phase;
-    empty where none does.
+def _hertz(table: Mapping[str, Series], heads: Mapping[str, _Column]) -> Series:
+    name = "frequency" if "frequency" in heads else "omega"
+    unit = heads[name].unit or ("hz" if name == "frequency" else "rad/s")
+    if unit not in _HERTZ:
+        raise SimulationError(f"The unit {unit} of the frequency is not known: Hz, kHz or rad/s")
+    return np.asarray(table[name] * _HERTZ[unit])
+
+
+def _answer(table: Mapping[str, Series], heads: Mapping[str, _Column]) -> Response:
+    """Return the response of gain and phase, or of its parts; raises SimulationError where a unit is open."""
+    if "real" in heads:
+        return np.asarray(table["real"] + 1j * table["imaginary"])
+    phase = (
+        table["phase"] if _is_in_radians(table["phase"], heads["phase"].unit) else np.radians(table["phase"])
+    )
+    size = _size(table["gain"], heads["gain"].unit)
+    return np.asarray(size * np.cos(phase) + 1j * size * np.sin(phase))
+
+
+def _is_in_radians(phase: Series, unit: str) -> bool:
+    if unit in _DEGREES or unit in _RADIANS:
+        return unit in _RADIANS
+    if unit:
+        raise SimulationError(f"The unit {unit} of the phase is not known: deg or rad")
+    # A motion lags behind its torque by 90 deg and more: so small a phase may be radians.
+    if (np.abs(phase) < _LEAST_DEGREES).all():
+        raise SimulationError("The phase may be in deg or rad and names no unit: phase_deg or phase_rad")
+    return False
+
+
+def _size(gain: Series, unit: str) -> Series:
+    if unit == "db" or (not unit and (gain <= 0.0).any()):
+        if (np.abs(gain) > _DECIBELS).any():
+            raise SimulationError("A gain must be between -1000 and 1000 dB")
+        return np.asarray(10.0 ** (gain / 20.0))
+    if not unit:
+        raise SimulationError("The gain names no unit: gain_db or gain_abs")
+    if unit not in _ABSOLUTE and "/" not in unit:
+        raise SimulationError(f"The unit {unit} of the gain is not known: dB or abs")
+    if (gain < 0.0).any():
+        raise SimulationError("An absolute gain is not below 0: the minus is in the phase")
+    return gain
+
+
+def _heads(text: str) -> dict[str, _Column]:
+    """Return what each column is, by the first line that names frequency and gain with phase, or the parts of
+    the response; empty where none does.
     """
     for line in text.splitlines()[:60]:
         separator = next((character for character in ";\t," if character in line), ",")
         cells = [" ".join(cell.strip().strip("\"'").casefold().split()) for cell in line.split(separator)]
-        found = {}
+        found: dict[str, _Column] = {}
         for name, pattern in _HEADS.items():
-            fitting = [n for n, cell in enumerate(cells) if re.fullmatch(pattern, cell)]
-            if fitting:
-                found[name] = fitting[0]
-        if {"frequency", "gain", "phase"} <= found.keys():
+            for n, cell in enumerate(cells):
+                if (match := re.fullmatch(pattern + _UNIT, cell)) and name not in found:
+                    found[name] = _Column(n, next(filter(None, match.groups()), "").strip())
+        if not found.keys() & {"frequency", "omega"}:
+            continue
+        if {"gain", "phase"} <= found.keys() or {"real", "imaginary"} <= found.keys():
             return found
     return {}
 
