@@ -149,6 +149,8 @@ class Interpreter:
             self._at.select(str(code.facts.does), code)
         words = self._numbers.read(pairs, codes)
         self._keep_roles(words.roles, codes)
+        if codes.waits or (self._path.speed_waits and "spindle" in words.roles):
+            self._moves.rest()
         if codes.zones is not None:
             self._switch_zones(codes.zones, words)
         if codes.once:

@@ -31,6 +31,7 @@ _EFFECTS: Mapping[str, Mapping[str, Any]] = {
     "end": {"is_end": True},
     "machine-once": {"in_machine": True},
     "probe": {"motion": "line", "probes": True},
+    "wait-motion": {"waits": True},
 }
 """What a code does -> what the block then is."""
 _OF_NO_AXIS = {"nothing", "zones", *SELECTS, *_EFFECTS}
@@ -92,6 +93,8 @@ class BlockCodes:
     """Whether the move ends at the contact of a probe."""
     begins_cycle: bool = False
     is_end: bool = False
+    waits: bool = False
+    """Whether it waits until the moves before it have ended."""
     sets_rounding: bool = False
     """Whether its words set how far corners are rounded."""
     zones: KnownCode | None = None

@@ -137,6 +137,11 @@ class PathMoves:
             center = machine[first], machine[second]
         return arc_by_center(*ends, *center, self._path.arc_tolerance, clockwise=clockwise)
 
+    def rest(self) -> None:
+        """End the moves so far before the next one begins: a dwell without time, where there is none."""
+        if len(self.rows.kind) and self.rows.kind[-1] != DWELL:
+            self.dwell(0.0)
+
     def dwell(self, seconds: float) -> None:
         if seconds < 0.0:
             raise BlockError("A dwell cannot be negative", "out-of-range")

