@@ -69,7 +69,7 @@ def test_every_value_is_printed_and_table_heads_are_repeated(
     assert "Released by" in text
     heads = {"Where", "Number", "Code"}  # of findings, of values, of what is active after power-up
     pages = texts_of(path)
-    first = next(n for n, page in enumerate(pages) if "HeaderSnapshot" in page) + 1
+    first = next(n for n, page in enumerate(pages) if "Marks" in page) + 1
     for number, page in enumerate(pages[first:-1], first + 1):
         assert heads & set(page.split()), number
 
