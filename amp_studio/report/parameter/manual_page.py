@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import re
 import textwrap
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Literal
 
 from amp_studio.guide import step_of, steps_of
@@ -246,25 +246,28 @@ def _printed_ranges(schema: Schema, parameter: Parameter) -> list[str]:
     return [f"no bounds printed, in {units}"]
 
 
-def range_text(ranges: dict[str, Range] | None, schema: Schema, words: Language = ENGLISH) -> list[str]:
-    """Return one line for each printed unit: ``0 to 214.1 mm``."""
+def range_text(ranges: dict[str, Range] | None, schema: Schema, words: Language | None = None) -> list[str]:
+    """Return one line for each printed unit: ``0 to 214.1 mm``; without words its numbers are as they are
+    typed, so that a bound can be copied.
+    """
+    written, words = words.number if words else str, words or ENGLISH
     lines = []
     for printed, (low, high) in (ranges or {}).items():
         unit = words.unit(unit_text(printed))
         if low is None and high is None:
             lines.append(words.text("no bounds printed") + (f", in {unit}" if unit else ""))
             continue
-        ends = [_end(schema, bound, words) for bound in (low, high)]
+        ends = [_end(schema, bound, written) for bound in (low, high)]
         lines.append(f"{ends[0]} {words.text('to')} {ends[1]} {unit}".rstrip())
     return lines
 
 
-def _end(schema: Schema, bound: object, words: Language) -> str:
+def _end(schema: Schema, bound: object, written: Callable[[str], str]) -> str:
     if bound is None:
         return "…"
     if isinstance(bound, BoundRef):
         return schema.parameters[bound.param].name
-    return words.number(write_number(float(bound)))  # type: ignore[arg-type]  # a bound is a float, a reference or None
+    return written(write_number(float(bound)))  # type: ignore[arg-type]  # a bound is a float, a reference or None
 
 
 def _choice(choice: Choice, patchable: bool) -> str:
