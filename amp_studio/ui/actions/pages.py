@@ -1,5 +1,5 @@
-"""Opens the pages of the file in front that are in the place of its values: motion, tuning, the check of the
-machine, blocks and programs. A command that is given again shows the values.
+"""Opens the pages of the file in front that are in the place of its values: motion, tuning, check and tests
+of the machine, blocks and programs. A command that is given again shows the values.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from amp_studio.ui.base.workspace import Workspace
     from amp_studio.ui.motion.view import MotionView
 
-MOTION, TUNING, CHECK, PROGRAM = "motion", "tuning", "check", "program"
+MOTION, TUNING, CHECK, TESTS, PROGRAM = "motion", "tuning", "check", "tests", "program"
 """The names of the pages."""
 MOST_VERSIONS = 5
 """Earlier versions of a file under which a program is run."""
@@ -129,6 +129,20 @@ def _show_scenario(window: PartsWindow, scenario: str, axis: str) -> None:
     motion = window.page_in_front.pages.get(MOTION)
     if isinstance(motion, MotionView):
         motion.show_scenario(scenario, axis)
+
+
+def open_tests(window: PartsWindow) -> None:
+    """Show the tests at the machine that the manual of the file in front prints."""
+    page = window.page_in_front
+    if page.turned_to != TESTS and (reason := why_not_simulated(page.workspace.file.schema.family)):
+        page.bar.say(reason)
+        return
+    load("amp_studio.sim", "amp_studio.ui.motion.tests_page")
+    from amp_studio.ui.motion.tests_page import MachineTestsPage
+
+    _turn(
+        window, TESTS, lambda page: MachineTestsPage(page.workspace, lambda error: page.bar.say(str(error)))
+    )
 
 
 # -- tuning ------------------------------------------------------------------------

@@ -366,6 +366,13 @@ def _view() -> Menu[PartsWindow]:
                 is_on=lambda w: pages.is_shown(w, pages.CHECK),
             ),
             Action(
+                "view.tests",
+                tr("Te&sts at the Machine"),
+                pages.open_tests,
+                icon="check-square",
+                is_on=lambda w: pages.is_shown(w, pages.TESTS),
+            ),
+            Action(
                 "view.program",
                 tr("&Blocks and Programs"),
                 pages.open_program,
