@@ -81,3 +81,16 @@ PUT_TOGETHER = {
 @pytest.mark.parametrize("english", PUT_TOGETHER, ids=range(len(PUT_TOGETHER)))
 def test_a_sentence_is_put_together_of_its_parts(english: str) -> None:
     assert language_of("de", "9pc").sentence(english) == PUT_TOGETHER[english]
+
+
+@pytest.mark.parametrize("example", sorted({*QUICK, "mill-1394", "syntec-mill"} - {"lathe-ls176"}))
+def test_the_steps_of_tests_at_the_machine_are_german(example: str) -> None:
+    from amp_studio.dossier import machine_tests_of
+
+    file = open_file(EXAMPLES[example]).file
+    words = language_of("de", file.schema.family.family)
+    tests = list(machine_tests_of(file, next(iter(simulated_axes(file)))))
+    texts = {text for test in tests for step in test.steps for text in step}
+    texts |= {test.title.partition(": ")[2] for test in tests}
+    assert len(texts) > 4
+    assert [text for text in sorted(texts) if words.sentence(text) == text] == []
