@@ -21,7 +21,10 @@ def machine_tests(machine: BoundMachine, axis: AxisLaw) -> list[MachineTest]:
 def _zero_point(letter: str, *, is_absolute: bool) -> MachineTest:
     title = "Zero point of an absolute encoder"
     if not is_absolute:
-        why = f"The encoder of {letter} is no absolute one (Pr201 to Pr220 = 3): a search homes it (section 2.2)."
+        why = (
+            f"The encoder of {letter} is no absolute one (Pr201 to Pr220 = 3): a search homes it"
+            " (section 2.2)."
+        )
         return MachineTest("zero-point", title, "2.1", refusal=why)
     steps = (
         MachineTestStep(
