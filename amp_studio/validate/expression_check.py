@@ -187,8 +187,9 @@ class ExpressionCheck:
         and the pattern would be compared with its key.
         """
         if of.choices:
+            what = "is a choice" if of.is_closed else "has a choice in it"
             self._slip(
-                f"{quoted(node.parts[0].text)} is a choice, which has a key and is shown by its label: "
+                f"{quoted(node.parts[0].text)} {what}, which has a key and is shown by its label: "
                 f"compare it with == or in; {_keys(of.choices)}"
             )
 
@@ -375,7 +376,8 @@ def _mixed(node: Node, parts: list[Worth]) -> str:
 
 
 def _joined_texts(parts: list[Worth]) -> Worth:
-    return text_worth(sum(part.length for part in parts))
+    """Return a text made of others; a choice leaves its key in it."""
+    return replace(text_worth(sum(part.length for part in parts)), choices=any_of(parts).choices)
 
 
 def _misuse(node: Node, parts: list[Worth], operator: str, kinds: set[ValueKind]) -> str:

@@ -117,14 +117,24 @@ def test_a_rule_reads_an_axis_by_its_letter_in_the_file(mill: ParameterFile, tmp
     assert "has no instance 'X'" in fault.message
 
 
-def test_a_pattern_on_a_choice_is_refused(mill: ParameterFile, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("of", "what"),
+    [
+        ("kind", "is a choice"),
+        ("('a' + kind)", "has a choice in it"),
+        ("(string(kind) + 'b' + 'c')", "has a choice in it"),
+        ("(kind == 'none' ? 'x' : 'a' + kind)", "has a choice in it"),
+        ("['x', kind + ''][1]", "has a choice in it"),
+    ],
+)
+def test_a_pattern_on_a_choice_is_refused(mill: ParameterFile, tmp_path: Path, of: str, what: str) -> None:
     """The message shows its label, and the pattern would see its key."""
     path = tmp_path / "rules.yaml"
     path.write_text(
         "rules:\n  - {id: own.a, title: a, severity: error, reads: {kind: servo.loop_type}, "
-        "check: \"kind.matches('Digital')\", message: '{kind}'}\n",
+        f"check: \"{of}.matches('Digital')\", message: '{{kind}}'}}\n",
         "utf-8",
     )
     (fault,) = rules_beside(tmp_path / "mill.amp", mill).faults
-    assert "'kind' is a choice, which has a key and is shown by its label" in fault.message
+    assert f"{what}, which has a key and is shown by its label" in fault.message
     assert fault.message.endswith("its keys are none, analog, digital, sercos.")

@@ -248,7 +248,7 @@ def test_a_script_that_does_not_name_its_unit_is_in_that_of_delivery() -> None:
         ("PGAIN X", "line 1, column 7: 'X' sets nothing: PGAIN is written as 'PGAIN X1'"),
         ("PPU X4096 Q4096", "line 1, column 11: 'Q4096' sets nothing: PPU is written as 'PPU X1'"),
         ("PPU X4096Y4096", "line 1, column 5: 'X4096Y4096' sets nothing: PPU is written as"),
-        ("EXC X4", "line 1, column 5: 'X4' sets nothing: EXC is written as 'EXC AXIS0 1'"),
+        ("EXC 4", "line 1, column 5: '4' sets nothing: EXC is written as 'EXC AXIS0 1'"),
         ("EXC AXIS0 4 AXIS8 4", "line 1, column 13: 'AXIS8 4' sets nothing: EXC is written as 'EXC AXIS0 1'"),
         ("NOTCH X(500)", "line 1, column 7: 'X(500)' sets nothing: NOTCH is written as 'NOTCH X(1, 1)'"),
         ("TLM X#1", "line 1, column 5: 'X#1' sets nothing: TLM is written as 'TLM X1'"),
@@ -439,6 +439,35 @@ def test_a_changed_value_changes_its_figure_alone() -> None:
     assert "X(0.25, -0.25)" in FORMAT.write(file), "the same value in another unit is no change"
 
 
+@pytest.mark.parametrize(
+    ("lines", "values"),
+    [
+        ("EXC X(0.25)", {"axes.excess_error_band@X": 0.25}),
+        (
+            "EXC X0.3 Y( .2 ) Z(4, -4)",
+            {f"axes.excess_error_band@{a}": b for a, b in zip("XYZ", (0.3, 0.2, 4.0), strict=True)},
+        ),
+        ("PPU X (4000) Y(-8000)", {"axes.pulses_per_unit@X": 4000.0, "axes.pulses_per_unit@Y": -8000.0}),
+        ("ACC (40)\nDEC(40)", {"speeds.feed_acc_dec": 40.0}),
+    ],
+)
+def test_a_figure_in_brackets_is_an_expression_that_is_a_constant(
+    lines: str, values: dict[str, float]
+) -> None:
+    """Parker Hannifin, ACR Programmer's Guide, page 60."""
+    text = f"PROG0\n{lines}\n"
+    file = taken(FORMAT, MILL, text)
+    assert {name: value.value for name, value in message_of(file).items()} == values
+    assert FORMAT.write(file) == text
+    file.set(next(iter(file.values)), Value(50.0, next(iter(file.values.values())).unit))
+    assert "50" in FORMAT.write(file)
+
+
+def test_an_expression_that_the_controller_works_out_is_refused() -> None:
+    with pytest.raises(FormatError, match="sets nothing"):
+        FORMAT.read("PPU X1\nPPU Y(P0*2)\n", MILL, ReadOptions())
+
+
 def test_what_is_not_set_any_more_leaves_its_line() -> None:
     file = taken(FORMAT, MILL, STARTUP)
     for address in (("axes.pulses_per_unit", "X"), ("servo.p_gain", "X"), ("speeds.feed_acc_dec", "")):
@@ -495,7 +524,7 @@ def test_the_lines_that_are_kept_are_one_note_and_in_the_account(
 
 
 def test_a_slip_in_a_setting_is_no_line_of_a_program() -> None:
-    for line in ("EXC X4", "PPU X4O96", "DAC0 GAIN", "TLM X", "PGAIN Q1"):
+    for line in ("EXC 4", "PPU X4O96", "DAC0 GAIN", "TLM X", "PGAIN Q1"):
         assert told(FORMAT, MILL, f"{STARTUP}{line}").startswith(
             f"line {STARTUP.count(chr(10)) + 1}, column "
         )

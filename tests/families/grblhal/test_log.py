@@ -215,3 +215,16 @@ def test_the_table_of_a_web_page_is_read(tmp_path: Path) -> None:
     assert is_text_of_control(path)
     values = import_file(path).values
     assert (values["stepper.pulse_time", ""].value, values["axis.max_rate", "X"].value) == (10, 500)
+
+
+@pytest.mark.parametrize("sign", ["# ", "// ", "; ", "# # ", "\t//"])
+def test_settings_that_all_are_comments_are_a_listing_and_others_beside_them_are_not(sign: str) -> None:
+    """Published in the source of a program, or switched off in a file of commands."""
+    lines = [f"{sign}${n}={n + 0.5}\t(of the machine)" for n in (11, 100, 101, 102, 110, 111, 112, 120, 121)]
+    text = "// [echo: $$]\n\n" + "\n\n".join(lines)
+    assert is_listing(text)
+    log = read_log(text)
+    (listing,) = log.listings
+    assert (listing.settings[121], len(listing.settings), log.is_comment) == ("121.5", 9, True)
+    beside = read_log(f"{text}\n$100=80\n$101=80\n")
+    assert (beside.listings[-1].settings, beside.is_comment) == ({100: "80", 101: "80"}, False)

@@ -1,6 +1,10 @@
 """The form of a command that sets parameters, taken from the schema: ``NOTCH {i}({notch.frequency},
 {notch.width})``.
 
+A figure may be in brackets (``EXC X(0.25)``): an argument in brackets is an expression, and a
+constant is one (Parker Hannifin, ACR Programmer's Guide, page 60, "Parametric Evaluation"). Any other
+expression is the controller's to work out, and no setting here.
+
 ``{i}`` is the instance, ``{k}`` its place from 0, ``{n}`` its number, ``{v}`` the value of the parameter that
 names the command, and
 ``{other.id}`` that of another one. Blanks between characters may be there or not (``TLM X 2``, ``TLM X4``,
@@ -98,7 +102,8 @@ class Command:
             setting = self._by_instance.get(groups["i"].casefold())
         if setting is None:
             return None
-        figures = tuple((match[f"v{n}"], match.start(f"v{n}") + 1) for n in range(len(setting.addresses)))
+        named = [f"v{n}" if groups[f"v{n}"] else f"w{n}" for n in range(len(setting.addresses))]
+        figures = tuple((groups[name], match.start(name) + 1) for name in named)
         return CommandArgument(setting, figures, at + 1, match.end())
 
     @cached_property
@@ -108,13 +113,18 @@ class Command:
         text, count = "", 0
         for part in _PART.finditer(self.form):
             if part["place"] is not None:
-                text += places.get(part["place"], rf"(?P<v{count}>{_NUMBER})")
+                text += places.get(part["place"], _figure(count))
                 count += part["place"] not in places
             elif part["blank"]:
                 text += r"(?:\s+|(?<=[^A-Za-z0-9.])|(?=[^A-Za-z0-9.+-]))"
             else:
                 text += re.escape(part[0]) if part["word"] else rf"\s*{re.escape(part[0])}\s*"
         return re.compile(rf"{text}(?:\s+|$)", re.IGNORECASE)
+
+
+def _figure(n: int) -> str:
+    """Return the pattern of a figure, alone or in brackets."""
+    return rf"(?:(?P<v{n}>{_NUMBER})|\s*\(\s*(?P<w{n}>{_NUMBER})\s*\))"
 
 
 def commands_of(schema: Schema, machine: str) -> list[Command]:

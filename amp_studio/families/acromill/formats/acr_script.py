@@ -263,7 +263,9 @@ def _keep_unequal(lines: list[_ScriptLine], commands: list[Command], schema: Sch
                 seen.setdefault(address, []).append((line, each.setting.template, values))
     for address, some in seen.items():
         own, templates, figures = zip(*some, strict=True)
-        if len(set().union(*figures)) > 1 or {*templates} != forms[address]:
+        # Forms with one word are written in place of each other, ACC and DEC beside each other.
+        words = {template.partition(" ")[0] for template in forms[address]}
+        if len(set().union(*figures)) > 1 or {each.partition(" ")[0] for each in templates} != words:
             for line in own:
                 line.arguments, line.is_kept = [], True
 
@@ -292,7 +294,7 @@ def _known_at_begin(text: str, commands: list[Command]) -> tuple[list[Command], 
     """Return the commands of the word that a line begins with, and where it goes on; without such a word
     those that have none.
     """
-    word = re.match(r"\s*([A-Z]+)(?:\s+|$)", text, re.IGNORECASE)
+    word = re.match(r"\s*([A-Z]+)(?:\s+|$|(?=\())", text, re.IGNORECASE)
     if word and (known := [c for c in commands if c.word == word[1].upper()]):
         return known, word.end()
     return [c for c in commands if not c.word], len(text) - len(text.lstrip())

@@ -312,6 +312,8 @@ def _notes_of_listings(log: Log, listing: LoggedListing) -> Iterator[str]:
             f"line {line} {quoted(short(text))}" for line, text in list(listing.aside.items())[:9]
         )
         yield f"settings behind sentences change nothing: {lines}"
+    if log.is_comment:
+        yield "every setting here is a comment, and is read"
     if log.bare:
         yield f"a number without $ is read as a setting: line {', '.join(map(str, log.bare[:9]))}"
     if log.refused:

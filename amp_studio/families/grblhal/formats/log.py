@@ -52,6 +52,8 @@ _AHEAD = re.compile(
 )
 _REMARK = re.compile(r"[(;%#]|//|/\*")
 """How a line begins that is no setting of the listing, even where it contains one."""
+_COMMENTED = re.compile(r"^[ \t]*(?:(?:[#;%]|//)[ \t]*)+(?=\$[0-9]{1,5}[ \t]*=)", re.MULTILINE)
+_NOT_COMMENTED = re.compile(r"^[^#;%/\n]*\$[0-9]{1,5}[ \t]*=", re.MULTILINE)
 _END_OF_VALUE = re.compile(r"\(|;(?!\s*\$[0-9])|(?<=\s)(?://|#|/\*)")
 _FOLLOWING = re.compile(r"\s+\$[0-9]{1,5}=")
 _REMARK_BEHIND_TEXT = re.compile(r"\s+(?:[(;#]|//|/\*)")
@@ -155,6 +157,8 @@ class Log:
     """Lines of a setting whose ``$`` is missing."""
     refused: list[int] = field(default_factory=list)
     """Lines of a changed setting that the control answered with an error."""
+    is_comment: bool = False
+    """Every setting is behind the sign of a comment, as in the source of a program."""
 
 
 def is_listing(text: str) -> bool:
@@ -163,7 +167,8 @@ def is_listing(text: str) -> bool:
         return {"100", "110"} <= {
             match[1] for line in text.splitlines() if (match := _BARE.fullmatch(line.strip()))
         }
-    return any(_has_settings(_OBJECT.sub(_in_one_line, text), deep) for deep in (False, True))
+    text = _OBJECT.sub(_in_one_line, text)
+    return any(_has_settings(text, deep) for deep in (False, True)) or _without_signs(text) is not None
 
 
 def _has_settings(text: str, anywhere: bool) -> bool:
@@ -180,14 +185,27 @@ def read_log(text: str) -> Log:
     """Return the listings of a text in their order, and what is around them.
 
     Settings in the middle of a line are read only where the text has no listing otherwise:
-    "then I set $22=1" is none.
+    "then I set $22=1" is none. Settings that are comments are read where there are no others.
     """
     text = _OBJECT.sub(_in_one_line, text)
+    if (bare := _without_signs(text)) is not None:
+        found = _read(bare, anywhere=False)
+        found.is_comment = True
+        return found
     found = _read(text, anywhere=False)
     if max((len(listing.settings) for listing in found.listings), default=0) >= _LEAST:
         return found
     deeper = _read(text, anywhere=True)
     return deeper if sum(len(one.settings) for one in deeper.listings) >= _LEAST else found
+
+
+def _without_signs(text: str) -> str | None:
+    """Return a text whose settings all are comments without the signs of these; None where others are there,
+    or too few.
+    """
+    if len(_COMMENTED.findall(text)) < _LEAST or _NOT_COMMENTED.search(text):
+        return None
+    return _COMMENTED.sub("", text)
 
 
 def _in_one_line(match: re.Match[str]) -> str:
