@@ -129,6 +129,20 @@ def test_fluidnc_is_read_from_its_configuration_and_from_its_entries() -> None:
     assert found.values["build.axes", ""] == Value("XYZ")
 
 
+def test_sections_that_fluidnc_shows_are_read_under_their_heads() -> None:
+    """``$/axes/x`` is answered by the entries below it (RuntimeSetting.cpp)."""
+    axis = "$/axes/{0}\n/axes/{0}:\n  steps_per_mm: {1}\n  soft_limits: true\n  motor0:\n    pulloff_mm: 1.5\nok\n"
+    text = (
+        axis.format("x", "100.000")
+        + axis.format("y", "90.000")
+        + "/stepping:\n  pulse_us: 4\nmust_home: false\n"
+    )
+    found = read(text)
+    assert (number(found, "axis.steps", "X"), number(found, "axis.steps", "Y")) == (100.0, 90.0)
+    assert (number(found, "limits.soft"), number(found, "homing.pull_off")) == (True, 1.5)
+    assert found.unknown == {"must_home": "false"}
+
+
 def test_what_all_axes_of_fluidnc_agree_in_is_a_setting_of_grbl_and_the_rest_is_kept() -> None:
     """$23 has the bit of an axis that homes in its negative direction (Grbl v1.1 Configuration)."""
     home = "    soft_limits: {}\n    homing:\n      cycle: 1\n      positive_direction: {}\n      seek_mm_per_min: {}\n"

@@ -4,6 +4,7 @@
     M203 X18000 Y18000 Z900 E3600            RepRapFirmware, its config.g: mm/min
     axes: {x: {steps_per_mm: 80.0, …}}       FluidNC, its configuration
     $/axes/x/steps_per_mm=80.000             FluidNC, an entry of it as the control shows it
+    /axes/x: {steps_per_mm: 80.000, …}       FluidNC, its answer to $/axes/x: a section of it
     $X/StepsPerMm=80.000                     Grbl_ESP32 and FluidNC, settings by name ($S)
 
 What they have in common becomes a setting by its number; everything else is kept as text.
@@ -39,6 +40,8 @@ _FLUIDNC = re.compile(
     re.MULTILINE,
 )
 _ENTRY = re.compile(r"([ \t]*)([A-Za-z0-9_]+)[ \t]*:(?:[ \t]+(.*))?")
+_SECTION = re.compile(r"/([a-z]\w*(?:/\w+)*):")
+"""The head of a section (``RuntimeSetting::enterSection``), as an answer to its path."""
 _BY_NAME = re.compile(r"^[^$\n]{0,40}\$/?([A-Za-z][\w/]{2,80})=([^\r\n]*)$", re.MULTILINE)
 _OF_AXIS = {
     "steps_per_mm": 100,
@@ -278,8 +281,12 @@ def _entries_of_fluidnc(text: str) -> Iterator[tuple[str, str]]:
     matter.
     """
     open_keys: list[tuple[int, str]] = []
-    entries = (_ENTRY.fullmatch(line.expandtabs().rstrip()) for line in text.splitlines())
+    lines = (line.expandtabs().rstrip() for line in text.splitlines())
+    entries = (_ENTRY.fullmatch(line) or _SECTION.fullmatch(line) for line in lines)
     for entry in islice(filter(None, entries), _MOST):
+        if entry.re is _SECTION:
+            open_keys = [(0, entry[1])]
+            continue
         indent, key, value = len(entry[1]), entry[2], _unquoted(entry[3] or "")
         while open_keys and open_keys[-1][0] >= indent:
             open_keys.pop()
