@@ -30,6 +30,8 @@ HALVINGS = 5
 
 SHOWN_BY = ("frequency", "velocity")
 """Scenarios that are about the loops: their results have the gains of the solver."""
+NO_MORE = 1e-3
+"""Share of the present integral gain up to which a new one takes nothing up within a move."""
 CHATTER = (
     "Inside of its backlash the motor moves without its load, and this loop is too fast for the motor alone:"
     " it is not stable there, and chatters to and fro in the gap."
@@ -123,7 +125,7 @@ def _price(trial: Tried, solved: Solved, gain: Gain) -> str:
         error = _following_errors(solved)
         return error or f"The axis answers {_times(1.0 / share)} more slowly."
     if "integral" in gain.name:
-        slower = f"{_times(1.0 / share)} more slowly" if share else "no more"
+        slower = f"{_times(1.0 / share)} more slowly" if share > NO_MORE else "no more"
         return f"A lasting load is corrected {slower}."
     return f"The axis resists a load {_times(1.0 / share)} less by this gain."
 
