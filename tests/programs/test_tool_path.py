@@ -296,6 +296,13 @@ def test_the_lines_of_a_program_come_without_their_ends(tmp_path: Path) -> None:
     assert read_program(file)[:2] == ["%", "G0 X1"]
 
 
+def test_a_lone_return_ends_a_block_and_the_mark_of_utf_8_is_none(tmp_path: Path) -> None:
+    """Three blocks of such a file were read as one."""
+    file = tmp_path / "a.nc"
+    file.write_bytes(b"\xef\xbb\xbfG90\rG0 X1\r\rY2")
+    assert read_program(file) == ["G90", "G0 X1", "", "Y2"]
+
+
 def test_the_format_of_a_number_is_that_of_the_unit_of_its_block() -> None:
     """15-1: 3.4 digits in inch, 4.3 in metric, also where both come again."""
     blocks = ["F100", *("G21 G1 X2.", "G20 G1 X.1") * 2, "G21 G1 X4.", "G20 G1 X.1234"]
