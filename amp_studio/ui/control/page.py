@@ -353,8 +353,10 @@ class ControlPage(ControlPageParts):
         if is_busy and not self.password.isHidden():  # it stays: what is typed on would go to another field
             self.password.setReadOnly(True)
         else:
-            is_new = is_needed and self.password.isHidden()
+            is_new, had_focus = is_needed and self.password.isHidden(), self.password.hasFocus()
             self.password.setReadOnly(False)
+            if had_focus and not is_needed:
+                self.middle.currentWidget().setFocus()
             self.password.setVisible(is_needed)
             if is_new:  # once: an address may be typed beside it
                 self.password.setFocus()
