@@ -13,7 +13,7 @@ from plausible_machines import RECIPES, false_findings, plausible_machines
 from rule_machines import FAMILIES, machines, sound
 from typical_machines import WRITERS, machine
 
-from amp_studio.files import ParameterFile, open_file
+from amp_studio.files import ParameterFile, new_file, open_file
 from amp_studio.files.example_files import examples_folder
 from amp_studio.schema import Address, Value
 from amp_studio.validate import Finding, Validator, explain, read_builder_rules
@@ -431,3 +431,16 @@ def test_a_ladder_that_ends_at_the_greatest_speed_is_one() -> None:
     assert misfit([1, 10, 20, 50, 100]) is None
     assert misfit([10, 50, 500, 1000, 5000]) == 2
     assert misfit([0.001, 0.01, 0.1, 1, 100]) == 4
+
+
+def test_what_an_axis_has_not_set_is_not_taken_from_another_one() -> None:
+    """A listing in which Y has a rate and no acceleration: that of X is no measure of it."""
+    file = new_file("grblhal", None, ["X", "Y", "Z"])
+    for n in list(file.values):
+        if n[0].startswith("axis."):
+            file.set(n, None)
+    file.set(("axis.acceleration", "X"), Value(25.0, "mm/s2"))
+    file.set(("axis.max_rate", "Y"), Value(5001.0, "mm/min"))
+    assert [f.message for f in Validator(file).run() if f.rule == "plausible.quotient"] == []
+    file.set(("axis.acceleration", "Y"), Value(25.0, "mm/s2"))
+    assert [f.rule for f in Validator(file).run() if f.rule == "plausible.quotient"] == ["plausible.quotient"]

@@ -146,8 +146,10 @@ class Relations:
 
     def _quotient(self, fact: Quotient) -> list[Finding]:
         found, others = [], self._values[fact.over]
-        low, high = fact.between
+        (low, high), places = fact.between, self._file.schema.on(self._file.machine).places
         for instance, one in self._values[fact.of].items():
+            if instance not in others and (fact.over, instance) in places:
+                continue  # its own is not set: that of another axis is no measure
             own = [others[instance]] if instance in others else others.values()
             divisors = [other for other in own if _divides(other, one)]
             if not divisors or not isinstance(one.number, float) or not one.number:
