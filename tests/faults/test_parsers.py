@@ -25,6 +25,7 @@ CALLS = {
     "reader",
     "recv",
     "readLine",
+    "readline",
     "readAllStandardError",
     "unpack_from",
     "model_validate_json",

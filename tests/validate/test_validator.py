@@ -136,13 +136,13 @@ def test_an_axis_that_turns_is_reported_in_degrees(mill) -> None:
 
 
 def test_another_unit_system_is_noticed(mill) -> None:
+    mill.values["servo.lead_screw_pitch", "1"] = Value(4.0, "deg")
     validator = Validator(mill)
-    mill.set(EXCESS, Value(11.0, "mm"))
-    validator.run()
+    assert any("4° should be in mm here." in finding.message for finding in validator.run())
     mill.header.units = "inch"
     findings = validator.update([])
     assert findings == Validator(mill).run()
-    assert any("trails its command by 0.472441 in" in finding.message for finding in findings)
+    assert any("4° should be in in here." in finding.message for finding in findings)
 
 
 def test_a_fix_that_cannot_change_motion_is_safe(mill) -> None:
