@@ -113,7 +113,15 @@ def test_a_jog_is_cancelled_and_a_hold_is_taken_up_again(bench: Bench) -> None:
 
 
 @pytest.mark.parametrize(
-    ("line", "answer"), [("$J=G91 X10", "error:22"), ("$J=F100", "error:16"), ("G1 X10", "error:22")]
+    ("line", "answer"),
+    [
+        ("$J=G91 X10", "error:22"),
+        ("$J=F100", "error:16"),
+        ("G1 X10", "error:22"),
+        ("G1 X1.52.25 F100", "error:20"),
+        ("G10 L2 P1 X1.52.25", "error:20"),
+        ("$J=G91 X-2..25 F100", "error:20"),
+    ],
 )
 def test_a_move_that_lacks_something_is_refused(bench: Bench, line: str, answer: str) -> None:
     assert bench.identity_word(line) == answer

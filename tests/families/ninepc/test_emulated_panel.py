@@ -209,6 +209,11 @@ def test_what_is_replaced_is_stored_all_at_once_by_update_and_current_after_a_re
     assert "AMP HAS BEEN MODIFIED" in operator.keys("restart"), "at every power-up (page 37-3)"
 
 
+def test_what_is_searched_for_is_shown_on_one_line(mill, at) -> None:
+    (line,) = logged_on(at(mill)).keys("search 1750\n@1").splitlines()
+    assert line.startswith("1750")
+
+
 def test_who_leaves_without_update_has_changed_nothing(mill, at) -> None:
     operator = logged_on(at(mill))
     before = operator.control.image

@@ -35,7 +35,9 @@ _STATES = ("Idle", "Run", "Hold:0", "Door:0", "Alarm", "Check")
 _SUSPENDED = ("Hold:0", "Door:0")  # no line is read (protocol.c ``protocol_exec_rt_suspend``)
 
 
-_WORDS = re.compile(r"([A-FH-Z])(-?[\d.]+)")
+_NUMBER = r"-?(?:\d+\.?\d*|\.\d+)"
+_WORDS = re.compile(rf"([A-FH-Z])({_NUMBER})")
+_BLOCK = re.compile(rf"(?:[A-Z]{_NUMBER})*")
 _NO_MOTION = {4.0, 10.0, 28.0, 28.1, 30.0, 30.1, 92.0}
 """Of a block whose axis words are no straight move here."""
 
@@ -275,6 +277,8 @@ class Firmware:
 
     def _jog(self, text: str) -> None:
         """Move by a jog, which changes no mode (gcode.c)."""
+        if not _BLOCK.fullmatch(text):
+            raise RefusedError(BAD_WORD)
         words = dict(_WORDS.findall(text))
         if "F" not in words:
             raise RefusedError(NO_FEED)
@@ -358,9 +362,9 @@ class Firmware:
         if match := re.match(r"G(20|21)", line):
             self._unit = int(match[1])
             line = line[3:]
-        match = re.fullmatch(r"G10L2P([1-9])((?:[A-Z]-?[\d.]+)*)", line)
+        match = re.fullmatch(rf"G10L2P([1-9])({_BLOCK.pattern})", line)
         if match is None:
-            if not re.fullmatch(r"([A-Z]-?[\d.]+)*", line):
+            if not _BLOCK.fullmatch(line):
                 raise RefusedError(BAD_WORD)
             self._words(line)
             return
@@ -368,7 +372,7 @@ class Firmware:
         if name not in self.offsets:
             raise RefusedError(OUT_OF_RANGE)
         at = dict(zip(self._axes, map(float, self.offsets[name].split(",")), strict=True))
-        for axis, number in re.findall(r"([A-Z])(-?[\d.]+)", match[2]):
+        for axis, number in re.findall(rf"([A-Z])({_NUMBER})", match[2]):
             if axis not in at:
                 raise RefusedError(BAD_WORD)
             at[axis] = float(number) * (25.4 if self._unit == 20 else 1.0)
@@ -377,7 +381,7 @@ class Firmware:
 
     def _words(self, line: str) -> None:
         """Do the words of a block that move: G0, G1, G53, G90, G91, F, axes."""
-        codes = {float(code) for code in re.findall(r"G(-?[\d.]+)", line)}
+        codes = {float(code) for code in re.findall(rf"G({_NUMBER})", line)}
         words = dict(_WORDS.findall(line))
         self._distance = 91 if 91.0 in codes else 90 if 90.0 in codes else self._distance
         self._mode = 0 if 0.0 in codes else 1 if 1.0 in codes else self._mode

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import UnknownParameterError, quoted, stored_number, write_number
+from amp_studio.schema import UnknownParameterError, quoted, stored_number, visible, write_number
 from amp_studio.transfer import ControlStatus, ImageError, decode_image, patch_image
 from amp_studio.transfer.emulated import Control, Start
 from amp_studio.transfer.house import Flags
@@ -143,6 +143,7 @@ class NinePcPanel:
         parameter, value = file.schema.parameters[address[0]], file.get(address)
         if not parameter.patchable:
             raise ValueError(NOT_FOUND)
+        number = visible(number)
         if value is None:
             return f"{number} not set"
         stored = stored_number(parameter, value, turns=file.evaluation.turns(address))
