@@ -33,7 +33,8 @@ def front_page(room: str) -> Callable[[str], Any]:
         if place is None:
             raise AttributeError(f"{room} has no {name} on its front page")
         module, own = place
-        return getattr(sys.modules.get(module) or import_module(module), own)
+        # sys.modules has a module that another thread is still loading; import waits for it.
+        return getattr(import_module(module), own)
 
     return given
 

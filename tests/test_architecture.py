@@ -5,6 +5,7 @@ and every library is declared.
 from __future__ import annotations
 
 import ast
+import builtins
 import itertools
 import os
 import re
@@ -13,10 +14,12 @@ import string
 import subprocess
 import sys
 import textwrap
+import threading
 import tomllib
 from collections import Counter
 from collections.abc import Iterator
 from functools import cache
+from importlib import import_module
 from importlib.metadata import PackageNotFoundError, files
 from pathlib import Path
 
@@ -484,6 +487,29 @@ def test_no_name_of_a_front_page_is_a_module_below_it_too(checkout: Path) -> Non
         for name, _, _ in listed(page.read_text("utf-8"))
         if (page.parent / f"{name}.py").is_file() or (page.parent / name).is_dir()
     ] == []
+
+
+def test_a_name_of_a_module_that_another_thread_is_loading_is_waited_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A window asked for one while pictures were loaded beside it: an internal error, once in many runs."""
+    room = tmp_path / "slow_room"
+    room.mkdir()
+    (room / "__init__.py").write_text(
+        "from amp_studio.front_pages import front_page\nTYPE_CHECKING = False\nif TYPE_CHECKING:\n"
+        "    from .slow import LAST\nelse:\n    __getattr__ = front_page(__name__)\n"
+    )
+    (room / "slow.py").write_text("import threading\nBEGUN.set()\nGO_ON.wait(20)\nLAST = 1\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    begun, go_on = threading.Event(), threading.Event()
+    monkeypatch.setattr(builtins, "BEGUN", begun, raising=False)
+    monkeypatch.setattr(builtins, "GO_ON", go_on, raising=False)
+    beside = threading.Thread(target=import_module, args=("slow_room.slow",))
+    beside.start()
+    assert begun.wait(20)
+    threading.Timer(0.05, go_on.set).start()
+    assert import_module("slow_room").LAST == 1
+    beside.join()
 
 
 def test_a_name_that_is_not_on_a_front_page_is_an_attribute_error() -> None:
