@@ -240,6 +240,8 @@ def main(count: int, seed: int) -> int:
         bad += bool(found)
         for fault in found:
             print(f"{plant}: {fault}\n    {dict(plant.settings)} {dict(plant.shares)}", flush=True)
+        if (plant.number + 1) % 10 == 0:
+            print(f"{plant.number + 1} machines, {bad} with a fault", file=sys.stderr, flush=True)
     print(f"{count} machines, seed {seed}: {bad} with a fault")
     return bad
 
