@@ -54,6 +54,11 @@ def note_lines(text: str) -> list[str]:
 
 def printable(text: str) -> str:
     """Return a text without control characters for printers, terminals and text direction."""
-    return (
-        text if text.isprintable() else "".join(c if c.isprintable() or c == NO_BREAK else " " for c in text)
-    )
+    if text.isprintable():
+        return text
+    # Line by line: a drawing is long, and but for its ends of lines there is nothing in it to take away.
+    return " ".join(line if line.isprintable() else _printable(line) for line in text.split("\n"))
+
+
+def _printable(line: str) -> str:
+    return "".join(c if c.isprintable() or c == NO_BREAK else " " for c in line)
