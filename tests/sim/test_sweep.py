@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -20,6 +22,7 @@ from amp_studio.sim.variations.batch import FIGURES, run_batch
 from amp_studio.sim.variations.composed import ComposedAxes, agrees
 from amp_studio.sim.variations.job import Axes, SweepJob
 from amp_studio.sim.variations.plan import points_of, read_varied
+from amp_studio.sim.variations.worker import SweepWorker, WorkerEndedError
 from amp_studio.sim.write import trace_summary, trace_text
 from tests.campaigns import some
 
@@ -232,3 +235,32 @@ def test_a_figure_of_two_varied_ones_is_bound_from_the_file() -> None:
     assert found is not None
     assert (found.position_rate, found.feedrate) == (6.0, 2.0)
     assert asked[-1] == (2.0, 3.0)
+
+
+SCRIPT = """
+import amp_studio as amp
+from amp_studio.sim import SweepWay
+from amp_studio.sim.variations import running
+running.AT_ONCE = 30
+print("once")
+machine = amp.open({path!r})
+given = {{"sweep_over": "model.delay=1:3:90", "sweep_figure": "Ms"}}
+one, two = (machine.simulate("sweep", "0", way=SweepWay(cores=cores), **given) for cores in (1, 2))
+print((one.columns["Ms"] == two.columns["Ms"]).all())
+"""
+
+
+def test_a_sweep_over_two_cores_is_that_of_one_and_runs_the_script_that_asks_once(tmp_path: Path) -> None:
+    script = tmp_path / "machine_of_the_day.py"
+    script.write_text(SCRIPT.format(path=str(EXAMPLES / "num-1060-mill/MILL_1060.amp")))
+    done = subprocess.run(
+        [sys.executable, str(script)], capture_output=True, text=True, timeout=120, check=False
+    )
+    assert (done.stdout.split(), done.stderr) == (["once", "True"], "")
+
+
+def test_a_process_apart_that_was_ended_has_no_figures() -> None:
+    worker = SweepWorker(None)  # type: ignore[arg-type]  # it is ended before it asks for its job
+    worker.end()
+    with pytest.raises(WorkerEndedError):
+        worker.figures(np.zeros((1, 1)))

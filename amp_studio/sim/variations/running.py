@@ -9,18 +9,15 @@ chunks go to a Dask cluster (the extra ``cluster``), whose workers have the same
 from __future__ import annotations
 
 import base64
-import gc
 import hashlib
 import json
 import os
-import signal
 from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, field
-from multiprocessing import get_context
 from pathlib import Path
+from queue import SimpleQueue
 from typing import Any
 
 import numpy as np
@@ -30,6 +27,7 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.tuning.sampled import Matrix
 
 from .job import AT_ONCE, SweepJob, figures_of
+from .worker import SweepWorker, WorkerEndedError
 
 SweepProgress = Callable[[str, int, int], None]
 """progress(stage, done, of all)."""
@@ -144,22 +142,37 @@ def _here(job: SweepJob, points: Matrix, starts: list[int], cores: str) -> Itera
         for start in starts:
             yield start, figures_of(job, points[start : start + AT_ONCE])
         return
-    # Spawned, because a copy of a process with threads (of numba, of the window) may wait for a lock
-    # for ever.
-    pool = ProcessPoolExecutor(int(cores) - 1, mp_context=get_context("spawn"), initializer=_begin)
+    # Not copied: a copy of a process with threads (of numba, of the window) may wait for a lock for
+    # ever.
+    idle: SimpleQueue[SweepWorker] = SimpleQueue()
+    workers = [SweepWorker(job) for _ in range(int(cores) - 1)]
+    for worker in workers:
+        idle.put(worker)
+
+    def figures(part: Matrix) -> Matrix:
+        worker = idle.get()
+        try:
+            return worker.figures(part)
+        finally:
+            idle.put(worker)
+
+    pool = ThreadPoolExecutor(len(workers))
     try:
-        yield from _beside(pool, job, points, starts)
+        yield from _beside(lambda part: pool.submit(figures, part), job, points, starts)
     finally:
-        pool.shutdown(wait=True, cancel_futures=True)
+        pool.shutdown(wait=False, cancel_futures=True)
+        for worker in workers:
+            worker.end()
+        pool.shutdown(wait=True)
 
 
 def _beside(
-    pool: ProcessPoolExecutor, job: SweepJob, points: Matrix, starts: list[int]
+    submit: Callable[[Matrix], Future[Matrix]], job: SweepJob, points: Matrix, starts: list[int]
 ) -> Iterator[tuple[int, Matrix]]:
     """Yield the parts: this process takes the last one that has not begun, until none is left."""
     # All at once: the pool hands them out in this order, and whatever has not begun can still be taken
     # back.
-    waiting = {start: pool.submit(figures_of, job, points[start : start + AT_ONCE]) for start in starts}
+    waiting = {start: submit(points[start : start + AT_ONCE]) for start in starts}
     for start in reversed(starts):
         # From the end, where the others come last; cancel answers False for a part that has begun.
         if waiting[start].cancel():
@@ -168,14 +181,8 @@ def _beside(
     for start, future in waiting.items():
         try:
             yield start, future.result()
-        except BrokenProcessPool:  # one of them was ended from outside: what it had is done here
+        except WorkerEndedError:  # one of them was ended from outside: what it had is done here
             yield start, figures_of(job, points[start : start + AT_ONCE])
-
-
-def _begin() -> None:
-    """Prepare a process that computes parts."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the process that waits for these ends them
-    gc.freeze()
 
 
 def _on_cluster(
