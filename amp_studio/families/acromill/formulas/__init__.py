@@ -33,35 +33,5 @@ from .servo import (
 )
 from .spindle import spindle_scaling, spindle_volts
 
-__all__ = [
-    "ballscrew_difference",
-    "ballscrew_mean",
-    "ballscrew_offset",
-    "ballscrew_positions",
-    "ballscrew_words",
-    "compensated_radius",
-    "dac_gain",
-    "derivative_width",
-    "filter_gain",
-    "index_time",
-    "is_ballscrew_table",
-    "is_joined",
-    "largest_position",
-    "lopass_limit",
-    "overridden_feed",
-    "proportional_gain",
-    "proportional_volts",
-    "pulses_of",
-    "pulses_per_revolution",
-    "pulses_per_unit",
-    "ramp_for",
-    "ramp_time",
-    "servo_rate",
-    "spindle_scaling",
-    "spindle_volts",
-    "torque_limit",
-    "velocity_feedforward",
-]
-
-FORMULAS = {name: globals()[name] for name in __all__ if name.islower()}
+FORMULAS = {name: formula for name, formula in sorted(globals().items()) if callable(formula)}
 """What rules and calculators may call, by name."""

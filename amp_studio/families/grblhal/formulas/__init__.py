@@ -7,16 +7,5 @@ per second squared. An argument that makes no sense raises ValueError with one s
 from .axes import axis_place, homing_phases, is_turning, mask_end, rotary_end
 from .motion import ramp_travel, step_rate, steps_per_unit
 
-__all__ = [
-    "axis_place",
-    "homing_phases",
-    "is_turning",
-    "mask_end",
-    "ramp_travel",
-    "rotary_end",
-    "step_rate",
-    "steps_per_unit",
-]
-
-FORMULAS = {name: globals()[name] for name in __all__}
+FORMULAS = {name: formula for name, formula in sorted(globals().items()) if callable(formula)}
 """What the rules and calculators of the family may call."""

@@ -16,17 +16,5 @@ from .joints import (
 )
 from .steps import has_step_before
 
-__all__ = [
-    "any_joint_has",
-    "greatest_linear",
-    "greatest_of_joints",
-    "has_letter",
-    "has_step_before",
-    "joint_letter",
-    "least_of_joints",
-    "letters_wanted",
-    "same_letters",
-]
-
-FORMULAS = {name: globals()[name] for name in __all__}
+FORMULAS = {name: formula for name, formula in sorted(globals().items()) if callable(formula)}
 """What the rules of the family may call."""

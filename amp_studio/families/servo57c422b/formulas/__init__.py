@@ -37,39 +37,5 @@ from .motion import (
 )
 from .registers import commands_set, double_of, double_words, scans
 
-__all__ = [
-    "acceleration_word",
-    "backlash_moves",
-    "bytes_word",
-    "cam_jump",
-    "cam_largest_value",
-    "cam_master_travel",
-    "cam_points",
-    "cam_step_time",
-    "cam_time_between_points",
-    "commands_set",
-    "counts_per_revolution",
-    "counts_per_second",
-    "counts_per_second_squared",
-    "deceleration_ratio",
-    "double_of",
-    "double_words",
-    "gear_ratio",
-    "gear_ratio_of_units",
-    "gear_ratio_word",
-    "highest_count_rate",
-    "home_speeds",
-    "measured_velocity",
-    "needs_words",
-    "position_counts",
-    "s_curve_time",
-    "scans",
-    "unwind_constant",
-    "velocity_error_word",
-    "velocity_word",
-    "voltage_word",
-    "word_bytes",
-]
-
-FORMULAS = {name: globals()[name] for name in __all__ if name.islower()}
+FORMULAS = {name: formula for name, formula in sorted(globals().items()) if callable(formula)}
 """What rules and calculators may call, by name."""

@@ -39,37 +39,5 @@ from .resolution import (
     travel_per_motor_turn,
 )
 
-__all__ = [
-    "DDA_LIMIT",
-    "alarm_speed",
-    "axis_move",
-    "blu_count",
-    "blu_length",
-    "commands_per_interpolation",
-    "dda_feedrate",
-    "dda_motor_speed",
-    "dda_pulses_per_minute",
-    "encoder_resolution",
-    "fatal_alarm_speed",
-    "fatal_following_error_limit",
-    "following_error",
-    "following_error_limit",
-    "hardware_basic_time_us",
-    "home_grid",
-    "homing_search_limit",
-    "interpolation_time_us",
-    "is_basic_time_printed",
-    "is_home_grid_advised",
-    "is_home_inaccurate",
-    "is_index_ignored",
-    "is_inside_protection",
-    "motor_turns_per_screw_turn",
-    "protected_range",
-    "pulse_length",
-    "pulses_per_turn",
-    "scale_pulse_length",
-    "travel_per_motor_turn",
-]
-
-FORMULAS = {name: globals()[name] for name in __all__ if name.islower()}
+FORMULAS = {name: formula for name, formula in sorted(globals().items()) if callable(formula)}
 """What rules and calculators may call, by name."""
