@@ -122,7 +122,7 @@ $(BUNDLE)/ready: requirements/bundle.lock requirements/run.lock
 
 lock: ## write requirements/*.lock again; UPGRADE=1 takes the newest versions
 	@test -x build/lock/bin/uv || { $(or $(PYTHON),python3) -m venv build/lock && build/lock/bin/pip install --quiet $(LOCK_TOOL); }
-	@$(LOCK) --extra fast --group dev --output-file requirements/dev.lock
+	@$(LOCK) --extra fast --extra cluster --group dev --output-file requirements/dev.lock
 	@$(LOCK) --extra fast --group build --constraint requirements/dev.lock --output-file requirements/run.lock
 	@$(LOCK) --group bundle --constraint requirements/dev.lock --output-file requirements/bundle.lock
 	@$(subst pyproject.toml,,$(LOCK)) --group docs --output-file requirements/docs.lock

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import socket
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -189,6 +190,7 @@ def test_a_scheduler_that_is_none_is_one_sentence() -> None:
 
 
 def test_a_cluster_computes_what_this_computer_does() -> None:
+    """A scheduler and a worker of their own processes, by their address."""
     distributed = pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
     given = {"sweep.over": "model.delay=1:2:300", "sweep.figure": "Ms"}
     file = file_of("num-1060-mill/MILL_1060.amp")
@@ -196,6 +198,27 @@ def test_a_cluster_computes_what_this_computer_does() -> None:
         there = sweep(file, "0", given, way=SweepWay(scheduler=cluster.scheduler_address))
     here = sweep(file, "0", given, way=ALONE)
     assert np.array_equal(there.columns["Ms"], here.columns["Ms"])
+
+
+def test_a_cluster_without_workers_is_one_sentence() -> None:
+    distributed = pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
+    given = {"sweep.over": "model.delay=1:2:2", "sweep.figure": "Ms"}
+    with (
+        distributed.LocalCluster(n_workers=0, dashboard_address=None) as cluster,
+        pytest.raises(SimulationError, match="has no workers"),
+    ):
+        sweep(file_of(MILL), "1", given, way=SweepWay(scheduler=cluster.scheduler_address))
+
+
+def test_a_port_that_never_answers_is_no_scheduler(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A client of distributed waited there for ever."""
+    pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
+    monkeypatch.setattr("amp_studio.sim.variations.running.CONNECT_S", 0.2)
+    given = {"sweep.over": "model.delay=1:2:2", "sweep.figure": "Ms"}
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        there = f"tcp://127.0.0.1:{silent.getsockname()[1]}"
+        with pytest.raises(SimulationError, match="No scheduler answers"):
+            sweep(file_of(MILL), "1", given, way=SweepWay(scheduler=there))
 
 
 COMPOSED = (

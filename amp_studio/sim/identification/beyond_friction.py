@@ -15,8 +15,10 @@ import numpy as np
 
 from amp_studio.sim.rounding import value_text
 from amp_studio.sim.series import Series
+from amp_studio.sim.tuning.sampled import Matrix
 
 from .friction import FrictionFit
+from .least_squares import fit as least_squares
 
 FURTHEST_SHIFT = 0.02
 """s: a longer shift is not sought."""
@@ -30,6 +32,8 @@ SLOWEST, STRIBECK = 0.003, np.geomspace(0.004, 0.2, 30)
 """Shares of the top speed: below it an axis is at rest; Stribeck speeds that are tried."""
 LEAST_GAIN = 0.02
 """Share by which the squares have to become fewer for a static friction."""
+LEAST_STATIC = 0.05
+"""Share of the Coulomb friction below which what is more at the start is none."""
 BINS = 16
 DEPENDS, WORTH = 0.35, 0.02
 """Share of the residual that its means by speed (or position) explain, and of the torque that they are,
@@ -86,10 +90,18 @@ def is_shifted(fit: FrictionFit, shift: EstimatedFigure) -> bool:
 
 @dataclass(frozen=True)
 class StaticFriction:
-    """Friction at the start of a motion, and the speed (u/s) over which it falls to the Coulomb friction."""
+    """By how much friction is larger at the start of a motion, and the speed (u/s) over which that falls."""
 
-    static: EstimatedFigure
+    more: EstimatedFigure
     speed: EstimatedFigure
+
+    def excess(self, speed: Series) -> Series:
+        """Return what friction has at a speed above the Coulomb friction, with its sign."""
+        return np.asarray(self.more.value * _stribeck(speed, self.speed.value))
+
+
+def _stribeck(speed: Series, over: float) -> Series:
+    return np.asarray(np.sign(speed) * np.exp(-((speed / over) ** 2)))
 
 
 def static_friction(fit: FrictionFit, coulomb: float) -> StaticFriction | None:
@@ -100,32 +112,50 @@ def static_friction(fit: FrictionFit, coulomb: float) -> StaticFriction | None:
     """
     top = float(np.abs(fit.velocity).max())
     moves = np.abs(fit.velocity) > SLOWEST * top
-    acceleration, speed, sign = np.gradient(fit.velocity, fit.period), fit.velocity, np.sign(fit.velocity)
-    table = np.column_stack([acceleration, speed, speed > 0.0, speed < 0.0]).astype(float)[moves]
+    acceleration, speed = np.gradient(fit.velocity, fit.period)[moves], fit.velocity[moves]
+    table = np.column_stack([acceleration, speed, speed > 0.0, speed < 0.0]).astype(float)
     given = fit.torque[moves]
-    plain = float(((given - table @ np.linalg.lstsq(table, given, rcond=None)[0]) ** 2).sum())
-    best: tuple[float, float, np.ndarray, np.ndarray] | None = None
-    for share in STRIBECK:
-        column = (sign * np.exp(-((speed / (share * top)) ** 2)))[moves]
-        if (np.abs(column) > 0.3).sum() < 8:
-            continue
-        joined = np.column_stack([table, column])
+
+    def left(over: float) -> tuple[Series, Series, Matrix]:
+        joined = np.column_stack([table, _stribeck(speed, over)])
         coefficients = np.linalg.lstsq(joined, given, rcond=None)[0]
-        left = float(((given - joined @ coefficients) ** 2).sum())
-        if best is None or left < best[0]:
-            best = left, float(share), coefficients, joined
-    if best is None or best[0] > (1.0 - LEAST_GAIN) * plain:
+        return given - joined @ coefficients, coefficients, joined
+
+    plain = given - table @ np.linalg.lstsq(table, given, rcond=None)[0]
+    tried = [top * share for share in STRIBECK if (_stribeck(np.abs(speed), share * top) > 0.3).sum() >= 8]
+    if not tried:
         return None
-    left, share, coefficients, joined = best
-    rows = max(1.0, len(given) * fit.period / max(fit.window, fit.period) - 6.0)
-    error = math.sqrt(float(np.linalg.pinv(joined.T @ joined)[4, 4]) * left / rows)
+    best = min(tried, key=lambda over: float(left(over)[0] @ left(over)[0]))
+    refined = least_squares(lambda there: left(math.exp(there[0]))[0], np.array([math.log(best)]))
+    over = math.exp(float(refined.parameters[0]))
+    rest, coefficients, joined = left(over)
     more = float(coefficients[4])
-    if more < SURE * error or more < 0.05 * max(coulomb, 1e-12):
+    if float(rest @ rest) > (1.0 - LEAST_GAIN) * float(plain @ plain) or over > 1.5 * STRIBECK[-1] * top:
         return None
-    step = float(STRIBECK[1] / STRIBECK[0]) - 1.0
+    # The curve's own slope by its speed is a column too: how much friction there is more and over which speed
+    # it falls are found together.
+    bend = 2.0 * more * (speed / over) ** 2 / over * _stribeck(speed, over)
+    slopes = np.column_stack([joined, bend])
+    slopes = slopes / (sizes := np.sqrt((slopes**2).sum(axis=0)) + 1e-300)
+    rows = max(1.0, len(given) * fit.period / max(fit.window, fit.period) - 6.0)
+    spread = np.diag(np.linalg.pinv(slopes.T @ slopes)) / sizes**2 * float(rest @ rest) / rows
+    error, speed_error = np.sqrt(np.maximum(spread[4:], 0.0)).tolist()
+    if more < SURE * error or more < LEAST_STATIC * max(coulomb, 1e-12):
+        return None
+    blur = _blur(speed, fit.window * acceleration, joined[:, 4], over)
     return StaticFriction(
-        EstimatedFigure(coulomb + more, error), EstimatedFigure(share * top, step * share * top)
+        EstimatedFigure(more, math.hypot(error, blur * more)),
+        EstimatedFigure(over, math.hypot(speed_error, 0.5 * blur * over)),
     )
+
+
+def _blur(speed: Series, change: Series, curve: Series, over: float) -> float:
+    """Return by which share the curve is lower, and twice by which it is wider, as the speed changes within
+    the filter: its bend at the top is 2 / over², the variance of a filter of three boxes a 36th of its
+    square. A filter that reaches a standstill, where friction may have any value, shows nothing.
+    """
+    lower = np.where(np.abs(speed) < 0.5 * np.abs(change), 1.0, np.minimum(1.0, (change / over) ** 2 / 36.0))
+    return float(np.average(lower, weights=curve**2))
 
 
 def residual_doubts(fit: FrictionFit, unit: str) -> Iterator[str]:

@@ -10,6 +10,7 @@ with which that is below ``WANTED_NOISE``.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,6 +36,9 @@ MOST_CONDITION = 200.0
 FLAT_RUN, FLAT_SHARE = 10, 0.02
 """Rows of exactly the largest (or smallest) torque one after the other, and their share of the record:
 a limit."""
+MUCH_LONGER, SETTLED, LEAST_KEPT = 3.0, 0.01, 0.7
+"""Times as long a filter is, the share by which J may change with it, and of the rows that it has to
+leave."""
 LEAST_FIT = 0.5
 """r² below which the record does not show this axis."""
 MOST_ERROR = 0.2
@@ -88,8 +92,9 @@ def fit_friction(
     noise = _noise(moved)
     # The narrowest filter that is enough: a wider one has less noise, but blurs the reversals, where dry
     # friction changes its sign, and leaves fewer rows that move in one direction.
-    best = None
-    for width in _widths(len(inner)):
+    best, wider = None, _widths(len(inner))
+    while wider:
+        width = wider.pop(0)
         found = _filtered(width, inner, speed, acceleration, torque)
         used = _one_direction(speed, width)
         if used.sum() < LEAST_ROWS // 2:
@@ -111,7 +116,37 @@ def fit_friction(
             "The record shows no acceleration above its noise: record moves with longer or steeper ramps, "
             "or more samples a second"
         )
-    return _solved(period, width, found, used, left, rows=len(time))
+    fit = _solved(period, width, found, used, left, rows=len(time))
+
+    def with_filter(longer: int) -> FrictionFit | None:
+        used = _one_direction(speed, longer)
+        if used.sum() < LEAST_KEPT * fit.used:
+            return None
+        found = _filtered(longer, inner, speed, acceleration, torque)
+        return _solved(period, longer, found, used, noise * _gain(taps, longer), rows=len(time))
+
+    return _of_one_mass(fit, width, wider, with_filter)
+
+
+def _of_one_mass(
+    fit: FrictionFit, width: int, wider: Sequence[int], with_filter: Callable[[int], FrictionFit | None]
+) -> FrictionFit:
+    """Return the fit whose filter is long enough for one rigid mass.
+
+    A motor that rattles in its backlash, or swings against its load, is lighter than the axis, and a much
+    longer filter finds another inertia.
+    """
+    for longer in wider:
+        if longer < MUCH_LONGER * width:
+            continue
+        try:
+            other = with_filter(longer)
+        except SimulationError:
+            break
+        if other is None or abs(other.coefficients[0] / fit.coefficients[0] - 1.0) < SETTLED:
+            break
+        fit, width = other, longer
+    return fit
 
 
 # -- what is refused ---------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -19,10 +20,10 @@ from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Figure, Trace
 from amp_studio.sim.unit_system import in_unit, length_unit
 
-from .beyond_friction import is_shifted, residual_doubts, static_friction, time_shift
+from .beyond_friction import StaticFriction, is_shifted, residual_doubts, static_friction, time_shift
 from .drive_record import DriveRecord, position_factor, read_drive_record, speed_factor, torque_figure
 from .friction import FrictionFit, fit_friction
-from .lost_motion import backlash
+from .lost_motion import backlash, is_closed_by_weight
 
 DIGITS = 6
 DOUBTFUL_FIT, DOUBTFUL_ERROR = 0.9, 0.5
@@ -32,6 +33,10 @@ FIGURES = ("acceleration_per_output", "viscous_friction", "coulomb_friction", "g
 _LOST = (
     "The backlash is by how much the load lags behind its motor in one direction more than in the other: what"
     " the drive train yields to the friction of the load is in it."
+)
+_CLOSED = (
+    "The backlash cannot be seen: the weight is more than half of the dry friction, and may keep the gap"
+    " closed on the same side in both directions"
 )
 _EQUAL = (
     "The dry friction is taken as equal in both directions; half of what they differ by is gravity. "
@@ -62,33 +67,37 @@ def identify(
     record = read_drive_record(path)
     torque = record.torque / record_scale(record, bound, scale)
     factor = speed_factor(record, bound.unit, turn)
-    fit = _fit(record, bound, record.time, torque, factor)
+    fit = _fit(record, bound, torque, factor)
     shift, notes = time_shift(fit), [_EQUAL]
     if is_shifted(fit, shift):
-        later = np.interp(record.time - shift.value, record.time, torque)
-        fit = _fit(record, bound, record.time, later, factor)
+        torque = np.interp(record.time - shift.value, record.time, torque)
+        fit = _fit(record, bound, torque, factor)
         notes.append(
             f"The motion is {value_text(1e3 * shift.value, 'ms', 3)} later than the torque in this "
             "record, and was"
             " shifted so. Whether the axis or the recording delays it, one record does not show."
         )
+    static = static_friction(fit, 0.5 * float(fit.coefficients[2] - fit.coefficients[3]))
+    if static is not None:
+        fit = _without_static(record, bound, torque, factor, fit, static)
     result = _figures(fit, bound)
     result |= {
         "time_shift": (1e3 * shift.value, "ms"),
         "time_shift_standard_error": (1e3 * shift.error, "ms"),
     }
-    static = static_friction(fit, result["coulomb_friction"][0] or 0.0)
     if static is not None:
-        unit = result["coulomb_friction"][1]
+        (coulomb, unit), (error, _) = result["coulomb_friction"], result["coulomb_friction_standard_error"]
         result |= {
-            "static_friction": (static.static.value, unit),
-            "static_friction_standard_error": (static.static.error, unit),
+            "static_friction": ((coulomb or 0.0) + static.more.value, unit),
+            "static_friction_standard_error": (math.hypot(error or 0.0, static.more.error), unit),
             "stribeck_speed": (60.0 * static.speed.value, f"{bound.unit}/min"),
             "stribeck_speed_standard_error": (60.0 * static.speed.error, f"{bound.unit}/min"),
         }
     lost = _lost_motion(record, fit, bound)
     result |= lost
     notes += [_LOST] if lost else []
+    doubts = [*_doubts(result), *residual_doubts(fit, torque_unit(bound))]
+    doubts += [_CLOSED] if record.sides is not None and is_closed_by_weight(fit) else []
     return in_unit(
         Trace(
             scenario=IDENTIFY,
@@ -105,15 +114,17 @@ def identify(
             recommendations=(),
             assumptions=tuple(notes),
             limits={},
-            doubts=(*_doubts(result), *residual_doubts(fit, torque_unit(bound))),
+            doubts=tuple(doubts),
         ),
         length_unit(file, system),
     )
 
 
 def _lost_motion(record: DriveRecord, fit: FrictionFit, bound: AxisLaw) -> dict[str, Figure]:
-    """Return the backlash where the record has the positions of motor and load; {} elsewhere."""
-    if record.sides is None:
+    """Return the backlash where the record has the positions of motor and load, and a direction closes the
+    gap; {} elsewhere.
+    """
+    if record.sides is None or is_closed_by_weight(fit):
         return {}
     size = position_factor(record.sides_unit, bound.unit)
     found = backlash(fit, record.time, record.sides[0] * size, record.sides[1] * size)
@@ -122,7 +133,25 @@ def _lost_motion(record: DriveRecord, fit: FrictionFit, bound: AxisLaw) -> dict[
     return {"backlash": (found.value, bound.unit), "backlash_standard_error": (found.error, bound.unit)}
 
 
-def _fit(record: DriveRecord, bound: AxisLaw, time: Series, torque: Series, factor: float) -> FrictionFit:
+def _without_static(
+    record: DriveRecord,
+    bound: AxisLaw,
+    torque: Series,
+    factor: float,
+    fit: FrictionFit,
+    static: StaticFriction,
+) -> FrictionFit:
+    """Return the fit of the record without what static friction adds at low speed, where it would be taken
+    for Coulomb friction, and the viscous one for less; torque and prediction are with it.
+    """
+    excess = np.interp(record.time, fit.time, static.excess(fit.velocity), left=0.0, right=0.0)
+    fit = _fit(record, bound, torque - excess, factor)
+    again = static.excess(fit.velocity)
+    return replace(fit, torque=fit.torque + again, predicted=fit.predicted + again)
+
+
+def _fit(record: DriveRecord, bound: AxisLaw, torque: Series, factor: float) -> FrictionFit:
+    time = record.time
     if record.velocity is not None:
         return fit_friction(time, torque, velocity=record.velocity * factor)
     assert record.position is not None

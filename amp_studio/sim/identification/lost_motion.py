@@ -14,15 +14,24 @@ from .friction import FrictionFit
 CRUISING = 0.2
 """Share of the largest acceleration below which friction decides on which side of its backlash an axis is."""
 LEAST_ROWS = 40
+WEIGHT = 0.5
+"""Share of the dry friction, of which the load may have that much only, from which a weight may be more."""
+
+
+def is_closed_by_weight(fit: FrictionFit) -> bool:
+    """Return whether the weight may keep the gap closed on the same side in both directions."""
+    _, _, ahead, back = fit.coefficients.tolist()
+    return bool(abs(ahead + back) > WEIGHT * (ahead - back))
 
 
 def backlash(fit: FrictionFit, time: Series, motor: Series, load: Series) -> EstimatedFigure | None:
     """Return by how much the load lags behind its motor in one direction more than in the other, in the unit
     of the record.
 
-    Rows at a steady speed are used, in which dry friction of the load keeps the gap closed on one side; a
-    scale error along the way is taken out. Backlash and what the drive train yields to that friction are one
-    figure. None for a record with too few such rows in one direction.
+    Rows at a steady speed are used, in which friction of the load keeps the gap closed on one side; a scale
+    error along the way is taken out. What the drive train yields to viscous friction is taken out too; what
+    it yields to the dry one cannot be separated from backlash, and is taken for as uncertain as it is large,
+    by the share of both. None for a record with too few such rows in one direction.
     """
     way = np.interp(fit.time, time, motor)
     gap = np.interp(fit.time, time, load) - way
@@ -32,13 +41,17 @@ def backlash(fit: FrictionFit, time: Series, motor: Series, load: Series) -> Est
     if min((steady & forward).sum(), (steady & ~forward).sum()) < LEAST_ROWS:
         return None
     away = way - way[steady].mean()
-    table = np.column_stack([forward, ~forward, away])[steady].astype(float)
+    table = np.column_stack([forward, ~forward, away, fit.velocity])[steady].astype(float)
     coefficients, *_ = np.linalg.lstsq(table, gap[steady], rcond=None)
     rest = gap[steady] - table @ coefficients
     # Rows of one filter are not independent: as many count as there are filters.
     rows = max(1.0, len(rest) * fit.period / max(fit.window, fit.period))
     inverse = np.linalg.pinv(table.T @ table)
-    turned = np.array([-1.0, 1.0, 0.0])
+    turned = np.array([-1.0, 1.0, 0.0, 0.0])
     error = math.sqrt(float(turned @ inverse @ turned) * float(rest @ rest) / rows)
-    found = EstimatedFigure(float(turned @ coefficients), error)
-    return found if found.value > SURE * error else EstimatedFigure(0.0, error)
+    value = float(turned @ coefficients)
+    if value < SURE * error:
+        return EstimatedFigure(0.0, error)
+    _, viscous, ahead, back = fit.coefficients.tolist()
+    yields = float(coefficients[3]) * (ahead - back) / viscous if viscous > 0.0 else 0.0
+    return EstimatedFigure(value, math.hypot(error, min(yields, value)))

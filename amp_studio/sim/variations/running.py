@@ -10,8 +10,10 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import importlib
 import json
 import os
+import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
@@ -22,6 +24,7 @@ from typing import Any
 
 import numpy as np
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.schema import read_file
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.tuning.sampled import Matrix
@@ -37,6 +40,8 @@ SMALL = 500
 of those with loops each counts as many times as below."""
 LOOPS_COUNT = 10
 SCHEMES = ("tcp://", "tls://")
+CONNECT_S = 10.0
+"""Seconds that a scheduler has for its answer."""
 SUFFIX = ".part"
 
 
@@ -192,22 +197,53 @@ def _on_cluster(
     if not scheduler.startswith(SCHEMES):
         raise SimulationError(f"'{scheduler[:80]}' is no address of a scheduler: tcp://HOST:PORT")
     try:
-        from distributed import Client
-        from distributed import as_completed as as_done
+        distributed: Any = importlib.import_module("distributed")
     except ImportError:
         raise SimulationError(
             "A cluster needs the extra 'cluster': pip install 'amp-studio[cluster]', here and on its workers"
         ) from None
+    client = _client_of(distributed, scheduler)
     try:
-        client: Any = Client(scheduler, timeout="10s", set_as_default=False)
-    except (OSError, ValueError) as error:
-        raise SimulationError(f"No scheduler answers at {scheduler}: {error}") from None
-    with client, client.as_current():
-        # The job goes to each worker once, not with each part.
-        shared = client.scatter(job, broadcast=True)
-        futures = {
-            client.submit(figures_of, shared, points[start : start + AT_ONCE], pure=False): start
-            for start in starts
-        }
-        for future in as_done(futures):
-            yield futures[future], future.result()
+        with client, client.as_current():
+            if not client.scheduler_info()["workers"]:
+                raise SimulationError(f"The cluster at {scheduler} has no workers")
+            # The job goes to each worker once, not with each part.
+            shared = client.scatter(job, broadcast=True)
+            futures = {
+                client.submit(figures_of, shared, points[start : start + AT_ONCE], pure=False): start
+                for start in starts
+            }
+            for future in distributed.as_completed(futures):
+                yield futures[future], future.result()
+    except (AmpStudioError, GeneratorExit):
+        raise
+    except Exception as error:
+        # Whatever a worker lacks (this program, its version, its memory) is raised here as it was there.
+        raise SimulationError(
+            f"The cluster at {scheduler} does not compute this: {_in_a_line(error)}"
+        ) from None
+
+
+def _client_of(distributed: Any, scheduler: str) -> Any:
+    """Return a client of a cluster; raises SimulationError where no scheduler answers in time."""
+    found: list[Any] = []
+
+    def connect() -> None:
+        try:
+            found.append(distributed.Client(scheduler, timeout=f"{CONNECT_S} s", set_as_default=False))
+        except (OSError, ValueError) as error:
+            found.append(error)
+
+    # Where something else listens no answer comes, and the time limit of a client ends at the connection.
+    asking = threading.Thread(target=connect, daemon=True)
+    asking.start()
+    asking.join(2.0 * CONNECT_S)
+    if not found:
+        raise SimulationError(f"No scheduler answers at {scheduler}: something listens there that is none")
+    if isinstance(found[0], Exception):
+        raise SimulationError(f"No scheduler answers at {scheduler}: {_in_a_line(found[0])}") from None
+    return found[0]
+
+
+def _in_a_line(error: Exception) -> str:
+    return " ".join(str(error).split())[:200] or type(error).__name__
