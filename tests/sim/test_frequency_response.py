@@ -142,6 +142,24 @@ def test_a_chirp_is_answered_by_h1_within_three_percent(tmp_path: Path) -> None:
     assert result["inertia_ratio"][0] == pytest.approx(ratio, rel=TOLERANCE)
 
 
+def test_dry_friction_in_a_chirp_is_a_doubt_on_friction_and_acceleration(tmp_path: Path) -> None:
+    """Velocity by Euler's steps: with 3 % of dry friction the viscous one was 1.28 ± 0.03 %, and is 0.4 %."""
+    period, size, viscous, coulomb = 0.5e-3, 40.0, 0.024, 3.0
+    time = np.arange(0.0, 8.0, period)
+    torque = 25.0 * np.sin(2.0 * math.pi * 2.0 * 8.0 / math.log(150.0) * (150.0 ** (time / 8.0) - 1.0))
+    speed = np.zeros_like(time)
+    for n in range(len(time) - 1):
+        dry = coulomb * math.tanh(speed[n] / 0.2)
+        speed[n + 1] = speed[n] + period * size * (torque[n] - viscous * speed[n] - dry)
+    record = tmp_path / "chirp.csv"
+    rows = zip(time.tolist(), speed.tolist(), torque.tolist(), strict=True)
+    heads = "time (s),velocity (mm/s),torque (%)"
+    record.write_text("\n".join([heads, *(",".join(map(repr, row)) for row in rows)]))
+    trace = identify_response(open_file(MILL).file, record, "1")
+    assert trace.result["viscous_friction"][0] > 1.5 * viscous * 1000.0 / 60.0
+    assert any("have the dry friction in them" in doubt for doubt in trace.doubts)
+
+
 def test_two_resonances_are_a_velocity_and_nothing_else() -> None:
     """A position with a third pair that creeps fitted as well, and the velocity was called doubtful."""
     frequency = np.geomspace(2.0, 400.0, 90)

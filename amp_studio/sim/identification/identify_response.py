@@ -30,6 +30,16 @@ from .response import FrequencyResponse, is_response, read_response, response_of
 DOUBTFUL_ERROR, DOUBTFUL_MISFIT = 0.1, 0.12
 """Share of a figure that its standard deviation is, and Np or rad that are left, from which there is a
 doubt."""
+SEEN = 2.0
+"""Standard deviations from which a friction is there."""
+_DRY = (
+    "Viscous friction and damping have the dry friction in them, which a response does not show and which"
+    " takes up to a tenth off the acceleration: take the friction from a record of moves"
+)
+_NOT_LINEAR = (
+    "Noise does that, and so does an axis that is not linear: backlash makes resonance and inertia ratio"
+    " depend on the amplitude"
+)
 NOTCH_DAMPING = 0.5
 """Damping ratio of the poles of a notch: an octave wide, usual."""
 
@@ -213,6 +223,10 @@ def _doubts(response: FrequencyResponse, fitted: PlantFit) -> list[str]:
         doubts.append(f"Another motion than the {fitted.quantity} would fit about as well: give --response")
     if response.left_out:
         doubts.append(f"{response.left_out} frequencies were left out, their coherence is below 0.8")
+        doubts.append(_NOT_LINEAR)
+    friction, error = fitted.figures["viscous_friction"]
+    if friction > SEEN * error:
+        doubts.append(_DRY)
     if fitted.misfit > DOUBTFUL_MISFIT:
         doubts.append(
             f"{value_text(100.0 * fitted.misfit, '%', 2)} of the response are left on average; look "

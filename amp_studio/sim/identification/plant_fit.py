@@ -36,6 +36,8 @@ MOST_CORNER = 0.3
 """Share of the highest frequency: an axis whose friction decides up to there is another quantity."""
 LOWEST_PAIR, HIGHEST_PAIR = 1.5, 1.2
 """Times the lowest and the highest frequency between which a resonance is one."""
+LEAST_RATIO = 1e-3
+"""Load and motor: a smaller one is a pair that takes itself out, and none."""
 LEAST_FIT = 0.35
 """Root mean square residual (Np and rad) from which a model does not describe a response."""
 
@@ -266,7 +268,7 @@ def _figures(shape: _Shape, fitted: LeastSquares) -> dict[str, tuple[float, floa
         rate, ratio, damping = (math.exp(each) for each in parameters[3:6])
         found["resonance"] = rate / (2.0 * math.pi), rate / (2.0 * math.pi) * float(errors[3])
         found["damping"] = damping, damping * float(errors[5])
-        if not shape.at_load:
+        if not shape.at_load and ratio > LEAST_RATIO:
             found["inertia_ratio"] = ratio, ratio * float(errors[4])
     return found
 
