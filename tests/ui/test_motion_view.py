@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,7 @@ from pytestqt.qtbot import QtBot
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value
-from amp_studio.sim import Recommendation, Trace, simulate
+from amp_studio.sim import Recommendation, SweepWay, Trace, simulate
 from amp_studio.sim.picture import picture_of
 from amp_studio.sim.scenarios import SCENARIOS
 from amp_studio.ui.base.plot import Plot
@@ -108,6 +109,30 @@ def test_edits_while_it_runs_end_with_the_last(view: MotionView, window: MainWin
     view.run()
     settled(view, qtbot)
     assert view.trace.result["steady_following_error"][0] == once
+
+
+def test_a_sweep_shows_how_far_it_is_and_is_stopped_and_kept(
+    view: MotionView, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    go_on, ways = threading.Event(), []
+
+    def half_of_it(_file: ParameterFile, _axis: str, _settings: object, *, way: SweepWay) -> Trace:
+        ways.append(way)
+        way.progress("sweep", 50, 200)
+        go_on.wait(WAIT_MS / 1000.0)
+        way.progress("sweep", 100, 200)
+        raise AssertionError("it was not stopped")
+
+    monkeypatch.setattr(motion_view, "sweep", half_of_it)
+    view.scenario.setCurrentIndex(view.scenario.findData("sweep"))
+    qtbot.waitUntil(lambda: "25 %" in view.summary.text(), timeout=WAIT_MS)
+    assert view.run_button.text() == "&Stop"
+    view.run_button.click()
+    go_on.set()
+    settled(view, qtbot)
+    assert "Stopped; the same sweep goes on from here" in view.summary.text()
+    assert view.run_button.text() == "&Run"
+    assert ways[0].output is not None, "what is done is kept"
 
 
 def test_distance_and_feedrate_take_units_and_a_decimal_comma(

@@ -26,11 +26,12 @@ from PySide6.QtWidgets import (
 from amp_studio.files import ParameterFile, RangeError, axis_title
 from amp_studio.motion_paper import PAPERS, write_motion_paper
 from amp_studio.scenarios import CHARTS
-from amp_studio.schema import Address, Value, angular
+from amp_studio.schema import Address, Value, angular, cache_folder
 from amp_studio.sim import (
     Recommendation,
     SimulationError,
     SimulationListing,
+    SweepWay,
     Trace,
     address_of,
     laid_over,
@@ -39,6 +40,7 @@ from amp_studio.sim import (
     picture_of,
     settling_span,
     simulate,
+    sweep,
     write_trace,
 )
 from amp_studio.ui.base.plot import Plot
@@ -82,6 +84,17 @@ def _same_move(
         return simulate(file_before, trace.scenario, trace.axis, settings, like=trace)
     except SimulationError:
         return None
+
+
+def _way(progress: TaskProgress, cancelled: threading.Event) -> SweepWay:
+    """Return how a sweep is run that can be stopped; the next one goes on with what it has."""
+
+    def step(stage: str, done: int, total: int) -> None:
+        if cancelled.is_set():
+            raise SimulationError("Stopped; the same sweep goes on from here")
+        progress(stage, done, total)
+
+    return SweepWay(progress=step, output=cache_folder() / "sweep")
 
 
 class MotionView(PageOfFile):
@@ -224,7 +237,7 @@ class MotionView(PageOfFile):
     def _connect(self) -> None:
         self.scenario.currentIndexChanged.connect(self._choose)
         self.axis.currentIndexChanged.connect(self._choose)
-        self.run_button.clicked.connect(self.run)
+        self.run_button.clicked.connect(self._run_or_stop)
         self.save_button.clicked.connect(self.save)
         self.chart.currentIndexChanged.connect(self._redraw)
         self.over.clicked.connect(self._ask_record)
@@ -336,6 +349,7 @@ class MotionView(PageOfFile):
         """Simulate in a separate thread; a run requested meanwhile follows."""
         if self._task is not None:
             self._again = True
+            self._task.cancelled.set()  # a sweep of values that are no longer those
             return
         if self._impossible is not None:
             self._stop(self._impossible)
@@ -354,20 +368,37 @@ class MotionView(PageOfFile):
 
         record = self._record
 
-        def work(_: TaskProgress, __: threading.Event) -> _Ran:
-            trace = simulate(file, scenario, str(axis) if axis else None, settings)
+        def work(progress: TaskProgress, cancelled: threading.Event) -> _Ran:
+            name = str(axis) if axis else None
+            if scenario == "sweep":
+                trace = sweep(file, name, settings, way=_way(progress, cancelled))
+            else:
+                trace = simulate(file, scenario, name, settings)
             trace = laid_over(trace, record) if record else trace
             return _Ran(trace, file, file_before, _same_move(trace, settings, before, file_before))
 
         self.summary.setText(self.tr("Simulating …"))
+        self.run_button.setText(self.tr("&Stop") if scenario == "sweep" else self.tr("&Run"))
         self._task = Task(work)
+        self._task.progressed.connect(self._show_progress)
         self._task.done.connect(self._show_result)
         self._task.failed.connect(self._stop)
         self._task.finished.connect(self._ended)
         self._task.begin()
 
+    def _run_or_stop(self) -> None:
+        """Stop a sweep; run anything else."""
+        if self._task is None:
+            self.run()
+        else:
+            self._task.cancelled.set()
+
+    def _show_progress(self, _stage: str, done: int, total: int) -> None:
+        self.summary.setText(f"{self.tr('Simulating …')} {100 * done // max(total, 1)} %")
+
     def _ended(self) -> None:
         self._task = None
+        self.run_button.setText(self.tr("&Run"))
         if self._again:
             self._again = False
             self.run()
