@@ -17,7 +17,7 @@ def path_of(text: str) -> Path:
     if not text:
         raise ValueError("the path is empty")
     path = Path(text)
-    if text.endswith((os.sep, "/", "/.")) and not _is_folder(path):  # Path forgets what it ended with
+    if text.endswith((os.sep, "/", "/.")) and not is_folder(path):  # Path forgets what it ended with
         raise ValueError(f"{text} ends like a folder, and there is no such folder")
     return path
 
@@ -35,7 +35,8 @@ def folder(text: str) -> Path:
     return path if text and not path.exists() else path_of(text)
 
 
-def _is_folder(path: Path) -> bool:
+def is_folder(path: Path) -> bool:
+    """Return whether a path is a folder; what cannot be read is reported like an unreadable file."""
     try:
         return path.is_dir()
     except OSError:

@@ -62,7 +62,6 @@ if TYPE_CHECKING:
     from .engine.compiled import Sample
     from .engine.machine import Machine
     from .machine_test import MachineTest
-    from .path_rules import PathRules
     from .probing import Probing
     from .scenario import Scenario
     from .spindle import Gear, Spindle, Tapping
@@ -244,7 +243,8 @@ class Law:
     ``motion``     the facts of ``motion.yaml``, which `law_of` puts here
     ``zones``      zones(machine, axes) -> areas that axes must not enter or leave
     ``cam``        how files contain cam profiles; None where no page prints one
-    ``path``       path(machine) -> how a program goes along its path; None where no page prints enough
+    ``path``       ``module:function`` of path(machine) -> how a program goes along its path, loaded when a
+                   program is run; "" where no page prints enough
     """
 
     bind: Callable[[AxisParameters], AxisLaw]
@@ -256,7 +256,7 @@ class Law:
     probing: Callable[[AxisParameters, AxisLaw, str], Probing] | None = None
     zones: Callable[[BoundMachine, Sequence[str]], Iterable[Zone]] | None = None
     machine_tests: Callable[[BoundMachine, AxisLaw], Sequence[MachineTest]] | None = None
-    path: Callable[[BoundMachine], PathRules] | None = None
+    path: str = ""
     cam: CamForm | None = None
     motion: MotionFacts = NO_MOTION
 

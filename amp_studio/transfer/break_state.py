@@ -9,6 +9,12 @@ from .errors import AtControl
 MOST_NAMED = 20
 
 
+def _shortened(names: list[str]) -> tuple[str, ...]:
+    """Return so many names as a sentence can have, and how many more there are."""
+    more = [f"{len(names) - MOST_NAMED} more"] if len(names) > MOST_NAMED else []
+    return (*names[:MOST_NAMED], *more)
+
+
 def state_after_break(
     current: Mapping[str, str], wanted: Mapping[str, str], now: Mapping[str, str]
 ) -> tuple[AtControl, tuple[str, ...]]:
@@ -27,9 +33,7 @@ def state_after_break(
         return "new", ()
     if not new:
         return "old", ()
-    if len(new) > MOST_NAMED:
-        new[MOST_NAMED:] = [f"{len(new) - MOST_NAMED} more"]
-    return "mixed", tuple(new)
+    return "mixed", _shortened(new)
 
 
 def _by_numbers(name: str) -> tuple[object, ...]:

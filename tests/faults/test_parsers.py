@@ -76,6 +76,7 @@ READERS = {
     "cli/controls/fleet.py": "damaged control image",
     "families/acromill/emulated/card.py": "odd keys and bytes at emulated NUM and ACR controls",
     "families/acromill/emulated/settings.py": "odd keys and bytes at emulated NUM and ACR controls",
+    "families/acromill/formats/acr_lines.py": "damaged texts of controls",
     "families/acromill/formats/acr_script.py": "damaged texts of controls",
     "families/acromill/lines/content.py": "damaged contents of NUM, ACR and LinuxCNC",
     "families/acromill/lines/terminal.py": "ACR terminal over a bad line, power off in the save",

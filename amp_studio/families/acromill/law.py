@@ -38,7 +38,7 @@ from .law_machine_tests import machine_tests
 from .law_spindle import probing, spindle
 
 if TYPE_CHECKING:
-    from amp_studio.sim import BoundMachine, PathRules
+    pass
 
 NORMAL_DAC_GAIN = 3276.8
 """Words of the converter for 1 V (page 114)."""
@@ -329,12 +329,6 @@ SAME = 0.005
 """Share of the Vel FFwd by which another one is the same."""
 
 
-def _path_rules(machine: BoundMachine) -> PathRules:
-    from .law_path import path_rules
-
-    return path_rules(machine)
-
-
 LAW = Law(
     bind=bind,
     axes=axes,
@@ -342,5 +336,5 @@ LAW = Law(
     spindle=spindle,
     probing=probing,
     machine_tests=machine_tests,
-    path=_path_rules,
+    path="amp_studio.families.acromill.law_path:path_rules",
 )

@@ -31,7 +31,7 @@ from .law_facts import MOTION, ids
 from .law_spindle import probing, spindle
 
 if TYPE_CHECKING:
-    from amp_studio.sim import BoundMachine, PathRules
+    pass
 
 COMMON = (ids.seek_rate, ids.locate_rate)
 OWN = (ids.homing_seek_rate, ids.homing_locate_rate)
@@ -194,10 +194,6 @@ def travel(read: AxisParameters) -> Travel:
     return Travel({"the soft limit": edges}, "ALARM:2", SOURCE, (LIMITED,), refuses=True)
 
 
-def _path_rules(machine: BoundMachine) -> PathRules:
-    from .law_path import path_rules
-
-    return path_rules(machine)
-
-
-LAW = Law(bind, axes, spindle=spindle, probing=probing, path=_path_rules)
+LAW = Law(
+    bind, axes, spindle=spindle, probing=probing, path="amp_studio.families.grblhal.law_path:path_rules"
+)

@@ -29,7 +29,7 @@ from .kinematics import joint_letters
 from .law_facts import MOTION, ids
 
 if TYPE_CHECKING:
-    from amp_studio.sim import BoundMachine, PathRules
+    pass
 
 NO_LOOP = (
     "ASSUMED: the file has no P for the joint, so its HAL closes the loop elsewhere: a loop of 100 1/s with"
@@ -219,10 +219,4 @@ def travel(read: AxisParameters) -> Travel:
     return Travel({"the limit of the axis": edges}, "exceed limit", "CM218", (LIMITED,), refuses=True)
 
 
-def _path_rules(machine: BoundMachine) -> PathRules:
-    from .law_path import path_rules
-
-    return path_rules(machine)
-
-
-LAW = Law(bind, axes, path=_path_rules)
+LAW = Law(bind, axes, path="amp_studio.families.linuxcnc.law_path:path_rules")

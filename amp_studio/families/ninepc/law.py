@@ -42,7 +42,7 @@ from .law_spindle import spindle, tapping
 from .law_zones import zones
 
 if TYPE_CHECKING:
-    from amp_studio.sim import BoundMachine, PathRules, Scenario
+    from amp_studio.sim import Scenario
 
 LOWEST_FILTER = 40.0
 """Hz: a torque filter below it leaves no velocity loop that is of use."""
@@ -293,12 +293,6 @@ def _own_scenarios() -> dict[str, Scenario]:
     return {each.name: each for each in (PROCEDURE, HARD_STOP)}
 
 
-def _path_rules(machine: BoundMachine) -> PathRules:
-    from .law_path import path_rules
-
-    return path_rules(machine)
-
-
 LAW = Law(
     bind,
     advise=advise,
@@ -308,5 +302,5 @@ LAW = Law(
     probing=probing,
     zones=zones,
     machine_tests=machine_tests,
-    path=_path_rules,
+    path="amp_studio.families.ninepc.law_path:path_rules",
 )

@@ -41,7 +41,7 @@ from .law_spindle import spindle, tapping
 from .law_words import Words, above, read_words
 
 if TYPE_CHECKING:
-    from amp_studio.sim import BoundMachine, PathRules
+    pass
 
 SCALE = "model.scale"
 
@@ -239,12 +239,12 @@ def _sources(read: AxisParameters, words: Words) -> dict[str, Source]:
     }
 
 
-def _path_rules(machine: BoundMachine) -> PathRules:
-    from .law_path import path_rules
-
-    return path_rules(machine)
-
-
 LAW = Law(
-    bind, axes, advise=advise, spindle=spindle, tapping=tapping, machine_tests=machine_tests, path=_path_rules
+    bind,
+    axes,
+    advise=advise,
+    spindle=spindle,
+    tapping=tapping,
+    machine_tests=machine_tests,
+    path="amp_studio.families.num.law_path:path_rules",
 )

@@ -46,7 +46,7 @@ from .law_machine_tests import machine_tests
 from .law_zones import zones
 
 if TYPE_CHECKING:
-    from amp_studio.sim import BoundMachine, PathRules
+    pass
 
 SHORTEST, LONGEST = 1e-4, 0.1
 """s: interpolation times that are simulated."""
@@ -372,10 +372,11 @@ def _sources(read: AxisParameters, axis: _Axis) -> dict[str, Source]:
     }
 
 
-def _path_rules(machine: BoundMachine) -> PathRules:
-    from .law_path import path_rules
-
-    return path_rules(machine)
-
-
-LAW = Law(bind, axes, advise=advise, zones=zones, machine_tests=machine_tests, path=_path_rules)
+LAW = Law(
+    bind,
+    axes,
+    advise=advise,
+    zones=zones,
+    machine_tests=machine_tests,
+    path="amp_studio.families.syntec.law_path:path_rules",
+)

@@ -106,14 +106,8 @@ def _exchanges(report: Report, words: Language) -> Iterator[str]:
 # -- before the values ---------------------------------------------
 
 
-def _title(report: Report, words: Language) -> Iterator[str]:
-    yield "=" * WIDTH
-    head = f"{words.text('Machine parameters')} {words.text(report.order)}".upper()
-    yield f"{report.program}   {head}".ljust(WIDTH - len(report.when)) + report.when
-    yield "=" * WIDTH
-    for title, text in (*report.machine, *report.facts, *report.counts):
-        yield from _wrapped(report.fact(title, text, words.text), f"{words.text(title) + ' ':.<30} ")
-    yield ""
+def _remarks(report: Report) -> Iterator[str]:
+    """Yield the remarks on the machine, and those on its axes and values."""
     if report.remarks:
         for line in note_lines(report.remarks):
             yield from _wrapped(line, "")
@@ -124,6 +118,17 @@ def _title(report: Report, words: Language) -> Iterator[str]:
             yield from _wrapped(line, " " * len(start) if n else start)
     if report.remarked:
         yield ""
+
+
+def _title(report: Report, words: Language) -> Iterator[str]:
+    yield "=" * WIDTH
+    head = f"{words.text('Machine parameters')} {words.text(report.order)}".upper()
+    yield f"{report.program}   {head}".ljust(WIDTH - len(report.when)) + report.when
+    yield "=" * WIDTH
+    for title, text in (*report.machine, *report.facts, *report.counts):
+        yield from _wrapped(report.fact(title, text, words.text), f"{words.text(title) + ' ':.<30} ")
+    yield ""
+    yield from _remarks(report)
     if report.axes:
         lines = [tuple(map(words.text, line)) for line in report.axes]
         yield from _columns(tuple(map(words.text, report.axis_heads)), lines)

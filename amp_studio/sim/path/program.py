@@ -10,7 +10,7 @@ import numpy as np
 
 from amp_studio.files import ParameterFile
 from amp_studio.programs import ToolPath
-from amp_studio.schema import Address
+from amp_studio.schema import Address, load_part
 from amp_studio.sim.axis.motion import Until, run_axis
 from amp_studio.sim.axis_parameters import ParameterValue
 from amp_studio.sim.command.events import Ramp
@@ -18,6 +18,7 @@ from amp_studio.sim.command.ramps import end_of, move
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, BoundMachine, law_of
 from amp_studio.sim.model import assumptions
+from amp_studio.sim.path_rules import PathRules
 from amp_studio.sim.run import bound_machine
 
 from .contour import ContourError, contour_error
@@ -61,13 +62,14 @@ def run_program(
     Raises SimulationError where a value is missing or no page prints how the family goes along a path.
     """
     law = law_of(file.schema.family.family)
-    if law.path is None:
+    if not law.path:
         raise SimulationError(
             f"{file.schema.family.name}: no page here prints how it goes along the path of a program"
         )
     read: list[Address] = []
     machine = bound_machine(file, law, (), model or {}, read.append)
-    rules = replace(law.path(machine), override=override, rapid_override=rapid_override)
+    rules: PathRules = load_part(law.path)(machine)
+    rules = replace(rules, override=override, rapid_override=rapid_override)
     axes = _axes(machine, path)
     waits = _Waits(axes, rules.feed_ramp if rules.waits else Ramp())
     plan = plan_program(path, rules, progress=lambda share: progress(0.5 * share))

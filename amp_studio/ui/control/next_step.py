@@ -84,6 +84,10 @@ def primary_button(state: PageState) -> PrimaryButton:
     if state.direction == "compare":
         count = state.to_send
         return PrimaryButton(tr("Send %n Values to the Control…", "", count) if count else "")
+    return _button_of_sending(state, session)
+
+
+def _button_of_sending(state: PageState, session: ControlSession) -> PrimaryButton:
     if state.backup is not None:
         return PrimaryButton(
             tr("Restore {name}").format(name=state.backup.path.name), _why_not_sent(state, session)

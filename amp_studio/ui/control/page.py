@@ -5,7 +5,6 @@ Nothing of it asks in a box.
 from __future__ import annotations
 
 from collections.abc import Callable
-from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -158,10 +157,10 @@ class ControlPage(ControlPageParts):
         self._show_state()
         if self.session is not None:
             self.session.changed.disconnect(self._follow)
-            self.session.progressed.disconnect(self._show_progress)
+            self.session.progressed.disconnect(self.show_progress)
         self.session, self.name = session, name
         session.changed.connect(self._follow)
-        session.progressed.connect(self._show_progress)
+        session.progressed.connect(self.show_progress)
         if session.phase == "away" and not session.is_busy:
             session.read()
         self._fill()
@@ -280,7 +279,7 @@ class ControlPage(ControlPageParts):
         arrow = "←" if self.direction == "read" else "→"
         control = self.tr("several controls") if self.known.several.isChecked() else self.name
         self.heading.setText(f"{self.title}  {arrow}  {control or self.tr('no control chosen')}")
-        self._enable_choices()
+        self.enable_choices(has_file=self.workspace is not None)
         own = file or (self.workspace.file if self.workspace is not None else None)
         self.conditions.setVisible(own is not None)
         if own is not None:
@@ -295,14 +294,6 @@ class ControlPage(ControlPageParts):
         dangers = self.table.dangers() if self.direction == "send" else ()
         self.steps.show_plan(self.direction, session, state.to_send, dangers)
 
-    def _enable_choices(self) -> None:
-        """Enable what needs a file, and what several controls can do."""
-        has_file, several = self.workspace is not None, self.known.several.isChecked()
-        for direction, button in self.directions.buttons.items():
-            button.setEnabled(not several if direction == "read" else has_file)
-        self.past.setEnabled(has_file)
-        self.known.several.setEnabled(has_file)
-
     def _show_counts(self, same: int, is_read: bool) -> None:
         differ = len(self.table.rows)
         kept = len(self.table.kept())
@@ -315,7 +306,7 @@ class ControlPage(ControlPageParts):
     def _show_middle(self, summary: str) -> None:
         session = self.session
         if session is not None and session.phase == "done":
-            self._show_text(text_of_proof(session, self.name, self._kept_names()), is_proof=True)
+            self.show_text(text_of_proof(session, self.name, self._kept_names()), is_proof=True)
             return
         if self.table.rows and session is not None and session.seen is not None:
             self.middle.setCurrentWidget(self.table)
@@ -326,18 +317,7 @@ class ControlPage(ControlPageParts):
         if family is not None and only and (session is None or session.seen is None):
             words = worded(only, family.family)
             text += "\n\n" + self.tr("{only}: “By Hand” makes the sheet for that.").format(only=words)
-        self._show_text(text.strip())
-
-    def _show_text(self, text: str, *, is_proof: bool = False) -> None:
-        """Show a text in the place of the table: a proof from its head on, in the middle what is one line."""
-        align = Qt.AlignmentFlag
-        self.empty.setAlignment(align.AlignTop | align.AlignLeft if is_proof else align.AlignCenter)
-        if is_proof:
-            head, *rest = map(escape, text.split("\n\n"))
-            text = "".join((f"<p><b>{head}</b></p>", *(f"<p>{each}</p>" for each in rest)))
-        self.empty.setTextFormat(Qt.TextFormat.RichText if is_proof else Qt.TextFormat.PlainText)
-        self.empty.setText(text)
-        self.middle.setCurrentWidget(self.empty)
+        self.show_text(text.strip())
 
     def _kept_names(self) -> list[str]:
         """Return the values that the control keeps, by name."""
@@ -349,17 +329,7 @@ class ControlPage(ControlPageParts):
     def _show_bar(self, state: PageState) -> None:
         session = self.session
         is_needed = session is not None and session.needs_password and session.seen is None
-        is_busy = session is not None and session.is_busy
-        if is_busy and not self.password.isHidden():  # it stays: what is typed on would go to another field
-            self.password.setReadOnly(True)
-        else:
-            is_new, had_focus = is_needed and self.password.isHidden(), self.password.hasFocus()
-            self.password.setReadOnly(False)
-            if had_focus and not is_needed:
-                self.middle.currentWidget().setFocus()
-            self.password.setVisible(is_needed)
-            if is_new:  # once: an address may be typed beside it
-                self.password.setFocus()
+        self.ask_password(needed=is_needed, is_busy=session is not None and session.is_busy)
         message = bar_message(state)
         if message is None:
             self.bar.hide()
@@ -523,15 +493,3 @@ class ControlPage(ControlPageParts):
             text = self.password.text()
             self.password.clear()
             self.session.enter_password(text)
-
-    def _show_progress(self, stage: str, done: int, total: int) -> None:
-        self.cancel.setEnabled(True)
-        self.progress.setRange(0, max(total, 0))
-        self.progress.setValue(done)
-        self.steps.show_stage(stage, done, total)
-        if stage in ("silent", "cut"):
-            self.hint.setText(
-                self.tr("The line is cut; trying again …")
-                if stage == "cut"
-                else self.tr("No answer for {done} s; trying again …").format(done=done)
-            )

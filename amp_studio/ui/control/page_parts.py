@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from html import escape
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QResizeEvent
@@ -152,6 +153,51 @@ class ControlPageParts(QWidget):
         self.steps.setHidden(is_narrow)
         self.steps_line.setVisible(is_narrow)
         self.table.show_short_words(is_narrow)
+
+    def enable_choices(self, *, has_file: bool) -> None:
+        """Enable what needs a file, and what several controls can do."""
+        several = self.known.several.isChecked()
+        for direction, button in self.directions.buttons.items():
+            button.setEnabled(not several if direction == "read" else has_file)
+        self.past.setEnabled(has_file)
+        self.known.several.setEnabled(has_file)
+
+    def ask_password(self, *, needed: bool, is_busy: bool) -> None:
+        """Show the field of the password while one is needed; it is not taken away while it is typed into."""
+        if is_busy and not self.password.isHidden():  # it stays: what is typed on would go to another field
+            self.password.setReadOnly(True)
+        else:
+            is_new, had_focus = needed and self.password.isHidden(), self.password.hasFocus()
+            self.password.setReadOnly(False)
+            if had_focus and not needed:
+                self.middle.currentWidget().setFocus()
+            self.password.setVisible(needed)
+            if is_new:  # once: an address may be typed beside it
+                self.password.setFocus()
+
+    def show_text(self, text: str, *, is_proof: bool = False) -> None:
+        """Show a text in the place of the table: a proof from its head on, in the middle what is one line."""
+        align = Qt.AlignmentFlag
+        self.empty.setAlignment(align.AlignTop | align.AlignLeft if is_proof else align.AlignCenter)
+        if is_proof:
+            head, *rest = map(escape, text.split("\n\n"))
+            text = "".join((f"<p><b>{head}</b></p>", *(f"<p>{each}</p>" for each in rest)))
+        self.empty.setTextFormat(Qt.TextFormat.RichText if is_proof else Qt.TextFormat.PlainText)
+        self.empty.setText(text)
+        self.middle.setCurrentWidget(self.empty)
+
+    def show_progress(self, stage: str, done: int, total: int) -> None:
+        """Show how far an exchange is."""
+        self.cancel.setEnabled(True)
+        self.progress.setRange(0, max(total, 0))
+        self.progress.setValue(done)
+        self.steps.show_stage(stage, done, total)
+        if stage in ("silent", "cut"):
+            self.hint.setText(
+                self.tr("The line is cut; trying again …")
+                if stage == "cut"
+                else self.tr("No answer for {done} s; trying again …").format(done=done)
+            )
 
 
 def _tool(icon_name: str, text: str) -> QToolButton:

@@ -77,14 +77,18 @@ class ChoiceBox(QComboBox):
         )
         return fits.index(True) if any(fits) else _NO_RANK
 
-    def _type(self, letter: str) -> None:
-        is_open = self.view().isVisible()
-        again = bool(self._typed) and (is_open or self._since.elapsed() < PAUSE_MS)
+    def _typed_so_far(self, letter: str) -> tuple[str, list[int]]:
+        """Return what is typed with this letter, and the rows that it is for, the best first."""
+        again = bool(self._typed) and (self.view().isVisible() or self._since.elapsed() < PAUSE_MS)
         typed = self._typed + letter if again else letter
         found = self.rows_of(typed)
         if not found and again and set(folded(typed)) == {folded(letter)}:  # asked for the next one
             typed, found = letter, self.rows_of(letter)
             found.sort(key=lambda n: n <= self.currentIndex())  # those behind it come first
+        return typed, found
+
+    def _type(self, letter: str) -> None:
+        typed, found = self._typed_so_far(letter)
         self._typed = typed
         self._since.start()
         self.setCurrentIndex(found[0] if found else self._own)  # a typing error never chooses another one

@@ -11,16 +11,13 @@ from typing import Literal
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import (
-    QAbstractItemView,
     QCheckBox,
     QComboBox,
     QHBoxLayout,
     QHeaderView,
     QInputDialog,
     QLabel,
-    QPushButton,
     QSplitter,
-    QTableWidget,
     QTableWidgetItem,
     QVBoxLayout,
     QWidget,
@@ -42,17 +39,17 @@ from amp_studio.calibration import (
 )
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value, read_exact
-from amp_studio.ui.base.theme import GAP2, ROW, colour, font, scheme
+from amp_studio.ui.base.theme import GAP2, colour, font, scheme
 from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.forms.form import Field, FieldForm
 
 from .error_plot import ErrorPlot, ErrorTrace
-from .tuning_target import TuningTarget
+from .tuning_part import TuningPart, table_of_rows
 
 _AT, _FIGURE, _ERROR = range(3)
 
 
-class CalibrationPage(QWidget):
+class CalibrationPage(TuningPart):
     """The table of one axis at a time."""
 
     def __init__(
@@ -61,16 +58,16 @@ class CalibrationPage(QWidget):
         """``guarded`` runs what may fail and shows the error;
         ``measured`` asks for measured points of an axis.
         """
-        super().__init__()
-        self._guarded, self._measured = guarded, measured
-        self.target: TuningTarget | None = None
+        super().__init__(guarded)
+        self._measured = measured
         self._filling = False
         self.axis, self.input, self.start = QComboBox(), QComboBox(), QComboBox()
         for key, text in (("measurement", self.tr("measured position")), ("deviation", self.tr("deviation"))):
             self.input.addItem(text, key)
         for key, text in (("+", self.tr("most positive position")), ("-", self.tr("most negative position"))):
             self.start.addItem(text, key)
-        self.table = self._table()
+        self.table = table_of_rows(3, self.tr("Points of the calibration table"))
+        self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
         self.plot = ErrorPlot(self.tr("Errors that the table takes away"))
         self.was_on = QCheckBox(self.tr("Calibration is &on while points are measured"))
         self.was_on.setToolTip(
@@ -99,23 +96,6 @@ class CalibrationPage(QWidget):
             shortcut.setContext(Qt.ShortcutContext.WidgetShortcut)
             shortcut.activated.connect(lambda act=act: self._guarded(act))
         self._chosen = ("", "")
-
-    def _table(self) -> QTableWidget:
-        table = QTableWidget(0, 3)
-        table.setStyleSheet("QTableWidget::item { padding: 0 6px; }")
-        table.setAccessibleName(self.tr("Points of the calibration table"))
-        table.verticalHeader().setDefaultSectionSize(ROW + 2)
-        table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
-        table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        table.setTabKeyNavigation(False)
-        table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
-        return table
-
-    def _button(self, text: str, act: Callable[[], object]) -> QPushButton:
-        button = QPushButton(text)
-        button.setAutoDefault(False)
-        button.clicked.connect(lambda *_: self._guarded(act))
-        return button
 
     def _arrange(self) -> None:
         form = FieldForm(
@@ -163,14 +143,6 @@ class CalibrationPage(QWidget):
         scheme().changed.connect(self._refresh)
 
     # -- what is shown -----------------------------------------------------------
-
-    def show_target(self, target: TuningTarget) -> None:
-        """Show the tables of a file or a control."""
-        if self.target is not None:
-            self.target.changed.disconnect(self._refresh)
-        self.target = target
-        target.changed.connect(self._refresh)
-        self._refresh()
 
     def _refresh(self, *_: object) -> None:
         if self.target is None:

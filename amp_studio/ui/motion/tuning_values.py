@@ -8,17 +8,14 @@ from fractions import Fraction
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import (
-    QAbstractItemView,
     QComboBox,
     QHBoxLayout,
     QHeaderView,
     QInputDialog,
     QLabel,
     QPushButton,
-    QTableWidget,
     QTableWidgetItem,
     QVBoxLayout,
-    QWidget,
 )
 
 from amp_studio.calibration import CalibrationError, TuningPage, stepped, steps_of
@@ -26,11 +23,12 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value, limits, read_exact, write_number
 from amp_studio.ui.base.figures import sentence, show_value, written
 from amp_studio.ui.base.places import place_in_words
-from amp_studio.ui.base.theme import GAP2, ROW, colour, scheme
+from amp_studio.ui.base.theme import GAP2, colour, scheme
 from amp_studio.ui.base.translated import unit_in_words, worded
 from amp_studio.ui.forms.table_items import item_at
 
-from .tuning_target import TuningTarget, effect_words
+from .tuning_part import TuningPart, table_of_rows
+from .tuning_target import effect_words
 
 _INSTANCE, _NAME, _VALUE, _ALLOWED, _EFFECT = range(5)
 _SIGNS: dict[object, int] = {"+": 1, "-": -1, Qt.Key.Key_Plus: 1, Qt.Key.Key_Minus: -1}
@@ -44,7 +42,7 @@ _LEAST_COLUMN = 80
 """Width in pixels of a column of the table at least."""
 
 
-class ValuesPage(QWidget):
+class ValuesPage(TuningPart):
     """The parameters of one page, a row for each axis or spindle that has them."""
 
     axis_chosen = Signal(str)
@@ -59,14 +57,12 @@ class ValuesPage(QWidget):
         """``guarded`` runs what may fail and shows the error;
         ``measured`` asks for measured points of an axis.
         """
-        super().__init__()
-        self.page, self._guarded = page, guarded
-        self.target: TuningTarget | None = None
+        super().__init__(guarded)
+        self.page = page
         self._filling = False
         self.hint = QLabel()
         self.hint.setWordWrap(True)
-        self.table = QTableWidget(0, 5)
-        self.table.setAccessibleName(self.tr("Values to tune: {page}").format(page=worded(page.title)))
+        self.table = table_of_rows(5, self.tr("Values to tune: {page}").format(page=worded(page.title)))
         self.table.setHorizontalHeaderLabels(
             [
                 self.tr("Axis"),
@@ -77,12 +73,7 @@ class ValuesPage(QWidget):
             ]
         )
         self.table.verticalHeader().hide()
-        self.table.verticalHeader().setDefaultSectionSize(ROW + 2)
-        self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
-        self.table.setTabKeyNavigation(False)
         self.table.setWordWrap(False)
-        self.table.setStyleSheet("QTableWidget::item { padding: 0 6px; }")
         head = self.table.horizontalHeader()
         head.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         head.setSectionResizeMode(_EFFECT, QHeaderView.ResizeMode.Stretch)
@@ -123,21 +114,7 @@ class ValuesPage(QWidget):
         layout.addLayout(row)
         scheme().changed.connect(self._refresh)
 
-    def _button(self, text: str, act: Callable[[], object]) -> QPushButton:
-        button = QPushButton(text)
-        button.setAutoDefault(False)
-        button.clicked.connect(lambda *_: self._guarded(act))
-        return button
-
     # -- what is shown -----------------------------------------------------------
-
-    def show_target(self, target: TuningTarget) -> None:
-        """Show the values of a file or a control."""
-        if self.target is not None:
-            self.target.changed.disconnect(self._refresh)
-        self.target = target
-        target.changed.connect(self._refresh)
-        self._refresh()
 
     def addresses(self) -> list[Address]:
         """Return what can be tuned here, one axis after the other."""

@@ -217,17 +217,21 @@ class CellPainter:
             painter.setFont(self._small)
             painter.setPen(self._colours["dim"])
             painter.drawText(inner, _RIGHT, look.unit)
-        text, width = look.text, self._width(letters, look.text)
-        if width > room and look.short:
-            text, width = look.short, self._width(letters, look.short)
-        if width > room:
-            text = self._metrics[id(letters)].elidedText(text, Qt.TextElideMode.ElideMiddle, room)
-            width = self._width(letters, text)
+        text = self._fitting(look, letters, room)
         painter.setFont(letters)
         painter.setPen(self._colours["text" if look.is_own else "dim"])
         painter.drawText(inner, _LEFT, text)
         if look.is_unlike:
-            self._underline(painter, inner.left(), width, inner)
+            self._underline(painter, inner.left(), self._width(letters, text), inner)
+
+    def _fitting(self, look: CellLook, letters: QFont, room: float) -> str:
+        """Return the text of a cell that has room: whole, in short, or cut in the middle."""
+        if self._width(letters, look.text) <= room:
+            return look.text
+        text = look.short or look.text
+        if self._width(letters, text) <= room:
+            return text
+        return self._metrics[id(letters)].elidedText(text, Qt.TextElideMode.ElideMiddle, room)
 
     def _underline(self, painter: QPainter, left: float, width: float, inner: QRect) -> None:
         painter.setPen(self._dots)

@@ -85,8 +85,7 @@ class AxisRelations:
             return found
         odd = []
         for number, one in numbers:
-            like = [(_apart(number, other), seen) for other, seen in numbers if self._is_like(seen, one)]
-            least, nearest = min(like, key=itemgetter(0), default=(0.0, one))
+            least, nearest = self._nearest(number, one, numbers)
             if least > fact.within * (1 + 1e-9):
                 odd.append((one, nearest))
         if len(numbers) > 2 and len(odd) > 1:
@@ -101,6 +100,13 @@ class AxisRelations:
         zero = next(one for one in every.values() if not one.number)
         is_odd = are_alike(self._file, zero.address[1], others[0].address[1])
         return [self._finding(AMONG, AMONG_REASON, zero, others[0])] if is_odd else []
+
+    def _nearest(
+        self, number: float, one: ActiveValue, among: list[tuple[float, ActiveValue]]
+    ) -> tuple[float, ActiveValue]:
+        """Return the value of a like axis that is least apart from one, and how far; itself where none is."""
+        like = [(_apart(number, other), seen) for other, seen in among if self._is_like(seen, one)]
+        return min(like, key=itemgetter(0), default=(0.0, one))
 
     def _sizes(self, fact: AmongAxes) -> Iterator[tuple[float, ActiveValue]]:
         """Yield each value with its size, or with its quotient where another parameter divides it."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
+from itertools import chain
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Quotient, canonical, unit_text, write_figure
@@ -12,7 +13,7 @@ from amp_studio.validate.finding import Finding
 
 from .active_value import ActiveValue, ActiveValues, sentence
 from .axis_columns import AxisColumns
-from .axis_relations import AxisRelations
+from .axis_relations import AxisRelations, Check
 from .slip import slip_between
 
 UNEQUAL, LADDER, ABOVE = "plausible.unequal", "plausible.ladder", "plausible.above-rapid"
@@ -35,28 +36,32 @@ class Relations:
     """What belongs together in one file, as the facts of its family name it."""
 
     def __init__(self, file: ParameterFile) -> None:
-        self._file, facts = file, file.schema.plausible
+        self._file = file
         self._values = ActiveValues(file)
         self._checks: list[Callable[[], list[Finding]]] = []
         self._of: dict[str, list[int]] = {}
         """Parameter -> the checks that read it."""
+        parts = (AxisRelations(file, self._values), AxisColumns(file, self._values))
+        for names, check in chain(self._own_checks(), *(part.checks() for part in parts)):
+            self._add(names, check)
+        self._findings: list[list[Finding]] = [[] for _ in self._checks]
+
+    def _own_checks(self) -> Iterator[Check]:
+        """Yield each check of this module with the parameters that it reads."""
+        facts = self._file.schema.plausible
         for names in facts.same:
-            self._add(names, partial(self._same, names))
+            yield names, partial(self._same, names)
         for pair in facts.twins:
             where = [facts.twins_where.param] if facts.twins_where else []
-            self._add((*pair, *where), partial(self._twins, pair))
+            yield (*pair, *where), partial(self._twins, pair)
         for names in facts.ladders:
-            self._add(names, partial(self._ladder, names))
+            yield names, partial(self._ladder, names)
         for quotient in facts.quotients:
-            self._add((quotient.of, quotient.over), partial(self._quotient, quotient))
+            yield (quotient.of, quotient.over), partial(self._quotient, quotient)
         for pair in facts.needs.items():
-            self._add(pair, partial(self._needs, pair))
+            yield pair, partial(self._needs, pair)
         for one in facts.not_above:
-            self._add((one.limit, *one.are), partial(self._above, one.limit, one.are))
-        for part in (AxisRelations(file, self._values), AxisColumns(file, self._values)):
-            for names, check in part.checks():
-                self._add(names, check)
-        self._findings: list[list[Finding]] = [[] for _ in self._checks]
+            yield (one.limit, *one.are), partial(self._above, one.limit, one.are)
 
     def _add(self, names: Sequence[str], check: Callable[[], list[Finding]]) -> None:
         for name in names:

@@ -14,7 +14,7 @@ from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from amp_studio.cli.arguments import TEXT, count, path_of
+from amp_studio.cli.arguments import TEXT, count, is_folder, path_of
 from amp_studio.cli.console import print_remark, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
@@ -181,7 +181,7 @@ def _files(paths: Sequence[Path]) -> tuple[list[Path], list[CheckResult]]:
         unread.append(CheckResult(folder, fault=f"{folder}: cannot be read: {error.strerror}"))
 
     for path in paths:
-        if not _is_folder(path):
+        if not is_folder(path):
             found.append(path)
             continue
         before = len(unread)
@@ -206,14 +206,6 @@ def _texts_in(folder: Path) -> str:
             if each.is_file() and is_text_of_control(each):
                 return f"; name a control's own text by itself: {each}"
     return ""
-
-
-def _is_folder(path: Path) -> bool:
-    """Return whether a path is a folder; what cannot be read is reported like an unreadable file."""
-    try:
-        return path.is_dir()
-    except OSError:
-        return False
 
 
 def _each(

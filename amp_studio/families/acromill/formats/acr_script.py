@@ -15,7 +15,6 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
 from itertools import chain
 
 from amp_studio.files import ParameterFile
@@ -41,21 +40,12 @@ from amp_studio.formats import (
 from amp_studio.schema import Address, InvalidValueError, Schema, Value, load_schema, same_value, written
 
 from .acr_command import Command, CommandArgument, CommandSetting, commands_of, program_commands_of
+from .acr_lines import CODE_PAGE, ScriptLine, arguments_of, first_word, script_lines, word_of
 
 FAMILY = "acromill"
 _KIND = "acr"
 _HEAD = "REM ACR command script"
-_CODE_PAGE = "cp437"
-"""Commands are plain ASCII; of other characters, which a remark may contain, every byte comes back as it
-was."""
-_MARK = "\ufeff".encode().decode(_CODE_PAGE)
-_MARK_SEEN_AS_LATIN = "\ufeff".encode().decode("latin-1")
 _UNITS = re.compile(r"\s*REM\s+units\s+(\S+)\s*", re.IGNORECASE)
-_REMARK = re.compile(r"\s*(REM\b.*)?", re.IGNORECASE | re.DOTALL)
-_BEHIND = re.compile(r"\s*+(?:\(.*\)\s*+)?")
-"""The guide's own remarks: ``MULT X-4     (Times 4 multiplication in opposite direction)`` (page 114)."""
-
-_LONGEST_LINE = 1000
 _NEWLINE = "\r\n"
 _SET = "set|"
 """Begins the mark of a kept line that sets something: the line as it was."""
@@ -63,28 +53,6 @@ _ATTACH = re.compile(
     r"\s*ATTACH\s+SLAVE[0-9]+\s+AXIS(?P<axis>[0-9]{1,2})\s+\"(?P<letter>[A-Z])\"", re.IGNORECASE
 )
 """The letter that a program gives an axis."""
-_WORDS = re.compile(
-    "ABS|ACC|ADC|ALL|ALM|AS|ATTACH|AUT|AXIS|BASE|BKL|BLK|BLM|BRESET|BSC|CAM|CLEAR|CLOCK|CLOSE|CLR|COM1|COM2|"
-    "CONFIG|CPU|DAC|DEC|DETACH|DGAIN|DIAG|DIM|DST|DWIDTH|DWL|ECHO|ELOAD|ENC|END|ERASE|ESAVE|EXC|F|FBVEL|"
-    "FFACC|FFVEL|FIFO|FLASH|FLZ|FOV|FREQ|FVEL|FWD|GAIN|GEAR|GOSUB|GOTO|HALT|HDW|HELP|HSINT|IDELAY|IF|IGAIN|"
-    "IHPOS|ILIMIT|IMAGE|INC|INH|INPUT|INT|INTCAP|IO|IPB|ITB|IVEL|JLM|JOG|JRK|LIMIT|LIST|LISTEN|LOAD|LOCK|"
-    "LOPASS|LRUN|MASK|MASTER|MAX|MEM|MIN|MODE|MOV|MSEEK|MULT|NEG|NEW|NONE|NORM|NOTCH|OFF|OFFSET|ON|OPEN|"
-    "PAUSE|PBOOT|PERIOD|PGAIN|PLC|PLS|PDIFF|PON|POS|PPU|PRINT|PROG|PROM|RATCH|RATIO|REBOOT|REM|REN|RES|"
-    "RESUME|RETURN|REV|ROTARY|ROTATE|ROV|RUN|SAMP|SAVE|SCALE|SEG|SET|SHIFT|SINE|SLAVE|SRC|STEP|STEPPER|STP|"
-    "SYS|THEN|TLM|TRG|TRJ|TROFF|TRON|UNLOCK|USING|VECDEF|VECTOR|VEL|VER|WIDTH|XID"
-)
-"""Commands of the controller (page 91)."""
-_LATER = re.compile(
-    "BIT|BREAK|DRIVE|ELSE|ENDIF|ENDP|FSTAT|HLBIT|HLDEC|HLIM|LOOK|MAXVEL|MBUF|SLDEC|SLIM|SLM|WEND|WHILE"
-)
-"""Words of published start-up programs for later controllers: the guide does not have them."""
-_OF_A_PROGRAM = re.compile(
-    r"\s*(?:[0-9]+\s+[A-Z]|(?P<assigned>P|BIT)[0-9]+\s*=|[FXYZABCUV]\s*[-+.0-9]|(?P<word>[A-Z]+)[0-9]*(?![A-Z]))",
-    re.IGNORECASE,
-)
-"""A line with a number, as of a PLC program (page 114); an assignment (pages 45 and 128);
-a feed or a move (page 115); a command."""
-
 ORDER = (
     "PPU",
     "MULT",
@@ -116,25 +84,12 @@ of the integral come before the gains they limit; that much is ours.
 # -- reading
 
 
-@dataclass
-class _ScriptLine:
-    """A line of a script: its settings, or why it has none."""
-
-    number: int
-    text: str
-    arguments: list[CommandArgument] = field(default_factory=list)
-    fault: FormatError | None = None
-    """Why the line is not understood."""
-    is_kept: bool = False
-    """It is of a program, and sets nothing."""
-
-
 def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     """Return the values of a script; what sets nothing that is known is kept, or raises FormatError."""
     machine = schema.family.default_machine
     commands, of_programs = commands_of(schema, machine), program_commands_of(schema, machine)
-    words = {command.word or _first_word(command) for command in commands}
-    lines = list(_lines(text, [*commands, *of_programs], words))
+    words = {command.word or first_word(command) for command in commands}
+    lines = list(script_lines(text, [*commands, *of_programs], words))
     found = TextRead()
     system = _read_system(lines, schema, found)
     _check_letters(lines, schema.family.scopes["axis"].instances if "axis" in schema.family.scopes else ())
@@ -154,13 +109,13 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
 def _note_of_kept(kept: list[str]) -> Iterator[str]:
     """Yield how many lines of a program are kept, and what they begin with."""
     if kept:
-        first = sorted({_word_of(text) for text in kept})
+        first = sorted({word_of(text) for text in kept})
         count = f"{len(kept)} lines" if len(kept) > 1 else "1 line"
         yield f"{count} of the program set nothing here, kept in their place: {', '.join(first)}"
 
 
 def _values_of_lines(
-    lines: list[_ScriptLine], schema: Schema, system: str, options: ReadOptions
+    lines: list[ScriptLine], schema: Schema, system: str, options: ReadOptions
 ) -> dict[Address, Value]:
     """Return what the lines set; raises FormatError for a line that is not understood,
     and for what two of them set.
@@ -192,47 +147,7 @@ def _is_ours(text: str, result: TextRead, schema: Schema) -> bool:
         return False
 
 
-def _first_word(command: Command) -> str:
-    word = re.match("[A-Z]+", command.form)
-    return word[0] if word else ""
-
-
-def _word_of(text: str) -> str:
-    """Return what a line of a program begins with, in a word."""
-    word = re.search(r"[A-Z]+", text, re.IGNORECASE)
-    return word[0].upper() if word else text.strip()[:10]
-
-
-def _lines(text: str, commands: list[Command], words: set[str]) -> Iterator[_ScriptLine]:
-    for n, row in enumerate(text.removeprefix(_MARK).removeprefix(_MARK_SEEN_AS_LATIN).split("\n"), 1):
-        line = _ScriptLine(n, row.rstrip("\r"))
-        if len(line.text) > _LONGEST_LINE:
-            line.fault = FormatError(f"the line is longer than {_LONGEST_LINE} characters", n)
-        elif not _REMARK.fullmatch(line.text):
-            try:
-                line.arguments = list(_arguments(line, commands))
-            except FormatError as fault:
-                line.is_kept = _is_of_a_program(line.text, words)
-                line.fault = None if line.is_kept else fault
-        yield line
-
-
-def _is_of_a_program(text: str, words: set[str]) -> bool:
-    """Return whether a line that sets nothing here is another command;
-    one with the word of a setting is a slip.
-    """
-    match = _OF_A_PROGRAM.match(text)
-    if match is None:
-        return False
-    word = (match["word"] or "").upper()
-    if not word:
-        return True
-    if word == "DAC":
-        return not re.match(r"\s*DAC[0-9]*\s+GAIN\b", text, re.IGNORECASE)
-    return word not in words and (_LATER.fullmatch(word) or _WORDS.fullmatch(word)) is not None
-
-
-def _check_letters(lines: list[_ScriptLine], letters: Sequence[str]) -> None:
+def _check_letters(lines: list[ScriptLine], letters: Sequence[str]) -> None:
     """Refuse settings by a letter that the program gives to another axis than it is here."""
     attached = ((_ATTACH.match(line.text), line.number) for line in lines)
     given = {found["letter"].upper(): (int(found["axis"]), at) for found, at in attached if found}
@@ -250,10 +165,10 @@ def _check_letters(lines: list[_ScriptLine], letters: Sequence[str]) -> None:
             line.arguments = []
 
 
-def _keep_unequal(lines: list[_ScriptLine], commands: list[Command], schema: Schema, system: str) -> None:
+def _keep_unequal(lines: list[ScriptLine], commands: list[Command], schema: Schema, system: str) -> None:
     """Take settings in the forms of programs for text where not all of them are there with one value."""
     forms = _forms(commands)
-    seen: dict[Address, list[tuple[_ScriptLine, str, set[Value]]]] = {}
+    seen: dict[Address, list[tuple[ScriptLine, str, set[Value]]]] = {}
     for line in lines:
         for each in line.arguments:
             address = each.setting.addresses[0]
@@ -278,40 +193,7 @@ def _forms(commands: list[Command]) -> dict[Address, set[str]]:
     return forms
 
 
-def _arguments(line: _ScriptLine, commands: list[Command]) -> Iterator[CommandArgument]:
-    """Yield the settings of a line; raises FormatError."""
-    known, at = _known_at_begin(line.text, commands)
-    is_first = True
-    while is_first or not _BEHIND.fullmatch(line.text, at):
-        argument = next((a for c in known if (a := c.read(line.text, at))), None)
-        if argument is None or (not is_first and not known[0].word):
-            raise _not_read(line, at, known)
-        yield argument
-        at, is_first = argument.end, False
-
-
-def _known_at_begin(text: str, commands: list[Command]) -> tuple[list[Command], int]:
-    """Return the commands of the word that a line begins with, and where it goes on; without such a word
-    those that have none.
-    """
-    word = re.match(r"\s*([A-Z]+)(?:\s+|$|(?=\())", text, re.IGNORECASE)
-    if word and (known := [c for c in commands if c.word == word[1].upper()]):
-        return known, word.end()
-    return [c for c in commands if not c.word], len(text) - len(text.lstrip())
-
-
-def _not_read(line: _ScriptLine, at: int, known: list[Command]) -> FormatError:
-    rest = line.text[at:].strip()
-    text = rest if len(rest) <= 40 else rest[:39] + "…"
-    if not known or not known[0].word:
-        return FormatError(f"'{text}' is no command that sets a parameter here", line.number, at + 1)
-    form = " or ".join(f"'{c.example}'" for c in known)
-    what = f"'{text}' sets nothing: {known[0].word}" if rest else f"{known[0].word} alone sets nothing: it"
-    axes = ", ".join(filter(None, known[0].instances))
-    return FormatError(f"{what} is written as {form}{f', for {axes}' if axes else ''}", line.number, at + 1)
-
-
-def _set_aside_repeated(lines: list[_ScriptLine]) -> None:
+def _set_aside_repeated(lines: list[ScriptLine]) -> None:
     """Take what is set more than once for not understood: which value counts, the run of the script
     decides.
     """
@@ -322,7 +204,7 @@ def _set_aside_repeated(lines: list[_ScriptLine]) -> None:
             line.arguments, line.fault = [], FormatError("it is set more than once", line.number)
 
 
-def _read_system(lines: list[_ScriptLine], schema: Schema, result: TextRead) -> str:
+def _read_system(lines: list[ScriptLine], schema: Schema, result: TextRead) -> str:
     """Return the unit system of the figures, and set it where the script names it."""
     chooser = schema.family.unit_parameter
     for line in lines:
@@ -349,7 +231,7 @@ def _values(schema: Schema, argument: CommandArgument, line: int, system: str) -
     return values
 
 
-def _layout(line: _ScriptLine) -> PassthroughLine:
+def _layout(line: ScriptLine) -> PassthroughLine:
     """Return what is kept of a line."""
     if line.arguments:
         return PassthroughLine(placeholder(_SET + line.text))
@@ -363,7 +245,7 @@ def _recognises(text: str) -> bool:
         schema = load_schema(FAMILY)
     except KeyError:
         return False
-    lines = _lines(text[:20_000], commands_of(schema, schema.family.default_machine), set())
+    lines = script_lines(text[:20_000], commands_of(schema, schema.family.default_machine), set())
     return any(line.arguments for line in lines)
 
 
@@ -377,8 +259,8 @@ def _write(file: ParameterFile) -> str:
     layout = lines_kept(file, _KIND)
     if layout is None:
         name = " ".join(
-            f"{_HEAD} of {file.header.name or 'a machine'}".encode(_CODE_PAGE, "replace")
-            .decode(_CODE_PAGE)
+            f"{_HEAD} of {file.header.name or 'a machine'}".encode(CODE_PAGE, "replace")
+            .decode(CODE_PAGE)
             .split()
         )
         return "\n".join([name, *units, *rows.values(), ""])
@@ -446,7 +328,7 @@ def _filled(file: ParameterFile, layout: list[str], rows: dict[Address, str]) ->
 
 
 def _line_of_each(
-    layout: list[str], kept_lines: dict[int, _ScriptLine], rows: Iterable[Address]
+    layout: list[str], kept_lines: dict[int, ScriptLine], rows: Iterable[Address]
 ) -> dict[Address, int]:
     """Return the line of the kept script that sets each address, of those that it sets."""
     at = {
@@ -460,7 +342,7 @@ def _line_of_each(
 
 
 def _set_here(
-    file: ParameterFile, line: _ScriptLine | None, new: tuple[Address, str] | None, system: str
+    file: ParameterFile, line: ScriptLine | None, new: tuple[Address, str] | None, system: str
 ) -> tuple[list[Address], list[str]]:
     """Return the addresses that a row of the layout sets, and its lines with the values of now: those of a
     kept line as it was written, else the row as it is written ``new``.
@@ -471,13 +353,13 @@ def _set_here(
     return ([new[0]], [new[1]]) if new else ([], [])
 
 
-def _kept_lines(layout: list[str], commands: list[Command]) -> dict[int, _ScriptLine]:
+def _kept_lines(layout: list[str], commands: list[Command]) -> dict[int, ScriptLine]:
     """Return the kept lines that set something; raises FormatError for one that sets nothing any more."""
-    lines: dict[int, _ScriptLine] = {}
+    lines: dict[int, ScriptLine] = {}
     for n, row in enumerate(layout):
         if (what := placeholder_in(row) or "").startswith(_SET):
-            lines[n] = _ScriptLine(n + 1, what.removeprefix(_SET))
-            lines[n].arguments = list(_arguments(lines[n], commands))
+            lines[n] = ScriptLine(n + 1, what.removeprefix(_SET))
+            lines[n].arguments = list(arguments_of(lines[n], commands))
     return lines
 
 
@@ -489,7 +371,7 @@ def _unit_remark(file: ParameterFile, text: str, system: str) -> str:
     return f"REM units {system}"
 
 
-def _with_values(file: ParameterFile, line: _ScriptLine, system: str) -> str:
+def _with_values(file: ParameterFile, line: ScriptLine, system: str) -> str:
     """Return a line of a script with the values of now, every other character as it was;
     empty where none of them is set.
     """
@@ -524,7 +406,7 @@ FORMAT = TextFormat(
     _recognises,
     _read,
     _write,
-    _CODE_PAGE,
+    CODE_PAGE,
     _NEWLINE,
     newline_of=_newline_of,
 )

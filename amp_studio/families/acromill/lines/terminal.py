@@ -117,10 +117,8 @@ class Terminal:
 
     # -- one try ----------------------------------------------------------------------------------
 
-    def _typed(self, link: Link, line: bytes, seconds: float, sent: Callable[[], None]) -> list[str]:
-        """Type a line, compare its echo and have it obeyed; returns the rows of its answer.
-        Raises _DamagedError for what is to be tried again.
-        """
+    def _type(self, link: Link, line: bytes) -> None:
+        """Type a line and compare its echo; it is not obeyed before its end is sent."""
         if not self._is_clear:
             self._clear(link)
         try:
@@ -131,13 +129,18 @@ class Terminal:
         except CancelledError:
             self._is_clear = False
             with contextlib.suppress(LinkError):
-                link.write(
-                    BACKSPACE * len(line)
-                )  # the next line of another program is not to be glued to this one
+                # The next line of another program is not to be glued to this one.
+                link.write(BACKSPACE * len(line))
             raise
         except BaseException:
             self._is_clear = False  # the next one takes away what is there of the line
             raise
+
+    def _typed(self, link: Link, line: bytes, seconds: float, sent: Callable[[], None]) -> list[str]:
+        """Type a line, compare its echo and have it obeyed; returns the rows of its answer.
+        Raises _DamagedError for what is to be tried again.
+        """
+        self._type(link, line)
         sent()
         self._is_clear = False
         link.write(b"\r")

@@ -1,4 +1,4 @@
-"""What the firmware does with the bytes of its line: protocol.c, system.c and report.c of the grblHAL core,
+"""What the firmware does with the bytes of its line: protocol.c and system.c of the grblHAL core,
 Grbl 1.1 likewise.
 
 Its memory is written after the answer to a setting, when the next byte or nothing comes (nvs_buffer.c): who
@@ -10,15 +10,15 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from amp_studio.schema import load_schema
 from amp_studio.sim import SimulationError
 from amp_studio.transfer.emulated import DeviceSetup
 
 from .motion import GrblMotion, MotionBlock
-from .stored_settings import FAMILY, OUT_OF_RANGE, RefusedError, StoredSettings
+from .reports import FirmwareReports
+from .stored_settings import OUT_OF_RANGE, RefusedError, StoredSettings
 
 MEMORY = "settings"
 LINE, CLASSIC_LINE = 256, 80
@@ -244,10 +244,10 @@ class Firmware:
             self.is_writing = self.state != "Check" or self.settings.is_classic
         elif equals and name == "RST":
             self._reset(text)
-        elif not equals and name in self._reports():
+        elif not equals and (report := self._reports().get(name)):
             if name in ("$", "+", "I"):
                 self._need_rest()
-            self._send(*self._reports()[name]())
+            self._send(*report())
         elif not equals and name.isdigit() and not self.settings.is_classic:
             setting = self.settings.named(int(name))
             if setting is None:
@@ -400,92 +400,10 @@ class Firmware:
         if self.state != "Check":
             self._move(targets, self._feed if self._mode == 1 else None)
 
-    # -- reports -------------------------------------------------------------------------------------
-
-    def _reports(self) -> dict[str, Callable[[], Iterator[str]]]:
-        common = {
-            "I": self._identity,
-            "$": self._values,
-            "#": self._coordinates,
-            "G": self._modes,
-            "N": self._lines,
-        }
-        if self.settings.is_classic:
-            return common
-        return {
-            **common,
-            "+": self._values,
-            "EG": self._groups,
-            "ES": self._descriptions,
-            "ESH": self._helps,
-            "EA": self._alarms,
-            "EE": self._errors,
-        }
-
-    def _identity(self) -> Iterator[str]:
-        if self.settings.is_classic:
-            yield from (f"[VER:1.1h.20190830:{self.build}]", "[OPT:V,15,128]")
-            return
-        yield f"[VER:1.1f.20260817:{self.build}]"
-        yield f"[OPT:VNM{'H' if self.settings.all[22].value else ''},100,1024,{len(self._axes)},0]"
-        yield f"[AXS:{len(self._axes)}:{self._axes}]"
-        yield from (
-            "[NEWOPT:ENUMS,RT+]",
-            "[FIRMWARE:grblHAL]",
-            "[NVS STORAGE:*EEPROM]",
-            "[FREE MEMORY:64K]",
-            "[DRIVER:Emulated]",
-            "[DRIVER VERSION:1]",
-        )
-
-    def _values(self) -> Iterator[str]:
-        for setting in self.settings.available():
-            yield f"${setting.number}={setting.show()}"
-
-    def _coordinates(self) -> Iterator[str]:
-        inches = self.settings.all[13].value
-        for name, text in self.offsets.items():
-            figures = ",".join(f"{float(part) / 25.4:.4f}" for part in text.split(",")) if inches else text
-            yield f"[{name}:{figures}]"
-        zeros = ",".join(["0.0000" if inches else "0.000"] * len(self._axes))
-        yield from (f"[TLO:{'0.000' if self.settings.is_classic else zeros}]", f"[PRB:{zeros}:0]")
-
-    def _modes(self) -> Iterator[str]:
-        yield f"[GC:G0 G54 G17 G{self._unit} G90 G94 M5 M9 T0 F0 S0]"
-
-    def _lines(self) -> Iterator[str]:
-        for number, line in self.startup.items():
-            yield f"$N{number}={line}"
-
-    def _groups(self) -> Iterator[str]:
-        yield "[SETTINGGROUP:0|0|Root]"
-        for number, group in enumerate(load_schema(FAMILY).groups, 1):
-            yield f"[SETTINGGROUP:{42 if group.name == 'Axis' else number}|0|{group.name}]"
-        for number, axis in enumerate(self._axes):
-            yield f"[SETTINGGROUP:{43 + number}|42|{axis}-axis]"
-
-    def _descriptions(self) -> Iterator[str]:
-        for setting in self.settings.available():
-            yield setting.describe(len(self._axes))
-
-    def _helps(self) -> Iterator[str]:
-        for setting in self.settings.available():
-            yield f"{setting.number}\t{setting.name}\t{setting.unit}\t\t\t{setting.help}\t\t\t0\t0"
-
-    def _alarms(self) -> Iterator[str]:
-        yield from (
-            "[ALARMCODE:1||A limit switch was reached.]",
-            "[ALARMCODE:2||A move would have left the travel.]",
-        )
-
-    def _errors(self) -> Iterator[str]:
-        for number, text in (
-            (3, "Not a command."),
-            (8, "Not at rest."),
-            (9, "Locked."),
-            (52, "Out of range."),
-        ):
-            yield f"[ERRORCODE:{number}||{text}]"
+    def _reports(self) -> Mapping[str, Callable[[], Iterator[str]]]:
+        return FirmwareReports(
+            self.settings, self._axes, self.offsets, self.startup, self.build, self._unit
+        ).by_name()
 
     # -- the operator --------------------------------------------------------------------------------
 

@@ -56,12 +56,16 @@ class NumKeys:
                 if self._machine.is_busy:
                     raise ValueError("an axis is moving")
                 return f"homing {self._machine.home(rest.strip())}"
-            key, _, speed = rest.strip().partition(" ")
-            if len(key) < 2 or key[-1] not in "+-":
-                raise ValueError(f"jog takes an axis with its direction: {self.words}")
-            return self._machine.jog(key[:-1], 1.0 if key[-1] == "+" else -1.0, speed.strip())
+            return self._jog(rest.strip())
         except SimulationError as error:
             raise ValueError(str(error)) from None
+
+    def _jog(self, what: str) -> str:
+        """Press a key of an axis, such as ``X+``, at a speed where one is given."""
+        key, _, speed = what.partition(" ")
+        if len(key) < 2 or key[-1] not in "+-":
+            raise ValueError(f"jog takes an axis with its direction: {self.words}")
+        return self._machine.jog(key[:-1], 1.0 if key[-1] == "+" else -1.0, speed.strip())
 
     def screen(self, state: str) -> ControlStatus:
         """Return the axis page: every axis of the parameters, with what has stopped it."""
