@@ -25,6 +25,7 @@ from reference_html import (
 )
 from reference_manual import printed_on
 
+from amp_studio.find import synonym_table
 from amp_studio.guide import steps_of
 from amp_studio.schema import Parameter, Schema, family_ids, load_schema
 from amp_studio.schema.model import ControlMessage, Messages
@@ -48,7 +49,11 @@ def search_script(guides: list[Entry]) -> str:
             }
         )
     families.append({"family": "", "names": [], "folder": "", "entries": guides})
-    return f"searchEntries({json.dumps(families, ensure_ascii=False, separators=(',', ':'))});"
+    return f"searchSynonyms({_plain(synonym_table())});searchEntries({_plain(families)});"
+
+
+def _plain(data: object) -> str:
+    return json.dumps(data, ensure_ascii=False, separators=(",", ":"))
 
 
 def family_entries(schema: Schema) -> Iterator[Entry]:
@@ -181,6 +186,6 @@ def _at(page: str, anchor: str) -> str:
 
 def addresses(script: str) -> Iterable[str]:
     """Return every address of a script of entries, below the folder of the site."""
-    for family in json.loads(script.strip().removeprefix("searchEntries(").removesuffix(");")):
+    for family in json.loads(script.strip().partition("searchEntries(")[2].removesuffix(");")):
         for entry in family["entries"]:
             yield family["folder"] + entry[2]

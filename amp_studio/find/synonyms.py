@@ -77,14 +77,19 @@ def _is_like(typed: str, word: str) -> bool:
     return typed.removeprefix(word) in _ENDINGS or distance(typed, word, 1) <= 1
 
 
+def synonym_table() -> list[tuple[list[str], list[str]]]:
+    """Return what people type, and what each of it means in the words of the manuals, the likeliest first."""
+    data = read_yaml(SYNONYMS_FILE.read_text("utf-8")).data
+    return [(list(each["words"]), list(each["mean"])) for each in data["synonyms"]]
+
+
 @cache
 def _table() -> dict[tuple[str, ...], tuple[str, ...]]:
     """Return words -> what they mean."""
-    data = read_yaml(SYNONYMS_FILE.read_text("utf-8")).data
     return {
-        tuple(word.translate(_UMLAUTS) for word in words_of(words)): tuple(each["mean"])
-        for each in data["synonyms"]
-        for words in each["words"]
+        tuple(word.translate(_UMLAUTS) for word in words_of(words)): tuple(mean)
+        for typed, mean in synonym_table()
+        for words in typed
     }
 
 

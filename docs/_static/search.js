@@ -13,6 +13,7 @@
   let exact = null; // a name without spaces -> [entry, score, address]
   let vocabulary = null; // words of titles, for those that are mistyped
   let waiting = [];
+  const synonyms = new Map(); // words of the trade -> questions in the words of the manuals, the likeliest first
 
   // -- what is known ---------------------------------------------------------
 
@@ -32,6 +33,7 @@
           texts: [spaced(`${title} ${kind === "parameter" ? known[0].replace(/[._]/g, " ") : ""}`), spaced(more), ` ${text} `] };
         entries.push(entry);
         known.forEach((name, n) => {
+          if (kind === "message" && !/\d/.test(name)) return; // words that a control shows are a title, not a number
           const number = kind === "parameter" && n > 0;
           const page = kind === "page";
           const place = `${folder}${address.split("#")[0]}#n-${encodeURIComponent(name)}`;
@@ -51,6 +53,9 @@
     waiting = [];
     due.forEach((call) => call());
   };
+
+  // Words of the trade and German ones, of parameter_db/synonyms.yaml.
+  window.searchSynonyms = (table) => table.forEach(([words, mean]) => words.forEach((word) => synonyms.set(folded(word).join(" "), mean)));
 
   const know = (name, entry, score, address) => {
     const found = exact.get(name);
@@ -81,6 +86,29 @@
       }
     }
     return row[b.length];
+  };
+
+  const folded = (text) => wordsOf(text).map((word) => word.replace(/[äöüß]/g, (letter) => ({ ä: "ae", ö: "oe", ü: "ue", ß: "ss" })[letter]));
+
+  // What a question may mean in the words of the manuals: its longest group of words that is a synonym, as it is, only begun, with a German
+  // ending or with one slip. The program does the same (amp_studio/find/synonyms.py).
+  const meanings = (query) => {
+    const words = folded(query);
+    const alike = (typed, word) => typed === word || (typed.length >= 6 && word.length >= 6
+      && ((typed.startsWith(word) && /^(e|n|en|er|s|es)$/.test(typed.slice(word.length))) || distance(typed, word, 1) <= 1));
+    const like = (typed, last) => {
+      if (synonyms.has(typed.join(" "))) return typed.join(" ");
+      if (!typed.some((word) => word.length >= 5)) return undefined;
+      const same = [...synonyms.keys()].filter((key) => key.split(" ").length === typed.length);
+      const begun = last && typed[typed.length - 1].length >= 5 ? same.filter((key) => key.startsWith(typed.join(" "))) : [];
+      return begun.sort((a, b) => a.length - b.length)[0] || same.find((key) => key.split(" ").every((word, n) => alike(typed[n], word)));
+    };
+    for (let length = words.length; length > 0; length -= 1)
+      for (let start = 0; start + length <= words.length; start += 1) {
+        const known = like(words.slice(start, start + length), start + length === words.length);
+        if (known) return synonyms.get(known).map((mean) => [...words.slice(0, start), mean, ...words.slice(start + length)].join(" "));
+      }
+    return [];
   };
 
   // The known words that a typed one may be: itself or its beginning, or with one or two slips. A number that is known is whole.
@@ -131,6 +159,8 @@
     };
     (own.length ? own : exactly(query)).forEach((hit) => add(...hit));
     byWords(query, add);
+    // Another word is worth less than the one typed, and each less likely meaning less again.
+    meanings(query).forEach((mean, place) => byWords(mean, (entry, score, address) => add(entry, score * 0.9 * 0.8 ** place, address), true));
     const hits = [...found.values()].sort((a, b) => b.score - a.score || a.entry.order - b.entry.order);
     // What nearly nothing speaks for only buries the rest.
     const best = Math.max(...hits.map(({ score }) => score).filter((score) => score < 60), 0);
@@ -164,7 +194,7 @@
     return [...best.values()].map(([, entry]) => [entry, 70, entry.address]);
   };
 
-  const byWords = (query, add) => {
+  const byWords = (query, add, every = false) => {
     const asked = wordsOf(query).join(" ");
     const typed = wordsOf(query.replace(/_/g, " ").replace(/\.(?=\D)/g, " "));
     let words = [...new Set(typed)];
@@ -186,7 +216,7 @@
     const all = entries.some((_, n) => counted.every(({ values }) => values[n]));
     entries.forEach((entry, n) => {
       const missing = counted.filter(({ values }) => !values[n]);
-      if (missing.length > Math.floor(words.length / (all ? 4 : 2)) || missing.length === words.length || missing.some(({ digits }) => digits)) return;
+      if (missing.length > (every ? 0 : Math.floor(words.length / (all ? 4 : 2))) || missing.length === words.length || missing.some(({ digits }) => digits)) return;
       let score = counted.reduce((sum, { values, weight }) => sum + weight * values[n], 0) / total;
       const title = wordsOf(entry.title).join(" ");
       const name = title.replace(/^\S*\d\S* /, ""); // without its number
