@@ -228,3 +228,19 @@ def test_settings_that_all_are_comments_are_a_listing_and_others_beside_them_are
     assert (listing.settings[121], len(listing.settings), log.is_comment) == ("121.5", 9, True)
     beside = read_log(f"{text}\n$100=80\n$101=80\n")
     assert (beside.listings[-1].settings, beside.is_comment) == ({100: "80", 101: "80"}, False)
+
+
+def test_what_a_log_sends_behind_the_listing_is_a_change_between_reports_with_odd_stamps() -> None:
+    """A sender that pads its milliseconds with blanks, and counts those since the line before."""
+    log = ["18.11.2018 18:35:09.906 (  66) >>> $$", *(f"18.11.2018 18:35:10.  4 (  11) <<< {s}" for s in LINES)]
+    log += [
+        "18.11.2018 18:35:10. 63 (  59) >>> ?",
+        "18.11.2018 18:35:10. 74 (  11) <<< <Idle|MPos:0.000,0.000,0.000|FS:0,0>",
+        "18.11.2018 18:35:13.107 (   5) >>> \ufffd",
+        "18.11.2018 18:35:13.857 (   6) >>> $1=77",
+        "18.11.2018 18:35:13.865 (   8) <<< ok",
+    ]
+    read = read_log("\n".join(log))
+    (listing,) = read.listings
+    assert listing.settings == {**SETTINGS, 1: "77"}
+    assert (listing.changed, listing.aside, read.others) == ({1: ("25", "77")}, {}, [])

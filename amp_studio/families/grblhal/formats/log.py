@@ -44,9 +44,10 @@ _AHEAD = re.compile(
     r"""(?:
       \[[^\]]{0,40}\]                                                  # [12:30:01], [PRB], [ $$ ]
     | \d{4}[-/.]\d\d?[-/.]\d\d?[T,]? | \d\d?[-/.]\d\d?[-/.]\d{2,4},?   # a date
-    | \d\d?:\d\d(?::\d\d)?(?:[.,]\d+)?(?:[ ]?[AP]\.?M\.?)?Z?      # a time
+    | \d\d?:\d\d(?::\d\d)?(?:[.,][ ]{0,2}\d+)?(?:[ ]?[AP]\.?M\.?)?Z?      # a time, 12:30:01.  4 too
+    | \([ ]{0,5}\d{1,6}\)(?=[ ]?[<>])                                 # ms since the line before
     | (?!error|alarm)[A-Za-z][\w.-]{0,19}(?:[ ][\w.-]{1,12}){0,2}[ ]?[>:]             # CNCjs>, client>, Recv:
-    | \$\$[ ]?<? | [-=~]?>+ | <+[-=~]? | [|*•·"'`{,-]+
+    | \$\$[ ]?<? | [-=~]?>+ | <+(?![A-Z][a-z]+[|:,])[-=~]? | [|*•·"'`{,-]+
     )\s*""",
     re.VERBOSE | re.IGNORECASE,
 )
@@ -62,10 +63,10 @@ _GREETING = re.compile(r"\bgrbl(?:HAL)?[ ]+v?[0-9]\.[0-9]+\w?\b.*", re.IGNORECAS
 _STARTUP = re.compile(r"(\$N[0-9])=(.*)")
 _REFUSED = re.compile(r"error\s*:\s*[0-9]+", re.IGNORECASE)
 _AROUND = re.compile(
-    r"ok|done|\$[$#GINXHC+]?\S{0,3}|<[^>]*>|\[.*\]|[-=_*#%~.\s\"'`{}()\[\],|/\\]*|ALARM:.*|error:.*|.*['\"]\$['\"].*",
+    r"ok|done|[^\x00-\x7f]|\$[$#GINXHC+]?\S{0,3}|<[^>]*>|\[.*\]|[-=_*#%~.!?\s\"'`{}()\[\],|/\\]*|ALARM:.*|error:.*|.*['\"]\$['\"].*",
     re.IGNORECASE,
 )
-"""Lines of a sender's log that nobody misses."""
+"""Lines of a sender's log that nobody misses; overrides and jog cancel are one byte from 0x80 on."""
 _LEAST, _MOST_LISTINGS, _LOOKED_AT = 8, 1000, 20_000
 _MOST_LINES, _LONGEST, _LONGEST_VALUE = 200_000, 65_536, 400
 """A listing has some hundred lines, a log of a day some ten thousand; the longest value is a macro."""
