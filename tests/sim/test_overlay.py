@@ -80,6 +80,23 @@ def test_a_trigger_lays_both_over_each_other_where_a_signal_passes_its_level(tmp
     assert np.nanmax(np.abs(found.columns["difference_velocity"])) < 30.0
 
 
+def test_a_record_that_begins_beyond_the_level_is_laid_over_from_its_first_row(tmp_path: Path) -> None:
+    trace = simulate(open_file(MILL).file, "step", "1", MOVE, advise=False)
+    here, speed = trace.columns["time_s"], trace.columns["velocity"]
+    first = int(np.argmax(speed >= 500.0))
+    record = written(
+        tmp_path / "record.csv", "time (s),velocity (mm/min)", here[first:] - here[first], speed[first:]
+    )
+    with pytest.raises(SimulationError, match="never goes above 500"):
+        laid_over(trace, record, trigger_of("velocity>500"))
+    found = laid_over(trace, record, trigger_of("velocity>=500"))
+    assert found.result["record_lag"][0] == pytest.approx(-here[first], abs=here[1] - here[0])
+    step = np.abs(np.diff(speed)).max()
+    assert found.result["difference_peak_velocity"][0] <= step
+    falling = written(tmp_path / "falling.csv", "time (s),velocity (mm/min)", here, speed)
+    assert laid_over(trace, falling, trigger_of("velocity<=500")).result["record_lag"][0] == 0.0
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [("velocity", "is no trigger"), ("colour>1", "is no trigger"), ("velocity>1e9", "is no trigger")],

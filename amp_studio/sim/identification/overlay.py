@@ -77,7 +77,7 @@ def _factor(name: str, signal: str, unit: str, wanted: str) -> float:
 
 @dataclass(frozen=True)
 class Trigger:
-    """Where a record begins: its signal passes a level, as at an oscilloscope."""
+    """Where a record begins, as at an oscilloscope: its signal passes a level (edge) or is at it (level)."""
 
     signal: str
     rising: bool
@@ -85,10 +85,17 @@ class Trigger:
     """In the unit of the trace."""
     before: float = 0.0
     """s of the record that are kept ahead of it; the rest is cut off."""
+    is_level: bool = False
+    """A signal that is at the level or beyond it in its first row, fires there: no edge is waited for."""
 
     def time(self, name: str, time: Series, values: Series) -> float:
-        """Return when a signal passes the level first, between two rows on a line; ``name`` is who has it."""
-        above = values > self.level if self.rising else values < self.level
+        """Return when a signal passes the level first, between two rows on a line, or where it is there from
+        its first row; ``name`` is who has it.
+        """
+        excess = values - self.level if self.rising else self.level - values
+        above = excess >= 0.0 if self.is_level else excess > 0.0
+        if self.is_level and above[0]:
+            return float(time[0])
         passes = np.flatnonzero(above[1:] & ~above[:-1])
         if not passes.size:
             way = "above" if self.rising else "below"
@@ -102,17 +109,19 @@ class Trigger:
 
 
 def trigger_of(text: str, before: float = 0.0) -> Trigger:
-    """Return a trigger as it is written, ``velocity>100``: the level is in the unit of the trace;
-    raises SimulationError.
+    """Return a trigger as it is written, ``velocity>100`` (edge) or ``velocity>=100`` (level), in the unit
+    of the trace; raises SimulationError.
     """
-    match = re.fullmatch(r"\s*([a-z _]+?)\s*([<>])\s*([+-]?[0-9]*[.,]?[0-9]+)\s*", text)
+    match = re.fullmatch(r"\s*([a-z _]+?)\s*([<>])(=?)\s*([+-]?[0-9]*[.,]?[0-9]+)\s*", text)
     signal = match[1].replace(" ", "_") if match else ""
     if match is None or signal not in SIGNALS:
         known = ", ".join(SIGNALS)
-        raise SimulationError(f"'{text[:40]}' is no trigger: velocity>100, with one of {known}")
+        raise SimulationError(
+            f"'{text[:40]}' is no trigger: velocity>100 or velocity>=100, with one of {known}"
+        )
     if before < 0.0:
         raise SimulationError(f"{before:g} s ahead of the trigger: it must be 0 or more")
-    return Trigger(signal, match[2] == ">", float(match[3].replace(",", ".")), before)
+    return Trigger(signal, match[2] == ">", float(match[4].replace(",", ".")), before, match[3] == "=")
 
 
 def laid_over(trace: Trace, path: Path, trigger: Trigger | None = None) -> Trace:

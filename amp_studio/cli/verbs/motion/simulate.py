@@ -128,7 +128,10 @@ VERB = Verb(
     VerbArgument(
         "--trigger",
         metavar="SIGNAL>LEVEL",
-        help="--against: lay both over each other where a signal passes a level, as 'velocity>100'",
+        help=(
+            "--against: lay both over each other where a signal passes a level, as 'velocity>100', or"
+            " is at it, even from the first row, 'velocity>=100'"
+        ),
     ),
     VerbArgument(
         "--pre-trigger",
