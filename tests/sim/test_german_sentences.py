@@ -94,3 +94,15 @@ def test_the_steps_of_tests_at_the_machine_are_german(example: str) -> None:
     texts |= {test.title.partition(": ")[2] for test in tests}
     assert len(texts) > 4
     assert [text for text in sorted(texts) if words.sentence(text) == text] == []
+
+
+def test_a_refused_circle_names_both_axes_in_german() -> None:
+    from amp_studio.dossier import machine_tests_of
+
+    file = open_file(EXAMPLES["num-1060-mill"]).file
+    words = language_of("de", file.schema.family.family)
+    refusals = {test.refusal for axis in simulated_axes(file) for test in machine_tests_of(file, axis)} - {""}
+    assert any("G17 to G19" in text for text in refusals)
+    assert [
+        text for text in refusals if words.sentence(text) == text or " and " in words.sentence(text)
+    ] == []

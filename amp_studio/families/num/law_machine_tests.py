@@ -270,11 +270,9 @@ def _circle(machine: BoundMachine, axis: AxisLaw, letter: str) -> MachineTest:
     pair = {letter, machine.letter(others[0]) or others[0]}
     plane = {frozenset("XY"): "G17", frozenset("XZ"): "G18", frozenset("YZ"): "G19"}.get(frozenset(pair))
     if plane is None:
+        first, second = sorted(pair)
         return MachineTest(
-            "circle",
-            title,
-            "6-46",
-            refusal=f"{' and '.join(sorted(pair))} are in none of the planes G17 to G19.",
+            "circle", title, "6-46", refusal=f"{first} and {second} are in none of the planes G17 to G19."
         )
     low, high = _room(axis)
     if high - low < 2.0 * RADIUS:
