@@ -25,7 +25,7 @@ from reference_html import (
 )
 from reference_manual import printed_on
 
-from amp_studio.find import synonym_table
+from amp_studio.find.synonyms import synonym_table
 from amp_studio.guide import steps_of
 from amp_studio.schema import Parameter, Schema, family_ids, load_schema
 from amp_studio.schema.model import ControlMessage, Messages

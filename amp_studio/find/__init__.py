@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from .finder import Finder, Hit, elsewhere, index_of
     from .index import SearchIndex
     from .message_links import LinkedParameter, LinkedRule, MessagePage, message_page
-    from .synonyms import prepare_synonyms, synonym_table
+    from .synonyms import prepare_synonyms
     from .value_filters import FILTER_NAMES, FilterName, ValueFilters, noted, rows_of_file
 else:
     __getattr__ = front_page(__name__)
