@@ -8,13 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from amp_studio.schema import Table
+from amp_studio.schema import Address, Table
 
 from .errors import SimulationError
 
 ParameterValue = float | str | bool | None
 ReadParameter = Callable[[str, str], ParameterValue]
 """value(parameter id, instance) -> ParameterValue; the instance of a global parameter is ''."""
+
+
+def _by_id(address: Address) -> str:
+    return address[0]
 
 
 class AxisParameters:
@@ -28,8 +32,11 @@ class AxisParameters:
         tables: Mapping[str, Table] | None = None,
         machine: str = "",
         application: str = "",
+        label: Callable[[Address], str] = _by_id,
     ) -> None:
         self._value, self.axis, self._overrides = value, axis, dict(overrides)
+        self._label = label
+        """What a parameter is called in an error: its number and name, where the schema is at hand."""
         self.tables = tables or {}
         """The printed tables of the family by name."""
         self.machine, self.application = machine, application
@@ -38,7 +45,7 @@ class AxisParameters:
 
     def of(self, axis: str) -> AxisParameters:
         """Return the values of another axis of the same file."""
-        return AxisParameters(self._value, axis, {}, self.tables, self.machine, self.application)
+        return AxisParameters(self._value, axis, {}, self.tables, self.machine, self.application, self._label)
 
     def is_overridden(self, parameter: str) -> bool:
         """Return whether a value is overridden."""
@@ -57,13 +64,13 @@ class AxisParameters:
             return self._overrides[parameter]
         if parameter.startswith("model."):
             return None
-        return self._value(parameter, ("" if everywhere else self.axis) if at is None else at)
+        return self._value(*self._address(parameter, everywhere=everywhere, at=at))
 
     def number(self, parameter: str, *, everywhere: bool = False, at: str | None = None) -> float:
         """Return a number; raises SimulationError if it is not set or not a number."""
         figure = self.value(parameter, everywhere=everywhere, at=at)
         if figure is None:
-            raise self.missing(parameter)
+            raise self._missing(self._address(parameter, everywhere=everywhere, at=at))
         return self._float(parameter, figure)
 
     def optional(self, parameter: str, *, everywhere: bool = False, at: str | None = None) -> float | None:
@@ -78,8 +85,8 @@ class AxisParameters:
         figure = self.number(parameter, everywhere=everywhere)
         if not least <= figure <= most:
             raise SimulationError(
-                f"{parameter} of axis {self.axis} is {figure:g}; it can be simulated from {least:g} to"
-                f" {most:g}",
+                f"{self._name(self._address(parameter, everywhere=everywhere))} of axis {self.axis} is"
+                f" {figure:g}; it can be simulated from {least:g} to {most:g}",
                 parameter,
             )
         return figure
@@ -88,14 +95,21 @@ class AxisParameters:
         """Return the key of a choice; raises SimulationError if it is not set."""
         key = self.value(parameter, everywhere=everywhere)
         if key is None:
-            raise self.missing(parameter)
+            raise self._missing(self._address(parameter, everywhere=everywhere))
         return str(key)
 
-    def missing(self, parameter: str) -> SimulationError:
+    def _missing(self, address: Address) -> SimulationError:
         """Return the error for a parameter that is not set."""
         return SimulationError(
-            f"{parameter} is not set for axis {self.axis}. The simulation needs it: set a value", parameter
+            f"{self._name(address)} is not set for axis {self.axis}. The simulation needs it: set a value",
+            address[0],
         )
+
+    def _address(self, parameter: str, *, everywhere: bool = False, at: str | None = None) -> Address:
+        return parameter, ("" if everywhere else self.axis) if at is None else at
+
+    def _name(self, address: Address) -> str:
+        return address[0] if address[0].startswith("model.") else self._label(address)
 
     def refuse_unused(self) -> None:
         """Raise SimulationError for an override that was not used, so that a typing error is noticed."""

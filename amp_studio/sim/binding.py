@@ -41,10 +41,22 @@ def bind_axis(
         file.schema.tables,
         file.machine,
         file.header.application,
+        parameter_names(file),
     )
     bound = with_model(law.bind(read), read)
     read.refuse_unused()
     return bound
+
+
+def parameter_names(file: ParameterFile) -> Callable[[Address], str]:
+    """Return what errors call a parameter: its number and name, or the name; the error has the axis."""
+    schema = file.machine_schema
+
+    def name(address: Address) -> str:
+        number, plain = schema.number(address), schema.parameters[address[0]].name
+        return f"{number} {plain}" if number and not schema.is_disputed(address[0]) else plain
+
+    return name
 
 
 def axis_values(

@@ -10,7 +10,7 @@ from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema import Address, axis_name, load_part, registration_of, unknown_name
 
 from .axis_parameters import AxisParameters, ParameterValue
-from .binding import axis_values, bind_axis
+from .binding import axis_values, bind_axis, parameter_names
 from .doubts import doubts
 from .errors import SimulationError
 from .law import AxisLaw, BoundMachine, Law, law_of
@@ -170,7 +170,9 @@ def bound_machine(
 
     def read(axis: str) -> AxisParameters:
         values, tables = axis_values(file, on_read), file.schema.tables
-        return AxisParameters(values, axis, {}, tables, file.machine, file.header.application)
+        return AxisParameters(
+            values, axis, {}, tables, file.machine, file.header.application, parameter_names(file)
+        )
 
     chosen = [
         name if name in fitted else next((each for each in fitted if letter(each) == name.upper()), name)

@@ -65,7 +65,7 @@ class FileMachine:
         if moving.law.homing is None:
             raise SimulationError(f"Axis {name} is not homed by a sequence that is printed")
         homing = moving.law.homing()
-        moving.travel = None
+        moving.travel, self._targets = None, []
         moving.home(homing, homing.ramp or self._ramp(moving, homes=True))
         return self._letter(name)
 
@@ -75,9 +75,12 @@ class FileMachine:
         moving, jogging = self._axis(name), self._jogging(name)
         rate = _figure("speed", jogging.increment_speed if increment and not speed else speed, jogging.speeds)
         ramp = jogging.ramp or self._ramp(moving, homes=False)
-        moving.travel = self._travel(moving)
+        way = _figure("increment", increment, jogging.increments) if increment else 0.0
+        moving.travel, self._targets = (
+            self._travel(moving),
+            [],
+        )  # an axis that is jogged goes nowhere after it
         if increment:
-            way = _figure("increment", increment, jogging.increments)
             moving.move(moving.command + sign * way, rate, ramp)
         else:
             moving.go(sign * rate, ramp)

@@ -120,12 +120,12 @@ def test_axes_are_as_many_as_the_number_of_axes_shows() -> None:
         ("axes__pulses_per_unit", Value(0.0, "counts/mm"), "it can be simulated from 0.001"),
         ("tuning__servo_period", Value(0.0, "us"), "it can be simulated from 0.01"),
         ("tuning__notch_width", Value(50.0, "Hz"), "NOTCH takes a frequency and a width"),
-        ("servo__torque_limits", Value(0.0, "V"), "servo.torque_limits of axis X is 0"),
+        ("servo__torque_limits", Value(0.0, "V"), "Torque Limits of axis X is 0"),
         ("tuning__dac_gain", Value(0.0, ""), "the output has no use"),
-        ("speeds__rapid_acc_dec", Value(-1.0, "mm/s2"), "speeds.rapid_acc_dec of axis X is -1"),
+        ("speeds__rapid_acc_dec", Value(-1.0, "mm/s2"), "Master Rapid ACC/DEC of axis X is -1"),
         ("servo__p_gain", Value(1e300, "V/count"), "it can be simulated from"),
         ("view__number_of_axes", Value(0, ""), "Number of Axes .* is 0"),
-        ("servo__d_gain", None, "servo.d_gain is not set for axis X"),
+        ("servo__d_gain", None, "^D Gain is not set for axis X"),
     ],
 )
 def test_what_cannot_be_simulated_is_shown_in_a_sentence(

@@ -99,6 +99,7 @@ class CardMotion:
                 for name, figure in _arguments(rest):
                     self._axis(name).define((figure or 0.0) * UNIT)
             elif word == "MOV":
+                self._forget_next()
                 self._move({name: (figure or 0.0) * UNIT for name, figure in _arguments(rest)}, self._feed())
             elif word == "JOG":
                 what, _, arguments = rest.strip().partition(" ")
@@ -130,6 +131,7 @@ class CardMotion:
                 answer += self._rate(key, "" if figure is None else repr(figure))
                 continue
             axis, (speed, ramp) = self._axis(name), self._jogging(name)
+            self._forget_next()
             if what in ("FWD", "REV"):
                 axis.go(speed if what == "FWD" else -speed, ramp)
             elif what == "OFF":
@@ -170,6 +172,7 @@ class CardMotion:
             self._law_homing(name)
             order.setdefault(self._priority(name), []).append(name)
         order.pop(0, None)  # an axis that need not home (page 65)
+        self._forget_next()
         self._homing = [order[priority] for priority in sorted(order)]
         self._home_next()
         return f"homing {', '.join('+'.join(group) for group in order.values()) or 'no axis'}"
@@ -182,13 +185,15 @@ class CardMotion:
         words = {word.upper(): float(figure) for word, figure in _MDI_WORD.findall(match[2])}
         feed = words.pop("F", None)
         targets = {name: figure * UNIT for name, figure in words.items()}
+        follow: list[dict[str, float]] = []
         if match[1] == "28":
             homed = [name for name in targets if self._axis(name).is_homed]
             if len(homed) < len(targets):
                 raise ValueError("home the axes first: G28 goes to the reference point")
-            self._moves = [{name: self._reference(name) for name in targets}]
+            follow = [{name: self._reference(name) for name in targets}]
         elif match[1] in ("1", "01") and not feed:
             raise ValueError("G1 needs a feedrate F")
+        self._homing, self._moves = [], follow
         linear = feed is not None and match[1] in ("1", "01")
         self._move(targets, feed * UNIT / 60.0 if linear and feed else None)
         return block
@@ -225,14 +230,19 @@ class CardMotion:
         self._machine.advance(duration)
         if self._machine.is_busy:
             return
-        if self._homing:
-            self._home_next()
-        elif self._moves:
-            self._move(self._moves.pop(0), None)
+        try:
+            if self._homing:
+                self._home_next()
+            elif self._moves:
+                self._move(self._moves.pop(0), None)
+        except (
+            SimulationError
+        ):  # settings that came meanwhile make no axis: nothing follows, the card lives on
+            self._forget_next()
 
     def stop(self) -> None:
         """Stop every axis."""
-        self._homing, self._moves = [], []
+        self._forget_next()
         for axis in self._machine.axes.values():
             axis.stop(next(iter(axis.law.ramps.values())))
 
@@ -247,9 +257,13 @@ class CardMotion:
         """Lose the power."""
         self._machine.axes.clear()
         self._rates.clear()
-        self._homing, self._moves = [], []
+        self._forget_next()
 
     # -- small parts -----------------------------------------------------------------------------------
+
+    def _forget_next(self) -> None:
+        """Forget what was to follow the present move: another order has come."""
+        self._homing, self._moves = [], []
 
     def _move(self, targets: dict[str, float], feed: float | None) -> None:
         for name in targets:
