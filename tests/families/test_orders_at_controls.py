@@ -124,7 +124,7 @@ def test_a_setting_that_makes_no_axis_ends_what_was_to_follow_and_not_the_card(t
     card.operate("home X")
     for _ in range(85):
         card.advance(0.1)
-    card.operate("mdi G28 X0.2")
+    card.operate("mdi G28 X2")
     card.advance(0.1)
     card._done("PPU X0")
     for _ in range(100):
