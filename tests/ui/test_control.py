@@ -259,7 +259,25 @@ def test_a_line_that_is_pulled_while_sending_ends_with_the_truth_and_one_next_st
     settled(window, qtbot)
     assert page.session.phase == "away"
     assert "No connection to the control" in page.bar.text.text()
-    assert [button.text() for button in page.bar.buttons] == ["Try Again"]
+    assert (page.primary.text(), page.bar.buttons) == ("Try Again", []), "one button does it, not two"
+
+
+def test_what_differs_and_what_is_sent_add_up_in_what_the_page_states(
+    window: MainWindow, start_control: Start, qtbot: QtBot
+) -> None:
+    """What only the control contains differs and is not sent: its number is beside that of the button."""
+    content = nearly(window)
+    window.workspace.edit("without", {EXCESS: None})
+    assert window.save()
+    control = start_control(file=content)
+    page = at_control(window, control.address, "compare", qtbot)
+    assert page.primary.text() == "Send 2 Values to the Control…"
+    assert page.counts.text().startswith("3 differ, ")
+    assert page.counts.text().endswith(" are the same, 1 on one side only: stays")
+    page.table.select((EXCESS[0], "2"))
+    page.table.take([(EXCESS[0], "2")], file=False)
+    assert page.primary.text() == "Send 1 Value to the Control…"
+    assert page.counts.text().endswith(" are the same, 1 kept, 1 on one side only: stays")
 
 
 def test_errors_and_unsaved_changes_are_shown_in_the_page_before_anything_is_sent(

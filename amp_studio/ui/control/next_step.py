@@ -18,9 +18,9 @@ from .session_words import ControlBackup, doubts_of, error_in_words, text_of_fai
 
 ExchangeDirection = Literal["compare", "send", "read", "hand"]
 """What is done with the control; "hand" is the sheet of values that a person keys in at it."""
-BarAnswer = Literal["read", "ask", "save", "accept errors"]
-"""What a button of the message does: reads the control, asks it for its state, saves the file, sends it with
-its errors."""
+BarAnswer = Literal["ask", "save", "accept errors"]
+"""What a button of the message does: asks the control for its state, saves the file, sends it with its
+errors."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,6 +75,8 @@ def primary_button(state: PageState) -> PrimaryButton:
     session = state.session
     if session is None or session.is_busy:
         return PrimaryButton()
+    if session.phase == "away" and session.error and not session.needs_password:
+        return PrimaryButton(tr("Try Again"))
     if session.phase in ("away", "failed"):
         return PrimaryButton(tr("Connect and Read"))
     if session.phase == "done":
@@ -142,7 +144,7 @@ def bar_message(state: PageState) -> BarMessage | None:
     if session.phase == "away" and session.needs_password:
         return BarMessage(_about_password(session), "warning")
     if session.phase == "away" and session.error:
-        return BarMessage(error_in_words(session), "warning", ((tr("Try Again"), "read"),))
+        return BarMessage(error_in_words(session), "warning")
     if session.phase == "failed":
         return BarMessage(text_of_failure(session), "error")
     if session.phase == "done":

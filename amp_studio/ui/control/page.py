@@ -298,8 +298,11 @@ class ControlPage(ControlPageParts):
         differ = len(self.table.rows)
         kept = len(self.table.kept())
         parts = [self.tr("{differ} differ, {same} are the same").format(differ=differ, same=same)]
-        if kept and self.direction == "send":
+        if kept and self.direction != "read":
             parts.append(self.tr("{kept} kept").format(kept=kept))
+        fixed = sum(row.is_fixed for row in self.table.rows.values())
+        if fixed:  # else what differs and what the button counts would contradict each other
+            parts.append(self.tr("%n on one side only: stay", "", fixed))
         self.counts.setText(", ".join(parts) if is_read else "")
         self.filter.setVisible(differ > 0 and is_read)
 
@@ -335,7 +338,6 @@ class ControlPage(ControlPageParts):
             self.bar.hide()
         elif self.bar.isHidden() or self.bar.text.text() != message.text:
             acts: dict[BarAnswer, Callable[[], object]] = {
-                "read": self.connect_again,
                 "ask": self._ask_again,
                 "save": self._save_file,
                 "accept errors": self._accept_errors,
