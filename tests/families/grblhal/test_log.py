@@ -232,7 +232,10 @@ def test_settings_that_all_are_comments_are_a_listing_and_others_beside_them_are
 
 def test_what_a_log_sends_behind_the_listing_is_a_change_between_reports_with_odd_stamps() -> None:
     """A sender that pads its milliseconds with blanks, and counts those since the line before."""
-    log = ["18.11.2018 18:35:09.906 (  66) >>> $$", *(f"18.11.2018 18:35:10.  4 (  11) <<< {s}" for s in LINES)]
+    log = [
+        "18.11.2018 18:35:09.906 (  66) >>> $$",
+        *(f"18.11.2018 18:35:10.  4 (  11) <<< {s}" for s in LINES),
+    ]
     log += [
         "18.11.2018 18:35:10. 63 (  59) >>> ?",
         "18.11.2018 18:35:10. 74 (  11) <<< <Idle|MPos:0.000,0.000,0.000|FS:0,0>",
