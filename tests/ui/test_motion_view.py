@@ -19,7 +19,7 @@ from amp_studio.sim.scenarios import SCENARIOS
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.motion import view as motion_view
+from amp_studio.ui.motion import run as motion_run
 from amp_studio.ui.motion.view import MotionView
 from tests.sim.tiny import tiny
 
@@ -45,7 +45,7 @@ def each_run_once(monkeypatch: pytest.MonkeyPatch) -> None:
             _TRACES[key] = simulate(file, scenario, axis, settings, like=like)
         return _TRACES[key]
 
-    monkeypatch.setattr(motion_view, "simulate", remembered)
+    monkeypatch.setattr(motion_run, "simulate", remembered)
 
 
 @pytest.fixture
@@ -123,7 +123,7 @@ def test_a_sweep_shows_how_far_it_is_and_is_stopped_and_kept(
         way.progress("sweep", 100, 200)
         raise AssertionError("it was not stopped")
 
-    monkeypatch.setattr(motion_view, "sweep", half_of_it)
+    monkeypatch.setattr(motion_run, "sweep", half_of_it)
     view.scenario.setCurrentIndex(view.scenario.findData("sweep"))
     qtbot.waitUntil(lambda: "25 %" in view.summary.text(), timeout=WAIT_MS)
     assert view.run_button.text() == "&Stop"
@@ -133,6 +133,26 @@ def test_a_sweep_shows_how_far_it_is_and_is_stopped_and_kept(
     assert "Stopped; the same sweep goes on from here" in view.summary.text()
     assert view.run_button.text() == "&Run"
     assert ways[0].output is not None, "what is done is kept"
+
+
+def test_a_sweep_of_the_saved_values_is_stopped_too(
+    view: MotionView, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    cancelled, swept, trace = threading.Event(), [], view.trace
+
+    def stopped_in_the_second(file: ParameterFile, _axis: str, _settings: object, *, way: SweepWay) -> Trace:
+        swept.append(file)
+        if len(swept) == 2:
+            cancelled.set()
+        way.progress("sweep", 1, 2)
+        return trace
+
+    monkeypatch.setattr(motion_run, "sweep", stopped_in_the_second)
+    file, saved = view._workspace.file.copy(), view._workspace.file.copy()
+    asked = motion_run.AskedMotion("sweep", "2", {}, file, saved, None, None)
+    ran = motion_run.run_motion(asked, lambda *_: None, cancelled)
+    assert swept == [file, saved]
+    assert (ran.trace, ran.before) == (trace, None)
 
 
 def test_distance_and_feedrate_take_units_and_a_decimal_comma(

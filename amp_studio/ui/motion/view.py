@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import html
 import re
-import threading
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import Qt, QUrl
@@ -24,29 +23,13 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.files import ParameterFile, RangeError, axis_title
-from amp_studio.motion_paper import PAPERS, write_motion_paper
 from amp_studio.scenarios import CHARTS
-from amp_studio.schema import Address, Value, angular, cache_folder
-from amp_studio.sim import (
-    Recommendation,
-    SimulationError,
-    SimulationListing,
-    SweepWay,
-    Trace,
-    address_of,
-    laid_over,
-    law_of,
-    listing,
-    picture_of,
-    settling_span,
-    simulate,
-    sweep,
-    write_trace,
-)
+from amp_studio.schema import Address, Value, angular
+from amp_studio.sim import Recommendation, SimulationError, Trace, address_of, picture_of, settling_span
 from amp_studio.ui.base.plot import Plot
-from amp_studio.ui.base.task import Task, TaskProgress
+from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import GAP2, GAP3, scheme, severity_colour
-from amp_studio.ui.base.translated import language_of_window, scenario_in_words, sentenced, worded
+from amp_studio.ui.base.translated import scenario_in_words, sentenced, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.form import Field, FieldForm, fill_choices
 from amp_studio.ui.forms.pages import LINK
@@ -54,47 +37,13 @@ from amp_studio.ui.page.page_of_file import PageOfFile
 
 from .machine_page import MachinePage
 from .results import AssumptionsPage, FiguresPage, RecommendationsPage, name_of
+from .run import AskedMotion, SimulatedMotion, run_motion, simulated_by
+from .saving import ask_where, write_motion
 from .settings import SettingsForm, scrolled
 
 _LEAST_FIGURES = 280
 """Height in pixels of the figures below the form, which is there whole; a low window scrolls both."""
 _ASSUMED = re.compile(r"ASSUMED: (model\.\w+) = (.+?)\. ")
-_ENDINGS = "SVG (*.svg);;PNG (*.png);;CSV (*.csv);;PDF (*.pdf)"
-
-
-@dataclass(frozen=True, eq=False)
-class _Ran:
-    """What a run brought: the trace, the values that it was made of,
-    those it is compared with and their trace of the same move.
-    """
-
-    trace: Trace
-    file: ParameterFile
-    file_before: ParameterFile | None
-    before: Trace | None
-
-
-def _same_move(
-    trace: Trace, settings: Mapping[str, float | str], before: Trace | None, file_before: ParameterFile | None
-) -> Trace | None:
-    """Return the trace of the values before with the move of ``trace``; None where they cannot make it."""
-    if file_before is None or (before is not None and before.move == trace.move):
-        return before
-    try:
-        return simulate(file_before, trace.scenario, trace.axis, settings, like=trace)
-    except SimulationError:
-        return None
-
-
-def _way(progress: TaskProgress, cancelled: threading.Event) -> SweepWay:
-    """Return how a sweep is run that can be stopped; the next one goes on with what it has."""
-
-    def step(stage: str, done: int, total: int) -> None:
-        if cancelled.is_set():
-            raise SimulationError("Stopped; the same sweep goes on from here")
-        progress(stage, done, total)
-
-    return SweepWay(progress=step, output=cache_folder() / "sweep")
 
 
 class MotionView(PageOfFile):
@@ -257,7 +206,7 @@ class MotionView(PageOfFile):
     def _fill(self, wanted: str) -> None:
         """Fill the scenarios and axes of the file; keep the axis ``wanted`` where it is there."""
         file = self._workspace.file
-        found, self._impossible = _possible(file)
+        found, self._impossible = simulated_by(file)
         titles = [(axis, axis_title(file, axis)) for axis in found.axes]
         fill_choices(
             self.scenario,
@@ -365,21 +314,13 @@ class MotionView(PageOfFile):
         is_same = (self._file_before and self._file_before.values) == (file_before and file_before.values)
         before = self.before if is_same and asked == self._asked else None
         self._asked, self._file_before = asked, file_before
-
-        record = self._record
-
-        def work(progress: TaskProgress, cancelled: threading.Event) -> _Ran:
-            name = str(axis) if axis else None
-            if scenario == "sweep":
-                trace = sweep(file, name, settings, way=_way(progress, cancelled))
-            else:
-                trace = simulate(file, scenario, name, settings)
-            trace = laid_over(trace, record) if record else trace
-            return _Ran(trace, file, file_before, _same_move(trace, settings, before, file_before))
+        asks = AskedMotion(
+            scenario, str(axis) if axis else None, settings, file, file_before, before, self._record
+        )
 
         self.summary.setText(self.tr("Simulating …"))
         self.run_button.setText(self.tr("&Stop") if scenario == "sweep" else self.tr("&Run"))
-        self._task = Task(work)
+        self._task = Task(partial(run_motion, asks))
         self._task.progressed.connect(self._show_progress)
         self._task.done.connect(self._show_result)
         self._task.failed.connect(self._stop)
@@ -425,7 +366,7 @@ class MotionView(PageOfFile):
             text += f' <a href="{LINK}{parameter}">{there}</a>'
         self.summary.setText(f'<span style="color:{severity_colour("error").name()}">{text}</span>')
 
-    def _show_result(self, ran: _Ran) -> None:
+    def _show_result(self, ran: SimulatedMotion) -> None:
         trace = ran.trace
         self.trace, self._file_ran = trace, ran.file
         self.before = ran.before if ran.before and ran.before.units == trace.units else None
@@ -525,46 +466,21 @@ class MotionView(PageOfFile):
         """Write the trace as CSV, or its picture as SVG or PNG."""
         if self.trace is None:
             return
-        name = f"{self._workspace.path.stem}-{self.trace.scenario}-{self.trace.axis}.svg"
-        text, chosen = QFileDialog.getSaveFileName(
-            self, self.tr("Save"), str(self._workspace.path.with_name(name)), _ENDINGS
-        )
-        if not text:
+        chart = str(self.chart.currentData())
+        given = [(name, str(value), self.tr("entered")) for name, value in self.machine.filled_in().items()]
+        path = ask_where(self, self._workspace.path, self.trace)
+        if path is None or self._file_ran is None:
             return
-        path = Path(text)
-        path = path if path.suffix else path.with_suffix(chosen[chosen.index("*") + 1 : -1])
-        notes: list[str] = []
         try:
-            chart = str(self.chart.currentData())
-            if path.suffix.lower() in PAPERS:
-                self._write_paper(path, chart, notes)
-            else:
-                write_trace(self.trace, path, notes.append, before=self.before, chart=chart)
+            notes = write_motion(
+                path, self._file_ran, self._workspace.path.name, self.trace, self.before, chart, given
+            )
         except (OSError, ValueError) as error:
             self._fail(error)
         else:
             self.summary.setText(
                 html.escape("; ".join([self.tr("{path} written").format(path=path), *notes]))
             )
-
-    def _write_paper(self, path: Path, chart: str, notes: list[str]) -> None:
-        """Write the trace as a document, with what the page Machine gives."""
-        trace, file = self.trace, self._file_ran
-        assert trace is not None
-        assert file is not None
-        given = [(name, str(value), self.tr("entered")) for name, value in self.machine.filled_in().items()]
-        name, before = self._workspace.path.name, self.before
-        write_motion_paper(
-            file,
-            name,
-            trace,
-            path,
-            notes.append,
-            before=before,
-            chart=chart,
-            machine=given,
-            language=language_of_window(),
-        )
 
     def _end(self) -> None:
         """Ignore the result of a run that has not finished."""
@@ -573,14 +489,3 @@ class MotionView(PageOfFile):
             self._task.done.disconnect(self._show_result)
             self._task.failed.disconnect(self._stop)
             self._task.finished.disconnect(self._ended)
-
-
-def _possible(file: ParameterFile) -> tuple[SimulationListing, SimulationError | None]:
-    """Return what can be simulated with a file, and why nothing can, if so."""
-    try:
-        found = listing(file)
-    except SimulationError as error:
-        return SimulationListing((), (), (), {}), error
-    return found, None if found.axes else SimulationError(
-        law_of(file.schema.family.family).motion.without_axes
-    )
