@@ -399,7 +399,10 @@ class Stage:
                 self.take(f"{n}-{name}", dialog)
         for name, dialog in (
             ("21-new", NewFileDialog(self.window, "9pc")),
-            ("22-report", ReportDialog(self.window.workspace.path, self.window)),
+            (
+                "22-report",
+                ReportDialog(self.window.workspace.path, self.window, self.window.report_options.contents),
+            ),
         ):
             dialog.show()
             self.take(name, dialog)

@@ -136,6 +136,13 @@ def _english(qapp: QApplication) -> Iterator[None]:
 
 
 @pytest.fixture
+def german(qapp: QApplication) -> Iterator[None]:
+    speak("de")
+    yield
+    speak("en")
+
+
+@pytest.fixture
 def user(monkeypatch: pytest.MonkeyPatch) -> Iterator[User]:
     """Return who answers message boxes, file and input dialogs; a question nobody expects fails the test."""
     who = User()

@@ -196,6 +196,24 @@ def test_a_message_opens_its_page_which_follows_every_edit(
     assert not page.isVisible()
 
 
+def test_in_german_what_was_found_is_written_as_its_cell_in_millimetres_and_in_inches(
+    german: None, window: MainWindow, workspace: Workspace, box: FindBox
+) -> None:
+    address = ("servo.excess_error", "1")
+    workspace.edit("edit", {address: Value(0.3, "in")})
+    for question, system, text in (("7,62 mm", "metric", "7,62 mm"), ("0,3 Zoll", "inch", "0,3 Zoll")):
+        workspace.show_in(system)
+        typed(box, question)
+        row = next(row for row in box.model.rows if row.hit is not None and row.hit.kind == "value")
+        assert (row.text, row.hit.address) == (text, address)
+        typed(box, "excess following error")
+        message = next(row for row in box.model.rows if row.hit is not None and row.hit.kind == "message")
+        window.finder._go(message)
+        page = window.findChild(MessageWindow)
+        assert f"X {text}" in page.text.toPlainText()
+        page.close()
+
+
 def test_without_a_file_commands_are_found(open_window) -> None:
     window = open_window()
     window.finder.box.begin("new")

@@ -5,7 +5,6 @@ and a decimal comma where a number is shown.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from dataclasses import replace
 from datetime import UTC, datetime
 
@@ -17,16 +16,9 @@ from amp_studio.schema import Value, program_texts, unit_named, unit_text
 from amp_studio.schema.units import UNITS
 from amp_studio.ui.base.figures import sentence, written
 from amp_studio.ui.base.time_words import in_words
-from amp_studio.ui.base.translated import speak, unit_in_words, worded
+from amp_studio.ui.base.translated import unit_in_words, worded
 from amp_studio.ui.table.value_delegate import allowed_text
 from amp_studio.validate.plausible.experience import TITLES
-
-
-@pytest.fixture
-def german(qapp: QApplication) -> Iterator[None]:
-    speak("de")
-    yield
-    speak("en")
 
 
 def translations() -> list[tuple[str, str]]:

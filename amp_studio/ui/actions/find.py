@@ -137,8 +137,10 @@ class FindSearch(Translated):
 
     @staticmethod
     def _with_value(hit: Hit, page: FilePage) -> Hit:
-        """Return a parameter that was found with its value, in the current axis where it has one there."""
-        if hit.kind != "parameter":
+        """Return a parameter that was found with its value, in the current axis where it has one there;
+        a value as its cell has it.
+        """
+        if hit.kind not in ("parameter", "value"):
             return hit
         file, here = page.workspace.file, page.table_view.address()
         instances = file.machine_schema.instances(file.schema.parameters[hit.key])
@@ -146,6 +148,8 @@ class FindSearch(Translated):
         address = hit.address or (hit.key, instance)
         found = file.get(address)
         value = tr("not set") if found is None else " ".join(page.table.values.text(address, found).split())
+        if hit.kind == "value":
+            return replace(hit, title=value)
         value = f"{value[:_VALUE_LENGTH]}…" if len(value) > _VALUE_LENGTH else value
         return replace(hit, detail=f"{value}   {hit.detail}")
 

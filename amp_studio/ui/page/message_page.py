@@ -99,8 +99,10 @@ class MessageWindow(QDialog):
             return escape(name)
         if not linked.values:
             return f"<a href='id:{quote(linked.id)}'>{escape(name)}</a>"
+        file, cells = self._page.workspace.file, self._page.table.values
         values = ", ".join(
-            f"{escape(v.place)} {self._link(v.address, v.text)}".lstrip() for v in linked.values
+            f"{escape(v.place)} {self._link(v.address, cells.text(v.address, file.get(v.address)))}".lstrip()
+            for v in linked.values
         )
         return f"{escape(name)}: {values}"
 
