@@ -29,6 +29,9 @@ _EXACT, _VALUE, _DEFAULT = 100.0, 11.0, 7.0
 _SYNONYM_WORTH, _LESS_LIKELY = 0.95, 0.85
 """What a hit is worth that has what the question means, and each further meaning against the one before
 it."""
+_WITHOUT_THE_REST = 0.7
+"""What a meaning is worth without the words around it, where the manuals do not have these:
+``Endschalter ausgelöst``."""
 _TAIL = 0.2
 """Part of the best score below which a hit only buries the others."""
 _SURE = 4.0
@@ -192,9 +195,13 @@ class Finder:
             worth = _SYNONYM_WORTH * _LESS_LIKELY**meaning.place
             why = f"'{meaning.typed}' as '{meaning.means}'"
             all_words = len(index.asked(meaning.means))
+            questions = {meaning.query: worth}
+            if not index.knows(meaning.rest):
+                questions[meaning.means] = worth * _WITHOUT_THE_REST
             hits += [
-                replace(self._hit(match), score=match.score * worth, why=why)
-                for match in index.search(meaning.query, most)
+                replace(self._hit(match), score=match.score * likely, why=why)
+                for question, likely in questions.items()
+                for match in index.search(question, most)
                 if len(match.words) >= all_words and match.entry.kind != "choice"
             ]
         return hits

@@ -109,6 +109,10 @@ class SearchIndex:
         near = self.vocabulary.nearest(unknown[0])
         return " ".join(near if word == unknown[0] else word for word in words) if near else ""
 
+    def knows(self, words: Iterable[str]) -> bool:
+        """Return whether each word is there, whole, begun or mistyped."""
+        return all(map(self.vocabulary.like, words))
+
     # -- parts of a search --------------------------------------------------------
 
     def asked(self, query: str) -> list[str]:

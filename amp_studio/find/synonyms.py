@@ -32,6 +32,8 @@ class Meaning:
     means: str
     place: int
     """0 for the likeliest meaning of those words."""
+    rest: tuple[str, ...] = ()
+    """The words around them."""
 
 
 def meanings(query: str) -> Iterator[Meaning]:
@@ -49,7 +51,8 @@ def meanings(query: str) -> Iterator[Meaning]:
                 continue
             for place, mean in enumerate(_table()[known]):
                 asked = " ".join((*words[:start], mean, *words[start + length :]))
-                yield Meaning(asked, " ".join(typed), mean, place)
+                rest = (*words[:start], *words[start + length :])
+                yield Meaning(asked, " ".join(typed), mean, place, rest)
             return
 
 

@@ -15,45 +15,10 @@ from collections.abc import Iterable
 _WORD = re.compile(r"\d+(?:\.\d+)+|[^\W_]+")
 _PARTS = re.compile(r"\d+|[^\W\d]+")
 _COMMON = frozenset(
-    (
-        "a",
-        "an",
-        "and",
-        "are",
-        "as",
-        "at",
-        "be",
-        "by",
-        "come",
-        "comes",
-        "do",
-        "does",
-        "for",
-        "from",
-        "goes",
-        "how",
-        "i",
-        "in",
-        "into",
-        "is",
-        "it",
-        "my",
-        "of",
-        "on",
-        "or",
-        "per",
-        "shows",
-        "that",
-        "the",
-        "there",
-        "this",
-        "to",
-        "what",
-        "when",
-        "where",
-        "which",
-        "why",
-        "with",
+    _WORD.findall(
+        "a an and are as at be by come comes do does for from goes how i in into is it my of on or per shows"
+        " that the there this to what when where which why with auf bei beim das dem den der die ein eine"
+        " einen im ist nach sich vom von wird werden wie warum wenn wo zum zur"
     )
 )
 """Words that decide nothing in a question; they count where they are all that is asked."""

@@ -7,7 +7,7 @@
   // What words are worth in a title, in choices and other spellings, in help; and what kinds are among equals.
   const WORTH = [8, 6, 1.5];
   const KINDS = { parameter: 1, message: 1, guide: 0.9, internals: 0.6, table: 0.7, group: 0.75, list: 0.75, step: 0.7, rule: 0.5, page: 0.6, contradiction: 0.5 };
-  const COMMON = new Set("a an and are as at be by do does for from how i in into is it my of on or per that the this to what when where which why with".split(" "));
+  const COMMON = new Set("a an and are as at be by do does for from how i in into is it my of on or per that the this to what when where which why with auf bei beim das dem den der die ein eine einen im ist nach sich vom von wird werden wie warum wenn wo zum zur".split(" "));
   const root = document.documentElement.dataset.content_root || "./";
   let entries = null; // once they are loaded
   let exact = null; // a name without spaces -> [entry, score, address]
@@ -90,6 +90,8 @@
 
   const folded = (text) => wordsOf(text).map((word) => word.replace(/[äöüß]/g, (letter) => ({ ä: "ae", ö: "oe", ü: "ue", ß: "ss" })[letter]));
 
+  const has = (start) => entries.some(({ texts }) => texts.some((text) => text.includes(start)));
+
   // What a question may mean in the words of the manuals: its longest group of words that is a synonym, as it is, only begun, with a German
   // ending or with one slip. The program does the same (amp_studio/find/synonyms.py).
   const meanings = (query) => {
@@ -106,14 +108,17 @@
     for (let length = words.length; length > 0; length -= 1)
       for (let start = 0; start + length <= words.length; start += 1) {
         const known = like(words.slice(start, start + length), start + length === words.length);
-        if (known) return synonyms.get(known).map((mean) => [...words.slice(0, start), mean, ...words.slice(start + length)].join(" "));
+        const rest = [...words.slice(0, start), ...words.slice(start + length)];
+        if (known) return synonyms.get(known).flatMap((mean, place) => [
+          [[...words.slice(0, start), mean, ...words.slice(start + length)].join(" "), place],
+          ...(rest.every((word) => has(` ${word}`)) ? [] : [[mean, place + 2]]), // "Endschalter ausgelöst": no manual has the rest
+        ]);
       }
     return [];
   };
 
   // The known words that a typed one may be: itself or its beginning, or with one or two slips. A number that is known is whole.
   const meant = (word) => {
-    const has = (start) => entries.some(({ texts }) => texts.some((text) => text.includes(start)));
     if (/^\d+$/.test(word) && (exact.has(word) || has(` ${word} `))) return [[`${word} `, 1]];
     if (has(` ${word}`) || word.length < 4 || /\d/.test(word)) return [[word, 1]];
     vocabulary = vocabulary || new Set(entries.flatMap(({ texts }) => texts.slice(0, 2).flatMap((text) => text.split(" "))));
@@ -160,7 +165,7 @@
     (own.length ? own : exactly(query)).forEach((hit) => add(...hit));
     byWords(query, add);
     // Another word is worth less than the one typed, and each less likely meaning less again.
-    meanings(query).forEach((mean, place) => byWords(mean, (entry, score, address) => add(entry, score * 0.9 * 0.8 ** place, address), true));
+    meanings(query).forEach(([mean, place]) => byWords(mean, (entry, score, address) => add(entry, score * 0.9 * 0.8 ** place, address), true));
     const hits = [...found.values()].sort((a, b) => b.score - a.score || a.entry.order - b.entry.order);
     // What nearly nothing speaks for only buries the rest.
     const best = Math.max(...hits.map(({ score }) => score).filter((score) => score < 60), 0);

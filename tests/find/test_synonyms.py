@@ -52,6 +52,16 @@ def test_a_word_is_known_begun_mistyped_with_an_ending_and_among_others(query: s
     assert next(meanings(query)).query == means
 
 
+def test_words_that_no_manual_has_leave_the_synonym_beside_them_found(finders: dict[str, Finder]) -> None:
+    for family, query, wanted in (
+        ("num", "Endschalter spricht an", "travel.limit_min"),
+        ("9pc", "Achse fährt in die falsche Richtung", "servo.position_sign"),
+        ("syntec", "Achse schwingt bei hohem Vorschub", "servo.loop_gain"),
+        ("syntec", "cant leave home dog", "mot-036"),  # known words count, mistyped too
+    ):
+        assert finders[family].find(query, 1)[0].key == wanted
+
+
 @pytest.mark.parametrize("query", ["1300", "lead screw", "qwertz", "", "not", "12.7 mm"])
 def test_what_is_no_word_of_it_stays_as_it_is(query: str) -> None:
     assert list(meanings(query)) == []
