@@ -1,4 +1,4 @@
-"""One run of the motion page, in a thread of its own: what is asked, and what it brought."""
+"""One run of the motion page, in a separate thread: what is asked, and what it brought."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ def write_motion(
     chart: str,
     machine: Sequence[tuple[str, str, str]],
 ) -> list[str]:
-    """Write the trace of a file; return what is to be said of it.
+    """Write the trace of a file; return the messages about it.
 
     ``machine`` are the figures that were typed, for a document: name, value, where it is from.
 
