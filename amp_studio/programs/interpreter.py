@@ -150,7 +150,7 @@ class Interpreter:
         words = self._numbers.read(pairs, codes)
         self._keep_roles(words.roles, codes)
         if codes.waits or (self._path.speed_waits and "spindle" in words.roles):
-            self._moves.rest()
+            self._moves.rest(codes.pauses)
         if codes.zones is not None:
             self._switch_zones(codes.zones, words)
         if codes.once:

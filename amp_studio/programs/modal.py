@@ -95,6 +95,8 @@ class BlockCodes:
     is_end: bool = False
     waits: bool = False
     """Whether it waits until the moves before it have ended."""
+    pauses: tuple[str, ...] = ()
+    """Parameters with the time that it rests then."""
     sets_rounding: bool = False
     """Whether its words set how far corners are rounded."""
     zones: KnownCode | None = None
@@ -142,6 +144,8 @@ class ModalCodes:
                 if known.group.key in groups:
                     raise BlockError(f"{each} and another code of the group {known.group.name}", "two-codes")
                 groups.add(known.group.key)
+                if known.facts.does == "wait-motion" and active.get(known.group.key) == code:
+                    continue  # what already is so is not switched
                 active[known.group.key] = code
             codes.append(known)
         modal = self._state_of(active)
@@ -218,7 +222,8 @@ def _effects(codes: Sequence[KnownCode]) -> dict[str, Any]:
     """Return the fields of `BlockCodes` that codes set."""
     does = {str(code.facts.does): code for code in codes}
     selects = tuple(code for code in codes if code.facts.does in SELECTS)
-    effects: dict[str, Any] = {"zones": does.get("zones"), "selects": selects}
+    pauses = tuple(code.facts.pause for code in codes if code.facts.pause)
+    effects: dict[str, Any] = {"zones": does.get("zones"), "selects": selects, "pauses": pauses}
     for each in does:
         effects |= _EFFECTS.get(each, {})
     return effects

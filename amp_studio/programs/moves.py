@@ -137,12 +137,18 @@ class PathMoves:
             center = machine[first], machine[second]
         return arc_by_center(*ends, *center, self._path.arc_tolerance, clockwise=clockwise)
 
-    def rest(self) -> None:
-        """End the moves so far before the next one begins: a dwell without time, where there is none."""
-        if len(self.rows.kind) and self.rows.kind[-1] != DWELL:
-            self.dwell(0.0)
+    def rest(self, pauses: tuple[str, ...]) -> None:
+        """End the moves so far before the next one begins, and rest for the times of these parameters;
+        without one it is a dwell without time.
+        """
+        times = [self._file.evaluation.canonical((param, "")) for param in pauses]
+        seconds = 1e-3 * sum(time for time in times if isinstance(time, float | int))
+        if seconds or (len(self.rows.kind) and self.rows.kind[-1] != DWELL):
+            self.dwell(seconds)
 
     def dwell(self, seconds: float) -> None:
         if seconds < 0.0:
             raise BlockError("A dwell cannot be negative", "out-of-range")
+        if step := self._path.dwell_step:
+            seconds = step * math.ceil(round(seconds / step, 6))  # 10.0000001 steps are ten
         self.rows.add(self.at.position, DWELL, self.line, 0.0, EXACT, 1, seconds=seconds)

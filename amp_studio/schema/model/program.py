@@ -198,6 +198,8 @@ class ProgramCode(Model):
     """A parameter can make it active, a program cannot."""
     does: CodeAction | None = None
     """None: a program that has it is refused with its name."""
+    pause: ParameterId | None = None
+    """How long the axes then rest, for a code that waits for the moves before it."""
     zones: tuple[str, ...] = ()
     """Numbers of the zones that are on from this code of ``zones`` on; those it does not name are off."""
     assumed: str = ""
@@ -302,6 +304,8 @@ class ProgramPath(Model):
     """Whether a feed in a block that changes the unit of length is read in the unit before it."""
     speed_waits: bool = False
     """Whether a spindle speed waits until the moves before it have ended."""
+    dwell_step: float = 0.0
+    """s in which the control counts dwells and pauses, up to the next whole one; 0 where it has none."""
     arcs_by_radius: bool = False
     """Whether R may give the radius of an arc."""
     centers: ParameterId | None = None
