@@ -7,11 +7,13 @@ from pathlib import Path
 
 import pytest
 
+from amp_studio.assignments import read_assignments
 from amp_studio.cli import run
 from amp_studio.files import ParameterFile, open_file
 from amp_studio.files.example_files import examples_folder
 from amp_studio.formats import import_file
 from amp_studio.meaning import compare_meanings, migrate
+from amp_studio.meaning.migration import less_safe
 from amp_studio.meaning.reading import read_meaning
 
 MILL = examples_folder() / "mill-1394" / "MILL_1394.amp"
@@ -107,6 +109,44 @@ def test_each_of_them_can_be_migrated(name: str) -> None:
     assert has_gain == (
         "\nP = " in next(iter(found.written.texts.values()))
     )  # HAL refuses a value that is not there
+
+
+def first_joint(file: ParameterFile) -> tuple[dict[str, str], list[str]]:
+    """Return the keys of the first joint at a LinuxCNC, and what is less safe there."""
+    found = migrate(file, "linuxcnc")
+    text = next(iter(found.written.texts.values())).partition("[JOINT_0]")[2].partition("\n[")[0]
+    return dict(line.split(" = ") for line in text.splitlines() if " = " in line), less_safe(found)
+
+
+SYNTEC = [
+    ({}, {"P": "30", "FERROR": "26.666666", "MIN_FERROR": "26.666666", "HOME": "0", "HOME_OFFSET": "0"}),
+    ({"servo.loop_gain@1": "2"}, {"P": "2", "FERROR": "400"}),
+    ({"Pr821": "36000 mm/min"}, {"FERROR": "40"}),
+    ({"Pr2402": "1000"}, {"MIN_LIMIT": "1", "HOME": "1.01", "HOME_OFFSET": "0"}),
+    ({"Pr881": "7000"}, {"HOME": None, "HOME_OFFSET": None}),
+    ({"Pr17": "raw:1"}, {"MIN_LIMIT": None, "MAX_LIMIT": None, "ENCODER_SCALE": None, "MAX_VELOCITY": "400"}),
+]
+"""Page 1.5.3: MOT-019 at twice the following error of G00, 24000 mm/min / 60 / 30 as delivered; 2.2.2.2; 1.2.6."""
+
+
+@pytest.mark.parametrize(("values", "expected"), SYNTEC)
+def test_a_syntec_has_its_gain_its_error_limit_and_its_zero(
+    values: dict[str, str], expected: dict[str, str | None]
+) -> None:
+    file = example("syntec-mill")
+    file.set_checked(read_assignments(file, values.items()), force="a mutation")
+    found, lost = first_joint(file)
+    assert {key: found.get(key) for key in expected} == expected
+    assert not any("no limit of the following error" in each for each in lost)
+    assert any("travel limits are not known" in each for each in lost) == ("Pr17" in values)
+    assert any("distance from the index" in each for each in lost) == ("Pr881" in values)
+
+
+@pytest.mark.parametrize(("number", "end"), [("1330", "lower"), ("1320", "upper")])
+def test_a_missing_travel_limit_is_among_what_is_less_safe(number: str, end: str) -> None:
+    file = example("mill-1394")
+    file.set(file.find(number), None)
+    assert f"X: no travel limit at its {end} end" in first_joint(file)[1]
 
 
 def test_a_machine_and_what_it_was_migrated_to_have_the_same_meaning(

@@ -308,8 +308,7 @@ class _Migration:
             f"[{j}]MIN_LIMIT, [{j}]MAX_LIMIT",
             "written" if kind == "limits" else "left out",
         )
-        if kind != "limits" and not axis.turns:
-            self.out.less_safe.append(f"{axis.letter}: no travel limits, as before")
+        self._less_travel(axis, kind)
         if (axis.turns and axis.number("rollover")) or kind == "modulo":
             self.ini.put(a, "WRAPPED_ROTARY", "1", self._of(axis, "rollover", "approximate"))
             self.out.grade(
@@ -322,6 +321,17 @@ class _Migration:
                 "positions go on past a turn, and the sign of the word is the direction",
                 "neither: try it without a part",
             )
+
+    def _less_travel(self, axis: AxisMeaning, kind: str) -> None:
+        """Say which limits are not there."""
+        if not kind:
+            self.out.less_safe.append(f"{axis.letter}: its travel limits are not known; none was written")
+        elif kind == "limits":
+            for end, concept in (("lower", "travel.low"), ("upper", "travel.high")):
+                if axis.number(concept) is None:
+                    self.out.less_safe.append(f"{axis.letter}: no travel limit at its {end} end")
+        elif not axis.turns:
+            self.out.less_safe.append(f"{axis.letter}: no travel limits, as before")
 
     def _motion(self, axis: AxisMeaning, j: str, a: str) -> None:
         rapid, ramp = axis.number("rapid"), axis.number("acceleration")

@@ -12,7 +12,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from math import isclose
 from pathlib import Path
@@ -28,9 +28,22 @@ from amp_studio.meaning import Migration, migrate
 from .test_real_program import USER, has_user
 
 NO_LIMIT = 1e99
-SECONDS = 60
+SECONDS = 150
+"""Until it is homed: a Syntec has no acceleration that is known, and LinuxCNC takes 1 mm/s2."""
 ANSWERS = (("feedback.sign.", "+"), ("home.speed.", "600"))
 """To every question whose id begins so; the axes home one after the other."""
+ENDS = {
+    "mill-1394": "++++",
+    "lathe-ls176": "++",
+    "num-1060-mill": "--+.",
+    "syntec-mill": "----",
+    "acromill-router": "+++",
+    "grblhal-router": "--+",
+}
+"""Example -> the end at which the home switch of each joint is in the old file, "." without one: 1010 (page 5-15),
+P15 (7-8), Pr861 (2.2.2.3), the direction of AcroMill (65) and $23 (S2427). Never read from what was written."""
+SWITCH = 5.0
+"""mm or deg from the start to each switch."""
 
 
 @dataclass(frozen=True)
@@ -41,6 +54,13 @@ class Mutation:
     what: str
     values: dict[str, str] = field(default_factory=dict)
     pins: dict[str, float] = field(default_factory=dict)
+    ends: str = ""
+    """Where the switches are, if not where they are in the example."""
+    zero: float | None = None
+    """The coordinate of the first joint's marker in the old file, of its switch without one."""
+    counts: float = 0.0
+    """What the encoder of the first joint counts in a unit, with its sign; 0 for none between motor and loop."""
+    answers: dict[str, str] = field(default_factory=dict)
     homes: bool = True
     refused: bool = False
 
@@ -51,10 +71,10 @@ def _limits(low: float, high: float) -> dict[str, float]:
 
 def _of_9pc() -> Iterator[Mutation]:
     mill = "mill-1394"
-    yield Mutation(mill, "as it is", {}, _limits(-500.0, 8.0))
+    yield Mutation(mill, "as it is", {}, _limits(-500.0, 8.0), zero=6.0)
     yield Mutation(mill, "limits", {"1320": "7 mm", "1330": "-250 mm"}, _limits(-250.0, 7.0))
     minus = {"1010": "minus", "1002": "positive", "1310": "-490 mm"}
-    yield Mutation(mill, "minus homing", minus, {"ini.0.home": -490.0})
+    yield Mutation(mill, "minus homing", minus, {"ini.0.home": -490.0}, ends="-+++", zero=-490.0)
     yield Mutation(mill, "gain 2", {"1710": "2"}, {"pid.0.Pgain": 100.0 / 3.0})
     yield Mutation(mill, "no overtravel", {"1020": "no"}, _limits(-NO_LIMIT, NO_LIMIT))
     yield Mutation(
@@ -63,7 +83,8 @@ def _of_9pc() -> Iterator[Mutation]:
     yield Mutation(mill, "slow", {"1203": "3000 mm/min"}, {"ini.0.max_velocity": 50.0})
     yield Mutation(mill, "slower down", {"1211": "300 mm/s2"}, {"ini.0.max_acceleration": 300.0})
     yield Mutation(mill, "reversal error", {"1340": "0.01 mm"}, {"ini.0.backlash": 0.01})
-    yield Mutation(mill, "calibration", {"1300": "1.5 mm"}, {"ini.0.home": 6.0, "ini.0.home_offset": 4.5})
+    home = {"ini.0.home": 6.0, "ini.0.home_offset": 4.5}
+    yield Mutation(mill, "calibration", {"1300": "1.5 mm"}, home, zero=4.5)
     yield Mutation(mill, "crossed limits", {"1320": "-500 mm", "1330": "8 mm"}, refused=True)
     yield Mutation(mill, "limits of Y", {"2320": "50 mm", "2330": "-60 mm"}, {"ini.1.min_limit": -60.0})
     yield Mutation(mill, "one side of zero", {"1330": "1 mm"}, _limits(1.0, 8.0))
@@ -77,6 +98,11 @@ def _of_9pc() -> Iterator[Mutation]:
     yield Mutation(
         mill, "all in inch", inch, {"ini.0.min_limit": -508.0, "ini.0.home": 2.54, "ini.0.ferror": 2.54}
     )
+    minus_x, counts = {"feedback.sign.X": "-"}, 2097152 / 12.7
+    yield Mutation(mill, "encoder that counts back", counts=-counts, answers=minus_x, zero=6.0)
+    yield Mutation(mill, "encoder that counts on", {"1595": "Minus"}, counts=counts, zero=6.0)
+    one_sign = {"1010": "minus", "1310": "-490 mm"}
+    yield Mutation(mill, "search and latch of one sign", one_sign, {"ini.0.home": -490.0}, ends="-+++")
     lathe = "lathe-ls176"
     minus_limits = {"1330": "-20 mm", "1320": "-1 mm"}
     yield Mutation(lathe, "minus limits", minus_limits, _limits(-20.0, -1.0), homes=False)
@@ -88,19 +114,31 @@ def _of_others() -> Iterator[Mutation]:
     num = "num-1060-mill"
     yield Mutation(num, "as it is", {}, _limits(-1.0, 600.0))
     yield Mutation(num, "limits", {"P17N0": "-5000", "P17N1": "400000"}, _limits(-5.0, 400.0))
-    yield Mutation(num, "plus homing", {"P15N0": "2"}, {"ini.0.home": 0.0})
-    yield Mutation(num, "zero elsewhere", {"P16N0": "5000"}, {"ini.0.home": 5.0})
+    yield Mutation(num, "plus homing", {"P15N0": "2"}, {"ini.0.home": 0.0}, ends="+-+.", zero=0.0)
+    yield Mutation(num, "zero elsewhere", {"P16N0": "5000"}, {"ini.0.home": 5.0}, zero=5.0)
     yield Mutation(num, "no room", {"P17N0": "0", "P17N1": "0"}, _limits(0.0, 0.0), homes=False)
     yield Mutation(num, "error", {"P23N0": "3000"}, {"ini.0.ferror": 3.0})
     yield Mutation(num, "negative backlash", {"P18N0": "-7"}, {"ini.0.backlash": 0.007})
     yield Mutation(num, "rapid", {"P30N0": "6000"}, {"ini.0.max_velocity": 100.0})
     minus = {"P17N0": "-600000", "P17N1": "-1000", "P16N0": "-2000", "P15N0": "2"}
-    yield Mutation(num, "minus side", minus, _limits(-600.0, -1.0))
-    yield Mutation(num, "no switch", {"P15N1": "1"})
+    yield Mutation(num, "minus side", minus, _limits(-600.0, -1.0), ends="+-+.", zero=-2.0)
+    yield Mutation(num, "no switch", {"P15N1": "1"}, ends=".-++")
+    minus_x = {"feedback.sign.X": "-"}
+    yield Mutation(num, "encoder that counts back", counts=-2000.0, answers=minus_x, zero=0.0)
     syntec = "syntec-mill"
     yield Mutation(syntec, "crossed limits", {"Pr2401": "-300000", "Pr2402": "1000"}, refused=True)
-    yield Mutation(syntec, "as it is", {}, _limits(-2.0, 400.0))
-    yield Mutation(syntec, "plus homing", {"Pr861": "positive"})
+    yield Mutation(syntec, "as it is", {}, {**_limits(-2.0, 400.0), "pid.0.Pgain": 30.0}, zero=0.0)
+    yield Mutation(syntec, "plus homing", {"Pr861": "positive"}, ends="+---", zero=0.0)
+    gain = {"pid.0.Pgain": 2.0, "ini.0.ferror": 400.0, "ini.0.min_ferror": 400.0}
+    yield Mutation(syntec, "gain 2", {"servo.loop_gain@1": "2"}, gain)
+    yield Mutation(syntec, "inch", {"Pr461": "100 in/min"}, {"ini.0.max_velocity": 42.333333})
+    none = {"Pr2401": "999999999", "Pr2402": "-999999999"}
+    yield Mutation(syntec, "no limits", none, _limits(-NO_LIMIT, NO_LIMIT))
+    yield Mutation(syntec, "another BLU", {"Pr17": "raw:1"}, _limits(-NO_LIMIT, NO_LIMIT))
+    yield Mutation(
+        syntec, "one side of zero", {"Pr2402": "1000"}, {**_limits(1.0, 400.0), "ini.0.home": 1.01}
+    )
+    yield Mutation(syntec, "encoder that counts back", counts=-2000.0, answers=minus_x)
     yield Mutation(syntec, "limits", {"Pr2401": "300000", "Pr2402": "-1000"}, _limits(-1.0, 300.0))
     yield Mutation(syntec, "no room", {"Pr2401": "0", "Pr2402": "0"}, _limits(0.0, 0.0), homes=False)
     yield Mutation(syntec, "rapid", {"Pr461": "6000"}, {"ini.0.max_velocity": 100.0})
@@ -111,23 +149,26 @@ def _of_others() -> Iterator[Mutation]:
         "minus homing",
         {"home.direction@X": "neg", "home.preset@X": "-28 in"},
         {"ini.0.home": -711.19},
+        ends="-++",
+        zero=-711.2,
     )
     yield Mutation(router, "no limits", {"axes.disable_limit@X": "true"}, _limits(-NO_LIMIT, NO_LIMIT))
     yield Mutation(router, "metric limits", {"axes.soft_limit_minus@X": "-500 mm"}, _limits(-500.0, 2.54))
-    yield Mutation(router, "home elsewhere", {"home.preset@X": "-1 in"}, {"ini.0.home": -25.4})
+    yield Mutation(router, "home elsewhere", {"home.preset@X": "-1 in"}, {"ini.0.home": -25.4}, zero=-25.4)
+    yield Mutation(router, "encoder that counts back", counts=-20480 / 25.4, answers=minus_x)
     crossed = {"axes.soft_limit_minus@X": "1 in", "axes.soft_limit_plus@X": "-1 in"}
     yield Mutation(router, "crossed limits", crossed, refused=True)
     grbl = "grblhal-router"
     yield Mutation(grbl, "slow", {"$110": "60", "$120": "10"}, {"ini.0.max_velocity": 1.0})
     yield Mutation(grbl, "far off the switch", {"$27": "20"})
     yield Mutation(grbl, "as it is", {}, {"ini.0.max_velocity": 133.333333})
-    yield Mutation(grbl, "plus homing", {"$23": "0"})
+    yield Mutation(grbl, "plus homing", {"$23": "0"}, ends="+++")
     yield Mutation(grbl, "no soft limits", {"$20": "no"}, _limits(-NO_LIMIT, NO_LIMIT))
     yield Mutation(grbl, "travel", {"$130": "500 mm"})
 
 
 MUTATIONS = (*_of_9pc(), *_of_others())
-SCREEN = f'''#!/usr/bin/python3
+SCREEN = '''#!/usr/bin/python3
 """Has written what the running program uses, homes all joints, and has written where they are."""
 import pathlib, subprocess, time
 import linuxcnc
@@ -143,7 +184,7 @@ command.state(linuxcnc.STATE_ON); command.wait_complete()
 command.mode(linuxcnc.MODE_MANUAL); command.wait_complete()
 command.teleop_enable(0); command.wait_complete()
 command.home(-1)
-for _ in range({SECONDS} * 10):
+for _ in range({seconds} * 10):
     status.poll()
     if all(status.homed[:status.joints]):
         break
@@ -160,8 +201,8 @@ def mutated(mutation: Mutation) -> ParameterFile:
     return file
 
 
-def migrated(file: ParameterFile) -> Migration:
-    """Return a file migrated, with every question answered."""
+def migrated(file: ParameterFile, own: Mapping[str, str]) -> Migration:
+    """Return a file migrated, with every question answered, those in ``own`` otherwise."""
     asked = [question.id for question in migrate(file, "linuxcnc").written.asked]
     axes = [name.rpartition(".")[2] for name in asked if name.startswith("feedback.sign.")] or list("XYZ")
     answers = {name: text for name in asked for start, text in ANSWERS if name.startswith(start)}
@@ -170,52 +211,66 @@ def migrated(file: ParameterFile) -> Migration:
         found = re.search(r"\(([A-Z, ]+)\)", question)
         axes = found[1].split(", ") if found else axes
         answers["home.order"] = ", ".join(axes)
-    return migrate(file, "linuxcnc", answers)
+    return migrate(file, "linuxcnc", answers | dict(own))
 
 
-def with_switches(hal: str, texts: str) -> str:
-    """Return the HAL of a migration with a simulated switch and marker at the end to which each joint homes."""
-    joints = re.split(r"\[JOINT_(\d+)\]", texts)[1:]
-    lines: list[str] = []
-    for n, text in zip(joints[::2], joints[1::2], strict=True):
-        search = re.search(r"^HOME_SEARCH_VEL\s*=\s*(-?[\d.]+)", text, re.MULTILINE)
-        at = -5 if search and float(search[1]) < 0.0 else 5
+def with_machine(hal: str, ends: str, counts: float) -> str:
+    """Return the HAL of a migration with a simulated switch and marker where the old machine has them, and with the
+    first joint's encoder in its loop.
+    """
+    first, lines = [f"loadrt sim_home_switch names={','.join(f'switch.{n}' for n in range(len(ends)))}"], []
+    if counts:
+        hal = hal.replace("net feedback.0 table.0.out", "net feedback.0 card.out")
+        first += ["loadrt scale names=encoder", "loadrt div2 names=card"]
+        lines += [
+            "addf encoder servo-thread",
+            "addf card servo-thread",
+            f"setp encoder.gain {counts!r}",
+            "setp card.in1 [JOINT_0]ENCODER_SCALE",
+            "net counts encoder.out => card.in0",
+            "net place.0 table.0.out => encoder.in",
+        ]
+    for n, end in enumerate(ends):
         lines += [
             f"addf switch.{n} servo-thread",
-            f"setp switch.{n}.home-pos {at}",
-            f"net feedback.{n} => switch.{n}.cur-pos",
-            f"net home.{n} switch.{n}.home-sw => joint.{n}.home-sw-in",
+            f"setp switch.{n}.home-pos {-SWITCH if end == '-' else SWITCH}",
+            f"net {'place' if counts and n == 0 else 'feedback'}.{n} => switch.{n}.cur-pos",
             f"net marker.{n} switch.{n}.index-enable <=> joint.{n}.index-enable",
         ]
-    names = ",".join(f"switch.{n}" for n in joints[::2])
-    return "\n".join((hal, f"loadrt sim_home_switch names={names}", *lines, ""))
+        if end != ".":
+            lines.append(f"net home.{n} switch.{n}.home-sw => joint.{n}.home-sw-in")
+    return "\n".join((*first, hal, *lines, ""))
 
 
 def faults(mutation: Mutation) -> Iterator[str]:
     """Yield what the real program does otherwise than the old file means."""
     file = mutated(mutation)
-    texts = migrated(file).written.texts
+    texts, ends = migrated(file, mutation.answers).written.texts, mutation.ends or ENDS[mutation.example]
     folder = Path(tempfile.mkdtemp(prefix="amp-studio-mutated-"))
     try:
         name = next(each for each in texts if each.endswith(".ini"))
         for each, text in texts.items():
-            own = with_switches(text, texts[name]) if each == "machine.hal" else text
+            own = with_machine(text, ends, mutation.counts) if each == "machine.hal" else text
             own = re.sub(r"(?m)^DISPLAY *=.*$", "DISPLAY = ./screen.py", own) if each == name else own
             (folder / each).write_text(own)
-        (folder / "screen.py").write_text(SCREEN)
+        (folder / "screen.py").write_text(SCREEN.format(seconds=SECONDS if mutation.homes else 0))
         (folder / "screen.py").chmod(0o755)
         for place in (*folder.iterdir(), folder):
             shutil.chown(place, USER)
         command = f"cd '{folder}' && exec env -u DISPLAY linuxcnc {name}"
         with (folder / "log").open("w") as log:
-            subprocess.run(["su", USER, "-c", command], stdout=log, stderr=log, timeout=200, check=False)
+            subprocess.run(
+                ["su", USER, "-c", command], stdout=log, stderr=log, timeout=SECONDS + 100, check=False
+            )
         if not (folder / "pins.txt").exists():
             yield f"it did not start: {(folder / 'log').read_text()[-600:]}"
             return
         written = import_file(folder / name, "linuxcnc")
         yield from _pins(mutation, written, pins_of((folder / "pins.txt").read_text()))
-        if mutation.homes and (folder / "homed.txt").exists():
-            yield from _homes(written, pins_of((folder / "homed.txt").read_text()))
+        if not (folder / "homed.txt").exists():
+            yield "it ended before it was homed"
+        elif mutation.homes:
+            yield from _homes(mutation, written, pins_of((folder / "homed.txt").read_text()), ends)
     finally:
         shutil.rmtree(folder)
 
@@ -233,16 +288,21 @@ def _pins(mutation: Mutation, written: ParameterFile, listed: dict[str, str]) ->
             yield f"{pin} is {found:.9g}, and the old file means {value:.9g}"
 
 
-def _homes(written: ParameterFile, listed: dict[str, str]) -> Iterator[str]:
-    for n in range(9):
-        if listed.get(f"joint.{n}.active") != "TRUE" or written.get(("joint.home_sequence", str(n))) is None:
-            continue
+def _homes(mutation: Mutation, written: ParameterFile, listed: dict[str, str], ends: str) -> Iterator[str]:
+    for n in range(len(ends)):
         home = written.evaluation.canonical(("joint.home", str(n)))
         place = float(listed[f"joint.{n}.pos-fb"])
         if listed[f"joint.{n}.homed"] != "TRUE":
             yield f"joint {n} is not homed after {SECONDS} s, at {place:.6g}"
-        elif isinstance(home, float | int) and abs(place - home) > 0.05:
-            yield f"joint {n} is homed at {place:.6g}, not {home:.6g}"
+        elif abs(place - float(home or 0.0)) > 0.05:
+            yield f"joint {n} is homed at {place:.6g}, not {home}"
+    if mutation.zero is not None:
+        # A marker makes the feedback 0, which the loop in the computer does not: it is where it was found then.
+        value = written.get(("joint.home_use_index", "0"))
+        switch = 0.0 if value and value.value else (-SWITCH if ends[0] == "-" else SWITCH)
+        found = switch - float(listed["joint.0.motor-offset"])
+        if abs(found - mutation.zero) > 0.3:
+            yield f"joint 0 found its zero at {found:.6g}, and the old file means {mutation.zero:.6g}"
 
 
 if __name__ == "__main__":
