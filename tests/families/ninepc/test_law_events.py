@@ -113,7 +113,7 @@ def test_what_is_not_homed_by_a_sequence_is_shown() -> None:
     opened = mill(servo__position_loop_type=Value("open"))  # 5-1
     with pytest.raises(SimulationError, match="not homed"):
         simulate(opened, "home", "1")
-    with pytest.raises(SimulationError, match=r"home.g28_speed is not set"):
+    with pytest.raises(SimulationError, match=r"1011 G28 Home Speed is not set for axis 1"):
         simulate(mill(home__g28_speed=None), "home", "1")
 
 
