@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +22,6 @@ REST = 0.3
 """s between two moves."""
 TURN = 10.0
 """mm for a turn of the motor."""
-CHIRP_SAMPLE, CHIRP_TIME = 0.5e-3, 12.0
 
 
 @dataclass(frozen=True)
@@ -178,22 +177,6 @@ def _channels(
         "position": ("position (mm)", np.round(later[0] / plant.count) * plant.count),
     }[plant.channel]
     return {motion[0]: motion[1], "torque (%)": np.round(loud / 0.01) * 0.01}
-
-
-def chirp_record(plant: HiddenPlant, path: Path, lowest: float = 2.0) -> None:
-    """Write the record of a chirp of torque, which pushes the axis through its friction."""
-    from scipy import signal
-
-    time = np.arange(0.0, CHIRP_TIME, CHIRP_SAMPLE)
-    driven = 25.0 * signal.chirp(time, lowest, CHIRP_TIME, 300.0, method="logarithmic", phi=-90.0)
-    driven = driven + plant.gravity
-    state, states, torques = np.zeros(4), [], [plant.gravity] * 12
-    for torque in driven:
-        torques.append(float(torque))
-        states.append(state)
-        state = _later(plant, state, torques, CHIRP_SAMPLE)
-    quiet = replace(plant, noise=0.3 * plant.noise, top=max(float(np.ptp(np.array(states)[:, 1])), 1e-9))
-    _write(path, {"time (s)": time, **_channels(quiet, time, np.array(states), driven)})
 
 
 def _write(path: Path, columns: dict[str, np.ndarray]) -> None:

@@ -107,8 +107,9 @@ MEASURED: dict[str, tuple[float, tuple[int, ...]]] = {
     "many-arcs": (18.6494, (17073, -11385, 0)),
     "inverse-time": (2.1415, (12500, 2500, 0)),
 }
-"""On 28 and 29 November 2026, core 1.1f build 20260817, at 0.03 or 0.06 of the true time, as the firmware runs
-beside the clock that the simulator counts: unpaced (-t 0) that clock runs on while the firmware computes, and "many-arcs" took 18.94 s. A pause before the first move is not in the time."""
+"""On 28 and 29 November 2026, core 1.1f build 20260817, at 0.03 or 0.06 of the true time: unpaced (-t 0)
+"many-arcs" took 18.94 s, likely because that clock runs on while the firmware computes. A pause before the first
+move is not in the time."""
 
 
 def measured(program: RealProgram) -> tuple[float, tuple[int, ...]]:

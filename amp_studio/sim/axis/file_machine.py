@@ -76,10 +76,8 @@ class FileMachine:
         rate = _figure("speed", jogging.increment_speed if increment and not speed else speed, jogging.speeds)
         ramp = jogging.ramp or self._ramp(moving, homes=False)
         way = _figure("increment", increment, jogging.increments) if increment else 0.0
-        moving.travel, self._targets = (
-            self._travel(moving),
-            [],
-        )  # an axis that is jogged goes nowhere after it
+        moving.travel = self._travel(moving)
+        self._targets = []  # an axis that is jogged goes nowhere after it
         if increment:
             moving.move(moving.command + sign * way, rate, ramp)
         else:
