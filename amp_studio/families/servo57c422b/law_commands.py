@@ -187,7 +187,8 @@ def run_gear(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
             " ramp stays lost: the manual has no word of catching up (page 4-21)."
             if ramped
             else "Without ramp velocity control the axis accelerates in current limit (page 4-24): its"
-            f" velocity error is at first the speed of its master, {abs(ratio) * speed * SCAN:g} counts a scan."
+            f" velocity error is at first the speed of its master, {abs(ratio) * speed * SCAN:g} counts a"
+            " scan."
         ),
         rest=-SCAN,  # the master runs on
     )
