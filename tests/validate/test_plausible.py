@@ -290,7 +290,7 @@ def test_a_time_cam_that_turns_back_in_a_single_step_is_asked_about() -> None:
         ("grblhal-router", ("axis.acceleration", "Z"), Value(20000.0, "mm/s2"), "plausible.quotient"),
         ("grblhal-router", ("axis.steps", "Y"), Value(320.0, "steps/mm"), "plausible.table"),
         ("grblhal-router", ("axis.max_travel", "Y"), Value(40.0, "mm"), "plausible.travel"),
-        ("grblhal-router", ("axis.max_travel", "Y"), Value(84.0, "mm"), "plausible.travel"),
+        ("grblhal-router", ("axis.max_travel", "Y"), Value(78.0, "mm"), "plausible.travel"),
         ("grblhal-router", ("general.junction_deviation", ""), Value(0.1, "mm"), "plausible.usual"),
         ("grblhal-router", ("spindle.min_speed", ""), Value(600.0, "rpm"), "plausible.proportion"),
         ("grblhal-router", ("general.arc_tolerance", ""), Value(0.02, "mm"), "plausible.seldom"),
