@@ -63,12 +63,16 @@ def axis_turns(file: ParameterFile, axis: str) -> bool:
     return condition is not None and file.evaluation.is_true(condition, axis, "axis")
 
 
+_KINDS = frozenset({"linear", "rotary", "spindle"})
+
+
 def axis_kind(file: ParameterFile, axis: str) -> str:
     """Return how an axis moves, as its head shows it: its type, ``linear`` or ``rotary``;
     "" where the family has no such fact.
     """
     if file.schema.family.axes:
-        return axis_type(file, axis)
+        kind = axis_type(file, axis)
+        return kind if kind in _KINDS or not axis_turns(file, axis) else "rotary"
     if use := other_use(file, axis):
         return use
     if file.schema.family.angular_when is None or not is_fitted(file.evaluation, axis):

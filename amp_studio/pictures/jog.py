@@ -31,8 +31,8 @@ def draw_jog(
     every = [*map(operator.add, rows, limits)]
     x = like.x if like else _decades(chain.from_iterable(every))
     heads = tuple(
-        (-float(n), figures.axis(axis), row[0].unit if row else "")
-        for n, (axis, row) in enumerate(zip(axes, every, strict=True))
+        (-float(n), figures.axis(axis), unit_text((bound or row)[0].unit) if bound or row else "")
+        for n, (axis, row, bound) in enumerate(zip(axes, rows, limits, strict=True))
     )
     shapes = SceneShapes(figures)
     for n, (row, bound) in enumerate(zip(rows, limits, strict=True)):

@@ -9,7 +9,7 @@ stay as the control shows them, and help stays English.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from datetime import datetime
 from functools import cache
@@ -19,15 +19,17 @@ from amp_studio.languages import TextSection, name_of_language
 from amp_studio.schema import NO_TEXTS, UNITS, FactTexts, fact_texts, figures_in, program_texts, unit_text
 from amp_studio.validate import Finding
 
-from .wording import counted
+from .wording import counted, joined_places
 
 _WORDS = re.compile(r"(>\s*)([^<>]*?[^<>\s])(\s*<)")
-_NUMBER = re.compile(r"(?<![\w.$@])[-−]?\d+\.\d+(?![\w]|\.\d)")
+_NUMBER = re.compile(r"(?<![\w.$@])[-−]?\d+\.\d+(?:e[-+]\d+)?(?!\w|\.\d)")
 """A number in a sentence; no address (``P3N0.5``, ``$22.0``), version or network address."""
 
 _SIGN = re.compile(r"(?<![\w.$@)\]-])-(?=\d)")
 """The hyphen that is the sign of a number; none of a page (``7-20``), an address or a word."""
-_REMARK = re.compile(r"\((inferred|figure lost|codes lost)\)")
+_REMARK = re.compile(
+    r"(?<=\()(?:inferred|figure lost|codes lost)(?=\))|(?<=: )codes lost$|^Unnamed \(figure .+\)$"
+)
 """What the facts remark on a label that a manual does not print, or whose figure is lost."""
 
 
@@ -86,6 +88,10 @@ class Language:
         """Return the title of a part of a parameter's help: its Note is the manual's, not a person's."""
         return self.phrases.get(f"help: {title}") or self.text(title)
 
+    def listed(self, places: Iterable[str]) -> str:
+        """Return the places of a value (axes, spindles) in one line."""
+        return joined_places(map(self.text, places))
+
     def title(self, english: str) -> str:
         """Return what the program itself calls something: the title of a step or a picture, a heading,
         a note of a picture.
@@ -142,7 +148,7 @@ class Language:
 
     def label(self, label: str) -> str:
         """Return a label of the control, with what the facts remark on it in this language."""
-        return _REMARK.sub(lambda found: f"({self.text(found[1])})", label)
+        return _REMARK.sub(lambda found: self.text(found[0]), label)
 
     def number(self, figure: str) -> str:
         """Return a number with its sign, and the decimal sign of this language."""
@@ -162,6 +168,10 @@ class Language:
     def _unit_behind(self, found: re.Match[str]) -> str:
         unit = self.unit(unit_text(found[1]))
         return unit if unit == "°" else f" {unit}"
+
+    def pages(self, cited: str) -> str:
+        """Return the pages of a manual that are cited: ``7-17 to 7-19``."""
+        return f" {self.text('to')} ".join(cited.split(" to "))
 
     def moment(self, date: datetime) -> str:
         """Return date and time as this language writes them."""

@@ -188,7 +188,7 @@ class DecodedWord:
 
     number: str
     name: str
-    values: tuple[tuple[str, str, str], ...]
+    values: tuple[tuple[tuple[str, ...], str, str], ...]
     """(places, value, meaning), places with the same value together."""
 
 
@@ -263,7 +263,7 @@ def _decoded(rows: Sequence[ReportRow]) -> Iterator[DecodedWord]:
         for row in own:
             places.setdefault((row.figure, row.detail), []).append(row.place)
         numbers = dict.fromkeys(filter(None, (row.number for row in own)))
-        values = tuple((", ".join(filter(None, at)), *known) for known, at in places.items())
+        values = tuple((tuple(filter(None, at)), *known) for known, at in places.items())
         yield DecodedWord(", ".join(numbers), own[0].name, values)
 
 

@@ -23,14 +23,14 @@ _WIDEST_GRID = 8
 def sections_of(
     file: ParameterFile, rows: Sequence[ReportRow], sort: Sort, language: Language = ENGLISH
 ) -> tuple[Section, ...]:
-    """Return the rows in one of the orders, steps with their titles in a language;
-    empty sections are left out.
+    """Return the rows in one of the orders; empty sections are left out. Axes and steps have their titles
+    in a language, groups the one that the control shows.
     """
     if sort == "number":
-        return _by_number(rows)
+        return _by_number(rows, language)
     if sort == "steps":
         return _by_step(file, rows, language)
-    return _by_axis(file, rows) if sort == "axis" else _by_group(file, rows)
+    return _by_axis(file, rows, language) if sort == "axis" else _by_group(file, rows)
 
 
 def _is_axis(file: ParameterFile, row: ReportRow) -> bool:
@@ -48,27 +48,33 @@ def number_key(row: ReportRow) -> tuple[tuple[int, int, str], ...]:
     return tuple((0, int(p), "") if p.isdecimal() else (1, 0, p) for p in parts)
 
 
-def _by_number(rows: Sequence[ReportRow]) -> tuple[Section, ...]:
+def _by_number(rows: Sequence[ReportRow], language: Language) -> tuple[Section, ...]:
     ordered = tuple(sorted(rows, key=number_key))
     part = Listing("", ordered, any(r.place for r in ordered))
-    return (Section("numbers", "Parameters by number", (part,)),) if rows else ()
+    return (Section("numbers", language.text("Parameters by number"), (part,)),) if rows else ()
 
 
 # -- by axis -------------------------------------------------------------------
 
 
-def _by_axis(file: ParameterFile, rows: Sequence[ReportRow]) -> tuple[Section, ...]:
+def _by_axis(file: ParameterFile, rows: Sequence[ReportRow], language: Language) -> tuple[Section, ...]:
     sections = []
     for axis in printed_axes(file):
         own = [r for r in rows if r.instance == axis and _is_axis(file, r)]
         if own:
             sections.append(
-                Section(f"axis-{axis}", _axis_title(file, axis), _listings(file, own, by_place=False))
+                Section(
+                    f"axis-{axis}",
+                    language.text(_axis_title(file, axis)),
+                    _listings(file, own, by_place=False),
+                )
             )
     rest = [r for r in rows if not _is_axis(file, r)]
     if rest:
         by_place = any(r.place for r in rest)
-        sections.append(Section("no-axis", "Non-axis parameters", _listings(file, rest, by_place)))
+        sections.append(
+            Section("no-axis", language.text("Non-axis parameters"), _listings(file, rest, by_place))
+        )
     return tuple(sections)
 
 

@@ -164,6 +164,7 @@ if TYPE_CHECKING:
     from .value import InvalidValueError, Value
     from .values import (
         MASKED,
+        NOT_SET,
         checked,
         choice_key,
         choice_value,

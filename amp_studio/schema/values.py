@@ -394,6 +394,10 @@ def write_value(parameter: Parameter, value: Value | None) -> str:
     return f"{number} {value.unit}" if value.unit else number
 
 
+NOT_SET = "not set"
+"""What is shown where there is no value."""
+
+
 def _number_text(parameter: Parameter, value: Value) -> str:
     """Write a number; a word that the control shows in hexadecimal, so."""
     number, storage = value.value, parameter.storage
@@ -403,12 +407,12 @@ def _number_text(parameter: Parameter, value: Value) -> str:
 
 
 def show_value(parameter: Parameter, value: Value | None, *, secrets: bool = False) -> str:
-    """Write a value for a person: as ``write_value`` with the unit's proper symbol; ``not set`` without one.
+    """Write a value for a person: as ``write_value`` with the unit's proper symbol; ``NOT_SET`` without one.
 
     A secret is masked unless ``secrets`` asks for it in clear.
     """
     if value is None:
-        return "not set"
+        return NOT_SET
     if parameter.secret and not secrets:
         return MASKED
     if isinstance(value.value, (str, bool)):

@@ -292,7 +292,17 @@ def _entry(line: _Line, wanted: ParameterFile, secrets: bool) -> SheetEntry:
         meaning += ", rounded"
     page = parameter.pages.get(address[1]) or parameter.page
     return SheetEntry(
-        address, number, name, line.old, line.new, meaning, page, line.stage, line.order, tuple(line.until)
+        address,
+        number,
+        name,
+        line.old,
+        line.new,
+        meaning,
+        page,
+        line.stage,
+        line.order,
+        tuple(line.until),
+        is_label=parameter.type not in ("integer", "real"),
     )
 
 

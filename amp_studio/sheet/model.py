@@ -18,6 +18,7 @@ class SheetEntry:
     ``order``    why it comes after another entry than its stage would have it, with the page; "" where
                  nothing needs that
     ``until``    what is broken from here on, and until which entry
+    ``is_label`` whether ``meaning`` is a word of the control
     """
 
     address: Address
@@ -30,6 +31,7 @@ class SheetEntry:
     stage: int
     order: str = ""
     until: tuple[str, ...] = ()
+    is_label: bool = False
 
     @property
     def old(self) -> str:

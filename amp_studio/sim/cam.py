@@ -95,7 +95,7 @@ def cam_picture(cam: CamProfile) -> Picture:
     """Return position, speed and acceleration of a cam over time, or position and slope over the master."""
     speed, acceleration = derivatives(cam)
     x = ("time", "s") if cam.over == "time" else ("master", "counts")
-    per, unit = ("s", "s2") if cam.over == "time" else ("count", "count2")
+    per, unit = ("s", "s²") if cam.over == "time" else ("count", "count²")
     position = panel_of("position counts", (Curve("", cam.x, cam.position, "now", dots=False),), x)
     steps = Curve("", cam.x, np.append(speed, speed[-1]), "now", is_stepped=True)
     panels = [position, panel_of(f"speed counts/{per}", (steps,), x, levels=_levels(cam, "speed"))]

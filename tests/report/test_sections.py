@@ -362,9 +362,9 @@ def test_a_word_of_bits_is_decoded_once_below_its_table() -> None:
     axis = report.sections[0].parts[0]
     word = next(w for w in axis.words if w.name == "Switch Setup")
     assert word.number == "R2, R2050"
-    assert [(place, value) for place, value, _ in word.values] == [("X", "0x011C"), ("Y", "0x001D")]
+    assert [(place, value) for place, value, _ in word.values] == [(("X",), "0x011C"), (("Y",), "0x001D")]
     assert "Bit 8: Use Drive Fault Input (gefolgert)" in word.values[0][2]
     again = next(w for s in report.sections for p in s.parts for w in p.words if w.name == "Mode")
-    assert [place for place, _, _ in again.values] == ["X, Y"], "one value has its meaning once"
+    assert [place for place, _, _ in again.values] == [("X", "Y")], "one value has its meaning once"
     for made in (render_text(report).decode(), render_html(report).decode(), typst_source(report)):
         assert " ".join(made.split()).count("Direction: positive") == 1

@@ -73,9 +73,9 @@ ASSUMED_MOTORS = {
 """Frame -> rated torque in N m and inertia in lb in s2."""
 DATA_SHEET = "an excerpt of the maker's data sheet 1326AB Torque Plus (within 10 %), not from a manual"
 OWN_TORQUE, OWN_INERTIA = "model.motor_torque", "model.motor_inertia"
-"""N m and kg m2 of the motor, when they are set."""
+"""N m and kg m² of the motor, when they are set."""
 LB_IN_S2 = 0.112984829
-"""kg m2 of 1 lb in s2."""
+"""kg m² of 1 lb in s2."""
 ODD_FRAMES = ("b7",)
 """Motors whose cells of Tables 7.B and 7.C fit no unit together."""
 
@@ -169,7 +169,7 @@ def inertia_of(
 ) -> Inertia:
     """Return what a digital axis accelerates with, from Motor Type and Load Inertia Ratio (7-71, 7-72).
 
-    ``torque`` in N m and ``inertia`` in kg m2 are those of the motor where they are set. Raises
+    ``torque`` in N m and ``inertia`` in kg m² are those of the motor where they are set. Raises
     SimulationError where one is set and the other unknown.
     """
     name, loaded = f"1326AB-{motor.upper()}", f"Load Inertia Ratio 1 : {ratio} (7-71)"
@@ -181,7 +181,7 @@ def inertia_of(
         return Inertia(
             frame_acceleration(motor[:4]) / (1.0 + ratio),
             f"A {name} is taken to have {OWN_TORQUE} = {frame[0]:g} N m (rated) and {OWN_INERTIA} ="
-            f" {frame[1] * LB_IN_S2:.6f} kg m2, from {DATA_SHEET}, with {loaded}.",
+            f" {frame[1] * LB_IN_S2:.6f} kg m², from {DATA_SHEET}, with {loaded}.",
         )
     if column is not None:
         rate = typical_rate(tables)
@@ -201,7 +201,7 @@ def inertia_of(
 def _of_set_motor(
     name: str, frame: tuple[float, float] | None, ratio: int, torque: float | None, inertia: float | None
 ) -> Inertia:
-    """Return what an axis accelerates with whose motor has a torque (N m) or an inertia (kg m2) that was
+    """Return what an axis accelerates with whose motor has a torque (N m) or an inertia (kg m²) that was
     set.
     """
     why = []
@@ -216,5 +216,5 @@ def _of_set_motor(
         if frame is None:
             raise SimulationError(f"The inertia of a {name} is not known: set {OWN_INERTIA} too", OWN_INERTIA)
         inertia = frame[1] * LB_IN_S2
-        why.append(f"{OWN_INERTIA} of a {name} is taken as {inertia:.6f} kg m2")
+        why.append(f"{OWN_INERTIA} of a {name} is taken as {inertia:.6f} kg m²")
     return Inertia(torque / inertia / (1.0 + ratio), f"{why[0]}, from {DATA_SHEET}." if why else "")

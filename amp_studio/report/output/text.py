@@ -29,9 +29,8 @@ def _lines(report: Report, words: Language) -> Iterator[str]:
     yield from _values(report.forced, words)
     yield from _not_set(report, words)
     yield from _dangers(report, words)
-    title = words.title if report.contents.sort == "steps" else words.text
     for section in report.sections:
-        yield from _heading(title(section.title).upper())
+        yield from _heading(section.title.upper())
         for part in section.parts:
             yield from _part(part, words)
     yield from _power_up(report, words)
@@ -51,8 +50,8 @@ def _part(part: Listing | Grid, words: Language) -> Iterator[str]:
         yield "-" * min(len(part.title), WIDTH)
     yield from _table(part.rows, not isinstance(part, Listing) or part.by_place, words)
     for word in part.words:
-        for place, value, meaning in word.values:
-            head = " ".join(filter(None, (word.number, word.name, words.text(place), value)))
+        for places, value, meaning in word.values:
+            head = " ".join(filter(None, (word.number, word.name, words.listed(places), value)))
             yield from _wrapped(f"{head}: {meaning}", "  ")
     for mark, why in part.reasons:
         yield from _wrapped(why, f"  {mark} ")

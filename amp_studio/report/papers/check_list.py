@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
 
@@ -128,8 +128,21 @@ def build_check_list(
         summary=done,
         steps=tuple(_listed(file, each, words) for each in now.needed),
         date=date or datetime.now().astimezone(),
-        tests=tuple(tests),
+        tests=tuple(_test_in(words, test) for test in tests),
         language=language,
+    )
+
+
+def _test_in(words: Language, test: PrintedTest) -> PrintedTest:
+    """Return a test in a language; its program is the control's."""
+    axis, _, title = test.title.partition(": ")
+    return replace(
+        test,
+        title=f"{axis}: {words.sentence(title)}",
+        page=words.pages(test.page),
+        steps=tuple((words.sentence(do), words.sentence(see)) for do, see in test.steps),
+        notes=tuple(map(words.sentence, test.notes)),
+        refusal=words.sentence(test.refusal),
     )
 
 

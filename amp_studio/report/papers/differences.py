@@ -103,12 +103,19 @@ def _by_group(file: ParameterFile, differences: Sequence[Difference], language: 
         return file.schema.group_of[difference.address[0]].name
 
     for title, members in groupby(differences, key=group_name):
-        rows = []
+        rows, labels = list[tuple[str, ...]](), set[int]()
         for each in members:
+            if _is_label(file, each.address):
+                labels.add(len(rows))
             sides = (_value_text(file, each.address, value) for value in each.in_one_unit())
             rows.append((*_named(file, each.address, language), *sides))
         yield PaperTable(
-            title, ("Number", "Parameter", "Belongs to", "A", "B"), tuple(rows), _SHARES, values_from=3
+            title,
+            ("Number", "Parameter", "Belongs to", "A", "B"),
+            tuple(rows),
+            _SHARES,
+            values_from=3,
+            labels=frozenset(labels),
         )
 
 
@@ -155,7 +162,8 @@ def _side_by_side(lines: Sequence[MachineLine], names: Sequence[str]) -> tuple[P
     cells = [(*line.named, *line.texts) for line in lines]
     strong = {(at, 3 + n) for at, line in enumerate(lines) for n in line.departing}
     shares = (2.0, 4.0, 1.6, *(2.4 for _ in names))
-    return (PaperTable("", heads, tuple(cells), shares, frozenset(strong), 3),)
+    labels = frozenset(at for at, line in enumerate(lines) if line.is_label)
+    return (PaperTable("", heads, tuple(cells), shares, frozenset(strong), 3, labels),)
 
 
 def _grouped(lines: Sequence[MachineLine], names: Sequence[str], language: str) -> Iterator[PaperTable]:
@@ -176,10 +184,13 @@ def _grouped(lines: Sequence[MachineLine], names: Sequence[str], language: str) 
     )
     rows: list[tuple[str, ...]] = []
     strong: set[tuple[int, int]] = set()
+    labels: set[int] = set()
     for line in lines:
         for n, (machine, numbers) in enumerate(groups_by_value(line.alike, groups)):
             if n:
                 strong.add((len(rows), 3))
+            if line.is_label:
+                labels.add(len(rows))
             rows.append((*line.named, line.texts[machine], ", ".join(map(str, numbers))))
     yield PaperTable(
         text("Values"),
@@ -188,6 +199,7 @@ def _grouped(lines: Sequence[MachineLine], names: Sequence[str], language: str) 
         _SHARES,
         frozenset(strong),
         3,
+        frozenset(labels),
     )
 
 
@@ -204,6 +216,8 @@ class MachineLine:
     """The machines that do not have what most have."""
     alike: tuple[int, ...]
     """For each machine the first one that has the same."""
+    is_label: bool
+    """Whether its values are words of the control."""
 
     @property
     def differs(self) -> bool:
@@ -226,6 +240,7 @@ def machine_lines(
             tuple(_value_text(first, address, value) for value in values),
             frozenset(_departing(values)),
             alike_of(values),
+            _is_label(first, address),
         )
         for address, values in rows
     ], same
@@ -326,6 +341,10 @@ def _named(file: ParameterFile, address: Address, language: str) -> tuple[str, s
     number = "" if here.is_disputed(address[0]) else here.number(address) or ""
     place = language_of(language).text(place_of(file, address))
     return number, file.schema.parameters[address[0]].name, place
+
+
+def _is_label(file: ParameterFile, address: Address) -> bool:
+    return file.schema.parameters[address[0]].type not in ("integer", "real")
 
 
 def _value_text(file: ParameterFile, address: Address, value: Value | None) -> str:

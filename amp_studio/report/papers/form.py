@@ -80,7 +80,7 @@ def _tables(file: ParameterFile, everything: bool, language: Language) -> Iterat
             elif places:
                 several.setdefault(places, []).append(parameter)
         if single:
-            yield PaperTable(group.whole_name, _HEADS, tuple(single), _SHARES, values_from=2)
+            yield PaperTable(group.whole_name, _HEADS, tuple(single), _SHARES)
         for places, parameters in several.items():
             yield _matrix(file, group.whole_name, places, parameters, language)
 
@@ -106,7 +106,7 @@ def _matrix(
             cells = [_cell(file, (parameter.id, place), language, is_ladder) for place in part]
             rows.append((*about, *_filled(cells, width)))
     shares = (3.4, 4.2, *[2.1] * width)
-    return PaperTable(title, (*_HEADS[1:3], *columns), tuple(rows), shares, frozenset(strong), values_from=1)
+    return PaperTable(title, (*_HEADS[1:3], *columns), tuple(rows), shares, frozenset(strong))
 
 
 def _filled(cells: list[str], width: int) -> list[str]:

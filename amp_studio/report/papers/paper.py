@@ -16,6 +16,7 @@ from amp_studio.report.language import Language, language_of
 from amp_studio.report.model import PrintedFigure
 from amp_studio.report.output.page import filled_page
 from amp_studio.report.output.pdf import filled_template, typeset
+from amp_studio.schema import NOT_SET
 from amp_studio.version import __version__
 
 from .endings import write_by_ending
@@ -40,6 +41,8 @@ class PaperTable:
     """Cells (row, column) in bold."""
     values_from: int = _MOST_COLUMNS
     """First column that has values with units and not names."""
+    labels: frozenset[int] = frozenset()
+    """Rows whose values are words of the control, which stay as it shows them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,9 +78,14 @@ class Paper:
         """Return a fact in its language; what a person wrote stays as it is."""
         return self.words.text(body) if name in _OWN_FACTS else body
 
-    def cell(self, table: PaperTable, column: int, text: str) -> str:
+    def cell(self, table: PaperTable, row: int, column: int) -> str:
         """Return a cell for the eye, its figures as the language writes them."""
-        return self.words.quantity(text) if column >= table.values_from else text
+        text = table.rows[row][column]
+        if column < table.values_from:
+            return text
+        if text == NOT_SET:
+            return self.words.text(text)
+        return text if row in table.labels else self.words.quantity(text)
 
     @property
     def program(self) -> str:

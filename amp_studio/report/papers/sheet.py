@@ -38,6 +38,11 @@ class Step:
         """Why it comes here, and what is broken meanwhile."""
         return ((self.entry.order,) if self.entry.order else ()) + self.entry.until
 
+    def meaning(self, words: Language) -> str:
+        """Return the value as the file gives it, in a language; a word of the control as it is."""
+        entry = self.entry
+        return words.label(entry.meaning) if entry.is_label else words.sentence(entry.meaning)
+
 
 @dataclass(frozen=True)
 class PrintedSheet:
@@ -156,9 +161,9 @@ def _step_lines(step: Step, words: Language) -> Iterator[str]:
     entry = step.entry
     head = (
         f"[{'x' if step.is_ticked else ' '}] {step.at:>4}  {entry.number:<12}{entry.new:>16}"
-        f" {entry.unit:<8}{entry.old or '?':>14}  "
+        f" {words.unit(entry.unit):<8}{entry.old or '?':>14}  "
     )
-    about = words.text(entry.name) + (f" = {words.quantity(entry.meaning)}" if entry.meaning else "")
+    about = words.text(entry.name) + (f" = {step.meaning(words)}" if entry.meaning else "")
     about += f" ({words.text(f'page {entry.page}')})"
     if step.screen_text:
         about += f"; {words.text('read back')} {step.screen_text}"

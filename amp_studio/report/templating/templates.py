@@ -106,6 +106,8 @@ def filled(
         filters,
         worded=language.drawing,
         titled=language.title,
+        listed=language.listed,
+        unit=language.unit,
         stated=language.sentence,
         lines=note_lines,
         checked=lambda check: check.printed(language),

@@ -125,7 +125,7 @@ def test_motor_data_from_a_data_sheet_are_assumed_with_their_source(axis: Axis, 
 
 
 def test_torque_and_inertia_of_the_motor_can_be_set(axis: Axis) -> None:
-    # 8 N m on 0.001 kg m2, 1 : 3, 10 mm for a turn.
+    # 8 N m on 0.001 kg m², 1 : 3, 10 mm for a turn.
     set_both = axis(
         {"servo.motor_type": "b530e", "servo.load_inertia_ratio": "r3"},
         {"model.motor_torque": 8.0, "model.motor_inertia": 0.001},
@@ -137,7 +137,7 @@ def test_torque_and_inertia_of_the_motor_can_be_set(axis: Axis) -> None:
     half = axis(settings={"model.motor_torque": 5.4})
     assert half.machine.acceleration_per_output == pytest.approx(2.0 * axis().machine.acceleration_per_output)
     assert half.assumed["acceleration_per_output"].startswith(
-        "model.motor_inertia of a 1326AB-B410G is taken as 0.000452 kg m2"
+        "model.motor_inertia of a 1326AB-B410G is taken as 0.000452 kg m²"
     )
 
 

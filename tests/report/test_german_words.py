@@ -1,0 +1,162 @@
+"""German papers word by word: no English word of the program in a report with motion, checks and programs, in check
+list, sheet, form and differences; what the control shows stays as it is.
+"""
+
+import html
+import re
+from collections.abc import Iterator
+from datetime import UTC, datetime
+
+import pytest
+
+from amp_studio.dossier import checks_of, machine_tests_of, motion_figures, programs_of
+from amp_studio.files import ParameterFile, compare, new_file, open_file
+from amp_studio.guide import progress
+from amp_studio.report import Contents
+from amp_studio.report.build import build_report
+from amp_studio.report.language import language_of
+from amp_studio.report.output.page import render_html
+from amp_studio.report.output.text import render_text
+from amp_studio.report.papers.check_list import build_check_list, render_check_list_text
+from amp_studio.report.papers.differences import differences_paper
+from amp_studio.report.papers.form import form_paper
+from amp_studio.report.papers.paper import Paper
+from amp_studio.report.papers.sheet import PrintedSheet, text_lines
+from amp_studio.schema import fact_texts
+from amp_studio.sheet import make_sheet
+from amp_studio.validate import Validator
+from tests.campaigns import some
+from tests.report.test_german import EXAMPLES
+
+DATE = datetime(2026, 11, 29, tzinfo=UTC)
+BOTH = {"was", "rad", "minus", "linear", "motor", "proportional", "docs", "steps"}
+"""Words of both languages, a folder, and the name of a unit."""
+QUOTED = ("stop motion", "rated torque", "--zero")
+"""A command, a name as a manual writes it inside a sentence, an option."""
+_WORD = re.compile(r"(?<![\w.~/@])[a-z]{3,}(?![\w./=])")
+_TEXT = re.compile(r">([^<>]*[a-z][^<>]*)<")
+GERMAN = [n for n in EXAMPLES if fact_texts(open_file(EXAMPLES[n]).file.schema.family.family, "de").messages]
+
+
+def words_of_the_control(file: ParameterFile) -> list[str]:
+    """Return names, choices, groups and values that a paper prints as the control shows them."""
+    family, parameters = file.schema.family, file.schema.parameters.values()
+    words = {family.name, *(machine.name for machine in family.machines)}
+    words |= {name for group in file.schema.groups for name in (group.name, group.section)}
+    words |= {p.name for p in parameters}
+    words |= {choice.label for p in parameters for choice in p.choices or ()}
+    words |= {str(v.value) for v in file.values.values() if v is not None and isinstance(v.value, str)}
+    words |= {file.machine_schema.instance_label(address) for address in file.values} | {"yes"}
+    return sorted((word for word in words if len(word) > 2), key=len, reverse=True)
+
+
+def printed(file: ParameterFile, name: str, language: str) -> Iterator[str]:
+    """Yield the texts of a whole report and of its drawings."""
+    contents = Contents(language=language, inactive=True)
+    report = build_report(
+        file,
+        contents,
+        motion=tuple(motion_figures(file)),
+        checks=tuple(checks_of(file)),
+        programs=tuple(programs_of(file, tuple(EXAMPLES[name].parent.glob("*.nc")))),
+    )
+    page = re.sub(r"<(script|style|code)\b.*?</\1>", "", render_html(report).decode(), flags=re.DOTALL)
+    drawn = language_of(language, file.schema.family.family).drawing
+    drawings = [drawn(figure.svg) for figure in (*report.motion, *report.pictures)]
+    for text in (page, *drawings):
+        yield from (html.unescape(" ".join(found.split())) for found in _TEXT.findall(text))
+
+
+def english_words(german: set[str], english: set[str], own: list[str]) -> list[str]:
+    """Return the German texts with a word that the English ones have too, beside those of the control."""
+    vocabulary = {word for text in english for word in _WORD.findall(text)} - BOTH
+    known = re.compile("|".join(map(re.escape, (*QUOTED, *own))))
+    texts = [text for text in german if not text.startswith(": ")]  # a word of bits: labels
+    return [text for text in texts if vocabulary & set(_WORD.findall(known.sub("", text)))]
+
+
+@pytest.mark.parametrize("name", some(GERMAN))
+def test_a_report_with_all_chapters_has_no_english_word(name: str) -> None:
+    file = open_file(EXAMPLES[name]).file
+    german, english = (set(printed(file, name, language)) for language in ("de", "en"))
+    assert len(german) > 100
+    assert english_words(german, english, words_of_the_control(file)) == []
+
+
+def paper_texts(paper: Paper) -> str:
+    return "\n".join(
+        paper.cell(table, row, column)
+        for table in paper.tables
+        for row, cells in enumerate(table.rows)
+        for column in range(len(cells))
+    )
+
+
+def test_the_tests_of_a_check_list_are_german() -> None:
+    file = open_file(EXAMPLES["num-1060-mill"]).file
+    come = progress(Validator(file), ())
+    checks = build_check_list(file, come, date=DATE, language="de", tests=machine_tests_of(file, "0"))
+    text = render_check_list_text(checks).decode()
+    assert "X: Messung vor der Lageregelung (Seite 5-25)" in text
+    assert "(Seite 7-17 bis 7-19)" in text
+    assert not re.search(r"\b(the|axis|and|with)\b", text.partition("PRÜFUNGEN AN DER MASCHINE")[2])
+
+
+def test_a_sheet_has_german_places_units_and_remarks() -> None:
+    wanted = open_file(EXAMPLES["57c422b-label-press"]).file
+    sheet = make_sheet(
+        wanted, new_file("57c422b"), of="A.amp", against="B.amp", message=language_of("de", "57c422b").cited
+    )
+    lines = "\n".join(text_lines(PrintedSheet(sheet, language="de", date=DATE)))
+    assert "Encoder Setup, Achse X" in lines
+    assert "1600 Ink/s, gerundet" in lines
+    assert "counts" not in lines
+
+
+def test_differences_in_german_say_what_is_not_set_and_keep_the_controls_words() -> None:
+    mill, bare = open_file(EXAMPLES["mill-1394"]).file, new_file("9pc", "mill")
+    comparison = compare(mill.schema, mill.values, bare.values)
+    texts = paper_texts(differences_paper(mill, comparison, ("A", "B"), language="de"))
+    assert "\nnicht gesetzt\n" in texts
+    assert "not set" not in texts
+    assert "3.4 inch and 4.3 metric" in texts
+    assert "\n0,5 mm\n" in texts
+
+
+def test_a_form_keeps_the_points_of_labels() -> None:
+    texts = paper_texts(form_paper(new_file("57c422b"), language="de"))
+    assert "Ohne\u00a0Namen\u00a0(Bild\u00a04.1)" in texts.replace(" ", "\u00a0")
+    assert "4,1" not in texts
+    assert "3.4 inch and 4.3 metric" in paper_texts(form_paper(new_file("9pc", "mill"), language="de"))
+
+
+@pytest.mark.parametrize("name", ["acromill-router", "grblhal-router"])
+def test_a_group_has_the_name_that_the_control_shows(name: str) -> None:
+    file = open_file(EXAMPLES[name]).file
+    report = build_report(file, Contents(language="de", without=frozenset({"pictures"})))
+    assert {section.title for section in report.sections} <= {g.name for g in file.schema.groups}
+    by_axis = build_report(file, Contents(language="de", sort="axis", without=frozenset({"pictures"})))
+    assert "Parameter ohne Achse" in {section.title for section in by_axis.sections}
+
+
+def test_places_in_a_list_are_german_each() -> None:
+    file = open_file(EXAMPLES["num-1060-mill"]).file
+    text = render_text(build_report(file, Contents(language="de"))).decode()
+    assert "X, Y, Z, B, Achse 24, 28 0x00" in text.replace("\n ", "")
+    assert "Axis 24," not in text
+
+
+def test_signs_units_and_powers_are_german() -> None:
+    sentence = language_of("de", "57c422b").sentence
+    german = {
+        "position (counts)": "Position (Ink)",
+        "phase (°)": "Phase (°)",
+        "frequency, Hz": "Frequenz, Hz",
+        "above the plot: excess error 11 mm, feedrate suppression 11.5 mm": (
+            "über dem Bild: Schleppfehlergrenze 11 mm, Vorschubabsenkung 11,5 mm"
+        ),
+        "above the plot: ferror 1 mm, min_ferror 0.1 mm": "über dem Bild: ferror 1 mm, min_ferror 0,1 mm",
+        "1.5e-06 V·s/count": "1,5e-06 V·s/Ink",
+        "7.4 counts/V": "7,4 Ink/V",
+    }
+    assert {text: sentence(text) for text in german} == german
