@@ -8,7 +8,7 @@ from amp_studio.front_pages import front_page
 
 if TYPE_CHECKING:
     from .comparison import compare_meanings
-    from .description import AxisMeaning, MachineMeaning, MigrationQuestion
+    from .description import AxisMeaning, ConceptFigure, MachineMeaning, MigrationQuestion
     from .folder import read_answers, write_migration
     from .migration import (
         MigratedParameter,

@@ -20,7 +20,15 @@ CHOICES: dict[str, tuple[str, ...]] = {
     "kind": ("linear", "rotary"),
     "travel.kind": ("limits", "none", "modulo"),
     "ramp.kind": ("trapezoid", "s-curve", "sine-squared", "exponential"),
-    "home.kind": ("switch-nearest-marker", "switch-next-marker", "switch", "marker", "coded", "none"),
+    "home.kind": (
+        "switch-nearest-marker",
+        "switch-next-marker",
+        "switch",
+        "marker",
+        "coded",
+        "absolute",
+        "none",
+    ),
 }
 """Concept -> what it can be; a reader that gives anything else is wrong."""
 
@@ -45,11 +53,13 @@ OF_AXIS = (
     "home.search",
     "home.leave",
     "home.towards",
+    "home.first",
     "home.second",
+    "work.offsets",
     "feed.ceiling",
     "jog",
 )
-OF_MACHINE = ("spindle.greatest", "spindle.least", "startup")
+OF_MACHINE = ("spindle.greatest", "spindle.least", "startup", "tool.radius", "tool.wear")
 
 
 @dataclass(frozen=True)
@@ -97,11 +107,14 @@ class AxisMeaning:
 
 @dataclass(frozen=True)
 class MigrationQuestion:
-    """What only a person can answer; ``params`` are the parameters that wait for it."""
+    """What only a person can answer; ``sources`` are the parameters that wait for it. ``is_number`` is one
+    above 0 that figures are made with, in place of a sign.
+    """
 
     id: str
     question: str
     sources: tuple[ParameterSource, ...] = ()
+    is_number: bool = False
 
 
 @dataclass(frozen=True)

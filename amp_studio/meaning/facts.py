@@ -40,6 +40,8 @@ class QuestionFact(Model):
     params: tuple[str, ...] = ()
     when: str = ""
     """A concept of the axis that has to be there."""
+    gives: str = ""
+    """Name in expressions of the number above 0 that the answer is; "" for a sign, which a writer needs."""
 
 
 class RestFact(Model):

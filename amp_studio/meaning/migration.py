@@ -72,7 +72,7 @@ def migrate(file: ParameterFile, target: str, answers: Mapping[str, str] | None 
         raise TargetError(unknown_name("target", target, known))
     if file.schema.family.family == target:
         raise TargetError(f"the file is one of {file.schema.family.name} already")
-    machine = read_meaning(file)
+    machine = read_meaning(file, answers or {})
     if not machine.axes:
         raise TargetError("no axis of the file is fitted: there is nothing to migrate")
     _refuse_crossed(machine)

@@ -4,8 +4,10 @@ count.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
 from amp_studio.errors import AmpStudioError
@@ -33,18 +35,21 @@ from .description import (
     ParameterSource,
 )
 from .facts import ConceptFact, Derived, Meanings, Named, meanings_of
+from .writing import NUMBER
 
 
 class MeaningError(AmpStudioError, ValueError):
     """A file whose family has no machine description; one clear sentence."""
 
 
-def read_meaning(file: ParameterFile) -> MachineMeaning:
-    """Return what the active parameters of a file mean; raises MeaningError."""
+def read_meaning(file: ParameterFile, answers: Mapping[str, str] = MappingProxyType({})) -> MachineMeaning:
+    """Return what the active parameters of a file mean; ``answers`` has the numbers that its family asks for.
+    Raises MeaningError.
+    """
     facts = meanings_of(file.schema.family.family)
     if facts is None:
         raise MeaningError(f"{file.schema.family.name} has no facts for a machine description")
-    reader = _Reader(file, facts)
+    reader = _Reader(file, facts, answers)
     letters = axis_letters(file)
     axes = []
     for instance in fitted_axes(file):
@@ -63,6 +68,15 @@ def read_meaning(file: ParameterFile) -> MachineMeaning:
 class _Reader:
     file: ParameterFile
     facts: Meanings
+    answers: Mapping[str, str]
+
+    def answered(self, instance: str) -> dict[str, float | None]:
+        """Return the numbers that a person gave for an axis, None for one that is open or none."""
+        letter = axis_letters(self.file)[instance].upper()
+        found = {q.gives: self.answers.get(f"{q.id}.{letter}", "") for q in self.facts.questions if q.gives}
+        return {
+            name: float(text) if re.fullmatch(NUMBER, text.strip()) else None for name, text in found.items()
+        }
 
     def figures(self, concepts: tuple[ConceptFact, ...], instance: str) -> Iterator[ConceptFigure]:
         derived = (
@@ -70,6 +84,7 @@ class _Reader:
                 name: self.value(fact.reads, fact.value, instance, {})
                 for name, fact in self.facts.derived.items()
             }
+            | self.answered(instance)
             if instance
             else {}
         )
@@ -119,7 +134,10 @@ class _Reader:
                 if not fact.when or fact.when in axis.figures:
                     sources = tuple(self.sources({p: p for p in fact.params}, axis.instance))
                     yield MigrationQuestion(
-                        f"{fact.id}.{axis.letter}", fact.ask.format(axis=axis.letter), sources
+                        f"{fact.id}.{axis.letter}",
+                        fact.ask.format(axis=axis.letter),
+                        sources,
+                        is_number=bool(fact.gives),
                     )
 
     def _addresses(self, text: str, instance: str) -> tuple[Address, ...]:

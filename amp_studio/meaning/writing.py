@@ -15,7 +15,7 @@ from .description import AxisMeaning, MigrationQuestion
 
 GradeKind = Literal["exact", "approximate", "not_possible"]
 _STEP = Decimal("0.000001")
-_NUMBER = r"[0-9]+\.?[0-9]*|\.[0-9]+"
+NUMBER = r"[0-9]+\.?[0-9]*|\.[0-9]+"
 
 
 class TargetError(AmpStudioError, ValueError):
@@ -87,7 +87,7 @@ class WrittenMachine:
         """Return the number above 0 that a question is answered with, None where it is open;
         raises TargetError.
         """
-        found = self.answer(question, answers, _NUMBER)
+        found = self.answer(question, answers, NUMBER)
         if found and not float(found) > 0.0:
             raise TargetError(f"{question.id}: {quoted(found)} is not above 0. {question.question}")
         return float(found) if found else None

@@ -144,12 +144,14 @@ class Interpreter:
         pairs = self._letters_and_numbers(line)
         if not pairs:
             return
+        turns = self._modal.now.turns
         codes = self._modal.take(tuple([letter + number for letter, number in pairs if letter in "GM"]))
         for code in codes.selects:
             self._at.select(str(code.facts.does), code)
         words = self._numbers.read(pairs, codes)
+        waits = codes.waits or self._waits_for_speed(words.roles, turns=turns)
         self._keep_roles(words.roles, codes)
-        if codes.waits or (self._path.speed_waits and "spindle" in words.roles):
+        if waits:
             self._moves.rest(codes.pauses)
         if codes.zones is not None:
             self._switch_zones(codes.zones, words)
@@ -158,6 +160,11 @@ class Interpreter:
         elif words.axes or words.distances or words.centers:
             self._move(words, codes)
         self._over = codes.is_end
+
+    def _waits_for_speed(self, roles: dict[str, float], *, turns: bool) -> bool:
+        if "spindle" not in roles or not self._path.speed_waits:
+            return False
+        return self._path.speed_waits == "always" or (turns and roles["spindle"] != self._moves.speed)
 
     def _letters_and_numbers(self, line: str) -> Sequence[tuple[str, str]]:
         if _PLAIN.fullmatch(line):

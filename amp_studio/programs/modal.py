@@ -74,6 +74,8 @@ class ModalState:
     is_per_turn: bool
     to_initial: bool
     """Whether a cycle returns to its first level."""
+    turns: bool
+    """Whether the spindle turns."""
 
 
 @dataclass
@@ -144,14 +146,22 @@ class ModalCodes:
                 if known.group.key in groups:
                     raise BlockError(f"{each} and another code of the group {known.group.name}", "two-codes")
                 groups.add(known.group.key)
-                if known.facts.does == "wait-motion" and active.get(known.group.key) == code:
+                after = self._switched(active.get(known.group.key, ""), known, code)
+                if known.facts.does == "wait-motion" and active.get(known.group.key) == after:
                     continue  # what already is so is not switched
-                active[known.group.key] = code
+                active[known.group.key] = after
             codes.append(known)
         modal = self._state_of(active)
         self._refuse_motion_in_cycle(codes, modal)
         is_inch = self.now.is_inch if self._path.feed_first else modal.is_inch
         return BlockCodes(tuple(codes), modal, is_inch, _once(codes), **_effects(codes))
+
+    def _switched(self, before: str, known: KnownCode, code: str) -> str:
+        """Return what is active in the group of a code after it: several of those that add to each other."""
+        if not known.facts.adds:
+            return code
+        adding = {each for each in before.split() if self._reader.codes.known[each].facts.adds}
+        return " ".join(sorted({*adding, code}))
 
     def _simulated(self, code: str, written: str) -> KnownCode | None:
         """Return what a code is; None where it moves nothing, and a BlockError where it is not simulated."""
@@ -202,6 +212,7 @@ class ModalCodes:
             "inverse-time" in modes,
             "per-revolution" in modes,
             "level-r" not in does,
+            any(each.turns for each in facts),
         )
         return self._states[key]
 

@@ -23,7 +23,7 @@ class PathMoves:
         self.rows = RowsWriter(tuple(at.letters))
         self.line = 0
         """Of the program, from 1."""
-        self._feed, self._speed = 0.0, 0.0
+        self._feed, self.speed = 0.0, 0.0
         self._centers = "incremental_positive"
         if path.centers is not None:
             self._centers = str(file.evaluation.canonical((path.centers, "")) or "absolute")
@@ -37,7 +37,7 @@ class PathMoves:
             if feed <= 0.0:
                 raise BlockError(f"F{feed:g} is no feed: it must be above 0", "no-feed")
             self._feed = feed
-        self._speed = roles.get("spindle", self._speed)
+        self.speed = roles.get("spindle", self.speed)
 
     def round_corners(self, roles: dict[str, float]) -> None:
         """Round corners by the words of a block; without them as far as the control likes."""
@@ -76,9 +76,9 @@ class PathMoves:
         if not self._feed:
             raise BlockError("No feed is programmed, and the file has none", "no-feed")
         if modal.is_per_turn:
-            if not self._speed:
+            if not self.speed:
                 raise BlockError("A feed for a turn of the spindle, and no S before it", "no-spindle")
-            return self._feed * self._speed / 60.0
+            return self._feed * self.speed / 60.0
         return self._feed / 60.0
 
     def arc(

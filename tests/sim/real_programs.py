@@ -41,6 +41,11 @@ class RealProgram:
 SPINDLE = ("M3 S1000", "G1 X20 F1500", "X40", "M5", "X60", "G4 P0.5", "X80")
 
 
+def _with_dwells(count: int) -> tuple[str, ...]:
+    """Return moves of 2 mm with a dwell between each two: one behind the last would be in the time."""
+    return tuple(block for n in range(1, count + 1) for block in (f"G1 X{2 * n}", "G4 P0.1"))[:-1]
+
+
 def _arcs(count: int) -> tuple[str, ...]:
     """Return arcs of radius 2 to 10 mm one after the other, one to the left, one to the right."""
     lines, here, chance = ["F1500"], (0.0, 0.0), random.Random(1)
@@ -76,6 +81,14 @@ def _programs() -> list[RealProgram]:
         ("incremental", ("G91 F2500", *("G1 X2 Y1", "X2 Y-1") * 8), {"11": 0.002}),
         ("spindle", (*SPINDLE, "M3", "X100", "M8", "X120"), {"394": 0.5}),
         ("spindle-delays", SPINDLE, {"394": 1.5, "539": 1}),
+        ("new-speed", ("M3 S1000", "G1 X10 F1500", "X20 S2000", "X30 S2000", "X40 S1500", "X50"), {}),
+        (
+            "coolant",
+            ("F1500", "M7", "G1 X10", "M8", "X20", "M7", "X30", "M9", "X40", "M9", "X50"),
+            {"673": 0.5},
+        ),
+        ("stops", ("F1500", *_with_dwells(6)), {}),
+        ("many-stops", ("F2500", *(b for n in range(1, 21) for b in (f"G1 X{3 * n}", f"M{8 + n % 2}"))), {}),
         ("arcs", _arcs(10), {}),
         ("many-arcs", _arcs(40), {}),
         ("inverse-time", ("G93 G1 X20 F60", "X40 Y10 F90", "G94 X50 F1500"), {}),
@@ -104,12 +117,19 @@ MEASURED: dict[str, tuple[float, tuple[int, ...]]] = {
     "spindle": (6.0888, (30000, 0, 0)),
     "spindle-delays": (4.8549, (20000, 0, 0)),
     "arcs": (3.9386, (4811, 5221, 0)),
+    "new-speed": (2.1516, (12500, 0, 0)),
+    "coolant": (2.6560, (12500, 0, 0)),
+    "stops": (1.2786, (3000, 0, 0)),
+    "many-stops": (3.0373, (15000, 0, 0)),
     "many-arcs": (18.6494, (17073, -11385, 0)),
     "inverse-time": (2.1415, (12500, 2500, 0)),
 }
 """On 28 and 29 November 2026, core 1.1f build 20260817, at 0.03 or 0.06 of the true time: unpaced (-t 0)
 "many-arcs" took 18.94 s, likely because that clock runs on while the firmware computes. A pause before the first
-move is not in the time."""
+move is not in the time. "stops" took 1.3100 s at 0.2, 1.2835 at 0.06 and 1.2786 at 0.02 (here 1.2800): after a stop
+the simulator gives the firmware one character a pass of its main loop (mcu.c, simulate_serial), and a pass waits for
+the other thread. No row is written while the planner is empty (grbl_interface.c, print_steps), so a dwell behind the
+last move would be in the time."""
 
 
 def measured(program: RealProgram) -> tuple[float, tuple[int, ...]]:

@@ -18,6 +18,12 @@ from amp_studio.meaning import (
 LETTERS, _TURNING, _LEAST = "XYZABCUV", "ABC", 3
 _HOMING = 1 | 4 | 8 | 512
 """$22: on, needed at the start, home is zero, rates of each axis."""
+_WITHOUT_SWITCH = {
+    "marker": "homing to a marker without a switch",
+    "coded": "homing over distance-coded markers",
+    "absolute": "the position that is known without homing",
+}
+"""Way of homing -> what is lost; none of them is there, as only a switch ends a search (machine_limits.c)."""
 _OPEN_LOOP = (
     "steps are counted, and nothing is measured",
     "take a drive that reports its faults, and wire its alarm to the stop",
@@ -38,6 +44,9 @@ class _SettingsWriter:
 
     def written(self) -> WrittenMachine:
         """Return all of it."""
+        for question in self.machine.questions:
+            if question.is_number:
+                self.out.number(question, self.answers)
         places = [
             (axis, LETTERS.index(letter)) for axis in self.machine.axes if (letter := self._letter(axis))
         ]
@@ -45,6 +54,16 @@ class _SettingsWriter:
         for axis, place in places:
             self._axis(axis, place)
         self._spindle()
+        for concept in ("tool.radius", "tool.wear"):
+            self.out.graded.append(
+                Graded(
+                    "",
+                    concept,
+                    "not_possible",
+                    loses="the radii of tools: there is no cutter compensation",
+                    do="let the CAM system compensate",
+                )
+            )
         # $22 first: soft limits are refused without it (error:10), and the rates of each axis are there with
         # its bit 9 alone (error:53).
         order = sorted(self.values, key=lambda n: (n != 22, n))
@@ -73,20 +92,13 @@ class _SettingsWriter:
 
     def _homing(self, places: list[tuple[AxisMeaning, int]]) -> None:
         """Write what is for all axes that home: direction, order, and how far off the switch."""
-        homed = [
-            (axis, place)
-            for axis, place in places
-            if axis.number("home.search") or axis.number("home.towards")
-        ]
+        homed = [(axis, place) for axis, place in places if _is_homed(axis)]
         if not homed:
             self.out.less_safe.append("no axis is homed, and so there are no soft limits")
             return
-        self.values |= {22: str(_HOMING), 20: "1"}
-        minus = sum(
-            1 << place
-            for axis, place in homed
-            if (axis.number("home.search") or axis.number("home.towards") or 0.0) < 0.0
-        )
+        # With $40 a jog ends at the limit; without it the firmware refuses the jog, and all after it.
+        self.values |= {22: str(_HOMING), 20: "1", 40: "1"}
+        minus = sum(1 << place for axis, place in homed if _homes_to_minus(axis))
         self.values[23] = str(minus)
         steps = self.out.home_steps([LETTERS[place] for _, place in homed], self.answers)
         for at, step in enumerate(steps[:6]):
@@ -123,6 +135,8 @@ class _SettingsWriter:
         if rapid := axis.number("rapid"):
             self.values[110 + n] = _thousandth(rapid)
             self.out.grade(axis, "rapid", "exact", f"${110 + n}", self.values[110 + n])
+        else:
+            self.out.less_safe.append(f"{axis.letter}: no rapid speed is known; the firmware has its own")
         if ramp := axis.number("acceleration"):
             self.values[120 + n] = _thousandth(ramp)
             kind = axis.choice("ramp.kind") or "trapezoid"
@@ -183,34 +197,79 @@ class _SettingsWriter:
         return self._play_back
 
     def _travel(self, axis: AxisMeaning, n: int) -> None:
-        """Write and grade the travel of one axis, which the firmware counts from home."""
-        low, high, home = (axis.number(c) for c in ("travel.low", "travel.high", "home.coordinate"))
-        limits = axis.choice("travel.kind") == "limits" and low is not None and high is not None
-        key = f"${130 + n}"
-        if not limits or low is None or high is None:
+        """Write and grade the travel of one axis, which the firmware counts from home. It checks an axis that
+        is homed and has a travel above 0, and no other (settings.c, machine_limits.c).
+        """
+        kind, key, concepts = (
+            axis.choice("travel.kind"),
+            f"${130 + n}",
+            ("travel.kind", "travel.low", "travel.high"),
+        )
+        if kind in ("none", "modulo") and (axis.turns or not _is_homed(axis)):
             self.values[130 + n] = "0"
-            for concept in ("travel.kind", "travel.low", "travel.high"):
+            for concept in concepts:
                 self.out.grade(axis, concept, "exact", key, "0: no limit")
-            return
-        # The firmware knows only a length from home: home outside of the travel is taken as its nearer
-        # end.
-        at = min(max(home or 0.0, low), high)
-        minus = (axis.number("home.search") or axis.number("home.towards") or 0.0) < 0.0
-        self.values[130 + n] = _thousandth(high - at if minus else at - low)
-        old = f"from {low:g} to {high:g}"
+            if not axis.turns:
+                self.out.less_safe.append(f"{axis.letter}: no travel limits, as before")
+        elif not _is_homed(axis):
+            for concept in concepts:
+                self.out.grade(
+                    axis,
+                    concept,
+                    "not_possible",
+                    loses="the travel limits: the firmware checks only axes that are homed",
+                    do="fit a home switch, and limit switches ($21)",
+                )
+            self.out.less_safe.append(
+                f"{axis.letter}: no travel limits, as the firmware checks only axes that are homed"
+            )
+        elif way := _way_from_home(axis) or self._asked_way(axis, n):
+            self._limited(axis, n, way)
+
+    def _asked_way(self, axis: AxisMeaning, n: int) -> str:
+        """Return the way that only a person knows, "" while that is open. With 0 the firmware has no limit,
+        and homes an axis that goes straight without moving it.
+        """
+        sources = [
+            source
+            for concept in ("travel.kind", "travel.low", "travel.high")
+            if concept in axis.figures
+            for source in axis.figures[concept].sources
+        ]
+        question = MigrationQuestion(
+            f"travel.{axis.letter}",
+            f"How far may {axis.letter} go from where it is after homing, in {'deg' if axis.turns else 'mm'}"
+            f" (${130 + n})? The old file does not say, and with 0 there is no limit.",
+            tuple(dict.fromkeys(sources)),
+        )
+        number = self.out.number(question, self.answers)
+        return _thousandth(number) if number else ""
+
+    def _limited(self, axis: AxisMeaning, n: int, way: str) -> None:
+        self.values[130 + n] = way
+        low, high = axis.number("travel.low"), axis.number("travel.high")
+        old = (
+            f"from {low:g} to {high:g}"
+            if low is not None and high is not None
+            else "no limit at one end or both"
+        )
         new = (
-            f"{self.values[130 + n]} from home to the {'plus' if minus else 'minus'} side; what is beyond"
+            f"{way} from home to the {'plus' if _homes_to_minus(axis) else 'minus'} side; what is beyond"
             " home is lost, and home is 0"
         )
         for concept in ("travel.kind", "travel.low", "travel.high"):
-            self.out.grade(axis, concept, "approximate", key, self.values[130 + n], old, new, "the new one")
-        self.out.measure.append(
-            f"{axis.letter}: every machine coordinate (G53, G28, work offsets) moves by {-at:g}, because home"
-            " is 0"
-        )
+            self.out.grade(axis, concept, "approximate", f"${130 + n}", way, old, new, "the new one")
+        if (at := axis.number("home.coordinate")) != 0.0:
+            moves = "is to be found again" if at is None else f"moves by {-at:g}"
+            self.out.measure.append(
+                f"{axis.letter}: every machine coordinate (G53, G28, work offsets) {moves}, because home is 0"
+            )
 
     def _home(self, axis: AxisMeaning, n: int) -> None:
         """Write the rates of homing of one axis, and grade what becomes of its home position."""
+        if not _is_homed(axis):
+            self._not_homed(axis)
+            return
         search, leave = axis.number("home.search"), axis.number("home.leave")
         if search:
             # Homing never faster than the axis may go.
@@ -240,20 +299,48 @@ class _SettingsWriter:
                 "home is 0",
                 "neither: programs with G53 are to be changed",
             )
-        self.out.grade(
-            axis,
-            "home.kind",
-            "not_possible",
-            loses="the marker: home is where the switch is",
-            do="a switch that repeats to the accuracy of the work",
-        )
-        self.out.grade(
-            axis,
-            "home.second",
-            "not_possible",
-            loses="the place of G30",
-            do="go there after homing, and G30.1",
-        )
+        if axis.choice("home.kind") == "switch":
+            self.out.grade(
+                axis,
+                "home.kind",
+                "approximate",
+                "$22",
+                str(_HOMING),
+                "home is at the switch",
+                "home is off the switch by $27",
+                "neither",
+            )
+        else:
+            self.out.grade(
+                axis,
+                "home.kind",
+                "not_possible",
+                loses="the marker: home is where the switch is",
+                do="a switch that repeats to the accuracy of the work",
+            )
+        self._places(axis)
+
+    def _places(self, axis: AxisMeaning) -> None:
+        """Grade the places of an axis that are no settings."""
+        for concept, loses, do in (
+            ("home.first", "the place of G28", "go there after homing, and G28.1"),
+            ("home.second", "the place of G30", "go there after homing, and G30.1"),
+            ("work.offsets", "the work offsets", "G10 L2 P1 and on, each less the old coordinate of home"),
+        ):
+            self.out.grade(axis, concept, "not_possible", loses=loses, do=do)
+
+    def _not_homed(self, axis: AxisMeaning) -> None:
+        """Grade the homing of an axis that has no home switch, or whose homing is not known."""
+        for concept in axis.figures:
+            if concept.startswith("home.") and concept not in ("home.first", "home.second"):
+                self.out.grade(
+                    axis,
+                    concept,
+                    "not_possible",
+                    loses=_WITHOUT_SWITCH.get(axis.choice("home.kind"), "homing as it was"),
+                    do="fit a home switch, and set $22, $23 and $44",
+                )
+        self._places(axis)
 
     def _lost(self, axis: AxisMeaning) -> None:
         """Grade what a control without feedback has nothing for."""
@@ -330,6 +417,29 @@ class _SettingsWriter:
                     "neither",
                 )
             )
+
+
+def _is_homed(axis: AxisMeaning) -> bool:
+    """Return whether the firmware can home an axis: in a known direction, to a switch."""
+    return axis.choice("home.kind") not in (*_WITHOUT_SWITCH, "none") and bool(
+        axis.number("home.search") or axis.number("home.towards")
+    )
+
+
+def _homes_to_minus(axis: AxisMeaning) -> bool:
+    return (axis.number("home.search") or axis.number("home.towards") or 0.0) < 0.0
+
+
+def _way_from_home(axis: AxisMeaning) -> str:
+    """Return the length from home to the other end, "" where the old file does not say it or it is 0."""
+    low, high, home = (axis.number(c) for c in ("travel.low", "travel.high", "home.coordinate"))
+    far, near = (high, low) if _homes_to_minus(axis) else (low, high)
+    if axis.choice("travel.kind") != "limits" or far is None or home is None:
+        return ""
+    # The firmware knows only a length from home: home outside of the travel is taken as its nearer end.
+    ends = (far, home if near is None else near)
+    way = _thousandth(abs(far - min(max(home, min(ends)), max(ends))))
+    return "" if way == "0" else way
 
 
 def _thousandth(value: float, decimals: int = 3) -> str:

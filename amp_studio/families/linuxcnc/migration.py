@@ -22,9 +22,12 @@ from amp_studio.meaning import (
 )
 
 from .kinematics import LETTERS
+from .offsets import numbered_parameters, tool_table
 from .template import hal_template
 
 _TURNING = "ABC"
+_NOT_HOMED = ("", "none", "coded")
+_SIGNED = r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)"
 INSIDE = 0.01
 """mm or deg by which the place of home has to be inside the limits."""
 
@@ -73,7 +76,12 @@ class _Migration:
 
     def written(self) -> WrittenMachine:
         """Return all of it."""
-        asked = {q.id: self.out.answer(q, self.answers, "[+-]") for q in self.machine.questions}
+        asked = {}
+        for question in self.machine.questions:
+            if question.is_number:
+                self.out.number(question, self.answers)
+            else:
+                asked[question.id] = self.out.answer(question, self.answers, "[+-]")
         steps = self._home_order()
         self._programs()
         self._path()
@@ -84,8 +92,10 @@ class _Migration:
         texts = self.out.texts
         texts[f"{self.name}.ini"] = self.ini.text(self.machine.name or self.name)
         texts["machine.hal"] = hal_template([bool(axis.number("gain")) for axis in self.ordered])
-        texts[f"{self.name}.var"] = self._offsets()
-        texts["tool.tbl"] = ""
+        texts[f"{self.name}.var"] = numbered_parameters(
+            ((a, self.letters[a.instance]) for a in self.ordered), self.out
+        )
+        texts["tool.tbl"] = tool_table(self.machine, self.out)
         return self.out
 
     # -- the whole machine
@@ -108,7 +118,10 @@ class _Migration:
 
     def _home_order(self) -> dict[str, int]:
         """Return letter -> step of Home All; empty where it was not answered."""
-        steps = self.out.home_steps([self.letters[a.instance] for a in self.ordered], self.answers)
+        homed = [a for a in self.ordered if a.choice("home.kind") not in _NOT_HOMED]
+        if not homed:
+            return {}
+        steps = self.out.home_steps([self.letters[a.instance] for a in homed], self.answers)
         return {letter: n for n, step in enumerate(steps) for letter in step}
 
     def _programs(self) -> None:
@@ -241,24 +254,6 @@ class _Migration:
             )
         )
 
-    def _offsets(self) -> str:
-        """Return the numbered parameters: G28 (5161) and G30 (5181) in machine coordinates."""
-        rows = {
-            number: 0.0
-            for base in (5161, 5181, 5211, 5221, 5241, 5261, 5281, 5301, 5321, 5341, 5361, 5381)
-            for number in range(base, base + 9)
-        }
-        rows |= {5210: 0.0, 5220: 1.0}
-        for axis in self.ordered:
-            place = LETTERS.index(self.letters[axis.instance])
-            for concept, base, word in (("home.coordinate", 5161, "G28"), ("home.second", 5181, "G30")):
-                value = axis.number(concept)
-                if value is not None:
-                    rows[base + place] = value
-                    if concept == "home.second":
-                        self.out.grade(axis, concept, "exact", f"#{base + place}", f"{value:.6f}", word)
-        return "".join(f"{number}\t{value:.6f}\n" for number, value in sorted(rows.items()))
-
     # -- one axis
     # ------------------------------------------------------------------------------------------------------
 
@@ -285,7 +280,8 @@ class _Migration:
             )
         self.out.measure.append(
             f"{axis.letter}: direction and scale of the feedback against a gauge, the way it needs to stop at"
-            " each end, backlash"
+            " each end, backlash, and the sign of the output to its drive (OUTPUT_SCALE): that of the old"
+            " file is for the old card and its wires"
         )
 
     def _travel(self, axis: AxisMeaning, j: str, a: str) -> None:
@@ -309,7 +305,7 @@ class _Migration:
             "written" if kind == "limits" else "left out",
         )
         self._less_travel(axis, kind)
-        if (axis.turns and axis.number("rollover")) or kind == "modulo":
+        if axis.turns and (axis.number("rollover") or kind == "modulo"):
             self.ini.put(a, "WRAPPED_ROTARY", "1", self._of(axis, "rollover", "approximate"))
             self.out.grade(
                 axis,
@@ -431,19 +427,24 @@ class _Migration:
         towards = axis.number("home.towards")
         if search is None and towards is not None:
             search, leave = self._asked_speed(axis, towards)
-        self._home_place(axis, j)
-        if kind in ("", "none", "coded"):
-            self.out.grade(
-                axis,
-                "home.kind",
-                "not_possible",
-                loses="homing as it was",
-                do="choose a way of homing at the new control",
-            )
-            self.out.measure.append(
-                f"{axis.letter}: how it homes; Home All leaves it out until then, and no program runs before"
-                " every joint is homed"
-            )
+        if kind == "absolute":
+            for concept in ("home.coordinate", "home.offset"):
+                self.out.grade(
+                    axis,
+                    concept,
+                    "not_possible",
+                    loses="the place where the old control took the position over: it kept it in its memory",
+                    do="measure what the encoder reports where the old control shows 0",
+                )
+        else:
+            self._home_place(axis, j)
+        if kind in _NOT_HOMED:
+            self._not_homed(axis, kind)
+            return
+        if step is not None:
+            self.ini.put(j, "HOME_SEQUENCE", str(step), "answered")
+        if kind == "absolute":
+            self._absolute(axis, j)
             return
         if search is not None and leave is not None:
             self._home_speeds(axis, j, search, leave, alone=kind == "marker")
@@ -477,8 +478,40 @@ class _Migration:
             "the next marker in the direction of the latch",
             "neither: measure the distance from the switch to the marker",
         )
-        if step is not None:
-            self.ini.put(j, "HOME_SEQUENCE", str(step), "answered")
+
+    def _not_homed(self, axis: AxisMeaning, kind: str) -> None:
+        """Grade the homing of an axis that LinuxCNC cannot home as the old control did."""
+        loses, do = "homing as it was", "choose a way of homing at the new control"
+        if kind == "coded":
+            loses = "homing over distance-coded markers"
+            do = "a home switch, or a card that reads the coded markers and gives the position"
+        for concept in ("home.kind", "home.search", "home.leave", "home.towards"):
+            self.out.grade(axis, concept, "not_possible", loses=loses, do=do)
+        self.out.measure.append(
+            f"{axis.letter}: how it homes; Home All leaves it out until then, and no program runs before"
+            " every joint is homed"
+        )
+
+    def _absolute(self, axis: AxisMeaning, j: str) -> None:
+        """Write and grade an axis whose encoder knows its position: what it reports at zero is in no file."""
+        question = MigrationQuestion(
+            f"home.encoder.{axis.letter}",
+            f"Which position does the encoder of {axis.letter} report at the new card where the old control"
+            f" shows 0, in {'deg' if axis.turns else 'mm'}?",
+        )
+        found = self.out.answer(question, self.answers, _SIGNED)
+        if found:
+            self.ini.put(j, "HOME_ABSOLUTE_ENCODER", "2", self._of(axis, "home.kind", "exact"))
+            self.ini.put(j, "HOME_OFFSET", inwards_high(0.0 - float(found)), "answered")
+        self.out.grade(
+            axis,
+            "home.kind",
+            "exact",
+            f"[{j}]HOME_ABSOLUTE_ENCODER",
+            "2" if found else "left out until answered",
+        )
+        for concept in ("home.search", "home.leave", "home.towards"):
+            self.out.grade(axis, concept, "exact", f"[{j}]HOME_SEARCH_VEL", "left out: nothing moves")
 
     def _asked_speed(self, axis: AxisMeaning, towards: float) -> tuple[float | None, float | None]:
         unit = "deg/min" if axis.turns else "mm/min"

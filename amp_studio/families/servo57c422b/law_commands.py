@@ -180,15 +180,13 @@ def run_gear(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
         {
             "gear_ratio": (sign * ratio, ""),
             "speed": (sign * ratio * speed * 60.0, "counts/min"),
-            **({"lost_in_ramp": (lost, "counts")} if ramped else {}),
+            "lost_in_ramp": (lost, "counts"),
         },
         (
             "With ramp velocity control the axis comes to the speed of its master and what it lost in the"
             " ramp stays lost: the manual has no word of catching up (page 4-21)."
             if ramped
-            else "Without ramp velocity control the axis accelerates in current limit (page 4-24): its"
-            f" velocity error is at first the speed of its master, {abs(ratio) * speed * SCAN:g} counts a"
-            " scan."
+            else "Without ramp velocity control the axis accelerates in current limit (page 4-24)."
         ),
         rest=-SCAN,  # the master runs on
     )
@@ -335,13 +333,12 @@ def _run(
     motion = run_axis(axis, profile, Until(end + rest))
     columns = motion.columns
     peak = float(np.abs(columns["following_error"][:: motion.rows_per_servo_period]).max())
-    alarms = alarms_of(axis, motion)
     result: dict[str, Figure] = {
         **figures,
-        "time": (None if alarms else end, "s"),
+        "time": (end, "s"),
         "peak_following_error": (peak, "counts"),
         "peak_output": (float(np.abs(columns["output"]).max()), "V"),
-        "stop_position": (None if alarms else float(columns["position"][-1]), "counts"),
+        "stop_position": (float(columns["position"][-1]), "counts"),
     }
     return Trace(
         scenario=scenario,
@@ -350,7 +347,7 @@ def _run(
         columns=per_minute(columns),
         units=column_units(axis),
         result=result,
-        alarms=alarms,
+        alarms=alarms_of(axis, motion),
         recommendations=(),
         assumptions=(assumption, *assumptions(axis)),
         limits={name: (level, axis.unit) for name, level in axis.limits.items()},

@@ -200,6 +200,10 @@ class ProgramCode(Model):
     """None: a program that has it is refused with its name."""
     pause: ParameterId | None = None
     """How long the axes then rest, for a code that waits for the moves before it."""
+    adds: bool = False
+    """Whether it leaves on what another code of its group has switched on in this way."""
+    turns: bool = False
+    """Whether the spindle turns from it on."""
     zones: tuple[str, ...] = ()
     """Numbers of the zones that are on from this code of ``zones`` on; those it does not name are off."""
     assumed: str = ""
@@ -302,8 +306,9 @@ class ProgramPath(Model):
     """A block that the control runs when it starts."""
     feed_first: bool = False
     """Whether a feed in a block that changes the unit of length is read in the unit before it."""
-    speed_waits: bool = False
-    """Whether a spindle speed waits until the moves before it have ended."""
+    speed_waits: Literal["", "always", "turning"] = ""
+    """When a spindle speed waits until the moves before it have ended: with each S, or with another one
+    while the spindle turns."""
     dwell_step: float = 0.0
     """s in which the control counts dwells and pauses, up to the next whole one; 0 where it has none."""
     arcs_by_radius: bool = False

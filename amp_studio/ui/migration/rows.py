@@ -63,11 +63,15 @@ def meanings() -> dict[str, str]:
         "home.search": tr("speed towards the home switch"),
         "home.leave": tr("speed off the home switch"),
         "home.towards": tr("direction of homing"),
+        "home.first": tr("reference position"),
         "home.second": tr("second home position"),
+        "work.offsets": tr("work offsets"),
         "feed.ceiling": tr("greatest feedrate"),
         "jog": tr("jog speed"),
         "spindle.greatest": tr("greatest spindle speed"),
         "spindle.least": tr("least spindle speed"),
+        "tool.radius": tr("tool radii"),
+        "tool.wear": tr("wear of the tools"),
         "startup": tr("codes active after power-up"),
     }
 

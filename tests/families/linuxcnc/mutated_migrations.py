@@ -30,7 +30,7 @@ from .test_real_program import USER, has_user
 NO_LIMIT = 1e99
 SECONDS = 150
 """Until it is homed: a Syntec has no acceleration that is known, and LinuxCNC takes 1 mm/s2."""
-ANSWERS = (("feedback.sign.", "+"), ("home.speed.", "600"))
+ANSWERS = (("feedback.sign.", "+"), ("home.speed.", "600"), ("home.encoder.", "120.5"), ("counts.", "4000"))
 """To every question whose id begins so; the axes home one after the other."""
 ENDS = {
     "mill-1394": "++++",
@@ -39,6 +39,7 @@ ENDS = {
     "syntec-mill": "----",
     "acromill-router": "+++",
     "grblhal-router": "--+",
+    "57c422b-label-press": "..",
 }
 """Example -> the end at which the home switch of each joint is in the old file, "." without one: 1010 (page 5-15),
 P15 (7-8), Pr861 (2.2.2.3), the direction of AcroMill (65) and $23 (S2427). Never read from what was written."""
@@ -62,6 +63,8 @@ class Mutation:
     """What the encoder of the first joint counts in a unit, with its sign; 0 for none between motor and loop."""
     answers: dict[str, str] = field(default_factory=dict)
     homes: bool = True
+    compared: int = 16
+    """How many values of the file the program has to use at least."""
     refused: bool = False
 
 
@@ -167,7 +170,64 @@ def _of_others() -> Iterator[Mutation]:
     yield Mutation(grbl, "travel", {"$130": "500 mm"})
 
 
-MUTATIONS = (*_of_9pc(), *_of_others())
+def _of_57c422b() -> Iterator[Mutation]:
+    """Home, rapid and ramp are in no register whose meaning is known: nothing homes, and LinuxCNC has its own."""
+    press, linear = "57c422b-label-press", {"R0": "0x0404", "R11": "400000", "R13": "-40000", "R8": "8000"}
+    none = {**_limits(-NO_LIMIT, NO_LIMIT), "ini.0.max_velocity": 1.0, "ini.0.home_sequence": 999.0}
+    yield Mutation(press, "as it is", {}, none, homes=False, compared=8)
+    found = {**_limits(-10.0, 100.0), "ini.0.ferror": 2.0, "ini.0.min_ferror": 2.0}
+    yield Mutation(press, "linear", linear, found, homes=False, compared=12)
+    yield Mutation(
+        press,
+        "limits",
+        linear | {"R11": "-4", "R13": "-399999"},
+        _limits(-99.99975, -0.001),
+        homes=False,
+        compared=12,
+    )
+    inch = {"counts.X": "101600"}
+    found = {**_limits(-0.393700, 3.937007), "ini.0.ferror": 0.07874}
+    yield Mutation(press, "other counts", linear, found, answers=inch, homes=False, compared=12)
+    yield Mutation(
+        press, "minus homing", linear | {"R2": "0x0118"}, {"ini.0.home": 0.0}, homes=False, compared=12
+    )
+    yield Mutation(press, "gain 2", linear | {"R3": "32767"}, {"pid.0.Pgain": 50.0}, homes=False, compared=12)
+    yield Mutation(
+        press, "no overtravel", linear | {"R2": "0x001C"}, _limits(-10.0, 100.0), homes=False, compared=12
+    )
+    crossed = linear | {"R11": "-40000", "R13": "40000"}
+    yield Mutation(press, "crossed limits", crossed, _limits(-NO_LIMIT, NO_LIMIT), homes=False, compared=8)
+    minus = {"feedback.sign.X": "-"}
+    yield Mutation(
+        press, "encoder that counts back", linear, counts=-4000.0, answers=minus, homes=False, compared=12
+    )
+    yield Mutation(
+        press, "turned drive", linear | {"R1": "0x0000"}, _limits(-10.0, 100.0), homes=False, compared=12
+    )
+
+
+def _of_ways_home() -> Iterator[Mutation]:
+    """Scales and encoders that are homed without a switch, or not at all."""
+    mill, lathe, num, syntec = "mill-1394", "lathe-ls176", "num-1060-mill", "syntec-mill"
+    offset = {"ini.0.home_offset": -120.5}
+    yield Mutation(mill, "absolute", {"1570": "hiperface-absolute"}, offset, ends=".+++")
+    yield Mutation(mill, "no marker", {"1570": "aqb-no-marker"}, {"ini.0.home_sequence": 999.0}, homes=False)
+    yield Mutation(mill, "distance-coded", {"1570": "dcm"}, {"ini.0.home_sequence": 999.0}, homes=False)
+    yield Mutation(lathe, "one marker", {"1570": "aqb-one-marker"}, {"ini.0.home": 150.0}, homes=False)
+    yield Mutation(
+        num,
+        "absolute",
+        {"P34N0": "0x02000000"},
+        {"ini.0.home_offset": 120.5},
+        ".-+.",
+        answers={"home.encoder.X": "-120.5"},
+    )
+    yield Mutation(num, "coded", {"P34N0": "0x06000000"}, {"ini.0.home_sequence": 999.0}, homes=False)
+    yield Mutation(syntec, "index only", {"Pr961": "index-only"}, {"ini.0.home": 0.0}, ends=".---")
+    yield Mutation(syntec, "dog only", {"Pr961": "dog-only"}, {"ini.0.home": 0.0}, zero=0.0)
+
+
+MUTATIONS = (*_of_9pc(), *_of_others(), *_of_57c422b(), *_of_ways_home())
 SCREEN = '''#!/usr/bin/python3
 """Has written what the running program uses, homes all joints, and has written where they are."""
 import pathlib, subprocess, time
@@ -186,7 +246,7 @@ command.teleop_enable(0); command.wait_complete()
 command.home(-1)
 for _ in range({seconds} * 10):
     status.poll()
-    if all(status.homed[:status.joints]):
+    if all(status.homed[n] for n in {joints}):
         break
     time.sleep(0.1)
 time.sleep(1.0)
@@ -253,7 +313,11 @@ def faults(mutation: Mutation) -> Iterator[str]:
             own = with_machine(text, ends, mutation.counts) if each == "machine.hal" else text
             own = re.sub(r"(?m)^DISPLAY *=.*$", "DISPLAY = ./screen.py", own) if each == name else own
             (folder / each).write_text(own)
-        (folder / "screen.py").write_text(SCREEN.format(seconds=SECONDS if mutation.homes else 0))
+        written = import_file(folder / name, "linuxcnc")
+        joints = [n for n in range(len(ends)) if is_homed(written, n)]
+        (folder / "screen.py").write_text(
+            SCREEN.format(seconds=SECONDS if mutation.homes else 0, joints=joints)
+        )
         (folder / "screen.py").chmod(0o755)
         for place in (*folder.iterdir(), folder):
             shutil.chown(place, USER)
@@ -265,7 +329,6 @@ def faults(mutation: Mutation) -> Iterator[str]:
         if not (folder / "pins.txt").exists():
             yield f"it did not start: {(folder / 'log').read_text()[-600:]}"
             return
-        written = import_file(folder / name, "linuxcnc")
         yield from _pins(mutation, written, pins_of((folder / "pins.txt").read_text()))
         if not (folder / "homed.txt").exists():
             yield "it ended before it was homed"
@@ -280,7 +343,7 @@ def _pins(mutation: Mutation, written: ParameterFile, listed: dict[str, str]) ->
     for address, in_use in used.items():
         if in_use != written.get(address):
             yield f"{address[0]}@{address[1]}: the file has {written.get(address)}, the program uses {in_use}"
-    if len(used) < 16:
+    if len(used) < mutation.compared:
         yield f"only {len(used)} values were compared"
     for pin, value in mutation.pins.items():
         found = float(listed.get(pin, "nan"))
@@ -288,11 +351,21 @@ def _pins(mutation: Mutation, written: ParameterFile, listed: dict[str, str]) ->
             yield f"{pin} is {found:.9g}, and the old file means {value:.9g}"
 
 
+def is_homed(written: ParameterFile, joint: int) -> bool:
+    """Return whether Home All homes a joint."""
+    return written.get(("joint.home_sequence", str(joint))) is not None
+
+
 def _homes(mutation: Mutation, written: ParameterFile, listed: dict[str, str], ends: str) -> Iterator[str]:
     for n in range(len(ends)):
-        home = written.evaluation.canonical(("joint.home", str(n)))
+        absolute = written.get(("joint.home_absolute_encoder", str(n)))
+        known = "joint.home_offset" if absolute else "joint.home"  # an encoder that knows its place is 0 here
+        home = written.evaluation.canonical((known, str(n)))
         place = float(listed[f"joint.{n}.pos-fb"])
-        if listed[f"joint.{n}.homed"] != "TRUE":
+        if not is_homed(written, n):
+            if listed[f"joint.{n}.homed"] == "TRUE":
+                yield f"joint {n} is homed, and nothing says how"
+        elif listed[f"joint.{n}.homed"] != "TRUE":
             yield f"joint {n} is not homed after {SECONDS} s, at {place:.6g}"
         elif abs(place - float(home or 0.0)) > 0.05:
             yield f"joint {n} is homed at {place:.6g}, not {home}"

@@ -146,7 +146,7 @@ def test_a_change_of_direction_may_cost_nothing() -> None:
 def test_a_spindle_or_coolant_waits_until_the_moves_before_it_have_ended(
     mill: ParameterFile, word: str
 ) -> None:
-    """Measured with two public programs: within 0.3 % of the real time, 2.5 and 12 % off without it (E1552)."""
+    """Measured with two public programs: within 0.3 % of the real time, 2.5 and 12 % off without it (E1547)."""
     job = ProgramJob(
         ["G64 F900", "G1 X-20", word, "Y-20"], [0.0] * 3, dict.fromkeys("XYZ", 0.0), with_contour=False
     )
