@@ -93,7 +93,17 @@ if TYPE_CHECKING:
         secret_values,
         without_secrets,
     )
-    from .paths import ENDING, RECORD, backup_path, history_path, is_there, real_path, same_file, text_of_name
+    from .paths import (
+        ENDING,
+        RECORD,
+        backup_path,
+        history_path,
+        is_there,
+        is_write_protected,
+        real_path,
+        same_file,
+        text_of_name,
+    )
     from .project import Project, ProjectInfo
     from .range_decisions import RangeDecision, keep, out_of_range, settle
     from .reading import (

@@ -122,7 +122,7 @@ def _with(notes: Mapping[str, str], key: str, text: str) -> dict[str, str]:
 def note_fault(text: str) -> str:
     """Return why a text can be no note; empty where it can."""
     if len(text) > LONGEST_NOTE:
-        return f"the note has {len(text):,} characters, and {LONGEST_NOTE:,} are the most"
+        return f"the note has {len(text)} characters, and {LONGEST_NOTE} are the most"
     if odd := _UNWRITABLE.search(text):
         return f"the note contains the character U+{ord(odd[0]):04X}, which no file can contain"
     return ""

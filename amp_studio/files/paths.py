@@ -64,9 +64,15 @@ def destination(path: Path) -> Path:
             raise OSError(errno.ENOENT, "Is a link to a file that does not exist", str(path)) from None
         return real
     demand_file(found)
-    if not os.access(real, os.W_OK, effective_ids=os.access in os.supports_effective_ids):
+    if is_write_protected(real):
         raise OSError(errno.EACCES, "Is write-protected", str(path))
     return real
+
+
+def is_write_protected(path: Path) -> bool:
+    """Return whether a file that is there must not be written to."""
+    may = os.access(path, os.W_OK, effective_ids=os.access in os.supports_effective_ids)
+    return not may and os.path.lexists(path)
 
 
 def same_file(a: Path, b: Path) -> bool:

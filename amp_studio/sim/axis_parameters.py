@@ -6,7 +6,7 @@ canonical unit of its quantity, a choice as its key, yes/no as a bool, None if i
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 from amp_studio.schema import Address, Table
 
@@ -85,11 +85,34 @@ class AxisParameters:
         figure = self.number(parameter, everywhere=everywhere)
         if not least <= figure <= most:
             raise SimulationError(
-                f"{self._name(self._address(parameter, everywhere=everywhere))} of axis {self.axis} is"
+                f"{self.called(parameter, everywhere=everywhere)} of axis {self.axis} is"
                 f" {figure:g}; it can be simulated from {least:g} to {most:g}",
                 parameter,
             )
         return figure
+
+    def above_zero(self, parameter: str, most: float = 1e9) -> float:
+        """Return a number above 0, ``most`` at most; raises SimulationError for another one."""
+        figure = self.number(parameter)
+        if figure <= 0.0:
+            raise SimulationError(
+                f"{self.called(parameter)} of axis {self.axis} is {figure:g}; it must be above 0", parameter
+            )
+        return self.within(parameter, 0.0, most)
+
+    def require(self, addresses: Iterable[Address]) -> None:
+        """Raise one SimulationError with all of these parameters that are not set."""
+        missing = [address for address in addresses if self.value(address[0], at=address[1]) is None]
+        if missing:
+            raise SimulationError(
+                f"The simulation of axis {self.axis} needs values that are not set:"
+                f" {', '.join(map(self._name, missing))}",
+                missing[0][0],
+            )
+
+    def called(self, parameter: str, *, everywhere: bool = False, at: str | None = None) -> str:
+        """Return what a sentence calls a parameter: its number and name; a setting keeps its id."""
+        return self._name(self._address(parameter, everywhere=everywhere, at=at))
 
     def choice(self, parameter: str, *, everywhere: bool = False) -> str:
         """Return the key of a choice; raises SimulationError if it is not set."""
@@ -116,10 +139,12 @@ class AxisParameters:
         for parameter in self._overrides:
             if parameter not in self._used:
                 raise SimulationError(
-                    f"{parameter} is not used in the simulation of axis {self.axis}", parameter
+                    f"{self.called(parameter)} is not used in the simulation of axis {self.axis}", parameter
                 )
 
     def _float(self, parameter: str, figure: ParameterValue) -> float:
         if isinstance(figure, (bool, str)) or figure is None:
-            raise SimulationError(f"{parameter} of axis {self.axis} is {figure!r}, not a number", parameter)
+            raise SimulationError(
+                f"{self.called(parameter)} of axis {self.axis} is {figure!r}, not a number", parameter
+            )
         return float(figure)

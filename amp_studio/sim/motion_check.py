@@ -164,7 +164,7 @@ def _verdict(trace: Trace) -> tuple[Verdict, str]:
     """Return what a trace shows, and why it is not good."""
     alarms = trace.alarms
     if trace.scenario == "travel":  # the alarm of the limit is what the check asks for
-        if trace.result.get("stop_position", (None, ""))[0] is None:
+        if trace.result.get("stop_position", (0.0, ""))[0] is None:
             return "bad", "The axis does not come to rest behind the limit"
         alarms = alarms[:-1]
     if alarms:

@@ -86,6 +86,10 @@ def test_an_option_that_the_control_was_not_ordered_with_is_refused(amp) -> None
     listening = ("--listen", "tcp://127.0.0.1:0")
     assert "has no options" in amp("emulate", "num", *listening, "--option", "axes=3").err
     assert amp("emulate", "9pc", *listening, "--option", "axes=many").code == 2
+    assert "Unknown option 'axes'" in amp("emulate", "grblhal", *listening, "--option", "axes=3").err
+    card = ("--listen", "tcp://127.0.0.1:0?protocol=terminal")
+    assert "Known: file" in amp("emulate", "acromill", *card, "--option", "axes=3").err
+    assert "nix.amp" in amp("emulate", "acromill", *card, "--option", "file=nix.amp").err
     assert "'axes' is not NAME=VALUE" in amp("emulate", "9pc", *listening, "--option", "axes").err
     assert "'5' is not NAME=VALUE" in amp("calculate", "9pc", "gain_break_point", "5").err
 

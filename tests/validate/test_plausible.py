@@ -290,6 +290,8 @@ def test_a_time_cam_that_turns_back_in_a_single_step_is_asked_about() -> None:
         ("grblhal-router", ("axis.acceleration", "Z"), Value(20000.0, "mm/s2"), "plausible.quotient"),
         ("grblhal-router", ("axis.steps", "Y"), Value(320.0, "steps/mm"), "plausible.table"),
         ("grblhal-router", ("axis.max_travel", "Y"), Value(40.0, "mm"), "plausible.travel"),
+        ("grblhal-router", ("axis.max_travel", "Y"), Value(78.0, "mm"), "plausible.travel"),
+        ("grblhal-router", ("general.junction_deviation", ""), Value(0.1, "mm"), "plausible.usual"),
         ("grblhal-router", ("spindle.min_speed", ""), Value(600.0, "rpm"), "plausible.proportion"),
         ("grblhal-router", ("general.arc_tolerance", ""), Value(0.02, "mm"), "plausible.seldom"),
         ("num-1060-mill", ("travel.limit_min", "0"), Value(-25400, "iu"), "plausible.travel"),
@@ -350,7 +352,7 @@ def test_homing_and_jogging_above_rapid_are_asked_about(name: str, address: Addr
 @pytest.mark.parametrize(
     "settings",
     [
-        {("axis.max_travel", "X"): Value(6000.0, "mm"), ("axis.max_travel", "Y"): Value(400.0, "mm")},
+        {("axis.max_travel", "X"): Value(6200.0, "mm"), ("axis.max_travel", "Y"): Value(1400.0, "mm")},
         {("axis.acceleration", "Y"): Value(250.0, "mm/s2")},
         {("axis.max_rate", "X"): Value(12000.0, "mm/min")},
         {("general.mode", ""): Value("laser_mode")},

@@ -92,9 +92,8 @@ def bind(read: AxisParameters) -> AxisLaw:
     p[loop.EXCESS] = excess * pulses
     if excess <= 0.0:
         notes.append(
-            f"{ids.excess_error_band} is 0, so every error would be too large (page 60): simulated without"
-            " this limit."
-            " Set it."
+            f"{read.called(ids.excess_error_band)} is 0, so every error would be too large (page 60):"
+            " simulated without this limit. Set it."
         )
     machine = Machine(
         acceleration_per_output=plant.ACCELERATION / pulses,
@@ -174,8 +173,8 @@ def _parameters(read: AxisParameters, pulses: float, period: float, notes: list[
         p[place] = read.within(parameter, -_LARGEST_GAIN, _LARGEST_GAIN)
     if abs(p[loop.P_GAIN]) < _SMALLEST_GAIN:
         raise SimulationError(
-            f"{ids.p_gain} of axis {read.axis} is {p[loop.P_GAIN]:g}: the loop is open and the axis would not"
-            " follow (page 115)",
+            f"{read.called(ids.p_gain)} of axis {read.axis} is {p[loop.P_GAIN]:g}: the loop is open and"
+            " the axis would not follow (page 115)",
             ids.p_gain,
         )
     p[loop.PULSES], p[loop.PERIOD] = pulses, period
@@ -198,8 +197,8 @@ def _dac_share(read: AxisParameters) -> float:
     gain = read.number(ids.dac_gain)
     if not 1.0 <= abs(gain) <= 1e6:
         raise SimulationError(
-            f"{ids.dac_gain} of axis {read.axis} is {gain:g}: the output has no use. 3276.8 is normal (page"
-            " 114)",
+            f"{read.called(ids.dac_gain)} of axis {read.axis} is {gain:g}: the output has no use. 3276.8"
+            " is normal (page 114)",
             ids.dac_gain,
         )
     return abs(gain) / NORMAL_DAC_GAIN

@@ -20,13 +20,6 @@ NOTES = (
 )
 
 
-def _above_zero(read: AxisParameters, name: str) -> float:
-    value = read.number(name)
-    if not value > 0.0:
-        raise SimulationError(f"{name} of axis {read.axis} is {value:g}; it must be above 0", name)
-    return value
-
-
 def homing(read: AxisParameters, pulses: float) -> Homing:
     """Return the sequence; ``pulses`` for 1 u."""
     sign = -1.0 if read.choice(ids.home_direction) == "neg" else 1.0
@@ -36,13 +29,13 @@ def homing(read: AxisParameters, pulses: float) -> Homing:
             f"Axis {read.axis} is not homed: its Home Priority is 0 (page 65)", ids.home_priority
         )
     return Homing(
-        approach=sign * _above_zero(read, ids.fast_speed) / 60.0,
-        leave=-sign * _above_zero(read, ids.slow_speed) / 60.0,
+        approach=sign * read.above_zero(ids.fast_speed) / 60.0,
+        leave=-sign * read.above_zero(ids.slow_speed) / 60.0,
         marker="next",
         turn=MOTION.value("pulses_per_turn") / pulses,
         coordinate=read.optional(ids.home_preset) or 0.0,
-        search=_above_zero(read, ids.marker_speed) / 60.0,
-        ramp=Ramp("linear", _above_zero(read, ids.home_acceleration), _above_zero(read, ids.home_stop)),
+        search=read.above_zero(ids.marker_speed) / 60.0,
+        ramp=Ramp("linear", read.above_zero(ids.home_acceleration), read.above_zero(ids.home_stop)),
         order=priority,
         page="65",
         notes=NOTES,
@@ -51,9 +44,9 @@ def homing(read: AxisParameters, pulses: float) -> Homing:
 
 def jogging(read: AxisParameters) -> Jogging:
     """Return the jog speeds and increments (page 67)."""
-    speeds = {name: _above_zero(read, ids[f"jog_{name}"]) / 60.0 for name in ("feedrate", "rapid")}
+    speeds = {name: read.above_zero(ids[f"jog_{name}"]) / 60.0 for name in ("feedrate", "rapid")}
     increments = {str(n): read.optional(ids[f"jog_increment_{n}"]) or 0.0 for n in range(1, 6)}
-    ramp = Ramp("linear", _above_zero(read, ids.jog_acceleration), _above_zero(read, ids.jog_deceleration))
+    ramp = Ramp("linear", read.above_zero(ids.jog_acceleration), read.above_zero(ids.jog_deceleration))
     return Jogging(speeds, {name: way for name, way in increments.items() if way}, ramp=ramp, page="67")
 
 

@@ -18,13 +18,9 @@ def machine_tests(machine: BoundMachine, _axis: AxisLaw) -> list[MachineTest]:
     bits = [FIRST + STEP * "XYZABCUV".index(name) for name in machine.fitted]
     pulses = {name: machine.read(name).optional(ids.pulses_per_unit) for name in machine.fitted}
     if missing := [name for name, figure in pulses.items() if not figure]:
+        called = machine.parameters.called(ids.pulses_per_unit)
         return [
-            MachineTest(
-                "excess-error",
-                title,
-                page,
-                refusal=f"{ids.pulses_per_unit} of {', '.join(missing)} is not set.",
-            )
+            MachineTest("excess-error", title, page, refusal=f"{called} of {', '.join(missing)} is not set.")
         ]
     unit = 1.0 if machine.parameters.value(ids.default_units, everywhere=True) == "metric" else 25.4
     # The guide sets 4 units at 4096 pulses; three turns of its motor are 3 units.

@@ -78,7 +78,7 @@ def axes(file: ParameterFile) -> Sequence[str]:
 def bind(read: AxisParameters) -> AxisLaw:
     """Return one axis; raises SimulationError naming the setting that is missing or impossible."""
     steps, rate, acceleration = (
-        _above(read, name) for name in (ids.axis_steps, ids.max_rate, ids.axis_acceleration)
+        read.above_zero(name) for name in (ids.axis_steps, ids.max_rate, ids.axis_acceleration)
     )
     unit = "deg" if _bit(read, ids.rotary_axes, MOTION.axes.index(read.axis) - 3) else "mm"
     ramp = Ramp("linear", acceleration=acceleration)
@@ -115,13 +115,6 @@ def bind(read: AxisParameters) -> AxisLaw:
         ),
         travel=partial(travel, read),
     )
-
-
-def _above(read: AxisParameters, name: str) -> float:
-    value = read.number(name)
-    if not (0.0 < value < 1e9):
-        raise SimulationError(f"{name} of axis {read.axis} is {value:g}; it must be above 0", name)
-    return value
 
 
 def _bit(read: AxisParameters, name: str, bit: int) -> bool:

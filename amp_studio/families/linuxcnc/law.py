@@ -86,6 +86,10 @@ class _Joint:
         found = self.optional(parameter)
         return otherwise if found is None else found
 
+    def called(self, parameter: str) -> str:
+        """Return what a sentence calls a parameter."""
+        return self.read.called(ids[f"joint_{parameter}"], at=self.instance)
+
     def value(self, parameter: str) -> object:
         """Return any value."""
         return self.read.value(ids[f"joint_{parameter}"], at=self.instance)
@@ -94,11 +98,11 @@ class _Joint:
 def bind(read: AxisParameters) -> AxisLaw:
     """Return one axis; raises SimulationError naming what is missing or impossible."""
     joint = _Joint(read)
-    top, ramp = _above(read, ids.axis_max_velocity) / 60.0, _above(read, ids.max_acceleration)
+    top, ramp = read.above_zero(ids.axis_max_velocity) / 60.0, read.above_zero(ids.max_acceleration)
     fastest = joint.number("max_velocity", 60.0) / 60.0
     if not fastest > 0.0:
         raise SimulationError(
-            f"{ids.joint_max_velocity} of axis {read.axis} is {fastest:g}; it must be above 0",
+            f"{joint.called('max_velocity')} of axis {read.axis} is {fastest:g}; it must be above 0",
             ids.joint_max_velocity,
         )
     unit = "deg" if joint.value("type") == "angular" or read.axis in "ABC" else "mm"
@@ -153,13 +157,6 @@ def bind(read: AxisParameters) -> AxisLaw:
         jogging=partial(jogging, read, top),
         travel=partial(travel, read),
     )
-
-
-def _above(read: AxisParameters, name: str) -> float:
-    value = read.number(name)
-    if not 0.0 < value < 1e9:
-        raise SimulationError(f"{name} of axis {read.axis} is {value:g}; it must be above 0", name)
-    return value
 
 
 def homing(joint: _Joint) -> Homing:

@@ -268,7 +268,7 @@ def _limits(parameters: list[float], read: AxisParameters, loop: Loop) -> dict[s
 
 def _alarms(read: AxisParameters, kind: Kind, parameters: list[float]) -> dict[int, AlarmText]:
     limit = value_text(parameters[samples.EXCESS], kind.unit)
-    text = f"Following error above {limit} ({ids.excess_error}@{read.axis}): the control goes into E-STOP"
+    text = f"Following error above {limit} ({read.called(ids.excess_error)}): the control goes into E-STOP"
     return {int(samples.EXCESS_ERROR_ALARM): AlarmText("EXCESS FOLLOWING ERROR", text)}
 
 

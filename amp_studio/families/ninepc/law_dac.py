@@ -88,7 +88,7 @@ def _signal(read: AxisParameters, channel: Channel, drive: str, notes: list[str]
     None where it shows another axis.
     """
     code = read.number(ids.dac_monitor, at=channel.place)
-    place = f"DAC monitor {channel.number} ({ids.dac_monitor}@{channel.place}) is {code:g}"
+    place = f"DAC monitor {channel.number} ({read.called(ids.dac_monitor, at=channel.place)}) is {code:g}"
     if code == 0.0:
         raise SimulationError(
             f"{place}. Set it to a function code plus the axis number, as 101 (A-6)", ids.dac_monitor

@@ -161,7 +161,8 @@ def _inertia_ratio(read: AxisParameters) -> int:
     key = str(read.value(ids.load_inertia_ratio) or "r0")
     if key not in RATIOS:
         raise SimulationError(
-            f"{ids.load_inertia_ratio} of axis {read.axis} is '{key}', not one of {', '.join(RATIOS)}",
+            f"{read.called(ids.load_inertia_ratio)} of axis {read.axis} is '{key}', not one of"
+            f" {', '.join(RATIOS)}",
             ids.load_inertia_ratio,
         )
     return RATIOS.index(key)
@@ -250,8 +251,8 @@ def analog(read: AxisParameters, parts: Parts) -> AxisLaw:
     rapid = common["feedrate"]
     if rapid is None:
         raise SimulationError(
-            f"{ids.feedrate_rapid} is not set for axis {read.axis}. An analog servo is scaled by it (7-41):"
-            " set a value",
+            f"{read.called(ids.feedrate_rapid)} is not set for axis {read.axis}. An analog servo is scaled"
+            " by it (7-41): set a value",
             ids.feedrate_rapid,
         )
     positive, negative = (
@@ -329,7 +330,8 @@ def _peak(read: AxisParameters) -> float:
     digits = choice.lstrip("p")
     if not digits.isdigit() or int(digits) == 0:
         raise SimulationError(
-            f"{ids.peak_current} of axis {read.axis} is '{choice}', not a percentage", ids.peak_current
+            f"{read.called(ids.peak_current)} of axis {read.axis} is '{choice}', not a percentage",
+            ids.peak_current,
         )
     return float(digits)
 

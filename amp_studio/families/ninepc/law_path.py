@@ -44,9 +44,9 @@ ASSUMED = (
 def path_rules(machine: BoundMachine) -> PathRules:
     """Return the rules of a file; raises SimulationError naming what is missing or not simulated."""
     if str(machine.parameters.value(ids.positioning_mode, everywhere=True) or "") == "exponential":
+        mode = machine.parameters.called(ids.positioning_mode, everywhere=True)
         raise SimulationError(
-            f"Programs with exponential ramps ({ids.positioning_mode}, 10-3) are not simulated",
-            ids.positioning_mode,
+            f"Programs with exponential ramps ({mode}, 10-3) are not simulated", ids.positioning_mode
         )
     cutting, rapid, faster, slower, steps = {}, {}, {}, {}, {}
     for axis in machine.fitted:

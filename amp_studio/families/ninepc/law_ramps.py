@@ -32,9 +32,9 @@ def ramps_of(read: AxisParameters, unit: str, notes: list[str]) -> dict[str, Ram
     found["none"] = Ramp()
     own = str(read.value(ids.positioning_mode, everywhere=True) or "linear")
     if own not in found:
+        delay = read.called(ids.programmed_delay, everywhere=True)
         notes.append(
-            f"Positioning is exponential (10-3), but {ids.programmed_delay} or the scan time is not set:"
-            " linear ramps are"
+            f"Positioning is exponential (10-3), but {delay} or the scan time is not set: linear ramps are"
             " used."
         )
         own = "linear"
@@ -60,7 +60,8 @@ def _exponential(read: AxisParameters, notes: list[str]) -> tuple[float | None, 
     scan = fine * (1.0 if scans is None else scans)
     if not SMALLEST <= scan <= LARGEST:
         raise SimulationError(
-            f"{ids.fine_foreground} times {ids.scans_per_logic} is {scan:g} ms; it must be above 0 and a"
+            f"{read.called(ids.fine_foreground, everywhere=True)} times"
+            f" {read.called(ids.scans_per_logic, everywhere=True)} is {scan:g} ms; it must be above 0 and a"
             " scan time",
             ids.fine_foreground,
         )

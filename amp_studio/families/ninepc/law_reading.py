@@ -36,11 +36,11 @@ def demand(
     """Raise SimulationError with the reason ``what`` unless a value is good, and for one beyond all
     machines.
     """
-    place = "" if everywhere or name.startswith("model.") else f"@{read.axis}"
+    parameter = read.called(name, everywhere=everywhere)
     if not good:
-        raise SimulationError(f"{name}{place} is {value:g}; it {what}", name)
+        raise SimulationError(f"{parameter} is {value:g}; it {what}", name)
     if value != 0.0 and not SMALLEST <= abs(value) <= LARGEST:
         raise SimulationError(
-            f"{name}{place} is {value:g}, which no machine has; it must be from {SMALLEST:g} to {LARGEST:g}",
+            f"{parameter} is {value:g}, which no machine has; it must be from {SMALLEST:g} to {LARGEST:g}",
             name,
         )

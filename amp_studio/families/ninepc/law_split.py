@@ -52,6 +52,8 @@ class Slave:
     master: str
     gain: float
     limit: float
+    limit_called: str
+    """What a sentence calls Excess Skew Limit."""
 
 
 def slave_of(read: AxisParameters) -> Slave | None:
@@ -64,7 +66,8 @@ def slave_of(read: AxisParameters) -> Slave | None:
         if own is None or names[1] != own or names[0] in (None, "none", own):
             continue
         gain, limit = (_not_negative(read, name, place) for name in (ids.deskew_gain, ids.skew_limit))
-        return Slave(_axis_named(read, str(names[0]), master), gain, limit)
+        called = read.called(ids.skew_limit, at=place)
+        return Slave(_axis_named(read, str(names[0]), master, place), gain, limit, called)
     return None
 
 
@@ -74,7 +77,7 @@ def slave_named(read: AxisParameters) -> str | None:
     for master, slave, place in SETS:
         if own is not None and own == read.value(master, at=place):
             name = str(read.value(slave, at=place) or "none")
-            return None if name == "none" else _axis_named(read, name, slave)
+            return None if name == "none" else _axis_named(read, name, slave, place)
     return None
 
 
@@ -100,7 +103,9 @@ def leading(law: AxisLaw, slave: AxisLaw, own: Slave, stiffness: float) -> AxisL
 def _deskewed(law: AxisLaw, slave: Slave) -> AxisLaw:
     p = list(law.parameters)
     p[samples.DESKEW], p[samples.SKEW_LIMIT] = slave.gain, slave.limit
-    text = f"Skew above {value_text(slave.limit, law.unit)} ({ids.skew_limit}): the control goes into E-STOP"
+    text = (
+        f"Skew above {value_text(slave.limit, law.unit)} ({slave.limit_called}): the control goes into E-STOP"
+    )
     alarms = {**law.alarms, int(samples.EXCESS_SKEW_ALARM): AlarmText("EXCESS SKEW", text)}
     return replace(law, parameters=p, alarms=alarms)
 
@@ -187,11 +192,11 @@ def _mixed(given: list[Positions], answers: list[Positions]) -> Positions:
     return np.asarray(a[-1] - shares @ (a[1:] - a[:-1]))
 
 
-def _axis_named(read: AxisParameters, name: str, parameter: str) -> str:
+def _axis_named(read: AxisParameters, name: str, parameter: str, place: str) -> str:
     for axis in MOTION.axes:
         if read.value(ids.axis_name, at=axis) == name:
             return axis
-    raise SimulationError(f"{parameter} is '{name}', the name of no axis", parameter)
+    raise SimulationError(f"{read.called(parameter, at=place)} is '{name}', the name of no axis", parameter)
 
 
 def _not_negative(read: AxisParameters, name: str, place: str) -> float:
@@ -200,5 +205,5 @@ def _not_negative(read: AxisParameters, name: str, place: str) -> float:
     """
     value = (read.optional(name, at=place) or 0.0) if name == ids.deskew_gain else read.number(name, at=place)
     if not 0.0 <= value < math.inf:
-        raise SimulationError(f"{name}@{place} is {value:g}; it must not be negative", name)
+        raise SimulationError(f"{read.called(name, at=place)} is {value:g}; it must not be negative", name)
     return value

@@ -68,8 +68,7 @@ def path_rules(machine: BoundMachine) -> PathRules:
 def _work(words: Words, axis: str) -> float:
     if not words.work_acceleration > 0.0:
         raise SimulationError(
-            f"{ids.acceleration_work}@{axis} is not set: the acceleration of work rates (P32, 6-10)",
-            ids.acceleration_work,
+            f"P32N{axis}: the acceleration of work rates is not set (6-10)", ids.acceleration_work
         )
     return words.work_acceleration
 

@@ -7,7 +7,6 @@ where it is printed, is noted.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from amp_studio.sim import AxisParameters, SimulationError
@@ -78,7 +77,7 @@ class Words:
 
 def read_words(read: AxisParameters, notes: list[str]) -> Words:
     """Return the words of an axis; what is taken for a word that is not set goes to ``notes``."""
-    _demand(read, _OF_CONTROL, _OF_AXIS)
+    read.require([*((name, "") for name in _OF_CONTROL), *((name, read.axis) for name in _OF_AXIS)])
     address, assignment = float(read.axis), read.number(ids.axes_assignment)
     bits = [read.optional(name, everywhere=True) for name in (ids.axes_modulo, ids.limited_excursion)]
     if None in bits:
@@ -97,7 +96,7 @@ def read_words(read: AxisParameters, notes: list[str]) -> Words:
             ids.axes_assignment,
         )
     if not constant and of_group is None:
-        raise _not_set_error(read, [f"{ids.group_time_constant}@{named}"])
+        read.require([(ids.group_time_constant, str(named))])
     above(constant, ids.group_time_constant, "The time constant of P56 (or P66)")
     acceleration = read.number(ids.acceleration_fast)
     above(acceleration, ids.acceleration_fast, "Maximum Permissible Acceleration, fast speed (P32)")
@@ -140,24 +139,9 @@ def _curve_error(read: AxisParameters, turns: bool, notes: list[str]) -> float:
     return (error or 0.0) * 1000.0
 
 
-def _demand(read: AxisParameters, of_control: Sequence[str], of_axis: Sequence[str]) -> None:
-    """Raise one SimulationError with all words that are not set."""
-    missing = [name for name in of_control if read.value(name, everywhere=True) is None]
-    missing += [f"{name}@{read.axis}" for name in of_axis if read.value(name) is None]
-    if missing:
-        raise _not_set_error(read, missing)
-
-
-def _not_set_error(read: AxisParameters, missing: list[str]) -> SimulationError:
-    return SimulationError(
-        f"The simulation of axis {read.axis} needs values that are not set: {', '.join(missing)}",
-        missing[0].partition("@")[0],
-    )
-
-
 def _dividers(read: AxisParameters, turns: bool, notes: list[str]) -> tuple[float, float]:
     if not turns:
-        _demand(read, (ids.internal_unit,), ())
+        read.require([(ids.internal_unit, "")])
         return read.number(ids.internal_unit, everywhere=True), 0.0
     divider = read.optional(ids.rotary_unit, everywhere=True)
     if divider is None:

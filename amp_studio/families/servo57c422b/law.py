@@ -13,7 +13,6 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import load_schema
 from amp_studio.sim import (
     AlarmText,
     AxisLaw,
@@ -120,7 +119,8 @@ def _refuse_no_gain(read: AxisParameters) -> None:
     if gain <= 0.0:
         what = "without it the axis does not follow" if gain == 0.0 else "below 0 the axis runs away"
         raise SimulationError(
-            f"{ids.gain_proportional} of axis {read.axis} is {gain:g}: {what}. Begin with 100 (page 5-3)",
+            f"{read.called(ids.gain_proportional)} of axis {read.axis} is {gain:g}: {what}. Begin with"
+            " 100 (page 5-3)",
             ids.gain_proportional,
         )
 
@@ -155,7 +155,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         else read.within(ids.in_position_tolerance, 0.0, 1e9),
         ramps=_ramps(read),
         monitors=loop.MONITORS,
-        alarms=_alarms(p),
+        alarms=_alarms(read, p),
         faults=_faults(read),
         limits={"maximum_position_error": p[loop.POSITION_ERROR]} if p[loop.POSITION_ERROR] >= 0.0 else {},
         gains=("velocity_gain", "position_gain", "integral_gain"),
@@ -169,7 +169,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         travel=partial(travel, read, _ramps(read)["linear"]),
         jogging=partial(jogging, read, _ramps(read)["linear"]),
         read=read,
-        names={parameter: _named(parameter, read.axis) for parameter in COMMAND_DATA},
+        names={parameter: read.called(parameter) for parameter in COMMAND_DATA},
         scales=Scales(*(_scale(read, name) for name in _SCALES)),
         settled=_settled,
     )
@@ -178,17 +178,12 @@ def bind(read: AxisParameters) -> AxisLaw:
 def _refuse_missing(read: AxisParameters) -> None:
     missing = [parameter for parameter in NEEDED if read.value(parameter) is None]
     if missing:
-        names = ", ".join(_named(parameter, read.axis) for parameter in missing)
+        names = ", ".join(read.called(parameter) for parameter in missing)
         raise SimulationError(
             f"Axis {read.axis} cannot be simulated before these registers are set: {names}. Manual tuning"
             " begins with gains of 100, 0, 25 (0 for a velocity reference) and 0 (page 5-3)",
             missing[0],
         )
-
-
-def _named(parameter: str, axis: str) -> str:
-    schema = load_schema("57c422b")
-    return f"{schema.on('module').number((parameter, axis))} {schema.parameters[parameter].name}"
 
 
 def _parameters(read: AxisParameters, machine: Machine, current: bool) -> tuple[list[float], list[str]]:
@@ -220,7 +215,7 @@ def _parameters(read: AxisParameters, machine: Machine, current: bool) -> tuple[
         limit = None if read.value(parameter) is None else read.within(parameter, 0.0, 1e9)
         p[place] = -1.0 if limit is None else limit * factor
         if limit is None:
-            notes.append(f"{_named(parameter, read.axis)} is not set: simulated without this fault. Set it.")
+            notes.append(f"{read.called(parameter)} is not set: simulated without this fault. Set it.")
     return p, notes
 
 
@@ -245,16 +240,18 @@ def _ramps(read: AxisParameters) -> Mapping[str, Ramp]:
     return {"linear": Ramp("linear", up, down), "s-curve": Ramp("sine-squared", up, down), "none": Ramp()}
 
 
-def _alarms(p: Sequence[float]) -> Mapping[int, AlarmText]:
+def _alarms(read: AxisParameters, p: Sequence[float]) -> Mapping[int, AlarmText]:
     return {
         1: AlarmText(
             "POSITION ERROR",
-            f"The following error exceeds Maximum Position Error, {p[loop.POSITION_ERROR]:.6g} counts:"
+            f"The following error exceeds {read.called(ids.max_position_error)},"
+            f" {p[loop.POSITION_ERROR]:.6g} counts:"
             " register 73, the loop is switched off (page 4-8)",
         ),
         2: AlarmText(
             "VELOCITY ERROR",
-            f"The velocity error exceeds Maximum Velocity Error, {p[loop.VELOCITY_ERROR]:.6g} counts a scan:"
+            f"The velocity error exceeds {read.called(ids.max_velocity_error)},"
+            f" {p[loop.VELOCITY_ERROR]:.6g} counts a scan:"
             " register 73, the loop is switched off (page 4-9)",
         ),
     }

@@ -180,13 +180,15 @@ def run_gear(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
         {
             "gear_ratio": (sign * ratio, ""),
             "speed": (sign * ratio * speed * 60.0, "counts/min"),
-            "lost_in_ramp": (lost, "counts"),
+            **({"lost_in_ramp": (lost, "counts")} if ramped else {}),
         },
         (
             "With ramp velocity control the axis comes to the speed of its master and what it lost in the"
             " ramp stays lost: the manual has no word of catching up (page 4-21)."
             if ramped
-            else "Without ramp velocity control the axis accelerates in current limit (page 4-24)."
+            else "Without ramp velocity control the axis accelerates in current limit (page 4-24): its"
+            f" velocity error is at first the speed of its master, {abs(ratio) * speed * SCAN:g} counts a"
+            " scan."
         ),
         rest=-SCAN,  # the master runs on
     )
@@ -333,12 +335,13 @@ def _run(
     motion = run_axis(axis, profile, Until(end + rest))
     columns = motion.columns
     peak = float(np.abs(columns["following_error"][:: motion.rows_per_servo_period]).max())
+    alarms = alarms_of(axis, motion)
     result: dict[str, Figure] = {
         **figures,
-        "time": (end, "s"),
+        "time": (None if alarms else end, "s"),
         "peak_following_error": (peak, "counts"),
         "peak_output": (float(np.abs(columns["output"]).max()), "V"),
-        "stop_position": (float(columns["position"][-1]), "counts"),
+        "stop_position": (None if alarms else float(columns["position"][-1]), "counts"),
     }
     return Trace(
         scenario=scenario,
@@ -347,7 +350,7 @@ def _run(
         columns=per_minute(columns),
         units=column_units(axis),
         result=result,
-        alarms=alarms_of(axis, motion),
+        alarms=alarms,
         recommendations=(),
         assumptions=(assumption, *assumptions(axis)),
         limits={name: (level, axis.unit) for name, level in axis.limits.items()},

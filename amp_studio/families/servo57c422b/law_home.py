@@ -27,8 +27,8 @@ def homing(read: AxisParameters) -> Homing:
     setup = bits.HOME_SWITCH | bits.MARKER if word is None else int(word)
     switch, marker = bool(setup & bits.HOME_SWITCH), bool(setup & bits.MARKER)
     sign = -1.0 if setup & bits.HOME_NEGATIVE else 1.0
-    fast = _speed(read, ids.command_velocity) if switch else 0.0
-    slow = _speed(read, ids.home_speed_low) if switch or marker else 0.0
+    fast = read.above_zero(ids.command_velocity) if switch else 0.0
+    slow = read.above_zero(ids.home_speed_low) if switch or marker else 0.0
     counts: Literal["next", "none"] = "next" if marker else "none"
     return Homing(
         approach=sign * fast,
@@ -44,13 +44,6 @@ def homing(read: AxisParameters) -> Homing:
             PLACE,
         ),
     )
-
-
-def _speed(read: AxisParameters, name: str) -> float:
-    speed = read.number(name)
-    if not speed > 0.0:
-        raise SimulationError(f"{name} of axis {read.axis} is {speed:g}; it must be above 0", name)
-    return speed
 
 
 def travel(read: AxisParameters, ramp: Ramp) -> Travel:

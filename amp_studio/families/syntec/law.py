@@ -184,16 +184,10 @@ def predicted(axis: _Axis, feedrate: float) -> Mapping[str, Prediction]:
 
 def _demand(read: AxisParameters) -> None:
     """Raise one SimulationError with all parameters that are not set."""
-    missing = [f"{name}@{read.axis}" for name in _NEEDED if read.value(name) is None]
-    missing += [name for name in _NEEDED_ONCE if read.value(name, everywhere=True) is None]
-    own = read.value(ids.axis_acceleration)
-    if own is None and read.value(ids.acceleration_time, everywhere=True) is None:
-        missing.append(f"{ids.axis_acceleration}@{read.axis}")
-    if missing:
-        raise SimulationError(
-            f"The simulation of axis {read.axis} needs values that are not set: {', '.join(missing)}",
-            missing[0].partition("@")[0],
-        )
+    of_axis = list(_NEEDED)
+    if read.value(ids.acceleration_time, everywhere=True) is None:
+        of_axis.append(ids.axis_acceleration)
+    read.require([*((name, read.axis) for name in of_axis), *((name, "") for name in _NEEDED_ONCE)])
 
 
 def _axis(read: AxisParameters, notes: list[str]) -> _Axis:
@@ -207,7 +201,11 @@ def _axis(read: AxisParameters, notes: list[str]) -> _Axis:
     for name, everywhere in (*((name, False) for name in _ABOVE_ZERO), (ids.interpolation_time, True)):
         figure = read.number(name, everywhere=everywhere)
         if not (math.isfinite(figure) and figure > 0.0):
-            raise SimulationError(f"{name} of axis {read.axis} is {figure:g}; it must be above 0", name)
+            raise SimulationError(
+                f"{read.called(name, everywhere=everywhere)} of axis {read.axis} is {figure:g}; it must be"
+                " above 0",
+                name,
+            )
     series = read.choice(ids.control_series, everywhere=True)
     basic = hardware_basic_time_us(series)
     if not is_basic_time_printed(series):
@@ -216,9 +214,8 @@ def _axis(read: AxisParameters, notes: list[str]) -> _Axis:
     period = interpolation_time_us(setting, basic) * 1e-6
     if not SHORTEST <= period <= LONGEST:
         raise SimulationError(
-            f"{ids.interpolation_time} is {setting:g}, an interpolation time of {period * 1e3:g} ms; "
-            "simulated"
-            f" are {SHORTEST * 1e3:g} to {LONGEST * 1e3:g} ms",
+            f"{read.called(ids.interpolation_time, everywhere=True)} is {setting:g}, an interpolation time of"
+            f" {period * 1e3:g} ms; simulated are {SHORTEST * 1e3:g} to {LONGEST * 1e3:g} ms",
             ids.interpolation_time,
         )
     home = read.optional(ids.first_speed)
@@ -285,7 +282,7 @@ def _acceleration(read: AxisParameters, axis: _Axis, notes: list[str]) -> float:
             "Pr401",
         )
     if not (math.isfinite(own) and own > 0.0):
-        raise SimulationError(f"{name} is {own:g}; a simulated axis needs a time above 0", name)
+        raise SimulationError(f"{word} is {own:g}; a simulated axis needs a time above 0", name)
     notes.append(
         f"ASSUMED: {word}, {own:g}, is the time in ms in which a straight ramp reaches the rapid feedrate;"
         " neither unit nor ramp is printed (1.5.3)."

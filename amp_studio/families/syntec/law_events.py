@@ -33,13 +33,6 @@ NOTES = (
 STOPPED = "ASSUMED: beyond the limit the command stops at once; the slides print the alarm alone (3.2)."
 
 
-def _above_zero(read: AxisParameters, name: str) -> float:
-    value = read.number(name)
-    if not (math.isfinite(value) and value > 0.0):
-        raise SimulationError(f"{name} of axis {read.axis} is {value:g}; it must be above 0", name)
-    return value
-
-
 def homing(read: AxisParameters, turn: float) -> Homing:
     """Return the homing sequence; ``turn`` is u from index to index.
     Raises SimulationError where a value is missing.
@@ -51,11 +44,11 @@ def homing(read: AxisParameters, turn: float) -> Homing:
     method = read.choice(ids.search_method)
     sign = -1.0 if read.choice(ids.home_direction) == "negative" else 1.0
     offset = (read.optional(ids.home_offset) or 0.0) * BLU
-    second = _above_zero(read, ids.second_speed) / 60.0
+    second = read.above_zero(ids.second_speed) / 60.0
     alone, stays = method == "index-only", method == "stay"
     window = read.optional(ids.zero_speed_window)
     return Homing(
-        approach=0.0 if alone else sign * _above_zero(read, ids.first_speed) / 60.0,
+        approach=0.0 if alone else sign * read.above_zero(ids.first_speed) / 60.0,
         leave=sign * second * (1.0 if alone else -1.0),
         marker="none" if method == "dog-only" else "next",
         turn=turn,
@@ -96,7 +89,7 @@ def _failures(read: AxisParameters, turn: float) -> dict[str, Failure]:
 
 def jogging(read: AxisParameters) -> Jogging:
     """Return the jog speed (Pr521)."""
-    return Jogging({"jog": _above_zero(read, ids.jog_feedrate) / 60.0}, page="4.1")
+    return Jogging({"jog": read.above_zero(ids.jog_feedrate) / 60.0}, page="4.1")
 
 
 def travel(read: AxisParameters) -> Travel:

@@ -91,6 +91,10 @@ class TravelEnds(Model):
     is_zone: bool = False
     """Whether these are ends of a zone within the travel, whose lengths are not compared."""
 
+    side: float = 16
+    """Times that one side of a table is longer than the other at most: one for profiles and tubes has 6 m by
+    0.4 m."""
+
 
 class Towards(Model):
     """A speed whose sign is the direction to a place at one end of the travel."""

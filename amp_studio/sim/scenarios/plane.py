@@ -223,9 +223,17 @@ def _travelled(
     letters = {name: machine.letter(name) or name for name in axes}
     stops = {name: float(columns[f"position_{letter}"][-1]) for name, letter in letters.items()}
     edge = first[0] * line.length if first else None
-    result = _figures(line, edge, stops, float(columns["time_s"][-1]), unit, is_past_edge=hit is not None)
-    result["reaches_target"] = (float(not alarms), "")
-    result |= {f"stop_position_{letter}": (stops[name], unit) for name, letter in letters.items()}
+    result: dict[str, Figure] = {
+        "feedrate": (line.feed * 60.0, f"{unit}/min"),
+        "distance": (line.length, unit),
+        "limit": (edge, unit),
+        "reaches_target": (float(not alarms), ""),
+    }
+    if not refused:
+        result |= _stopped(
+            line, edge, stops, float(columns["time_s"][-1]), unit, is_past_edge=hit is not None
+        )
+        result |= {f"stop_position_{letter}": (stops[name], unit) for name, letter in letters.items()}
     first_axis = next(iter(axes.values()))
     return Trace(
         scenario="travel",
@@ -247,15 +255,12 @@ def _is_refused(zone: Zone, is_program: bool) -> bool:
     return zone.refuses or (is_program and bool(zone.reads_ahead))
 
 
-def _figures(
+def _stopped(
     line: _Line, edge: float | None, stops: AxisPoint, time: float, unit: str, *, is_past_edge: bool
 ) -> dict[str, Figure]:
-    """Return what came of a way along a line; ``edge`` is how far along it the first zone is."""
+    """Return where a way along a line ended; ``edge`` is how far along it the first zone is."""
     gone = math.sqrt(sum((stop - line.start[name]) ** 2 for name, stop in stops.items()))
     return {
-        "feedrate": (line.feed * 60.0, f"{unit}/min"),
-        "distance": (line.length, unit),
-        "limit": (edge, unit),
         "stop_position": (gone, unit),
         "overrun": (gone - edge if is_past_edge and edge is not None else None, unit),
         "time": (time, "s"),
@@ -278,7 +283,7 @@ def _alarms(
     zone = first[1]
     text = (
         f"The way would break {zone.name} after {value_text(share * line.length, unit)}: the block is"
-        f" not begun ({page_text(zone.page)})"
+        f" refused and does not begin ({page_text(zone.page)})"
     )
     return (Alarm(zone.reads_ahead or zone.code, 0.0, text),)
 

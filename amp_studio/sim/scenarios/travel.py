@@ -161,7 +161,7 @@ def _refused(axis: AxisLaw, approach: _Approach) -> tuple[Alarm, ...]:
     if not travel.refuses:
         return ()
     end = value_text(approach.edge, axis.unit)
-    text = f"A move beyond {approach.name}, {end}, is not begun ({page_text(travel.page)})"
+    text = f"A move beyond {approach.name}, {end}, is refused: it does not begin ({page_text(travel.page)})"
     return (Alarm(_code(approach), 0.0, text),)
 
 
@@ -187,8 +187,16 @@ def _code(approach: _Approach) -> str:
 def _figures(
     axis: AxisLaw, approach: _Approach, seen: Seen | None, motion: Motion, hard: float | None
 ) -> dict[str, Figure]:
-    """Return the figures of the result; those of a stop are None where the axis did not come to rest."""
+    """Return the figures of the result; those of a stop are None where the axis did not come to rest, and
+    a move that is refused has none.
+    """
     travel, sign, edge = approach.travel, approach.sign, approach.edge
+    result: dict[str, Figure] = {
+        "feedrate": (approach.feedrate * 60.0, f"{axis.unit}/min"),
+        "limit": (edge, axis.unit),
+    }
+    if travel.refuses:
+        return result
     velocities, times = motion.columns["velocity"], motion.columns["time_s"]
     speed = None
     if seen is not None:
@@ -200,17 +208,15 @@ def _figures(
     end = float(motion.columns["position"][-1]) + approach.start
     time = motion.command_end if reached else None
     error = np.abs(motion.columns["following_error"][motion.driven]).max()
-    result: dict[str, Figure] = {
-        "feedrate": (approach.feedrate * 60.0, f"{axis.unit}/min"),
-        "limit": (edge, axis.unit),
+    result |= {
         "speed_at_limit": (speed, f"{axis.unit}/min"),
-        "stop_position": (end if reached or travel.refuses else None, axis.unit),
+        "stop_position": (end if reached else None, axis.unit),
         "overrun": (sign * (end - edge) if reached else None, axis.unit),
         "time": (float(times[-1]) if travel.coasts else time, "s"),
         "peak_following_error": (float(error), axis.unit),
     }
     if hard is not None:
-        result["hard_stop_margin"] = (sign * (hard - end) if reached or travel.refuses else None, axis.unit)
+        result["hard_stop_margin"] = (sign * (hard - end) if reached else None, axis.unit)
     return result
 
 

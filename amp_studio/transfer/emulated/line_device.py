@@ -10,11 +10,11 @@ import contextlib
 import queue
 import threading
 import time
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
-from amp_studio.schema import visible
+from amp_studio.schema import quoted, visible
 from amp_studio.transfer.interruption import interrupts
 from amp_studio.transfer.links import Endpoint, Link, LinkError, Listener, PtyLink, listen
 from amp_studio.transfer.status import ControlStatus
@@ -84,6 +84,7 @@ class DeviceSetup:
     memory: Memory
     say: Callable[[str], None]
     machine: str | None = None
+    hardware: Mapping[str, str] = field(default_factory=dict)
 
 
 DeviceFactory = Callable[[DeviceSetup], LineDevice]
@@ -187,23 +188,28 @@ def serve_device(
     options: EmulatedOptions,
     factory: DeviceFactory,
     *,
+    takes: Collection[str] = (),
     commands: Iterable[str] | None = None,
     say: Callable[[str], None] | None = None,
     stop: threading.Event | None = None,
 ) -> int:
     """Run a device until ``quit``, an interrupt or ``stop``; returns the exit code 0.
 
-    Prints ``listening on ADDRESS`` when it is ready; ``commands`` are the operator's lines, by default those
-    of standard input. Raises LinkError for a place that cannot be listened on,
-    ValueError for a folder of something else.
+    Prints ``listening on ADDRESS`` when it is ready; ``takes`` are the options that the device knows;
+    ``commands`` are the operator's lines, by default those of standard input. Raises LinkError for a place
+    that cannot be listened on, ValueError for a folder of something else and for another option.
     """
+    for name in options.hardware:
+        if name not in takes:
+            known = f"Known: {', '.join(takes)}" if takes else "It has none"
+            raise ValueError(f"Unknown option {quoted(name)} of an emulated {options.family}. {known}")
     show = say or print_line
     stop = stop or threading.Event()
     with contextlib.ExitStack() as stack:
         stack.enter_context(interrupts(stop.set))
         faults = read_faults(options.faults)
         memory = Memory(memory_folder(options, stack))
-        device = factory(DeviceSetup(options.family, memory, show, options.machine))
+        device = factory(DeviceSetup(options.family, memory, show, options.machine, options.hardware))
         _arm(memory, faults)
         listener = listen(place)
         stack.callback(listener.close)

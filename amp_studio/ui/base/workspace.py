@@ -86,6 +86,10 @@ class Workspace(QObject):
     """Addresses whose values changed (empty: any of them); findings and states are already up to date."""
     saved = Signal()
     closed = Signal()
+    unsaved_at_risk = Signal(str)
+    """Unsaved work cannot be kept on disk for the case that the program is killed, and why; once until it can
+    be kept again.
+    """
 
     def __init__(self, document: Document, validator: Validator | None = None) -> None:
         """Open a workspace on a document; a given ``validator`` has already run."""
@@ -107,6 +111,7 @@ class Workspace(QObject):
         """The values of the control when it was last read, and the time of that."""
         self.is_saving = False
         self._saved = (HeaderSnapshot.of(document.file), document.file.header.units)
+        self._is_at_risk = False
         self._journal = QTimer(self)
         self._journal.setSingleShot(True)
         self._journal.timeout.connect(self._keep_unsaved)
@@ -299,8 +304,13 @@ class Workspace(QObject):
         if self.may_edit:
             try:
                 self.document.keep_unsaved()
-            except OSError:
+            except OSError as error:
                 self._journal.start(10_000)  # a full disk may have room again later
+                if not self._is_at_risk:
+                    self.unsaved_at_risk.emit(error.strerror or str(error))
+                self._is_at_risk = True
+            else:
+                self._is_at_risk = False
 
     def close(self) -> None:
         """Close the file."""

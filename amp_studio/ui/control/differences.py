@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Literal
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QFontMetrics, QKeyEvent, QResizeEvent
@@ -27,6 +28,10 @@ most."""
 _ADDRESS = Qt.ItemDataRole.UserRole + 1
 
 
+BackupReturn = Literal["whole", "its values"]
+"""What a backup replaces: all that the control contains, or the values that are in it alone."""
+
+
 @dataclass
 class SideRow:
     """One value that differs."""
@@ -36,7 +41,14 @@ class SideRow:
     takes_file: bool
     dangers: tuple[Danger, ...] = ()
     is_fixed: bool = False
-    """Whether the control's value stays whatever is chosen: the file does not set it."""
+    """Whether there is no choice: the control's value stays where the file does not set it, and a backup is
+    put back with all its values.
+    """
+
+    @property
+    def stays(self) -> bool:
+        """Whether the control's value stays whatever is chosen."""
+        return self.is_fixed and not self.takes_file
 
 
 class DifferenceTable(QTreeWidget):
@@ -88,21 +100,31 @@ class DifferenceTable(QTreeWidget):
         self.rows, self._items = {}, {}
 
     def show_differences(
-        self, file: ParameterFile, differences: Iterable[Difference], *, to_control: bool, secrets: bool
+        self,
+        file: ParameterFile,
+        differences: Iterable[Difference],
+        *,
+        to_control: bool,
+        secrets: bool,
+        returns: BackupReturn | None = None,
     ) -> None:
         """List what differs; the file's side is taken, unless it does not set the value,
-        and a choice made before stays.
+        and a choice made before stays. There is no choice where a backup ``returns``: all of it is put back.
         """
-        before = {address: row.takes_file for address, row in self.rows.items() if not row.is_fixed}
+        is_chosen = returns is None
+        before = {
+            address: row.takes_file for address, row in self.rows.items() if not row.is_fixed and is_chosen
+        }
         self._file, self._secrets = file, secrets
         found = list(differences)
         self.show_nothing()
         schema = file.schema
         for difference in found:
             only = difference.a is None if to_control else difference.b is None
+            only = only and returns != "whole"
             dangers = dangers_of_change(file, [difference], facts_in_words(file.schema))
             takes = not only and before.get(difference.address, True)
-            self.rows[difference.address] = SideRow(difference, takes, dangers, only)
+            self.rows[difference.address] = SideRow(difference, takes, dangers, only or not is_chosen)
         screen_text = set(shown_axes(file)) if schema.family.fits_axes else None
         blocks: dict[str, list[Address]] = {}
         for address in self.rows:
@@ -141,7 +163,7 @@ class DifferenceTable(QTreeWidget):
     def _block_of(self, address: Address, screen_text: set[str] | None) -> str:
         """Return the title of the block of a value; those that begin with a NUL are folded, at the end."""
         assert self._file is not None
-        if self.rows[address].is_fixed:
+        if self.rows[address].stays:
             return "\0" + self.tr("On one side only, kept as they are")
         if (
             screen_text is not None
@@ -194,7 +216,7 @@ class DifferenceTable(QTreeWidget):
             item.setIcon(column, icon("check-circle-fill", "sel") if is_taken else left)
             item.setFont(column, font("text", own=is_taken))
             item.setForeground(column, colour("text" if is_taken else "dim"))
-        if row.is_fixed:
+        if row.stays:
             item.setText(MIND, self._by_width(self.tr("stays"), self.tr("stays as it is")))
         elif not row.takes_file:
             item.setText(MIND, self._by_width(self.tr("kept"), self.tr("the control's value stays")))

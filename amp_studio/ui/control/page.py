@@ -19,7 +19,7 @@ from amp_studio.ui.base.translated import message_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 
 from .conditions import conditions_of
-from .differences import SideRow
+from .differences import BackupReturn, SideRow
 from .next_step import BarAnswer, ExchangeDirection, PageState, bar_message, primary_button
 from .page_parts import ControlPageParts
 from .session import ControlSession
@@ -261,10 +261,21 @@ class ControlPage(ControlPageParts):
         secrets = self.workspace.secrets if self.workspace is not None else False
         if found is not None and file is not None:
             to_control = self.direction != "read"
-            differences = found.values.differences
-            self.table.show_differences(file, differences, to_control=to_control, secrets=secrets)
+            self.table.show_differences(
+                file,
+                found.values.differences,
+                to_control=to_control,
+                secrets=secrets,
+                returns=self._backup_return(),
+            )
         self.table.show_sides(self.name, self.title)
         self._show_all(found)
+
+    def _backup_return(self) -> BackupReturn | None:
+        """Return what the backup that is to be put back replaces; None for a file."""
+        if self.backup is None or self.session is None or self.session.seen is None:
+            return None
+        return "whole" if self.session.seen.abilities.all_or_nothing else "its values"
 
     # -- everything follows the state ------------------------------------------------
 
@@ -300,7 +311,7 @@ class ControlPage(ControlPageParts):
         parts = [self.tr("{differ} differ, {same} are the same").format(differ=differ, same=same)]
         if kept and self.direction != "read":
             parts.append(self.tr("{kept} kept").format(kept=kept))
-        fixed = sum(row.is_fixed for row in self.table.rows.values())
+        fixed = sum(row.stays for row in self.table.rows.values())
         if fixed:  # else what differs and what the button counts would contradict each other
             parts.append(self.tr("%n on one side only: stay", "", fixed))
         self.counts.setText(", ".join(parts) if is_read else "")

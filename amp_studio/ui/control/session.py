@@ -65,6 +65,8 @@ class ControlSession(QObject):
         self.failure: TransferError | None = None
         """Why the last download or restore did not reach its end."""
         self.outcome: Outcome | None = None
+        self.backup_name = ""
+        """The backup that was put back last; empty where a file or a value was sent."""
         self.needs_password = False
         self.has_password = False
         """Whether one was entered for it here."""
@@ -191,7 +193,7 @@ class ControlSession(QObject):
 
             return restore_copy(copy, self.address, exchange, expected=sha256(seen.content))
 
-        self._write("restore", work, path)
+        self._write("restore", work, path, backup_name=path.name)
 
     def write_one(self, address: Address, file: ParameterFile, path: Path) -> None:
         """Write one value of a file into the control now; it is read back and recorded."""
@@ -211,8 +213,10 @@ class ControlSession(QObject):
         work: Callable[[Exchange], Outcome],
         path: Path,
         then: Callable[[], None] = lambda: None,
+        backup_name: str = "",
     ) -> None:
         self.outcome, self.failure, self.error, self.notes = None, None, "", []
+        self.backup_name = backup_name
 
         def done(outcome: Outcome) -> None:
             self.outcome, self.phase = outcome, "done" if outcome.verified else "failed"

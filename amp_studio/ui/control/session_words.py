@@ -57,7 +57,10 @@ def text_of_proof(session: ControlSession, name: str, kept: Sequence[str]) -> st
     """
     assert session.outcome is not None
     outcome, seen = session.outcome, session.seen
-    lines = [tr("{name} contains all new values.").format(name=name), message_in_words(outcome.text)]
+    head = tr("{name} contains all new values.").format(name=name)
+    if session.backup_name:
+        head = tr("{name} contains what is in {backup}.").format(name=name, backup=session.backup_name)
+    lines = [head, message_in_words(outcome.text)]
     if kept:
         lines.append(tr("Kept as they were: {names}").format(names=", ".join(kept)))
     if seen is not None:
@@ -73,15 +76,28 @@ def text_of_failure(session: ControlSession) -> str:
         return message_in_words(session.outcome.text)
     failure = session.failure
     state = failure.at_control if failure is not None else "old"
-    heads = {
+    head = _heads(session.backup_name).get(state or "old", tr("It is not known what the control contains."))
+    danger = "" if state in ("old", "", "new") else tr("Do not move the machine before it was read.")
+    return " ".join(filter(None, (head, danger, error_in_words(session))))
+
+
+def _heads(backup: str) -> dict[str, str]:
+    """Return what the control contains, by what is proven: the values of a backup are older ones, so they are
+    not called new.
+    """
+    if backup:
+        return {
+            "old": tr("The control contains what it contained before."),
+            "new": tr("The control contains what is in {backup}.").format(backup=backup),
+            "mixed": tr("The control contains some of both: of {backup} and of before.").format(
+                backup=backup
+            ),
+        }
+    return {
         "old": tr("The control contains all old values."),
-        "": tr("The control contains all old values."),
         "new": tr("The control contains all new values."),
         "mixed": tr("The control contains some of both: new and old values."),
     }
-    head = heads.get(state, tr("It is not known what the control contains."))
-    danger = "" if state in ("old", "", "new") else tr("Do not move the machine before it was read.")
-    return " ".join(filter(None, (head, danger, error_in_words(session))))
 
 
 def doubts_of(backup: ControlBackup) -> str:

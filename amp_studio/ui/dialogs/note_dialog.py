@@ -9,13 +9,14 @@ from PySide6.QtWidgets import QPlainTextEdit, QWidget
 from amp_studio.files import (
     group_note,
     machine_note,
+    note_fault,
     set_group_note,
     set_machine_note,
     set_value_note,
     value_note,
 )
 from amp_studio.schema import Address
-from amp_studio.ui.base.translated import tr
+from amp_studio.ui.base.translated import message_in_words, tr
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.form import Field, FormDialog
 
@@ -46,8 +47,13 @@ class NoteDialog(FormDialog):
         self.form.entered.connect(self._turn)
 
     def problem(self) -> str:
-        """Return why no note can be saved."""
-        return "" if self._workspace.may_edit else tr("The file is read-only: notes can be read.")
+        """Return why no note can be saved: a text that no file can contain stays here, to be shortened."""
+        if not self._workspace.may_edit:
+            return tr("The file is read-only: notes can be read.")
+        texts = {**self._texts, self._about: self.form.answer("note")}
+        fault = next(filter(None, map(note_fault, texts.values())), "")
+        words = message_in_words(fault)
+        return f"{words[:1].upper()}{words[1:]}." if fault else ""
 
     def _turn(self, _: str) -> None:
         self._texts[self._about] = self.form.answer("note")

@@ -9,7 +9,9 @@ from collections.abc import Callable
 from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer
 from PySide6.QtWidgets import QApplication
 
+from amp_studio.files import is_write_protected
 from amp_studio.ui.base.questions import ask
+from amp_studio.ui.base.translated import message_in_words
 from amp_studio.ui.page.file_page import FilePage
 
 from .settings import is_there
@@ -40,6 +42,17 @@ class DiskWatch(QObject):
         self._watcher.fileChanged.connect(self._wait)
         self._watcher.directoryChanged.connect(self._wait)
         page.conflict.connect(self.offer)
+        page.workspace.unsaved_at_risk.connect(self._warn_unkept)
+        if page.workspace.may_edit and is_write_protected(path):
+            text = self.tr("{name} is write-protected: changes can be saved under another name.")
+            page.bar.say(text.format(name=path.name), "warning")
+
+    def _warn_unkept(self, why: str) -> None:
+        text = self.tr(
+            "Unsaved work of {name} cannot be kept beside it ({why}): if the program is killed, it is lost."
+        )
+        name = self._page.workspace.path.name
+        self._page.bar.say(text.format(name=name, why=message_in_words(why)), "warning")
 
     def _wait(self, _: str) -> None:
         self._timer.start(SETTLE_MS)

@@ -40,9 +40,6 @@ _NEAR, _SHARE = 8.0, 5.0
 in proportion to its travel, from which it is asked about."""
 _SPREAD = 4.0
 """Times that the speeds of one gear are spread wider than those of every other one."""
-_TABLE = 16.0
-"""Times that one side of a table is longer than the other: one for profiles and tubes has 6 m by 0.4 m."""
-
 _UPRIGHT = 3.0
 """Times that the upright axis is longer than the longer side of the table."""
 _UNLIMITED = 1e6
@@ -125,7 +122,7 @@ class AxisRelations:
 
     def _travels(self, fact: TravelEnds) -> list[Finding]:
         ends = [*self._ends(fact)]
-        found = [] if fact.is_zone else self._table(ends)
+        found = [] if fact.is_zone else self._table(ends, fact.side)
         if fact.low and len(ends) > 2:
             found += [f for n in range(len(ends)) for f in self._near(ends[n], ends[:n] + ends[n + 1 :])]
         return [*found, *self._one_sided(fact)]
@@ -175,8 +172,8 @@ class AxisRelations:
             return [self._finding(TRAVEL, TRAVEL_REASON, near, like[0][0])]
         return []
 
-    def _table(self, ends: Sequence[Ends]) -> list[Finding]:
-        """Compare the lengths of the travels of X and Y."""
+    def _table(self, ends: Sequence[Ends], most: float) -> list[Finding]:
+        """Compare the lengths of the travels of X and Y, of which one is ``most`` times the other at most."""
         named: dict[str, tuple[float, ActiveValue]] = {}
         for near, far in ends:
             length = _size(far) if near is far else abs(float(far.number) - float(near.number))
@@ -188,7 +185,7 @@ class AxisRelations:
         if z is not None and z[1].measures == x[1].measures and z[0] > _UPRIGHT * max(x[0], y[0]):
             return [self._finding(TRAVEL, TRAVEL_REASON, z[1], max(x, y, key=lambda side: side[0])[1])]
         longer, shorter = (x, y) if x[0] > y[0] else (y, x)
-        if longer[0] > _TABLE * shorter[0]:
+        if longer[0] > most * shorter[0]:
             return [self._finding(TRAVEL, TRAVEL_REASON, longer[1], shorter[1])]
         return []
 

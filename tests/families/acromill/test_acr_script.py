@@ -428,6 +428,35 @@ def test_a_start_up_program_is_read_among_its_other_commands_and_comes_back_byte
         assert back.read_bytes() == program.read_bytes()
 
 
+@pytest.mark.parametrize(
+    ("line", "values"),
+    [
+        ("ACC 500 DEC 500 STP 400 VEL 20 JRK 0", 1),
+        ("VEL 20 ACC 500 DEC 500 X10 Y/-20", 1),
+        ("ACC(500) DEC(500) STP(P5) X(P1)", 1),
+        ("ACC 500 : DEC 500 : STP 3", 1),
+        ("PPU X 2000 : PPU Y4000", 2),
+        ("PPU X2000 MULT X4 PGAIN X 0.002 REM stiff", 3),
+        ("STP 400 VEL 20", 0),
+    ],
+)
+def test_several_commands_are_in_one_line_of_a_program(line: str, values: int) -> None:
+    text = f"PROG0\nPGAIN Z 0.01\n{line}\nENDP\n"
+    file = taken(FORMAT, MILL, text)
+    assert len(file.values) == 1 + values
+    assert FORMAT.write(file) == text
+    if values == 1:
+        file.set(("speeds.feed_acc_dec", ""), Value(300.0, "in/s2"))
+        assert FORMAT.write(file) == text.replace("500", "300")
+
+
+@pytest.mark.parametrize("line", ["PPU X 2000 W 5", "PPU X 2000 FOO 3", "PGAIN X 0.01 Y", "PPU X 2000 X 10Y"])
+def test_behind_a_setting_a_slip_is_no_command(line: str) -> None:
+    with pytest.raises(FormatError) as caught:
+        FORMAT.read(f"PROG0\n{line}\n", MILL, ReadOptions())
+    assert caught.value.line == 2
+
+
 def test_a_changed_value_changes_its_figure_alone() -> None:
     file = taken(FORMAT, MILL, STARTUP)
     file.set(("axes.excess_error_band", "Y"), Value(25.4, "mm"))

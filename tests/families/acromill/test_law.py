@@ -105,7 +105,7 @@ def test_without_an_excess_error_band_the_result_shows_it() -> None:
         file_of(axes__excess_error_band=Value(0.0, "mm")), "step", settings={"move.distance": 1.0}
     )
     assert trace.alarms == ()
-    assert any("axes.excess_error_band is 0" in line for line in trace.assumptions)
+    assert any("ExcessErr Band is 0" in line for line in trace.assumptions)
 
 
 def test_axes_are_as_many_as_the_number_of_axes_shows() -> None:
@@ -116,7 +116,7 @@ def test_axes_are_as_many_as_the_number_of_axes_shows() -> None:
 @pytest.mark.parametrize(
     ("parameter", "value", "message"),
     [
-        ("servo__p_gain", Value(0.0, "V/count"), "servo.p_gain of axis X is 0: the loop is open"),
+        ("servo__p_gain", Value(0.0, "V/count"), "P Gain of axis X is 0: the loop is open"),
         ("axes__pulses_per_unit", Value(0.0, "counts/mm"), "it can be simulated from 0.001"),
         ("tuning__servo_period", Value(0.0, "us"), "it can be simulated from 0.01"),
         ("tuning__notch_width", Value(50.0, "Hz"), "NOTCH takes a frequency and a width"),

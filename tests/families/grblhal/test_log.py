@@ -217,6 +217,36 @@ def test_the_table_of_a_web_page_is_read(tmp_path: Path) -> None:
     assert (values["stepper.pulse_time", ""].value, values["axis.max_rate", "X"].value) == (10, 500)
 
 
+NUMBERED = {str(n): json.loads(text.lstrip("+")) for n, text in SETTINGS.items()}
+DATA = {
+    "members": json.dumps(NUMBERED),
+    "members on lines, in a section": json.dumps({"settings": NUMBERED}, indent=2),
+    "texts": json.dumps({n: str(value) for n, value in NUMBERED.items()}),
+    "objects": json.dumps([{"id": n, "value": value, "about": "x"} for n, value in NUMBERED.items()]),
+    "objects with val": json.dumps([{"key": f"${n}", "val": str(v)} for n, v in NUMBERED.items()], indent=1),
+    "attributes": "<?xml version='1.0'?><all>" + each('<setting id="{n}" value="{v}"/>') + "</all>",
+    "elements of two": "<list>" + each("<entry><Id>${n}</Id>\n<Value>{v}</Value></entry>") + "</list>",
+    "elements by number": "<list>" + each("<s{n}>{v}</s{n}>") + "</list>",
+    "texts of elements": "<list>" + each('<setting no="{n}">{v}</setting>') + "</list>",
+}
+
+
+@pytest.mark.parametrize("form", DATA)
+def test_data_of_other_programs_need_no_sign(form: str) -> None:
+    assert is_listing(DATA[form])
+    (found,) = read_log(DATA[form]).listings
+    assert {n: float(figure(text)) for n, text in found.settings.items()} == {
+        n: float(text) for n, text in SETTINGS.items()
+    }
+    elsewhere = DATA[form].replace("110", "711")
+    assert "$" in elsewhere or not is_listing(elsewhere), "numbers that no Grbl is known by"
+
+
+def test_a_member_that_is_no_number_is_not_lost() -> None:
+    (found,) = read_log(json.dumps(NUMBERED | {"32": True, "30": 1e30})).listings
+    assert (found.settings[32].split(",")[0], found.settings[30].split("}")[0].strip()) == ("true", "1e+30")
+
+
 @pytest.mark.parametrize("sign", ["# ", "// ", "; ", "# # ", "\t//"])
 def test_settings_that_all_are_comments_are_a_listing_and_others_beside_them_are_not(sign: str) -> None:
     """Published in the source of a program, or switched off in a file of commands."""

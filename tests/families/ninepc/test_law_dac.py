@@ -116,7 +116,7 @@ def test_a_monitor_of_another_axis_is_named_and_is_no_column(axis: Axis) -> None
     law = axis({**TEN_VOLTS, CODE_86: 204.0}, {UNIT_86: 0.01})
     assert len(law.monitors) == len(samples.MONITORS)
     assert (
-        "DAC monitor 86 (patch.dac_monitor@2) is 204: it shows axis 4, so it is no column of axis 1."
+        "DAC monitor 86 (patch.dac_monitor) is 204: it shows axis 4, so it is no column of axis 1."
         in law.assumptions
     )
 

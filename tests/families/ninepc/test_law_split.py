@@ -89,7 +89,7 @@ def test_each_servo_of_a_pair_names_the_other() -> None:
 def test_an_impossible_pair_shows_why() -> None:
     with pytest.raises(SimulationError, match=r"deskew\.master is 'z', the name of no axis"):
         servo(deskew__master_at_1="z")
-    with pytest.raises(SimulationError, match=r"deskew\.gain@1 is -1; it must not be negative"):
+    with pytest.raises(SimulationError, match=r"deskew\.gain is -1; it must not be negative"):
         servo(deskew__gain_at_1=-1.0)
 
 

@@ -51,9 +51,8 @@ def test_a_new_num_file_shows_in_one_sentence_what_its_axis_needs(
     words = settings("P2N0=1 P3N0=1 P9N0=0x00 P4N2=3")
     assert run(["simulate", new(tmp_path, "num"), "step", *words]) == 2
     assert (
-        "needs values that are not set: misc.sampling_period, measure.multi@0, measure.divi@0,"
-        " servo.max_speed@0, servo.acceleration_fast@0, servo.loop_gain@0, servo.in_position_window@0,"
-        " servo.max_following_error@0" in capsys.readouterr().err
+        "needs values that are not set: P50N0 CNC Sampling Period, P11N0 Axis Measurement"
+        in capsys.readouterr().err
     )
 
 
@@ -104,8 +103,8 @@ def test_a_new_syntec_file_shows_in_one_sentence_what_its_axis_needs(
 ) -> None:
     assert run(["simulate", new(tmp_path, "syntec", "--axes", "X,Z"), "step"]) == 2
     reported = capsys.readouterr().err
-    assert "The simulation of axis 1 needs values that are not set: resolution.encoder@1" in reported
-    assert "control.series, dda.interpolation_time, motion.axis_acceleration@1" in reported
+    assert "The simulation of axis 1 needs values that are not set: Pr61 Axis encoder resolution" in reported
+    assert "Controller series, Pr3203 In" in reported
 
 
 def test_a_new_syntec_file_moves_with_the_values_of_the_slides(

@@ -167,6 +167,9 @@ def test_a_geared_axis_comes_to_the_speed_of_its_master_with_the_acceleration_of
 def test_without_ramp_velocity_control_the_axis_trips_on_a_moving_master() -> None:
     trace = run(module(), "gear")  # page 4-24: in current limit
     assert [alarm.code for alarm in trace.alarms] == ["VELOCITY ERROR"]
+    assert "R9 Maximum Velocity Error" in trace.alarms[0].message
+    found = values(trace)
+    assert (found["time"], found["stop_position"], "lost_in_ramp" in found) == (None, None, False)
     with pytest.raises(SimulationError, match="gearing is not enabled"):
         run(module(command__gear_ratio=Value(0.0, "")), "gear")
 

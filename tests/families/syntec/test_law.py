@@ -142,9 +142,8 @@ def test_all_values_that_are_missing_are_named_in_one_sentence() -> None:
     with pytest.raises(SimulationError) as raised:
         bound(feed__rapid_at_1=None, control__series=None, motion__axis_acceleration_at_1=None)
     assert (
-        raised.value.what
-        == "The simulation of axis 1 needs values that are not set: feed.rapid@1, control.series,"
-        " motion.axis_acceleration@1"
+        raised.value.what == "The simulation of axis 1 needs values that are not set: feed.rapid,"
+        " motion.axis_acceleration, control.series"
     )
 
 

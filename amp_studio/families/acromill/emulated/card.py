@@ -7,17 +7,21 @@ What the guide does not show is marked "assumed" here and in docs/protocols/acr-
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
+from amp_studio.files import ParameterFile, open_file
 from amp_studio.schema import visible
 from amp_studio.transfer.emulated import DeviceSetup, EmulatedOptions, serve_device
 from amp_studio.transfer.links import Endpoint
 
-from .card_motion import WORDS, CardMotion
+from .card_motion import WORDS, CardMotion, set_up_figures
 from .settings import COMMANDS_LISTED, CardSettings, CommandError
 
 BANNER = ("ACR8000 (c) 1993-1998 by AMCS Inc.", "Version 1.17.08 CARD 0")
 LONGEST = 128  # characters of a line; more are neither taken nor echoed (assumed)
 PIECE = 256
+FILE = "file"
+"""Option: the parameter file that card and AcroMill on the PC were set up from."""
 BACKSPACE, DELETE, RETURN = 0x08, 0x7F, 0x0D
 COMMANDS = "power, patch COMMAND, echo on|off, home AXES, mdi G28 X1, stop, fault drive X, status, quit"
 _LISTED = {"VER": (*BANNER,), "HELP": (*BANNER, f"Commands: {COMMANDS_LISTED}")}
@@ -29,8 +33,12 @@ class AcrCard:
     """The card's side of the line. Half a line that a client has left is still there for the next one."""
 
     def __init__(self, setup: DeviceSetup) -> None:
-        self.settings = CardSettings(setup.memory)
-        self.motion = CardMotion(self.settings)
+        named = setup.hardware.get(FILE)
+        file = None if named is None else _set_up_file(Path(named), setup.family)
+        delivered = CardSettings(setup.memory)
+        set_up = {} if file is None else set_up_figures(file, delivered.values)
+        self.settings = CardSettings(setup.memory, set_up)
+        self.motion = CardMotion(self.settings, file)
         self._out = bytearray()
         self._line = bytearray()
         self._program = 0
@@ -145,6 +153,14 @@ class AcrCard:
         return visible(line)
 
 
+def _set_up_file(path: Path, family: str) -> ParameterFile:
+    """Return the file that a card is set up from; raises ValueError for one of another family."""
+    file = open_file(path).file
+    if file.schema.family.family != family:
+        raise ValueError(f"{path.name} is a file of {file.schema.family.name}, not of {family}")
+    return file
+
+
 def emulate_terminal(place: Endpoint, options: EmulatedOptions) -> int:
     """Run an emulated card until asked to quit."""
-    return serve_device(place, options, AcrCard)
+    return serve_device(place, options, AcrCard, takes=(FILE,))

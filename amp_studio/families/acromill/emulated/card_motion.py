@@ -9,18 +9,19 @@ the PC (pages 43 and 48), which sends its own words to the card.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from amp_studio.families.acromill.law import LAW
 from amp_studio.families.acromill.lines.content import FAMILY, AcrContent, CardContent, plain_figure, settings
 from amp_studio.files import ParameterFile, new_file
+from amp_studio.formats import system_of
 from amp_studio.sim import Ramp, SimulatedAxis, SimulatedMachine, SimulationError, bind_axis
 
-from .settings import AXES, CardSettings, CommandError
+from .settings import AXES, CardSettings, CommandError, number_text, single
 
-UNIT = 25.4
-"""mm: a unit of the card is an inch as delivered (page 61)."""
+MM = {"inch": 25.4, "metric": 1.0}
+"""mm of a unit of the card, which is an inch as delivered (page 61)."""
 ENCODER, ENCODER_STEP = 6144, 16  # encoder position of an axis, pulses (page 114)
 PRIMARY, SECONDARY, SETPOINT_STEP = (
     12294,
@@ -37,10 +38,16 @@ _MDI_WORD = re.compile(rf"([{AXES}F])\s*({_NUMBER})", re.IGNORECASE)
 
 
 class CardMotion:
-    """The axes of a card; each is made when it is first moved."""
+    """The axes of a card; each is made when it is first moved.
 
-    def __init__(self, settings: CardSettings) -> None:
+    ``file`` has what AcroMill on the PC is set up with; None as delivered.
+    """
+
+    def __init__(self, settings: CardSettings, file: ParameterFile | None = None) -> None:
         self._settings = settings
+        self._set_up = new_file(FAMILY) if file is None else file
+        self._system = system_of(self._set_up)
+        self._unit = MM[self._system]
         self._machine = SimulatedMachine()
         self._bound: dict[str, str] = {}
         self._file: ParameterFile | None = None
@@ -69,12 +76,12 @@ class CardMotion:
         if rest or not 0 <= place < len(AXES):
             return None
         axis = self._machine.axes.get(AXES[place])
-        return axis is None or axis.alarm is None
+        return axis is None or axis.is_enabled
 
     def status(self) -> str:
         """Return a line for the operator."""
         where = " ".join(
-            f"{name} {axis.position / UNIT:.4f}{' homed' if axis.is_homed else ''}"
+            f"{name} {axis.position / self._unit:.4f}{' homed' if axis.is_homed else ''}"
             f"{f' {axis.alarm.code}' if axis.alarm else ''}"
             for name, axis in self._machine.axes.items()
         )
@@ -85,7 +92,7 @@ class CardMotion:
         axis = self._machine.axes.get(name)
         if axis is None:
             return 0.0
-        pulses = float(self._settings.values[f"PPU {name}"]) / UNIT
+        pulses = float(self._settings.values[f"PPU {name}"]) / self._unit
         return float(round(axis.position * pulses)) if measured else axis.command * pulses
 
     # -- words of the terminal -----------------------------------------------------------------------
@@ -97,10 +104,12 @@ class CardMotion:
                 self.stop()
             elif word == "RES":
                 for name, figure in _arguments(rest):
-                    self._axis(name).define((figure or 0.0) * UNIT)
+                    self._axis(name).define((figure or 0.0) * self._unit)
             elif word == "MOV":
                 self._forget_next()
-                self._move({name: (figure or 0.0) * UNIT for name, figure in _arguments(rest)}, self._feed())
+                self._move(
+                    {name: (figure or 0.0) * self._unit for name, figure in _arguments(rest)}, self._feed()
+                )
             elif word == "JOG":
                 what, _, arguments = rest.strip().partition(" ")
                 return self._jog(what.upper(), arguments)
@@ -121,7 +130,7 @@ class CardMotion:
 
     def _feed(self) -> float | None:
         rate = self._rates.get("VEL")
-        return None if rate is None else rate * UNIT
+        return None if rate is None else rate * self._unit
 
     def _jog(self, what: str, rest: str) -> list[str]:
         answer = []
@@ -137,7 +146,7 @@ class CardMotion:
             elif what == "OFF":
                 axis.stop(ramp)
             elif what in ("ABS", "INC") and figure is not None:
-                axis.move(figure * UNIT + (axis.command if what == "INC" else 0.0), speed, ramp)
+                axis.move(figure * self._unit + (axis.command if what == "INC" else 0.0), speed, ramp)
             else:
                 raise CommandError("Syntax error")
         return answer
@@ -149,7 +158,7 @@ class CardMotion:
         jogging = law.jogging()
         assert jogging.ramp is not None
         rates = {
-            word: self._rates[f"JOG {word} {name}"] * UNIT
+            word: self._rates[f"JOG {word} {name}"] * self._unit
             for word in RATES
             if f"JOG {word} {name}" in self._rates
         }
@@ -184,7 +193,7 @@ class CardMotion:
             raise ValueError("of MDI blocks this card has G0, G1 and G28 with axes and F")
         words = {word.upper(): float(figure) for word, figure in _MDI_WORD.findall(match[2])}
         feed = words.pop("F", None)
-        targets = {name: figure * UNIT for name, figure in words.items()}
+        targets = {name: figure * self._unit for name, figure in words.items()}
         follow: list[dict[str, float]] = []
         if match[1] == "28":
             homed = [name for name in targets if self._axis(name).is_homed]
@@ -195,7 +204,7 @@ class CardMotion:
             raise ValueError("G1 needs a feedrate F")
         self._homing, self._moves = [], follow
         linear = feed is not None and match[1] in ("1", "01")
-        self._move(targets, feed * UNIT / 60.0 if linear and feed else None)
+        self._move(targets, feed * self._unit / 60.0 if linear and feed else None)
         return block
 
     def _reference(self, name: str) -> float:
@@ -219,6 +228,7 @@ class CardMotion:
     def _home_next(self) -> None:
         for name in self._homing.pop(0) if self._homing else ():
             axis = self._axis(name)
+            axis.travel = None
             assert axis.law.homing is not None
             homing = axis.law.homing()
             axis.home(homing, homing.ramp or next(iter(axis.law.ramps.values())))
@@ -283,17 +293,35 @@ class CardMotion:
         axis = self._machine.axes[name]
         if axis.alarm is not None and not self._machine.is_busy:
             axis.reset()
+        # Soft limits are "legal travel from home position" (page 60).
+        axis.travel = axis.law.travel() if axis.is_homed and axis.law.travel is not None else None
         return axis
 
     def _content(self) -> ParameterFile:
         if self._file is None:
-            card = CardContent("inch")
-            for setting in settings():
-                text = self._settings.values.get(setting.name, "")
-                card.figures[setting.name] = tuple(map(plain_figure, text.split(", "))) if text else ()
-            self._file = new_file(FAMILY)  # what is not on the card is as AcroMill is delivered
+            card = _content_of(self._settings.values, self._system)
+            self._file = self._set_up.copy()  # what is not on the card
             self._file.set_checked(AcrContent().decode(card.written()).values, force="the card takes it")
         return self._file
+
+
+def _content_of(values: Mapping[str, str], system: str) -> CardContent:
+    """Return what a card with these settings contains."""
+    card = CardContent(system)
+    for setting in settings():
+        text = values.get(setting.name, "")
+        card.figures[setting.name] = tuple(map(plain_figure, text.split(", "))) if text else ()
+    return card
+
+
+def set_up_figures(file: ParameterFile, delivered: Mapping[str, str]) -> dict[str, str]:
+    """Return the settings of a card to which a file was sent as it was delivered; raises ImageError."""
+    card = _content_of(delivered, system_of(file))
+    sent = CardContent.read(AcrContent().encode(file, card.written()))
+    return {
+        name: ", ".join(number_text(single(figure)) for figure in figures)
+        for name, figures in sent.figures.items()
+    }
 
 
 def _arguments(rest: str) -> Iterator[tuple[str, float | None]]:

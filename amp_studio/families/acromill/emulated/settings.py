@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import re
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from amp_studio.transfer.emulated import Memory
@@ -123,15 +123,17 @@ _BSC = re.compile(rf"([{AXES}])(?:([0-9]{{1,4}})E(-?\.[0-9]{{5}}))?\s*", re.IGNO
 class CardSettings:
     """The settings that are active, by name ("PPU X"), and those that ESAVE keeps."""
 
-    def __init__(self, memory: Memory) -> None:
+    def __init__(self, memory: Memory, set_up: Mapping[str, str] | None = None) -> None:
         self._memory = memory
+        self._set_up = set_up or {}
+        """What it was set up with and saves nothing else of."""
         self.values: dict[str, str] = {}
         self.variables: dict[int, float] = {}
         self.load()
 
     def load(self) -> None:
         """Make active what is saved, as at power-up and by ELOAD."""
-        self.values = self._delivered()
+        self.values = {**self._delivered(), **self._set_up}
         for line in (self._memory.read(SAVED) or b"").rpartition(b"\n")[0].decode("latin-1").splitlines():
             name, _, value = line.partition("=")
             self.values[name] = value
@@ -145,7 +147,7 @@ class CardSettings:
 
     def save(self) -> None:
         """Write what differs from what is saved, a setting at a time; raises OSError."""
-        saved = CardSettings(self._memory).values
+        saved = CardSettings(self._memory, self._set_up).values
         for name, value in self.values.items():
             if saved.get(name) != value:
                 self._memory.append(SAVED, f"{name}={value}\n".encode())

@@ -16,8 +16,15 @@ was."""
 _MARK = "\ufeff".encode().decode(CODE_PAGE)
 _MARK_SEEN_AS_LATIN = "\ufeff".encode().decode("latin-1")
 _REMARK = re.compile(r"\s*(REM\b.*)?", re.IGNORECASE | re.DOTALL)
-_BEHIND = re.compile(r"\s*+(?:\(.*\)\s*+)?")
-"""The guide's own remarks: ``MULT X-4     (Times 4 multiplication in opposite direction)`` (page 114)."""
+_BEHIND = re.compile(r"\s*+(?:\(.*\)\s*+|REM\b.*)?", re.IGNORECASE)
+"""A remark, or the guide's own: ``MULT X-4     (Times 4 multiplication in opposite direction)``
+(page 114)."""
+
+_PROFILE = re.compile(
+    r"\s*:?(?:\s*(?:STP|VEL|JRK|IVEL|FVEL)\s*(?:[0-9.]+|\([^()]*\))(?![\w.]))*+\s*", re.IGNORECASE
+)
+"""What a program gives its moves beside ``ACC`` and ``DEC``, in one line with them as a rule."""
+_MOVE = re.compile(r"(?:\s*[XYZABCUV]\s*/?\s*(?:[-+]?[0-9.]+|\([^()]*\))(?![\w.]))++\s*", re.IGNORECASE)
 
 _LONGEST_LINE = 1000
 _WORDS = re.compile(
@@ -98,24 +105,35 @@ def _is_of_a_program(text: str, words: set[str]) -> bool:
 
 def arguments_of(line: ScriptLine, commands: list[Command]) -> Iterator[CommandArgument]:
     """Yield the settings of a line; raises FormatError."""
-    known, at = _known_at_begin(line.text, commands)
+    known, at = _known_at_begin(line.text, 0, commands)
     is_first = True
     while is_first or not _BEHIND.fullmatch(line.text, at):
         argument = next((a for c in known if (a := c.read(line.text, at))), None)
-        if argument is None or (not is_first and not known[0].word):
+        if not is_first and (argument is None or not known[0].word):
+            is_of_moves = all("{i}" not in c.form for c in known)
+            next_known, begin = _known_at_begin(line.text, at, commands)
+            if begin == len(line.text) or (is_of_moves and _MOVE.fullmatch(line.text, begin)):
+                return  # what is behind the last setting sets nothing
+            if not next_known[0].word:
+                raise _not_read(line, at, known)
+            known, at, is_first = next_known, begin, True
+            continue
+        if argument is None:
             raise _not_read(line, at, known)
         yield argument
         at, is_first = argument.end, False
 
 
-def _known_at_begin(text: str, commands: list[Command]) -> tuple[list[Command], int]:
-    """Return the commands of the word that a line begins with, and where it goes on; without such a word
-    those that have none.
+def _known_at_begin(text: str, at: int, commands: list[Command]) -> tuple[list[Command], int]:
+    """Return the commands of the word that a line goes on with, and where it goes on behind the word;
+    without such a word those that have none.
     """
-    word = re.match(r"\s*([A-Z]+)(?:\s+|$|(?=\())", text, re.IGNORECASE)
+    begin = _PROFILE.match(text, at)
+    at = begin.end() if begin else at
+    word = re.compile(r"([A-Z]+)(?:\s+|$|(?=\())", re.IGNORECASE).match(text, at)
     if word and (known := [c for c in commands if c.word == word[1].upper()]):
         return known, word.end()
-    return [c for c in commands if not c.word], len(text) - len(text.lstrip())
+    return [c for c in commands if not c.word], at
 
 
 def _not_read(line: ScriptLine, at: int, known: list[Command]) -> FormatError:

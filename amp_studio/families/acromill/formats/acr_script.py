@@ -245,7 +245,9 @@ def _recognises(text: str) -> bool:
         schema = load_schema(FAMILY)
     except KeyError:
         return False
-    lines = script_lines(text[:20_000], commands_of(schema, schema.family.default_machine), set())
+    machine = schema.family.default_machine
+    commands = [*commands_of(schema, machine), *program_commands_of(schema, machine)]
+    lines = script_lines(text[:20_000], commands, set())
     return any(line.arguments for line in lines)
 
 

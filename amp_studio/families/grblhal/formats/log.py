@@ -8,7 +8,7 @@ a forum or a person puts around them.
     | $110 | X-axis maximum rate | 500.000 | mm/min |    a table with words before the value
     $110  500.000                                   two columns
     110=500.000                                     no sign at all, as bCNC stores them (grbl_110 = 500.000)
-    {"key": "$110", "value": "500.000", …}          an object for each setting, as UGS exports them
+    {"key": "$110", "value": "500.000", …}          data of another program (data.py)
     ; [BOARD:T41U5XBB]                              what the control answers to $I, plain or as a remark
     Kleine CNC, 21.12.2015:                         a heading
 
@@ -26,18 +26,17 @@ from typing import NamedTuple
 
 from amp_studio.formats import FormatError
 
-MARK = "\ufeff"
+from .data import IP, MARK, NUMBER, with_signs
+
 _ESCAPES = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|[\x00-\x08\x0b-\x1f\x7f\u200b-\u200f]")
-_NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*|,[0-9]+)?|[.,][0-9]+)"
 _THOUSANDS = re.compile(r"[+-]?[0-9]{1,3}(?:,[0-9]{3})+\.[0-9]+")
-_IP = r"(?:[0-9]{1,3}\.){3}[0-9]{1,3}"
 _UNIT = r"(?:[uµm]?s(?:ec)?|mm(?:/\S+)?|steps?/\S+|rpm|hz)(?:\s.*)?"
 _SETTING = re.compile(r"\$(0|[1-9][0-9]{0,4})([\"'`*]{0,4})[ \t]*(:?=|[:|,;\t])[ \t]*")
-_BARE = re.compile(rf"(?:grbl_)?(0|[1-9][0-9]{{0,2}})[ \t]*=[ \t]*({_NUMBER}|{_IP})[ \t]*(?:[(;].*)?")
+_BARE = re.compile(rf"(?:grbl_)?(0|[1-9][0-9]{{0,2}})[ \t]*=[ \t]*({NUMBER}|{IP})[ \t]*(?:[(;].*)?")
 _DIGIT = re.compile("[0-9]")
-_FIGURE = re.compile(rf"(?:{_IP}|{_NUMBER})(?![\w.:])")
+_FIGURE = re.compile(rf"(?:{IP}|{NUMBER})(?![\w.:])")
 _SPLIT = re.compile(r"^\$[ ](?=[0-9]{1,5}[ ]*=)")
-_COLUMNS = re.compile(rf"\$(0|[1-9][0-9]{{0,4}})[ ]+({_NUMBER})(?:[ ]{{2,}}(.*)|[ ]?([(;#].*))?")
+_COLUMNS = re.compile(rf"\$(0|[1-9][0-9]{{0,4}})[ ]+({NUMBER})(?:[ ]{{2,}}(.*)|[ ]?([(;#].*))?")
 _CELLS = "|;\t,"
 """Signs between the cells of a table."""
 _AHEAD = re.compile(
@@ -79,9 +78,6 @@ _TAG = re.compile(
 )
 """Cells and their marks in the table of a web page; what a control writes in < > begins otherwise."""
 _LONGEST_PAGE = 400_000
-_OBJECT = re.compile(r"\{[^{}]{0,4000}\}")
-_NAMED = re.compile(r'"\$(0|[1-9][0-9]{0,4})"\s*[,}]')
-_ITS_VALUE = re.compile(r'"value"\s*:\s*(?:"([^"]*)"|(-?[0-9][-+.0-9eE]*|true|false))', re.IGNORECASE)
 _FACTS = (
     "VER",
     "OPT",
@@ -133,7 +129,7 @@ class LoggedListing:
         whole = self.whole.get(number, "")
         if not whole:
             return self.settings[number]
-        figures = (n for n, text in self.settings.items() if n not in texts and re.fullmatch(_NUMBER, text))
+        figures = (n for n, text in self.settings.items() if n not in texts and re.fullmatch(NUMBER, text))
         has_remarks = any(self.remarks[n] for n in figures)
         return _REMARK_BEHIND_TEXT.split(whole, maxsplit=1)[0] if has_remarks else whole
 
@@ -164,11 +160,11 @@ class Log:
 
 def is_listing(text: str) -> bool:
     """Return whether a text is for the most part settings of a Grbl, or has at least a few of them."""
+    text = with_signs(text)
     if "$" not in text:
         return {"100", "110"} <= {
             match[1] for line in text.splitlines() if (match := _BARE.fullmatch(line.strip()))
         }
-    text = _OBJECT.sub(_in_one_line, text)
     return any(_has_settings(text, deep) for deep in (False, True)) or _without_signs(text) is not None
 
 
@@ -188,7 +184,7 @@ def read_log(text: str) -> Log:
     Settings in the middle of a line are read only where the text has no listing otherwise:
     "then I set $22=1" is none. Settings that are comments are read where there are no others.
     """
-    text = _OBJECT.sub(_in_one_line, text)
+    text = with_signs(text)
     if (bare := _without_signs(text)) is not None:
         found = _read(bare, anywhere=False)
         found.is_comment = True
@@ -207,18 +203,6 @@ def _without_signs(text: str) -> str | None:
     if len(_COMMENTED.findall(text)) < _LEAST or _NOT_COMMENTED.search(text):
         return None
     return _COMMENTED.sub("", text)
-
-
-def _in_one_line(match: re.Match[str]) -> str:
-    """Return an object that names a setting and its value as a setting, on the line of its name;
-    any other as it is.
-    """
-    name, value = _NAMED.search(match[0]), _ITS_VALUE.search(match[0])
-    if name is None or value is None:
-        return match[0]
-    text = value[2] if value[1] is None else value[1]
-    lines = match[0].count("\n", 0, name.start())
-    return "\n" * lines + f'"${name[1]}": "{text}",' + "\n" * (match[0].count("\n") - lines)
 
 
 def _read(text: str, *, anywhere: bool) -> Log:
@@ -396,7 +380,7 @@ def _cell(cells: str, sign: str) -> str:
     """
     plain = (cell.strip("\"'`* \t") for cell in cells.split(sign)[:4])
     return next(
-        (cell for cell in plain if re.fullmatch(rf"{_NUMBER}|(?:\d{{1,3}}\.){{3}}\d{{1,3}}", cell)), ""
+        (cell for cell in plain if re.fullmatch(rf"{NUMBER}|(?:\d{{1,3}}\.){{3}}\d{{1,3}}", cell)), ""
     )
 
 
@@ -470,7 +454,7 @@ def figure(text: str) -> str:
     if _THOUSANDS.fullmatch(text):
         return text.replace(",", "")
     match = re.fullmatch(
-        rf"({_NUMBER})(?:ok|{_UNIT}|[^\w.:+-].*)?", text.replace("\u2212", "-"), re.IGNORECASE
+        rf"({NUMBER})(?:ok|{_UNIT}|[^\w.:+-].*)?", text.replace("\u2212", "-"), re.IGNORECASE
     )
     if not match:
         return text

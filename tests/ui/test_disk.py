@@ -1,0 +1,69 @@
+"""Disks that are full or write-protected: the user knows before the work is done, and none of it is lost."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from amp_studio.files import Document
+from amp_studio.ui.dialogs.note_dialog import NoteDialog
+from amp_studio.ui.main_window import MainWindow
+
+EXCESS = ("servo.excess_error", "1")
+
+
+def test_a_write_protected_file_is_reported_when_it_is_opened(
+    open_window: Callable[..., MainWindow], tmp_path: Path, router: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It was only refused when an hour's work was to be saved."""
+    path = tmp_path / "router.amp"
+    path.write_bytes(router)
+    may = os.access
+    monkeypatch.setattr(os, "access", lambda place, *how, **kind: place != path and may(place, *how, **kind))
+    bar = open_window(path).page_in_front.bar
+    assert bar.text.text() == "router.amp is write-protected: changes can be saved under another name."
+    assert not bar.isHidden()
+
+
+def test_unsaved_work_that_a_full_disk_cannot_keep_is_reported_once(
+    window: MainWindow, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A program that was killed then lost what nobody knew to be at risk."""
+    workspace, bar = window.workspace, window.page_in_front.bar
+
+    def fail(_: Document) -> None:
+        raise OSError(28, "No space left on device")
+
+    window.edits.commit(EXCESS, "3 mm")
+    monkeypatch.setattr(Document, "keep_unsaved", fail)
+    workspace._keep_unsaved()
+    assert "cannot be kept beside it (No space left on device)" in bar.text.text()
+    bar.hide()
+    workspace._keep_unsaved()
+    assert bar.isHidden(), "said twice"
+    monkeypatch.undo()
+    workspace._keep_unsaved()
+    monkeypatch.setattr(Document, "keep_unsaved", fail)
+    workspace._keep_unsaved()
+    assert not bar.isHidden(), "there was room in between"
+    bar.hide()
+
+
+def test_a_note_that_is_too_long_stays_in_its_form(window: MainWindow, qtbot: QtBot) -> None:
+    """It was refused after its form had closed, and gone."""
+    dialog = NoteDialog(window.workspace, EXCESS, window)
+    qtbot.addWidget(dialog)
+    dialog.show()
+    dialog.form.set_answer("note", "a" * 100_000)
+    dialog.accept()
+    assert dialog.isVisible()
+    assert dialog.fault.text() == "The note has 100000 characters, and 4000 are the most."
+    dialog.form.set_answer("about", "machine")
+    assert not dialog.ok.isEnabled(), "a note that is not in front is looked at, too"
+    dialog.form.set_answer("about", "value")
+    dialog.form.set_answer("note", "a" * 4000)
+    assert dialog.ok.isEnabled()
