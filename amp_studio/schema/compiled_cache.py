@@ -61,8 +61,8 @@ def report_unusable(path: Path, why: str) -> None:
     _log.warning("%s cannot be used and is made again: %s", path, why)
 
 
-def write_cached(path: Path, kept: bytes, name: str) -> None:
-    """Keep compiled facts under a name, and remove what older ones of it left."""
+def write_cached(path: Path, kept: bytes, name: str) -> bool:
+    """Keep compiled facts under a name, and remove what older ones of it left; return whether it was kept."""
     import tempfile  # most starts keep nothing
 
     temporary = ""
@@ -81,6 +81,8 @@ def write_cached(path: Path, kept: bytes, name: str) -> None:
         if temporary:
             with contextlib.suppress(OSError):
                 os.unlink(temporary)
+        return False
+    return True
 
 
 def _digest(kept: bytes) -> bytes:

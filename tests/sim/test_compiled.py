@@ -5,13 +5,14 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from types import FunctionType, SimpleNamespace
+from pathlib import Path
+from types import FunctionType
 
 import numpy as np
 import pytest
 
 from amp_studio.sim.engine.arrays import Vector
-from amp_studio.sim.engine.compiled import can_compile, compiled, kernel_name
+from amp_studio.sim.engine.compiled import compiled, kernel_name, plain
 from tests.sim import tiny as law
 
 LIMIT = 5.0
@@ -56,29 +57,62 @@ def test_the_environment_can_ask_for_plain_python(monkeypatch: pytest.MonkeyPatc
     pytest.importorskip("numba")
     for value, used in (("", True), ("0", True), ("1", False)):
         monkeypatch.setenv("NUMBA_DISABLE_JIT", value)
-        assert can_compile() is used
+        assert (compiled(law.position_sample, law.velocity_sample) is not None) is used
 
 
-def test_machine_code_that_can_be_stored_nowhere_is_used_all_the_same(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    stored = []
+KEPT = """
+import sys, tests.sim.tiny as law
+from amp_studio.sim.engine import machine_code
+from amp_studio.sim.engine.compiled import compiled
+assert not OTHER or setattr(machine_code, "_makers", lambda: "another version") is None
+assert compiled(law.position_sample, law.velocity_sample) is not None
+print("numba" in sys.modules)
+"""
 
-    def njit(first: object, *, cache: bool = False, **_options: object) -> object:
-        def jitted(function: FunctionType) -> FunctionType:
-            stored.append(cache)
-            if cache:
-                raise RuntimeError("cannot cache function: no locator available")
-            return function
 
-        return first if isinstance(first, FunctionType) else jitted
-
-    numbers = SimpleNamespace(
-        njit=njit, float64=np.empty((1, 1), dtype=object), int64=lambda *_types: "signature"
+def kept(caches: Path, other: bool = False) -> bool:
+    """Return whether a process had to make the machine code."""
+    own = {"XDG_CACHE_HOME": str(caches / "user"), "PYTHONPYCACHEPREFIX": str(caches / "python")}
+    done = subprocess.run(
+        [sys.executable, "-c", KEPT.replace("OTHER", str(other))],
+        capture_output=True,
+        text=True,
+        check=True,
+        env={**os.environ, **own, "PYTHONPATH": "."},
     )
-    monkeypatch.setitem(sys.modules, "numba", numbers)
-    assert compiled(with_globals(sample), None).__name__.startswith("run_")
-    assert stored == [True, False]
+    return done.stdout == "True\n"
+
+
+def test_machine_code_is_made_once_and_found_without_numba(tmp_path: Path) -> None:
+    pytest.importorskip("numba")
+    assert kept(tmp_path)
+    assert not kept(tmp_path)
+    (code,) = tmp_path.glob("python/**/run_*.json")
+    code.write_bytes(code.read_bytes()[:-1])
+    assert kept(tmp_path), "what is damaged is made again"
+    assert kept(tmp_path, other=True), "and so is that of another version"
+    # Where compiled modules cannot be kept it is kept in the user's cache.
+    (tmp_path / "python").rename(tmp_path / "gone")
+    (tmp_path / "python").write_text("no folder")
+    assert kept(tmp_path)
+    assert not kept(tmp_path)
+
+
+def test_machine_code_refuses_what_it_would_read_wrongly() -> None:
+    pytest.importorskip("numba")
+    run = compiled(law.position_sample, law.velocity_sample)
+    assert run is not None
+    vectors, rows = [np.zeros(80) for _ in range(11)], np.zeros((4, 20))
+    for wrong in (np.zeros(80, dtype=np.float32), np.zeros((8, 10)), np.zeros(160)[::2]):
+        with pytest.raises(TypeError):
+            run(*vectors[:10], wrong, rows)
+
+
+def test_a_numba_that_cannot_be_imported_is_plain_python(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("numba")
+    monkeypatch.setitem(sys.modules, "numba", None)
+    assert compiled(with_globals(sample), None) is None
+    assert plain(with_globals(sample), None) is not None
 
 
 def test_linear_algebra_has_one_thread() -> None:
