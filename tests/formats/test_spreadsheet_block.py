@@ -52,6 +52,19 @@ def test_a_formula_in_a_text_is_none_to_a_spreadsheet() -> None:
     assert block_text([[BlockCell("=1+1")]]) == "'=1+1"
 
 
+def test_a_number_with_the_comma_of_its_language_is_read_one_way() -> None:
+    """The real clipboard of LibreOffice 7.4 in German; without its number 12,125 can be read two ways."""
+    cells = [
+        '<td align="right" sdval="12,125" sdnum="1031;">12,125</td>',
+        '<td align="right" sdval="12345,6789" sdnum="1031;1031;#.##0,00">12.345,68</td>',
+        '<td align="right" sdval="0,02" sdnum="1031;0;0,00&quot; mm&quot;">0,02 mm</td>',
+    ]
+    markup = f'<table cellspacing="0" border="0"><tr>{"".join(cells)}</tr></table>'
+    rows = read_block("12,125\t12.345,68\t0,02 mm\n", markup)
+    assert rows == [["12.125", "12345.6789", "0.02 mm"]]
+    assert two_ways(rows) == set()
+
+
 def test_a_number_counts_and_not_what_is_shown_of_it() -> None:
     rows = read_block("0,43\t11.3 mm", FROM_LIBREOFFICE)
     assert rows[0] == ["0.433", "11.25 mm", "50%", "2026-10-06"]

@@ -111,6 +111,17 @@ def test_a_block_is_copied_plain_and_exact_with_units(window: MainWindow) -> Non
     assert "\u202f" not in QGuiApplication.clipboard().text(), "groups of digits are for the screen"
 
 
+def test_one_number_without_a_unit_is_a_number_to_a_spreadsheet_of_any_language(window: MainWindow) -> None:
+    """LibreOffice in German takes the text 2.5 for a text: seen with its real clipboard."""
+    window.edits.commit(("servo.initial_gain", "1"), "2.5")
+    for address, is_number in ((("servo.initial_gain", "1"), True), ((EXCESS, "1"), False)):
+        select(window, address, address)
+        window.edits.range.copy()
+        data = QGuiApplication.clipboard().mimeData()
+        assert ('sdval="2.5"' in data.html()) is is_number
+    assert (data.text(), data.hasHtml()) == ("11 mm", False)
+
+
 def test_names_go_along_when_asked_for_and_lead_back_to_their_rows(
     window: MainWindow, file: ParameterFile, accept
 ) -> None:

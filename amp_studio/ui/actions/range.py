@@ -78,7 +78,10 @@ class RangeEdits:
         data = QMimeData()
         is_one = len(cells) == 1 and len(cells[0]) == 1
         data.setText(cells[0][0].text if is_one else block_text(cells))
-        if not is_one:
+        one = cells[0][0]
+        if not is_one or (
+            one.number is not None and not one.unit
+        ):  # to a German spreadsheet 2.5 is a text, or 2 May
             data.setHtml(block_html(cells, heads=bool(names)))
         QGuiApplication.clipboard().setMimeData(data)
 
