@@ -280,19 +280,20 @@ def test_what_differs_and_what_is_sent_add_up_in_what_the_page_states(
     assert page.counts.text().endswith(" are the same, 1 kept, 1 on one side only: stays")
 
 
-def test_errors_and_unsaved_changes_are_shown_in_the_page_before_anything_is_sent(
+def test_errors_are_shown_in_the_page_before_anything_is_sent_and_what_is_sent_is_saved(
     window: MainWindow, start_control: Start, qtbot: QtBot, path: Path
 ) -> None:
     control = start_control(file=nearly(window))
     window.edits.commit(EXCESS, "0.001 mm")
     page = at_control(window, control.address, "send", qtbot)
     page.checked.setChecked(True)
-    assert (page.primary.isEnabled(), page.hint.text()) == (False, "Waiting: the file is not saved")
-    page.bar.buttons[0].click()
-    assert on_disk(path).get(EXCESS) == Value(0.001, "mm")
-    assert page.hint.text() == "Waiting: the file has errors"
+    assert (page.primary.isEnabled(), page.hint.text()) == (False, "Waiting: the file has errors")
     page.bar.buttons[0].click()
     assert page.primary.isEnabled()
+    assert page.primary.text().startswith("Save and Send ")
+    page.press()
+    assert on_disk(path).get(EXCESS) == Value(0.001, "mm")
+    assert settled(window, qtbot).session.phase == "done"
 
 
 def test_a_control_that_is_not_there_and_an_address_that_is_none(

@@ -53,7 +53,7 @@ class ControlDesk(Translated):
         """The file that a session was last chosen for: it may be closed and opened again meanwhile."""
         """Address, family and file -> its exchanges."""
         self._live: LivePage | None = None
-        self.exchanges.show_page = lambda: self.show("compare")
+        self.exchanges.show_page = self.open
         files.comparing.address_of = self.exchanges.chosen_address
         self.emulated.ready.connect(self._ready)
         self.emulated.line_shown.connect(self._add_line)
@@ -178,6 +178,13 @@ class ControlDesk(Translated):
         """Whether the page is in front."""
         return self._page is not None and self._centre.currentWidget() is self._page
 
+    def open(self) -> None:
+        """Show the page in the direction that it had last, first in that of sending: a look and one click are
+        left. What is in front stays as it is: a second click of the tool bar sends nothing.
+        """
+        if not self.is_shown:
+            self.show(self._page.direction if self._page is not None and self._page.workspace else "send")
+
     def show(self, direction: ExchangeDirection, address: str = "") -> None:
         """Show the page in a direction; the key that opened it is its primary button the second time."""
         workspace = self.window.workspace
@@ -201,6 +208,7 @@ class ControlDesk(Translated):
             page.known.setFocus()  # one is chosen there, or "+" asks for an address
             return
         page.setFocus()
+        page.take_keyboard(page.session)
 
     def _has_a_way(self, workspace: Workspace) -> bool:
         """Return whether a way to a control of the family is known; else the sheet to key in is made

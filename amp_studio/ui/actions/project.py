@@ -73,7 +73,10 @@ def open_project(window: StudioWindow) -> None:
 def open_folder(window: StudioWindow, folder: Path) -> None:
     """Open a project and choose one of its files. Raises ParameterFileError."""
     _show(window, Project.open(folder))
-    if _the_project(window).files():
+    files = _the_project(window).files()
+    if len(files) == 1:
+        window.open_path(files[0])
+    elif files:
         open_file(window)
 
 

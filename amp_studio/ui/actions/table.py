@@ -262,7 +262,7 @@ def _control() -> Menu[PartsWindow]:
             Action(
                 "control.page",
                 tr("&At the Control"),
-                lambda w: w.control.show("compare"),
+                lambda w: w.control.open(),
                 "Alt+0",
                 "",
                 "cpu",

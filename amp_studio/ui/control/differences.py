@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Literal
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QFontMetrics, QKeyEvent, QResizeEvent
@@ -20,16 +19,14 @@ from amp_studio.ui.base.places import short_place
 from amp_studio.ui.base.theme import GAP2, GAP3, ROW, SMALL_ICON, colour, font, icon, scheme, severity_icon
 from amp_studio.ui.base.translated import facts_in_words
 
+from .session import BackupReturn
+
 NUMBER, NAME, AXIS, CONTROL, FILE, MIND = range(6)
 _NAME, _LEAST_NAME, _SIDE, _LEAST_SIDE = 260, 130, 150, 96
 _MOST_NUMBER = 84
 """Widths in pixels of the names and of a side, where there is room and where there is not; and of a number at
 most."""
 _ADDRESS = Qt.ItemDataRole.UserRole + 1
-
-
-BackupReturn = Literal["whole", "its values"]
-"""What a backup replaces: all that the control contains, or the values that are in it alone."""
 
 
 @dataclass

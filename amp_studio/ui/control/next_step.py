@@ -18,9 +18,8 @@ from .session_words import ControlBackup, doubts_of, error_in_words, text_of_fai
 
 ExchangeDirection = Literal["compare", "send", "read", "hand"]
 """What is done with the control; "hand" is the sheet of values that a person keys in at it."""
-BarAnswer = Literal["ask", "save", "accept errors"]
-"""What a button of the message does: asks the control for its state, saves the file, sends it with its
-errors."""
+BarAnswer = Literal["ask", "accept errors"]
+"""What a button of the message does: asks the control for its state, sends the file with its errors."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,6 +94,8 @@ def _button_of_sending(state: PageState, session: ControlSession) -> PrimaryButt
             tr("Restore {name}").format(name=state.backup.path.name), _why_not_sent(state, session)
         )
     text = tr("Send %n Values to the Control", "", state.to_send)
+    if state.workspace is not None and state.workspace.is_dirty and state.workspace.may_edit:
+        text = tr("Save and Send %n Values to the Control", "", state.to_send)
     if not state.to_send and not _differs_elsewhere(state, session):
         return PrimaryButton(text, tr("No difference: there is nothing to send."))
     return PrimaryButton(text, _why_not_sent(state, session))
@@ -123,11 +124,9 @@ def _why_not_sent(state: PageState, session: ControlSession) -> str:
         missing = next((c for c in conditions_of(session, state.file) if c.met is False), None)
         if missing is not None:
             return tr("Waiting: {what}").format(what=missing.text)
-    if state.backup is None and workspace is not None:
-        if workspace.is_dirty and workspace.may_edit:
-            return tr("Waiting: the file is not saved")
-        if not state.accepted_errors and workspace.count("error"):
-            return tr("Waiting: the file has errors")
+    is_of_file = state.backup is None and workspace is not None
+    if is_of_file and not state.accepted_errors and workspace.count("error"):
+        return tr("Waiting: the file has errors")
     if state.has_dangers and not state.is_checked:
         return tr("Waiting: what can be dangerous is not checked")
     return ""
@@ -168,11 +167,6 @@ def _about_password(session: ControlSession) -> str:
 
 def _message_of_file(workspace: Workspace, accepted_errors: bool) -> BarMessage | None:
     """Return what keeps a file from being sent, and what to do about it."""
-    if workspace.is_dirty and workspace.may_edit:
-        text = tr("{name} has unsaved changes. A download sends the saved file.").format(
-            name=workspace.path.name
-        )
-        return BarMessage(text, "warning", ((tr("Save"), "save"),))
     errors = [f for f in workspace.findings if f.severity == "error"]
     if errors and not accepted_errors:
         text = tr("The file has {count}, the first: {message}").format(

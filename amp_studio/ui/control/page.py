@@ -19,7 +19,7 @@ from amp_studio.ui.base.translated import message_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 
 from .conditions import conditions_of
-from .differences import BackupReturn, SideRow
+from .differences import SideRow
 from .next_step import BarAnswer, ExchangeDirection, PageState, bar_message, primary_button
 from .page_parts import ControlPageParts
 from .session import ControlSession
@@ -240,8 +240,8 @@ class ControlPage(ControlPageParts):
             self._fill()
         else:
             self.refresh()
-        if was_running and session.phase in ("done", "failed") and self.isVisible():
-            self.primary.setFocus()  # the button that had it is gone, and the next step is here
+        if not session.is_busy and self.isVisible():
+            self.take_keyboard(session, is_lost=was_running)
         needs = session.phase == "ready" and session.in_estop is False and self.direction == "send"
         self._asking.start() if needs and self.isVisible() else self._asking.stop()
         self.state_changed.emit()
@@ -266,16 +266,10 @@ class ControlPage(ControlPageParts):
                 found.values.differences,
                 to_control=to_control,
                 secrets=secrets,
-                returns=self._backup_return(),
+                returns=session.backup_return() if session is not None and self.backup is not None else None,
             )
         self.table.show_sides(self.name, self.title)
         self._show_all(found)
-
-    def _backup_return(self) -> BackupReturn | None:
-        """Return what the backup that is to be put back replaces; None for a file."""
-        if self.backup is None or self.session is None or self.session.seen is None:
-            return None
-        return "whole" if self.session.seen.abilities.all_or_nothing else "its values"
 
     # -- everything follows the state ------------------------------------------------
 
@@ -350,15 +344,10 @@ class ControlPage(ControlPageParts):
         elif self.bar.isHidden() or self.bar.text.text() != message.text:
             acts: dict[BarAnswer, Callable[[], object]] = {
                 "ask": self._ask_again,
-                "save": self._save_file,
                 "accept errors": self._accept_errors,
             }
             answers = ((text, acts[answer]) for text, answer in message.answers)
             self.bar.say(message.text, message.kind, *answers)
-
-    def _save_file(self) -> None:
-        self._save()
-        self.refresh()
 
     def _accept_errors(self) -> None:
         self._accepted_errors = True
@@ -437,6 +426,8 @@ class ControlPage(ControlPageParts):
             session.restore(self.backup.copy, self.backup.path)
             return
         assert workspace is not None
+        if workspace.is_dirty and workspace.may_edit and not self._save():
+            return  # what is sent is on disk
         file = workspace.file.copy()
         kept = {row.difference.address: row.difference.b for row in self.table.kept()}
         if kept:

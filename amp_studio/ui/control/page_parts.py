@@ -8,6 +8,7 @@ from html import escape
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
+    QApplication,
     QCheckBox,
     QHBoxLayout,
     QLabel,
@@ -34,6 +35,7 @@ from .hand_sheet import HandSheet
 from .history import ExchangeHistory
 from .known_list import KnownList
 from .rows import FOOT, side_by_side
+from .session import ControlSession
 from .several import SeveralControls
 from .steps import ExchangeSteps
 
@@ -174,6 +176,26 @@ class ControlPageParts(QWidget):
             self.password.setVisible(needed)
             if is_new:  # once: an address may be typed beside it
                 self.password.setFocus()
+
+    def take_keyboard(self, session: ControlSession | None, *, is_lost: bool = False) -> None:
+        """Put the keyboard where the next step is, where no part of the page has it; ``is_lost`` where the
+        button that had it is gone.
+        """
+        here = QApplication.focusWidget()
+        is_over = session is not None and session.phase in ("done", "failed")
+        if (
+            not (is_lost and is_over)
+            and here is not self.states
+            and here is not None
+            and self.isAncestorOf(here)
+        ):
+            return
+        next_step: QWidget = self.primary if self.primary.isVisible() else self.states
+        if session is not None and session.is_busy:
+            next_step = self.states
+        elif self.middle.currentWidget() is self.table and not is_over:
+            next_step = self.table
+        next_step.setFocus()
 
     def show_text(self, text: str, *, is_proof: bool = False) -> None:
         """Show a text in the place of the table: a proof from its head on, in the middle what is one line."""

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from amp_studio.transfer import Abilities, ControlDriver, ControlIdentity, Exchange, TransferError
     from amp_studio.transfer.client import Copy, ImageComparison, Outcome
 
+BackupReturn = Literal["whole", "its values"]
+"""What a backup replaces: all that the control contains, or the values that are in it alone."""
 SessionPhase = Literal["away", "connecting", "ready", "running", "done", "failed"]
 """Not connected; being read; read; something is sent; it was sent and read back; it did not reach its end."""
 
@@ -182,6 +184,12 @@ class ControlSession(QObject):
             return download_file(file, self.address, exchange, expected=expected, known=seen.content)
 
         self._write("download", work, path)
+
+    def backup_return(self) -> BackupReturn | None:
+        """Return what a backup would replace; None before the control was read."""
+        if self.seen is None:
+            return None
+        return "whole" if self.seen.abilities.all_or_nothing else "its values"
 
     def restore(self, copy: Copy, path: Path) -> None:
         """Put back what a control contained, byte for byte."""

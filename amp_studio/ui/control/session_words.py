@@ -36,7 +36,12 @@ def text_of_content(session: ControlSession | None, name: str, summary: str) -> 
     if session.phase == "connecting":
         return tr("Reading what {name} contains …").format(name=name)
     if session.seen is None:
-        return "" if session.needs_password else error_in_words(session)
+        if session.needs_password or not session.error:
+            return ""
+        return tr(  # why it was not reached is in the bar above
+            "What {name} contains is not known.\nTry again when it is switched on and connected, compare the"
+            " file with a backup of it (page Compare),\nor practise with an emulated control (menu Control)."
+        ).format(name=name)
     if session.seen.why_unreadable:
         return message_in_words(session.seen.why_unreadable)
     if not session.seen.content:
