@@ -61,6 +61,11 @@ class ContentKind(Protocol):
         "from byte 7 on"; "" if it is.
         """
 
+    def shown(self, content: bytes, found: bytes) -> bytes:
+        """Return ``content`` as a control that contains ``found`` shows it: what that is coarser of, and not
+        other than.
+        """
+
 
 class TakesAllOrRefuses:
     """What a kind is whose control takes all of a file, or is sent nothing."""
@@ -76,6 +81,10 @@ class TakesAllOrRefuses:
     def lacks(self, content: bytes, earlier: bytes) -> str:  # noqa: ARG002  # other kinds need them
         """Return "": what is read of such a control is whole."""
         return ""
+
+    def shown(self, content: bytes, found: bytes) -> bytes:  # noqa: ARG002  # controls that round need it
+        """Return the content itself: the control shows all of it."""
+        return content
 
 
 class WholeContent(TakesAllOrRefuses):

@@ -113,6 +113,17 @@ class GrblContentKind:
         startup = {**present.startup, **{n: line for n, line in copy.startup.items() if n in present.startup}}
         return write_content(replace(present, settings=settings, offsets=offsets, startup=startup))
 
+    def shown(self, content: bytes, found: bytes) -> bytes:
+        """Return a content with the settings of another one that shows the same, coarser: ``32.7`` of
+        ``32.735``.
+        """
+        wanted, present = read_content(content), read_content(found)
+        shown = {n: present.settings.get(n, "") for n in wanted.settings}
+        settings = {
+            n: shown[n] if is_shown_as(text, shown[n]) else text for n, text in wanted.settings.items()
+        }
+        return write_content(replace(wanted, settings=settings))
+
     def difference(self, content: bytes, found: bytes) -> str:
         """Return which settings, offsets and start-up lines differ as far as the control shows them."""
         wanted, present = read_content(content), read_content(found)

@@ -126,14 +126,12 @@ def verify_content(file: ParameterFile, fetched: bytes) -> ImageComparison:
         content, missing = kind.encode(file, fetched), kind.left_out(file, fetched)
         stays = kind.stays(file, fetched)
         is_same, is_whole = not missing and not kind.difference(content, fetched), content == fetched
-        # In the control's own units, with what the file leaves as it is.
-        wanted = present if is_whole else kind.decode(content)
+        # In the control's own units, with what the file leaves as it is, and as coarse as it is shown.
+        wanted = present if is_same else kind.decode(kind.shown(content, fetched))
     except ImageError as error:
         missing = str(error)
     head = _head_differences(file, present) if kind.has_header else ()
     found = compare(file.schema, _known(file, wanted), _known(file, present))
-    if is_same:  # what is shown coarser than it is
-        found = Comparison((), found.same + len(found.differences))
     outside = tuple(a for a in file.values if a not in wanted.values)
     return ImageComparison(
         is_same,
@@ -149,7 +147,7 @@ def verify_content(file: ParameterFile, fetched: bytes) -> ImageComparison:
 
 def completed(content: ParameterFile, image: bytes, file: ParameterFile) -> ParameterFile:
     """Return the content of a control to be compared with a file:
-    what no control of its kind keeps is as the file has it.
+    what no control of its kind keeps is as the file has it, and so is what this one shows coarser.
 
     ``image`` are the bytes that show of which kind the control is; empty where they are not known. Both files
     are of one schema; header, marks and what the schema does not know are the file's own.
@@ -160,10 +158,13 @@ def completed(content: ParameterFile, image: bytes, file: ParameterFile) -> Para
     if image:
         try:
             kind = kind_of(image)
-            sent = kind.decode(kind.encode(file, image)).values
+            wanted = kind.encode(file, image)
+            sent, shown = kind.decode(wanted).values, kind.decode(kind.shown(wanted, image)).values
         except ImageError:  # the control cannot take the file: all that differs is shown
             return found
-        found.take({a: v for a, v in file.values.items() if a not in sent and a not in content.values})
+        is_file = {a for a in file.values if a not in sent and a not in content.values}
+        is_file |= {a for a, value in sent.items() if a in file.values and value != shown.get(a)}
+        found.take({a: file.values[a] for a in is_file})
     return found
 
 

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
+from amp_studio.families.grblhal.settings import addresses_by_number
 from amp_studio.files import ParameterFile
 from amp_studio.schema import load_schema
 from amp_studio.schema.values import read_value
 from amp_studio.transfer.client.exchange import WantedContent, download
-from amp_studio.transfer.client.verification import verify_content
-from amp_studio.transfer.content import HouseContent
+from amp_studio.transfer.client.verification import completed, verify_content
+from amp_studio.transfer.content import HouseContent, kind_of
 from amp_studio.transfer.driver import Abilities, ControlDriver, ControlIdentity, Receipt
 from amp_studio.transfer.errors import AtControl, CancelledError, TransferError
 
@@ -24,6 +27,47 @@ def test_a_control_that_cannot_contain_a_file_is_not_the_same() -> None:
     assert not found.is_same
     assert found.missing == "the card does not have PGAIN X, which the file sets"
     assert found.summary().startswith("The control cannot contain this file")
+
+
+GRBL = b"""grblHAL settings 1
+> $I
+[VER:1.1h.20190830:]
+> $$
+$0=10
+$11=0.010
+$110=500.000
+> $#
+[G54:0.000,0.000,0.000]
+> $N
+$N0=
+end 11
+"""
+
+
+def of_grbl(**settings: str) -> ParameterFile:
+    file = kind_of(GRBL).decode(GRBL).copy()
+    known = addresses_by_number(file.schema.on(file.machine))
+    for name, text in settings.items():
+        address = known[int(name[1:])]
+        parameter = file.schema.parameters[address[0]]
+        file.take({address: read_value(parameter, text, file.values[address].unit)})
+    return file
+
+
+def test_what_a_control_shows_coarser_is_no_difference_beside_one_that_is() -> None:
+    finer = verify_content(of_grbl(n11="0.0104"), GRBL)
+    assert (finer.is_same, finer.is_whole, finer.values.differences) == (True, False, ())
+    both = verify_content(of_grbl(n11="0.0104", n110="700"), GRBL)
+    assert not both.is_same
+    assert [d.address for d in both.values.differences] == [("axis.max_rate", "X")]
+    assert both.values.same == finer.values.same - 1
+    compared = completed(kind_of(GRBL).decode(GRBL), GRBL, of_grbl(n11="0.0104", n110="700"))
+    assert compared.values["general.junction_deviation", ""].value == 0.0104
+    assert compared.values["axis.max_rate", "X"].value == 500
+    card = kind_of(CARD)
+    file = card.decode(CARD).copy()
+    file.take({a: replace(v, value=v.value + 1e-9) for a, v in file.values.items() if a[1] == "X"})
+    assert verify_content(file, CARD).is_same
 
 
 class Stopped(HouseContent):

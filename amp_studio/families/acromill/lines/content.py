@@ -182,6 +182,14 @@ class AcrContent(TakesAllOrRefuses):
         _take_ballscrew(card, copy.ballscrew, as_a_whole=True)
         return card.written()
 
+    def shown(self, content: bytes, found: bytes) -> bytes:
+        """Return a content with the figures of another one that a card shows the same."""
+        wanted, present = CardContent.read(content), CardContent.read(found)
+        for name, figures in present.figures.items():
+            if name in wanted.figures and same_figures(wanted.figures[name], figures):
+                wanted.figures[name] = figures
+        return wanted.written()
+
     def difference(self, content: bytes, found: bytes) -> str:
         """Return the settings that differ by what a card shows, in a few words."""
         try:
