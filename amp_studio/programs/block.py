@@ -146,7 +146,7 @@ class BlockReader:
                 fault = read.fault if read else ""
                 return BlockWord(word.text, word.letter, number, unit, meaning, (address,), calls.page, fault)
         return read or BlockWord(
-            word.text, word.letter, None, "", "not known", fault="this control has no such word"
+            word.text, word.letter, None, "", "not known", fault="no page here names such a word"
         )
 
     def _code(self, word: TypedWord) -> BlockWord:

@@ -23,15 +23,15 @@ from .single_codes import SingleCodes
 from .toolpath import DWELL, EXACT, LINE, MOST_ROWS, RAPID, ProgramFault, ToolPath
 from .word_numbers import BlockNumbers, WordNumbers
 from .words import ProgramBlockError as BlockError
-from .words import words_of
+from .words import in_capitals, words_of
 
 MOST_REPEATED = 150_000
 """Blocks that are executed more often than once; a program that needs more counts as one without an end."""
 EVERY = 4096
 """Blocks from one report of progress to the next."""
 
-_PLAIN = re.compile(r"(?:\s|[A-Z]\s*[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))*")
-_PAIRS = re.compile(r"([A-Z])\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))")
+_PLAIN = re.compile(r"(?:\s|[A-Z]\s*[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))*", re.ASCII)
+_PAIRS = re.compile(r"([A-Z])\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))", re.ASCII)
 
 BlockProgress = Callable[[int], None]
 """progress(blocks so far); may raise to cancel."""
@@ -69,6 +69,8 @@ class Interpreter:
         self._cycles = CycleRuns(file, path, codes, self._moves, retract)
         self._single = SingleCodes(path, codes, self._moves)
         self._over = False
+        self._refused = ""
+        """How a line begins that the control refuses in this program."""
         systems = [code for code in codes.known.values() if code.facts.does == "work-system"]
         self._has_offsets = all(code.facts.params for code in systems)
 
@@ -98,7 +100,7 @@ class Interpreter:
         fault = None
         try:
             self._start_up()
-            self._run(lines, progress)
+            self._run(self._own_lines(lines), progress)
             self._note_cycles_taken_in(lines)
         except BlockError as error:
             block = lines[self.line - 1] if 0 < self.line <= len(lines) else ""
@@ -115,10 +117,26 @@ class Interpreter:
             if isinstance(value, str):
                 self._block(value.upper())
 
+    def _own_lines(self, lines: Sequence[str]) -> Sequence[str]:
+        """Return the lines of the program: those up to a % that ends it."""
+        if any(line.lstrip()[:1] == "/" for line in lines):
+            self.notes.append("Blocks with / in front are run, as while the control skips none.")
+        marks = [n for n, line in enumerate(lines) if line.lstrip()[:1] == "%"]
+        begins = next((n for n, line in enumerate(lines) if line.strip()), -1)
+        ends = next((n for n in marks if n != begins), None)
+        if self._path.percent == "nothing" or ends is None:
+            return lines
+        if self._path.percent == "pair" and begins not in marks:
+            self._refused = "%"
+            return lines
+        if any(line.strip() for line in lines[ends + 1 :]):
+            self.notes.append(f"The % in line {ends + 1} ends the program: the blocks behind it are not run.")
+        return lines[:ends]
+
     def _run(self, lines: Sequence[str], progress: BlockProgress | None) -> None:
         flow, rows = ProgramFlow(lines, self.parameters, self.reader.codes, self.notes), self._moves.rows
         while flow.at < len(lines) and not self._over:
-            line = lines[flow.at].upper()
+            line = in_capitals(lines[flow.at])
             flow.at += 1
             self.line = self._moves.line = flow.at
             self.blocks += 1
@@ -169,6 +187,8 @@ class Interpreter:
     def _letters_and_numbers(self, line: str) -> Sequence[tuple[str, str]]:
         if _PLAIN.fullmatch(line):
             return _PAIRS.findall(line)
+        if self._refused and line.lstrip()[:1] == self._refused:
+            raise BlockError("A % in a program that does not begin with one")
         expressions = self.reader.codes.facts.expressions
         return [(word.letter, word.number) for word in words_of(line, expressions)]
 

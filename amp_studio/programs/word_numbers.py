@@ -93,7 +93,7 @@ class WordNumbers:
             return self._reading_of_role(use, codes)
         axis, meaning, _ = next(self._reader.axis_words(letter), ("", "", ()))
         if axis not in self._axes:
-            raise BlockError(f"{letter}: this control has no such word", "unknown-word")
+            raise BlockError(f"{letter}: no page here names such a word", "unknown-word")
         facts = self._reader.codes.facts
         form = (facts.axes.format, axis) if facts.axes and facts.axes.format else None
         return WordReading(

@@ -17,9 +17,15 @@ _EXPRESSION = r"\([^()]*\)"
 for _ in range(DEEPEST - 1):  # parentheses inside one another; a character fits one branch alone: no search
     _EXPRESSION = rf"\((?:[^()]|{_EXPRESSION})*\)"
 _PART = re.compile(
-    r"\s+|(?P<skip>/[1-9]?)|(?P<remark>;.*|\([^)]*\))|%"
-    r"|(?P<letter>,[A-Z]|\$?[A-Z])[ \t]*(?P<number>[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))?"
+    r"\s+|(?P<remark>;.*|\([^)]*\))"
+    r"|(?P<letter>,[A-Z]|\$?[A-Z])[ \t]*(?P<number>[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))?",
+    re.ASCII,
 )
+_BLOCK_DELETE = re.compile(r"\s*/[1-9]?", re.ASCII)
+_DEMARCATION = re.compile(r"\s*%\s*[0-9.]*\s*(?:;.*|\([^)]*\)\s*)?", re.ASCII)
+"""A line that begins or ends a program; some controls have its number behind the %."""
+_FLOW = re.compile(r"\s*(?:N\s*[0-9]+\s*)?O\s*(?:[0-9]+\s*[A-Z]|<|\[)", re.ASCII)
+"""An O-word that is more than the number of a program."""
 _WITH_EXPRESSION = re.compile(
     r"(?P<letter>[A-Z])[ \t]*(?P<number>[+-]?" + _EXPRESSION + r"|(?<=T)[P#][0-9]+|(?<=T )[P#][0-9]+)"
 )
@@ -71,11 +77,33 @@ def words_of(block: str, expressions: bool = False) -> Iterator[TypedWord]:
     """
     if len(block) > LONGEST:
         raise ProgramBlockError(f"A block has at most {LONGEST} characters, not {len(block)}")
-    text, place = block.upper(), 0
+    text = in_capitals(block)
+    if _DEMARCATION.fullmatch(text):
+        return
+    if _FLOW.match(text):
+        raise ProgramBlockError(
+            f"{quoted(block[:12])}: subroutines and branches by O-words are not simulated"
+        )
+    deleted = _BLOCK_DELETE.match(text)
+    place = deleted.end() if deleted else 0
     while place < len(text):
         found = (_WITH_EXPRESSION.match(text, place) if expressions else None) or _PART.match(text, place)
         if found is None:
-            raise ProgramBlockError(f"{quoted(block[place : place + 12])} is no word: a letter and a number")
+            raise ProgramBlockError(_unreadable(block[place : place + 12], expressions=expressions))
         if found.groupdict().get("letter"):
             yield TypedWord(found["letter"], found["number"] or "", block[place : found.end()].strip())
         place = found.end()
+
+
+def in_capitals(block: str) -> str:
+    """Return a block with the letters a to z in capitals: no other letter becomes one of a word."""
+    return block.upper() if block.isascii() else "".join(c.upper() if c.isascii() else c for c in block)
+
+
+def _unreadable(rest: str, *, expressions: bool) -> str:
+    """Return what is wrong with the rest of a block."""
+    if rest[0] == "(":
+        return f"{quoted(rest)}: the remark is not closed"
+    if rest[0] in "#[<" and not expressions:
+        return f"{quoted(rest)} is no word: parameters and expressions of this control are not simulated"
+    return f"{quoted(rest)} is no word: a letter and a number"

@@ -146,7 +146,7 @@ def test_a_lathe_of_type_a_has_words_for_distances() -> None:
         word(example("lathe-ls176", **{"518": "Lathe A"}), "U5.", letter="U").meaning
         == "distance of a move along X"
     )
-    assert "no such word" in word(example("lathe-ls176", **{"518": "Lathe B"}), "U5.", letter="U").fault
+    assert "such a word" in word(example("lathe-ls176", **{"518": "Lathe B"}), "U5.", letter="U").fault
 
 
 def test_codes_call_programs_of_the_builder_until_the_first_one_that_is_not_used() -> None:

@@ -139,7 +139,7 @@ def test_a_cycle_is_repeated_by_distances_and_ended_by_g80(router: ParameterFile
         ("G0 G1 X1", "another code of the group"),
         ("RET", "without a GOSUB"),
         ("GOTO 70", "No block has the number N70"),
-        ("X1e300", "no such word"),
+        ("X1e300", "such a word"),
         ("P5=P", "is no expression"),
         ("X99999999999", "beyond every machine"),
         ("G3 X-1 Y-1 R1", "No page prints arcs by R"),

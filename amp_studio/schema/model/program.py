@@ -304,6 +304,9 @@ class ProgramPath(Model):
     """Codes of groups that are active at the start where no parameter chooses one."""
     startup: ParameterId | None = None
     """A block that the control runs when it starts."""
+    percent: Literal["ends", "pair", "nothing"] = "ends"
+    """What a % alone in a line does that is not the first one: it ends the program, one that begins with a %
+    alone, or nothing."""
     feed_first: bool = False
     """Whether a feed in a block that changes the unit of length is read in the unit before it."""
     speed_waits: Literal["", "always", "turning"] = ""

@@ -77,7 +77,7 @@ def test_a_rounded_corner_is_as_far_from_the_program_as_p_allows(mill: Parameter
         ("G81 X-5 Z-5 R-1 F100", "G81 is not simulated"),
         ("G28 X0", "G28 is not simulated"),
         ("G2 X-10 Y0 I-5 J0 P2 F900", "several turns"),
-        ("o100 sub", "no such word"),
+        ("o100 sub", "by O-words"),
         ("X[1+2]", "is no word"),
     ],
 )
