@@ -65,6 +65,7 @@ class FileMachine:
         if moving.law.homing is None:
             raise SimulationError(f"Axis {name} is not homed by a sequence that is printed")
         homing = moving.law.homing()
+        # Limits count from the zero that homing finds: none while it is searched.
         moving.travel, self._targets = None, []
         moving.home(homing, homing.ramp or self._ramp(moving, homes=True))
         return self._letter(name)
@@ -157,9 +158,11 @@ class FileMachine:
         """Make the axes that have not moved yet, as far as they can be made."""
         fitted = tuple(self._law.axes(self._file)) if self._file is not None else ()
         for name in fitted:
+            # An axis that the parameters do not make is not shown; the others are.
             with contextlib.suppress(SimulationError):
                 self._axis(name)
         made = self._machine.axes
+        # In the order of the file, without axes that are no longer fitted.
         self._machine.axes = {name: made[name] for name in fitted if name in made}
 
     def axes(self) -> Iterator[PanelAxis]:
@@ -190,6 +193,7 @@ class FileMachine:
     def advance(self, duration: float) -> None:
         """Let time pass, s."""
         self._machine.advance(duration)
+        # Only when every axis of the first line is at its end: the second line begins from rest.
         if self._targets and not self._machine.is_busy:
             self._machine.line(self._targets.pop(0), None)
 

@@ -126,6 +126,7 @@ def _again(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: 
         yield MoveOrder(axis.position - sign * back, abs(homing.approach), ramp)
         if around.is_stuck or sign * (axis.load - edge) >= 0.0:
             off = f"The switch does not go off within {value_text(back, axis.axis.unit)}"
+            # A later pass replaces the edge that an earlier one found.
             yield from _failed(homing, "stuck", ramp, homed, off)
             return
         homed.left = yield GoOrder(sign * abs(homing.again), ramp, Watch(edge, sign), LOCATE * back)
@@ -141,6 +142,7 @@ def _off(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: Ho
         yield from _left(axis, homing, ramp, around, homed, edge)
         if homed.left is None:
             return
+    # The place where the switch went off, not where the axis is by now.
     start = homed.left.measured if homed.left else axis.measured
     if homing.marker == "nearest":
         yield StopOrder(ramp)
@@ -210,6 +212,7 @@ def _coded(
     place = passed - around.scale
     if sign * (place - (around.high if sign > 0.0 else around.low)) > 0.0 or not around.has_markers:
         place = sign * math.inf
+    # In each period there is a marker, so that one more period than markers is enough.
     way = min(_way(axis, around, sign, scale.large), (scale.markers + 1) * scale.large)
     seen = yield GoOrder(homing.leave, ramp, Watch(place, sign, device=True), way)
     if seen is None:
@@ -246,6 +249,7 @@ def _way(axis: MovingAxis, around: Around, sign: float, turn: float) -> float:
     end = around.high if sign > 0.0 else around.low
     if math.isfinite(end):
         return max(sign * (end - axis.position), 0.0)
+    # No end of the way is known: a little beyond the switch, or as far as a coded scale is searched.
     return abs(around.switch - axis.position) + 2.0 * turn if math.isfinite(around.switch) else FAR * turn
 
 

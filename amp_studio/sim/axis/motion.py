@@ -26,6 +26,7 @@ Engine = Literal["auto", "plain", "compiled"]
 
 LONGEST_STEP = 0.4e-3
 """Longest physics step in s."""
+# Leapfrog is stable up to 2; at 0.25 a resonance is off by 0.25²/24, 0.3 % of its frequency.
 STIFFEST_STEP = 0.25
 """Physics step times the fastest rate of the machine."""
 MOST_SUBSTEPS = 10_000
@@ -156,18 +157,21 @@ def prepared(
     """
     samples, substeps = steps(axis, refine)
     step = axis.servo_period / samples / substeps
+    # Written with "not", so that a duration that is no number is refused too.
     if not (until.duration / step <= MOST_STEPS and until.duration / step / stride <= MOST_ROWS):
         longest = min(MOST_STEPS, MOST_ROWS * stride) * step
         raise SimulationError(
             f"The move takes about {until.duration:.6g} s, more than can be simulated ({longest:.6g} s)."
             " Give a shorter distance or a higher feedrate"
         )
+    # A duration of whole steps gets no row more by rounding.
     driven = max(1, math.ceil((until.duration / step - 1e-6) / stride))
     timing = [0.0] * kernel.TIMING_SIZE
     timing[kernel.SERVO_PERIOD], timing[kernel.STEP] = axis.servo_period, step
     timing[kernel.VELOCITY_SAMPLES], timing[kernel.SUBSTEPS] = float(samples), float(substeps)
     timing[kernel.STRIDE], timing[kernel.MONITORS] = float(stride), float(len(axis.monitors))
     timing[kernel.REST_BAND], timing[kernel.REST_TIME] = until.rest_band, until.rest_time
+    # A band below a count would never be met: measured positions go in counts.
     timing[kernel.IN_POSITION_BAND] = max(axis.inposition_band, 1.5 * axis.machine.position_count)
     timing[kernel.SETTLE_TIME], timing[kernel.DRIVEN_ROWS] = until.settle_time, float(driven)
     timing[kernel.SHARE_RATE], timing[kernel.EMERGENCY], timing[kernel.FORWARD] = math.inf, math.inf, 1.0
@@ -175,12 +179,14 @@ def prepared(
     io, x = [0.0] * (MONITOR + len(axis.monitors)), [0.0] * kernel.STATE_SIZE
     io[FEED_SHARE], io[MODE] = 1.0, POSITION_LOOP
     x[kernel.ENDED] = x[kernel.ALARM_ROW] = -1.0
+    # As if a stride had just passed: the first step writes a row.
     x[kernel.SINCE], x[kernel.SHARE] = float(stride), 1.0
     machine = _machine_array(axis.machine, step)
     part = machine[DELAY_SHARE] * step
     before, after = (
         _machine_array(axis.machine, span) if part > 0.0 else [*machine] for span in (part, step - part)
     )
+    # `delayed` reads two places, the farther one ``DELAY_STEPS`` + 1 before the one just written.
     line = [0.0] * (int(machine[DELAY_STEPS]) + 2)
     parameters, state = [float(each) for each in axis.parameters], [0.0] * axis.state_size
     shape = driven + math.ceil(coast / step / stride), len(kernel.COLUMNS) + len(axis.monitors)
@@ -204,6 +210,7 @@ def steps(axis: AxisLaw, refine: int = 1) -> tuple[int, int]:
     """Return (velocity samples in a servo period, physics steps in a velocity sample)."""
     samples = max(1, round(axis.servo_period / axis.velocity_period))
     sample = axis.servo_period / samples
+    # A servo period of whole longest steps gets no step more by rounding.
     wanted = max(sample / LONGEST_STEP - 1e-9, sample * axis.machine.fastest / STIFFEST_STEP)
     if not wanted <= MOST_SUBSTEPS:
         raise SimulationError(

@@ -64,6 +64,7 @@ def move_of(axis: AxisLaw, settings: ScenarioSettings) -> Move:
     if distance == 0.0:
         raise SimulationError("move.distance is 0; it must not be 0", "move.distance")
     if distance is None:
+        # So long a move takes LONG_STRETCH s at its feedrate: what it takes beyond that are its ramps.
         ramps = end_of(move(LONG_STRETCH * feedrate, feedrate, ramp, count)) - LONG_STRETCH
         distance = rounded_up(feedrate * (max(ramps, 0.0) + 2.0 * STEADY_LAGS / axis.position_rate), 2)
     if not (math.isfinite(distance) and abs(distance) / feedrate < math.inf):
@@ -128,6 +129,7 @@ def until_of(axis: AxisLaw, moved: Move, duration: float | None) -> Until:
     settle = LONGEST_WAIT * lag + LONGEST_SETTLING
     blocks = len(moved.profile) // 8
     return Until(
+        # Each exact stop between blocks may be waited for as long as the end is.
         2.0 * end_of(moved.profile) + settle + blocks * LONGEST_WAIT * lag,
         max(axis.inposition_band, axis.rest_band, 1.5 * axis.machine.position_count),
         3.0 * lag + PAUSE,

@@ -151,6 +151,7 @@ class MovingAxis:
         self._is_compiled = False
         timing = self._vectors[TIMING]
         timing[kernel.COAST_TIME] = coast
+        # The kernel ends no run by itself: orders do.
         timing[kernel.REST_TIME] = timing[kernel.SETTLE_TIME] = math.inf
         self._stand_still()
 
@@ -257,6 +258,7 @@ class MovingAxis:
         which is returned.
         """
         last = self.time + duration
+        # Half a period: what rounding leaves of a duration is no sample.
         while not self.is_over and last - self.time > 0.5 * self.axis.servo_period:
             seen = self._work(last, watches) if self._order else self._step(last, watches, to_end=False)
             if seen is not None and seen.watch >= 0:
@@ -331,6 +333,7 @@ class MovingAxis:
     def order(self, pieces: Sequence[Piece], sign: float) -> None:
         """Put these pieces in the place of the command, from where it is now."""
         flat = profile_of(pieces, length(pieces), sign)
+        # The time of the command goes on over all orders, so that the new pieces begin now.
         moment = float(self._vectors[STATE][kernel.MOMENT])
         for k in range(0, len(flat), WIDTH):
             flat[k] += moment
@@ -367,7 +370,7 @@ class MovingAxis:
         x, at = self._vectors[STATE], self.measured
         motor, load = float(x[kernel.PLANT]), float(x[kernel.PLANT + 2])
         fresh, _ = prepared(self.axis, [], Until(self.axis.servo_period), self._steps // self._samples)
-        # The brake is open again, and a drive that has tripped has torque.
+        # The brake is open again, and a drive that has tripped has torque. Time, delay line and rows go on.
         for place in (LAW_STATE, IO, MACHINE, BEFORE, AFTER):
             self._vectors[place][:] = fresh[place]
         shift, self._origin = at - self._origin, at  # a law begins at 0
@@ -413,6 +416,7 @@ class MovingAxis:
             # In pieces: the rows of a call have a fixed room.
             timing[kernel.LAST_SAMPLE] = min(last, before + CHUNK)
             self._call()
+            # Other objects, if the call has just changed lists into arrays.
             x, timing = self._vectors[STATE], self._vectors[TIMING]
             if x[kernel.SEEN]:
                 found = Seen(int(x[kernel.SEEN]) - 1, self.time, self.load, self.measured)
@@ -454,6 +458,7 @@ class MovingAxis:
             return
         if self._vectors[STATE][kernel.ALARM_ROW] >= 0.0 and self._alarm_row is None:
             self._alarm_row = self._count + int(self._vectors[STATE][kernel.ALARM_ROW])
+        # The next call of the kernel fills the same rows.
         kept = rows.copy()
         kept[:, POSITIONS] += self._origin
         self._chunks.append(kept)

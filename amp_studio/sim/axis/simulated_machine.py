@@ -102,6 +102,7 @@ class SimulatedAxis:
     def bind(self, law: AxisLaw) -> None:
         """Take other parameters over, at rest."""
         at, moving = self.command, MovingAxis(law, engine="plain", keep=False, coast=COAST)
+        # The 0 of the new moving axis is where the old one is: switches and markers move by the same way.
         if self._around is not None:  # the switches stay where they are in the machine
             self._around = moved(self._around, -self._moving.position)
         self._moved_zero += self._moving.position
@@ -121,6 +122,7 @@ class SimulatedAxis:
             self.stop(ramp)
             return
         self._forget_limit()
+        # Ten minutes of a jog: an order without an end would be refused (`moving_axis.LONGEST`).
         far = min(farthest, abs(velocity) * 600.0)
         self._begin(self._gone(velocity, ramp, far))
 
@@ -172,11 +174,13 @@ class SimulatedAxis:
             self.alarm = None
 
     def _moved(self, to: float, feedrate: float, ramp: Ramp) -> Orders:
+        # A move begins from rest: its pieces are planned from velocity 0.
         if self._moving.velocity != 0.0:
             yield StopOrder(ramp)
         yield MoveOrder(to, feedrate, ramp)
 
     def _gone(self, velocity: float, ramp: Ramp, farthest: float) -> Orders:
+        # A jog in the other direction comes to rest first: the sign of a profile is one for all of it.
         if self._moving.velocity * velocity < 0.0:
             yield StopOrder(ramp)
         sign = math.copysign(1.0, velocity)
@@ -268,6 +272,8 @@ class SimulatedAxis:
             return
         position, below, above = self._marker_waited
         passed = above if self._moving.measured >= above else below
+        # Not strictly between its two markers: one of them has been passed, and which one is known by the
+        # side.
         if not below < self._moving.measured < above:
             self._offset, self._marker_waited = position - passed, None
 
@@ -340,6 +346,7 @@ class SimulatedMachine:
         fastest = min((laws[name].feedrate or math.inf) * length / abs(way) for name, way in ways.items())
         speed = fastest if feedrate is None else min(feedrate, fastest)
         ramps = {name: next(iter(law.ramps.values())) for name, law in laws.items()}
+        # The axis with the least acceleration for its share decides: only so do all stay on the line.
         rise = min(ramps[name].acceleration * length / abs(way) for name, way in ways.items())
         for name, way in ways.items():
             share = abs(way) / length

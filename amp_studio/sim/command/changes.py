@@ -25,8 +25,10 @@ def change_time(ramp: Ramp, difference: Changes, acceleration: Changes) -> Chang
         return np.zeros_like(difference)
     with np.errstate(divide="ignore", invalid="ignore"):
         if ramp.kind == "sine-squared":
+            # The mean of sin² is half its peak.
             found = np.where(difference > 0.0, np.maximum(ramp.time, 2.0 * difference / acceleration), 0.0)
         elif ramp.kind == "s-curve" and ramp.jerk > 0.0:
+            # Without an even part, half of the change is made while the acceleration rises: d = jerk t².
             slope = np.minimum(acceleration / ramp.jerk, np.sqrt(difference / ramp.jerk))
             even = np.maximum(difference / (slope * ramp.jerk) - slope, 0.0)
             found = np.where(difference > 0.0, 2.0 * slope + even, 0.0)
@@ -47,6 +49,7 @@ def reached(ramp: Ramp, velocity: float, way: float, acceleration: float) -> flo
         return math.inf
     if ramp.kind == "sine-squared":
         in_time = 2.0 * way / ramp.time - velocity if ramp.time > 0.0 else math.inf
+        # The least time is kept as long as the peak acceleration, 2 d / T, allows it.
         if in_time - velocity <= 0.5 * acceleration * ramp.time:
             return max(in_time, velocity)
         return math.sqrt(velocity * velocity + acceleration * way)
@@ -66,6 +69,7 @@ def _rise(velocity: float, way: float, acceleration: float, jerk: float) -> floa
             return float(np.cbrt(q)) ** 2
         s = 2.0 * math.sqrt(p / 3.0) * math.sinh(math.asinh(1.5 * q / p * math.sqrt(3.0 / p)) / 3.0)
         return s * s
+    # way = (v + d/2) (d/a + a/j), solved for the change d.
     b = acceleration / jerk + 2.0 * velocity / acceleration
     c = 2.0 * velocity * acceleration / jerk - 2.0 * way
     return 0.5 * acceleration * (math.sqrt(b * b - 4.0 * c / acceleration) - b)

@@ -36,6 +36,7 @@ class Piece:
         t = self.duration if after is None else after
         v, a = self.velocity, self.acceleration
         if self.kind == EXPONENTIAL:
+            # expm1: of a time that is short against the constant, 1 - exp would lose the digits.
             return v * t + a * self.figure * (t + self.figure * math.expm1(-t / self.figure))
         if self.kind == SINE_SQUARED:
             turn = 2.0 * math.pi / self.figure

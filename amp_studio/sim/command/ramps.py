@@ -105,6 +105,7 @@ def exponential_pieces(
         piece = Piece(lasts, velocity, (feedrate - velocity) / ramp.time, 0.0, EXPONENTIAL, ramp.time)
         velocity = piece.end
         pieces.append(piece)
+        # The parts of a distance add up to it but for rounding.
         if given >= distance * (1.0 - 1e-12):
             break
     # What a lag of time constant T has still to go when its input is 0 is the integral of v e^(-t/T), v T;
@@ -156,6 +157,7 @@ def _towards(ramp: Ramp, before: float, after: float, lasts: float) -> list[Piec
     """Return the pieces to a velocity and on at it, cut after ``lasts`` s; a ramp with jerk is not cut."""
     pieces: list[Piece] = []
     for piece in change(ramp, before, after):
+        # A ramp with jerk that is cut would leave an acceleration, which no piece takes up.
         straight = piece.kind == POLYNOMIAL and piece.jerk == 0.0 and ramp.kind != "s-curve"
         duration = min(piece.duration, max(lasts, 0.0)) if straight else piece.duration
         pieces.append(replace(piece, duration=duration))
@@ -186,9 +188,11 @@ def blocks(
     start = position = entry = 0.0
     for n, (distance, feedrate) in enumerate(parts):
         following = parts[n + 1] if n + 1 < len(parts) else (0.0, 0.0)
+        # Same direction: the product of both ways is positive.
         through = not exact_stop and distance * following[0] > 0.0
         leave = min(feedrate, following[1]) if through else 0.0
         pieces = leg(abs(distance), feedrate, ramp, entry, leave)
+        # The end of the last block is waited for by the run (`moves.until_of`).
         if exact_stop and n + 1 < len(parts):
             pieces.append(Piece(check, kind=IN_POSITION))
         flat = profile_of(pieces, abs(distance), math.copysign(1.0, distance))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+# From 2**52 to 2**53 a float64 has no bits for a fraction, so that the sum is rounded; 1.5 times, so that a
+# negative number stays in that range.
 TO_WHOLE = 1.5 * 2.0**52
 
 

@@ -153,6 +153,7 @@ def seen(timing: Vector, commanded: float, measured: float, load: float) -> int:
     for n in range(int(timing[WATCHES])):
         k = WATCH + n * WATCH_WIDTH
         sign, where = timing[k + 1], load if timing[k] == AT_LOAD else measured
+        # Only once the command has gone on towards the place: an axis beyond a limit can be moved back.
         if sign * (commanded - timing[k + 3]) > 0.0 and sign * (where - timing[k + 2]) >= 0.0:
             return n + 1
     return 0
@@ -228,10 +229,13 @@ def run(
         if coasting > 0.0:
             coasting -= period
             if coasting <= 0.0 or (abs(motor) < STANDSTILL and abs(load) < STANDSTILL):
+                # Motor and load are where they came to rest; the rest of the state is that of a drive
+                # without output.
                 x[PLANT], x[PLANT + 2], x[COASTING] = motor_position, load_position, 0.0
                 return row
         else:
             position_sample(p, s, io)
+            # The reference of the control is behind the command by design: that is no error.
             error = abs(io[COMMAND] - io[REFERENCE_LAG] - io[POSITION])
             # An axis that waits in the middle of its command is not at its end, however still it is.
             if piece < last or error > timing[REST_BAND]:
@@ -292,12 +296,15 @@ def run(
                     x[ALARM_ROW] = float(row - 1)
                     coasting = timing[COAST_TIME]
                     if coasting == 0.0 or io[STOP] == DIVERGED:
+                        # Positions without bounds mean nothing: such an axis does not run out.
                         return row
                     # The control takes the output away and goes on with the command no more.
                     io[OUTPUT] = output = rate = 0.0
                     io[COMMAND_VELOCITY] = velocity = share = 0.0
                     most = rows.shape[0]  # the rows that were kept free for the way after an alarm
                     brake(m)
+                    # A step that a delayed output cuts in two has arrays for the whole and for both parts:
+                    # each has the brake.
                     brake(before)
                     brake(after)
                 since += 1

@@ -109,6 +109,7 @@ class Machine:
             raise SimulationError(f"The motor's share of the friction is {self.motor_friction:g}; at most 1")
         if self.velocity_per_output > 0.0 and self.velocity_bandwidth == 0.0:
             raise SimulationError("The velocity loop of the drive has no bandwidth; it must be above 0 Hz")
+        # Written with "not", so that a rate that is no number (0 times infinity) is refused too.
         if not self.fastest <= STIFFEST:
             raise SimulationError(f"The machine is too stiff to simulate ({self.fastest:.6g} 1/s)")
 
@@ -132,6 +133,8 @@ class Machine:
     @property
     def fastest(self) -> float:
         """The fastest rate in 1/s that the physics step has to resolve."""
+        # Each a rate in 1/s: viscous friction, coupling, spring, velocity loop of the drive and its
+        # integral.
         rates = [self.acceleration_per_output * self.viscous_friction]
         if self.two_masses:
             rates.append(2.0 * math.pi * self.coupling[0])
@@ -188,11 +191,14 @@ def machine_array(machine: Machine, step: float) -> list[float]:
     m = [0.0] * SIZE
     frequency, damping_ratio, ratio = machine.coupling
     own, total = machine.motor_friction, machine.acceleration_per_output
+    # u/s2 for one unit of torque on each mass: their reciprocals, the inertias, add up to that of the axis.
     motor, load = total * (1.0 + ratio), total * (1.0 + ratio) / ratio
     m[KEEP : STATIC + 1] = _mass(machine, total, 1.0, step)
     m[MOTOR : MOTOR + STATIC + 1] = _mass(machine, motor, own, step)
     m[LOAD : LOAD + STATIC + 1] = _mass(machine, load, 1.0 - own, step)
     rate = 2.0 * math.pi * frequency
+    # A torque in the coupling changes the difference of both speeds by motor + load: 2 ζ ω and ω² over that
+    # are damping and stiffness.
     damping = 2.0 * damping_ratio * rate / (motor + load)
     m[HALF_GAP] = 0.5 * machine.backlash
     # The damping acts on the mean difference of speeds in the step, so that it takes energy out at any step.
@@ -202,6 +208,7 @@ def machine_array(machine: Machine, step: float) -> list[float]:
     m[GRAVITY], m[SPRING], m[BRAKE] = machine.gravity, machine.spring, machine.brake
     if machine.bandwidth > 0.0:
         lag = 2.0 * math.pi * machine.bandwidth * step
+        # expm1: for a short step 1 - exp(-lag) would lose its digits.
         m[LAG], m[LAG_MEAN] = math.exp(-lag), -math.expm1(-lag) / lag
     m[DELAY_STEPS] = math.floor(machine.delay / step + WHOLE)
     share = machine.delay / step - m[DELAY_STEPS]
@@ -209,6 +216,7 @@ def machine_array(machine: Machine, step: float) -> list[float]:
     m[OUTPUT_LIMIT] = machine.output_limit
     m[TORQUE_POSITIVE], m[TORQUE_NEGATIVE] = machine.torque_limit_positive, machine.torque_limit_negative
     if machine.velocity_per_output == 0.0:
+        # Where the output is the torque itself, its limit is one of the torque.
         m[TORQUE_POSITIVE], m[TORQUE_NEGATIVE] = (
             min(limit, machine.output_limit) for limit in m[TORQUE_POSITIVE : TORQUE_NEGATIVE + 1]
         )

@@ -116,6 +116,7 @@ def speed_after(m: Vector, k: int, speed: float, push: float) -> float:
 
 def brake(m: Vector) -> None:
     """Close the brake: dry friction at the load, for the rest of the run."""
+    # Of the one mass, and of the load of two: the machine uses one of them.
     for k in (0, LOAD):
         m[k + COULOMB] += m[BRAKE]
         m[k + STATIC] += m[BRAKE]
@@ -184,6 +185,7 @@ def advance(
         push = mean - m[GRAVITY] - m[SPRING] * motor_position
         before, motor = motor, speed_after(m, 0, motor, push)
         motor_position += 0.5 * h * motor
+        # Torque that became no speed: friction and load, which the drive gives back in the next step.
         against = mean - m[TORQUE_OF_CHANGE] * (motor - before)
         return motor_position, motor, motor_position, motor, torque, error_sum, against
     load_position += 0.5 * h * load
@@ -194,5 +196,6 @@ def advance(
     load = speed_after(m, LOAD, load, coupling + weight)
     motor_position += 0.5 * h * motor
     load_position += 0.5 * h * load
+    # As above, of the motor: the drive closes its loop on it, not on the load.
     against = mean - m[TORQUE_OF_CHANGE] * (motor - before)
     return motor_position, motor, load_position, load, torque, error_sum, against

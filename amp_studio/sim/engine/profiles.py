@@ -33,6 +33,7 @@ IN_POSITION = 4.0
 
 def piece_at(profile: Vector, piece: int, time: float) -> int:
     """Return the piece of a moment, not before ``piece``."""
+    # The last piece has no end, so the search has one.
     while time >= profile[piece * WIDTH + START] + profile[piece * WIDTH + DURATION]:
         piece += 1
     return piece

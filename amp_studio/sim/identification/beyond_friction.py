@@ -54,6 +54,7 @@ def _left(fit: FrictionFit, torque: Series) -> tuple[float, int]:
     acceleration = np.gradient(fit.velocity, fit.period)
     forward = fit.velocity > 0.0
     table = np.column_stack([acceleration, fit.velocity, forward, ~forward]).astype(float)[used]
+    # Columns of one length, for the condition; one of zeros stays as it is.
     table /= np.sqrt((table**2).sum(axis=0)) + 1e-300
     rest = torque[used] - table @ np.linalg.lstsq(table, torque[used], rcond=None)[0]
     return float(rest @ rest), int(used.sum())
@@ -66,16 +67,20 @@ def time_shift(fit: FrictionFit) -> EstimatedFigure:
         -most, most + 1
     )  # whole rows: between two of them noise would be less, and look like a better fit
     left = np.array([_left(fit, np.interp(fit.time - shift, fit.time, fit.torque))[0] for shift in shifts])
+    # A parabola needs a neighbour on each side.
     best = min(max(int(np.argmin(left)), 1), len(shifts) - 2)
     low, middle, high = left[best - 1 : best + 2]
     bend = low - 2.0 * middle + high
+    # No minimum within the shifts: an infinite error, so that none counts as found.
     if bend <= 0.0:
         return EstimatedFigure(0.0, math.inf)
     step = shifts[1] - shifts[0]
     rows = (
         _left(fit, fit.torque)[1] * fit.period / max(fit.window, fit.period)
     )  # rows of one filter are not independent
+    # Four coefficients and the shift have been fitted.
     spread = middle / max(1.0, rows - 5.0)
+    # The sum is larger by one variance a standard deviation beside its minimum: step √(2 s² / bend).
     return EstimatedFigure(
         float(shifts[best] + 0.5 * step * (low - high) / bend),
         float(step * math.sqrt(2.0 * spread / bend * max(1.0, fit.period / fit.window))),
@@ -84,6 +89,7 @@ def time_shift(fit: FrictionFit) -> EstimatedFigure:
 
 def is_shifted(fit: FrictionFit, shift: EstimatedFigure) -> bool:
     """Return whether a shift is there and matters."""
+    # A best shift at the edge of the search may be farther out.
     inside = abs(shift.value) < max(FURTHEST_SHIFT, LEAST_ROWS * fit.period) * 0.98
     return inside and abs(shift.value) > SURE * shift.error and abs(shift.value) > LEAST_SHIFT * fit.period
 
@@ -122,10 +128,12 @@ def static_friction(fit: FrictionFit, coulomb: float) -> StaticFriction | None:
         return given - joined @ coefficients, coefficients, joined
 
     plain = given - table @ np.linalg.lstsq(table, given, rcond=None)[0]
+    # A Stribeck speed with hardly a row on its curve would fit the noise.
     tried = [top * share for share in STRIBECK if (_stribeck(np.abs(speed), share * top) > 0.3).sum() >= 8]
     if not tried:
         return None
     best = min(tried, key=lambda over: float(left(over)[0] @ left(over)[0]))
+    # By its logarithm, so that the speed stays above 0.
     refined = least_squares(lambda there: left(math.exp(there[0]))[0], np.array([math.log(best)]))
     over = math.exp(float(refined.parameters[0]))
     rest, coefficients, joined = left(over)
@@ -137,6 +145,7 @@ def static_friction(fit: FrictionFit, coulomb: float) -> StaticFriction | None:
     bend = 2.0 * more * (speed / over) ** 2 / over * _stribeck(speed, over)
     slopes = np.column_stack([joined, bend])
     slopes = slopes / (sizes := np.sqrt((slopes**2).sum(axis=0)) + 1e-300)
+    # Six figures have been fitted: the four of the axis, the static friction and its speed.
     rows = max(1.0, len(given) * fit.period / max(fit.window, fit.period) - 6.0)
     spread = np.diag(np.linalg.pinv(slopes.T @ slopes)) / sizes**2 * float(rest @ rest) / rows
     error, speed_error = np.sqrt(np.maximum(spread[4:], 0.0)).tolist()
@@ -172,6 +181,7 @@ def residual_doubts(fit: FrictionFit, unit: str) -> Iterator[str]:
         counts = np.bincount(places, minlength=BINS)
         means = np.bincount(places, weights=rest, minlength=BINS) / np.maximum(counts, 1)
         explained = float((counts * means**2).sum() / max(float((rest**2).sum()), 1e-300))
+        # A bin with less than an eighth of its share of the rows has a mean of noise.
         largest = float(np.abs(means[counts > len(rest) // (8 * BINS)]).max(initial=0.0))
         if explained > DEPENDS and largest > WORTH * size:
             at = float(edges[int(np.argmax(np.abs(means)))])

@@ -136,6 +136,7 @@ def _lines_of(text: str) -> _Lines:
 
 def _separator_of(line: str) -> str:
     """Return the character between the cells of a line; a comma where there is none."""
+    # In this order: beside semicolons or tabs a comma is a decimal one.
     return next((character for character in ";\t," if character in line), ",")
 
 
@@ -148,6 +149,7 @@ def drive_record_of(text: str) -> DriveRecord:
         raise SimulationError(f"{len(lines)} lines are too many: {MOST_ROWS} at most")
     heads, names, separator, rest = _heads(lines)
     sides, sides_unit = _both_sides(names, rest, separator)
+    # A velocity is differenced once for the acceleration, a position twice: it has less noise.
     motion = "velocity" if "velocity" in heads else "position"
     used = [heads[kind] for kind in ("time", motion, "torque")]
     units = [_unit(names[n], kind) for n, kind in zip(used, ("time", motion, "torque"), strict=True)]
@@ -346,6 +348,7 @@ def _cells(line: str, separator: str, number: int) -> list[str]:
         (cells,) = csv.reader([line], delimiter=separator, strict=True)
     except (csv.Error, ValueError) as error:
         raise SimulationError(f"line {number}: this is no line of a table ({error})") from None
+    # A separator at the end of a line begins no cell.
     if len(cells) > 1 and not cells[-1].strip():
         cells.pop()
     return [cell.strip() for cell in cells]
@@ -365,6 +368,7 @@ def _columns(lines: _Lines, used: Sequence[int], width: int, separator: str) -> 
             )
             raise SimulationError(f"line {n}: {len(cells)} cells, and {width} heads{hint}")
         for column, place in zip(columns, used, strict=True):
+            # The minus of typesetters, U+2212, which some programs write.
             cell = cells[place].replace("\u2212", "-")
             for character in ".,":
                 if character in cell:
@@ -378,6 +382,8 @@ def _columns(lines: _Lines, used: Sequence[int], width: int, separator: str) -> 
             if not abs(number) < LARGEST:
                 raise SimulationError(f"line {n}: {cell[:40]} is too large: below 10^12 are read")
             column.append(number)
+    # "1,234" with both characters in one record may be either: nothing that could scale a figure is
+    # guessed.
     if len(first_lines) > 1:
         raise SimulationError(
             f"line {first_lines[',']} has a decimal comma and line {first_lines['.']} a decimal point:"
@@ -433,6 +439,7 @@ def speed_factor(record: DriveRecord, unit: str, turn: str | None = None) -> flo
         raise SimulationError(
             f"The record is in {own}, and the axis moves in {unit}: give {unit} or {unit}/s"
         )
+    # Counts have their canonical rate in seconds, lengths and angles in minutes.
     if own == "counts/s" or record.velocity is None:
         return canonical(1.0, own)
     return canonical(1.0, own) / 60.0

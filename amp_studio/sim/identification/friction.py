@@ -141,6 +141,7 @@ def _of_one_mass(
             continue
         try:
             other = with_filter(longer)
+        # A filter so long leaves too little of the motion: what was found before counts.
         except SimulationError:
             break
         if other is None or abs(other.coefficients[0] / fit.coefficients[0] - 1.0) < SETTLED:
@@ -213,6 +214,7 @@ def even_record(time: Series, moved: Series, torque: Series) -> tuple[Series, tu
     if float(np.abs(time - even).max()) < 0.75 * period:  # times that were rounded when they were written
         return even, (moved, torque)
     gap = int(np.argmax(steps))
+    # Rows that are missing now and then are bridged by a line; five periods without one are a gap.
     if steps[gap] > 5.0 * float(np.median(steps)) or not (steps > 0.0).all():
         raise SimulationError(f"The record has a gap after {time[gap]:g} s, or two rows of the same time")
     return even, (np.interp(even, time, moved), np.interp(even, time, torque))
@@ -242,6 +244,7 @@ def _widths(rows: int) -> list[int]:
 
 def _box(values: Series, width: int) -> Series:
     """Return the means of ``width`` values one after the other."""
+    # By running sums: a wide filter costs no more than a narrow one.
     sums = np.cumsum(np.concatenate([[0.0], values]))
     return np.asarray((sums[width:] - sums[:-width]) / width)
 
@@ -271,9 +274,11 @@ def _one_direction(speed: Series, width: int) -> npt.NDArray[np.bool_]:
     """Return for each filter whether the axis moves in one direction all the time within it."""
     ends = (width - 1) // 2, width // 2
     smooth = _box(np.pad(speed, ends, mode="edge"), width)
+    # A quantile, as one spike would raise the bound of the standstill for all rows.
     top = float(np.quantile(np.abs(smooth), 0.99))
     length = 3 * width  # and a row at each end, which is in the means of three rows
     sides = (np.pad(side * smooth > STANDSTILL * top, 1).astype(np.float64) for side in (1.0, -1.0))
+    # All rows on one side: half a row below that is only the rounding of the sums.
     return np.asarray(sum(_box(side, length) > 1.0 - 0.5 / length for side in sides), dtype=bool)
 
 
@@ -373,5 +378,6 @@ def _covariance(
         product = pushes[lag:].T @ pushes[:-lag]
         middle += (1.0 - lag / (lags + 1.0)) * (product + product.T)
     inverse = np.linalg.pinv(scaled[used[::step]].T @ scaled[used[::step]])  # a column that is left out is 0
+    # Four coefficients have been fitted: the correction for few rows.
     found = inverse @ middle @ inverse * (count / max(1, count - 4))
     return np.asarray(found / np.outer(sizes, sizes))

@@ -77,6 +77,7 @@ def identify(
             "record, and was"
             " shifted so. Whether the axis or the recording delays it, one record does not show."
         )
+    # c+ is friction and weight, c- the weight less the friction.
     static = static_friction(fit, 0.5 * float(fit.coefficients[2] - fit.coefficients[3]))
     if static is not None:
         fit = _without_static(record, bound, torque, factor, fit, static)
@@ -194,6 +195,7 @@ def _figures(fit: FrictionFit, bound: AxisLaw) -> dict[str, Figure]:
     found = {
         "acceleration_per_output": (
             1.0 / inertia,
+            # The figure is 1 / J: its error is that of J over J².
             _error(fit, np.eye(4)[0]) / inertia**2,
             f"{bound.unit}/s2",
         ),
@@ -272,6 +274,7 @@ def figure_text(result: dict[str, Figure], name: str) -> str:
     largest = max(abs(value), error)
     if largest == 0.0:
         return f"0 ± 0 {unit}".rstrip()
+    # As many digits as reach the second one of the error: the rest would be noise.
     digits = (
         DIGITS
         if error == 0.0

@@ -136,6 +136,7 @@ def _db(response: Response) -> np.ndarray:
 
 def _phase(response: Response) -> np.ndarray:
     phase = np.degrees(np.unwrap(np.angle(response)))
+    # An unwrapped phase is open by whole turns: the lowest frequency is put between -270° and 90°.
     return np.asarray(phase - 360.0 * round((float(phase[0]) + 90.0) / 360.0))
 
 

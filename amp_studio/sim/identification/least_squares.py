@@ -43,14 +43,18 @@ def fit(
     for _ in range(STEPS):
         slopes = slopes_at(there) if slopes_at else _slopes(residual, there, rest)
         squares, push = slopes.T @ slopes, slopes.T @ rest
+        # Marquardt: damped by its own curvature, so that the unit of a parameter does not count; never 0.
         sizes = np.diag(squares) + 1e-12
         better = False
         while damping < 1e12:
+            # lstsq, as a parameter without effect makes the squares singular.
             step = np.linalg.lstsq(squares + np.diag(damping * sizes), -push, rcond=None)[0]
             tried = residual(there + step)
             now = float(tried @ tried)
             if np.isfinite(now) and now < cost:
                 better = cost - now > ENOUGH * cost
+                # Closer to Gauss and Newton after a success, closer to the steepest descent after a
+                # failure.
                 there, rest, cost, damping = there + step, tried, now, max(damping / 10.0, 1e-12)
                 break
             damping *= 10.0

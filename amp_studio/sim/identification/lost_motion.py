@@ -40,6 +40,7 @@ def backlash(fit: FrictionFit, time: Series, motor: Series, load: Series) -> Est
     forward = fit.velocity > 0.0
     if min((steady & forward).sum(), (steady & ~forward).sum()) < LEAST_ROWS:
         return None
+    # Around its mean: a scale error then takes nothing of the offset of a direction.
     away = way - way[steady].mean()
     table = np.column_stack([forward, ~forward, away, fit.velocity])[steady].astype(float)
     coefficients, *_ = np.linalg.lstsq(table, gap[steady], rcond=None)
@@ -47,11 +48,13 @@ def backlash(fit: FrictionFit, time: Series, motor: Series, load: Series) -> Est
     # Rows of one filter are not independent: as many count as there are filters.
     rows = max(1.0, len(rest) * fit.period / max(fit.window, fit.period))
     inverse = np.linalg.pinv(table.T @ table)
+    # Ahead, the load is behind by friction; back, it is in front: the difference is the backlash.
     turned = np.array([-1.0, 1.0, 0.0, 0.0])
     error = math.sqrt(float(turned @ inverse @ turned) * float(rest @ rest) / rows)
     value = float(turned @ coefficients)
     if value < SURE * error:
         return EstimatedFigure(0.0, error)
     _, viscous, ahead, back = fit.coefficients.tolist()
+    # What viscous friction yields shows the stiffness; dry friction yields by the same.
     yields = float(coefficients[3]) * (ahead - back) / viscous if viscous > 0.0 else 0.0
     return EstimatedFigure(value, math.hypot(error, min(yields, value)))

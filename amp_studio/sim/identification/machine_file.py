@@ -69,6 +69,7 @@ def read_machine(path: Path) -> MachineFile:
 
 def _text(name: str, key: str, value: Any) -> str:
     text = str(value)
+    # A bool is an int in Python, and YAML reads "yes" as one.
     is_scalar = isinstance(value, (str, int, float)) and not isinstance(value, bool)
     if not is_scalar or len(text) > _LONGEST or not text.isprintable():
         raise SimulationError(f"{name}: '{' '.join(key.split())[:40]}' must be a number or a short text")

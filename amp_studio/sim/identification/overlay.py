@@ -170,10 +170,13 @@ def _lag(here: Series, simulated: Series, time: Series, recorded: Series) -> flo
     one = np.interp(np.arange(0.0, here[-1] + step, step), here, simulated)
     two = np.interp(np.arange(0.0, time[-1] + step, step), time, recorded)
     one, two = np.diff(one), np.diff(two)  # changes: a different zero of the position is none
+    # Long enough for both, so that the circular correlation does not overlap itself.
     size = 1 << (len(one) + len(two)).bit_length()
     product = np.fft.irfft(np.fft.rfft(two, size) * np.conj(np.fft.rfft(one, size)), size)
+    # Lags of both signs: a negative one is found at the end of the circle.
     places = np.concatenate([np.arange(len(two)), np.arange(-len(one) + 1, 0)])
     best = int(places[int(np.argmax(product[places]))])
+    # The lag before the first one is at the end, the one after -1 at the beginning.
     low, middle, high = product[best - 1], product[best], product[(best + 1) % size]
     bend = low - 2.0 * middle + high
     return float(step * (best + (0.5 * (low - high) / bend if bend < 0.0 else 0.0)))

@@ -82,6 +82,8 @@ class _Shape:
 
     def response(self, parameters: Series, s: Response) -> Response:
         """Return the model over s = j omega."""
+        # Each parameter is about 1 where it matters (`least_squares.SMALL`): the size by its logarithm,
+        # bounded as exp overflows; the friction by its root, so that it is not below 0; the delay in ms.
         size, friction, delay = math.exp(min(parameters[0], 300.0)), parameters[1] ** 2, parameters[2] * 1e-3
         found = size / (s + size * friction) * np.exp(-s * delay) / s ** QUANTITIES[self.quantity]
         for n in range(self.pairs):
@@ -92,6 +94,8 @@ class _Shape:
             if self.at_load and n == 0:
                 found = found * (1.0 + 2.0 * damping * s / rate) / under
             else:
+                # At the antiresonance the load swings against a motor that rests, at the resonance both
+                # swing.
                 before = rate / math.sqrt(1.0 + ratio)
                 found = found * (s**2 / before**2 + 2.0 * before_damping * s / before + 1.0) / under
         return np.asarray(found)
@@ -133,6 +137,7 @@ def fit_plant(response: FrequencyResponse, quantity: str | None = None) -> Plant
         if _is_inside(shape, fitted, response)
         if quantity is not None or _corner(fitted) < MOST_CORNER * response.frequency[-1]
     ]
+    # Gain and phase of each frequency.
     count = 2 * len(response.frequency)
     if not fits:
         raise SimulationError(
@@ -186,6 +191,7 @@ def _is_inside(shape: _Shape, fitted: LeastSquares, response: FrequencyResponse)
 
 
 def _criterion(fitted: LeastSquares, count: int) -> float:
+    # A response that was computed leaves nothing, whose logarithm is no number.
     return count * math.log(fitted.cost + 1e-20) + len(fitted.parameters) * math.log(count)
 
 
@@ -198,6 +204,7 @@ def _fits(response: FrequencyResponse, quantity: str) -> Iterator[tuple[_Shape, 
     for at_load in (False, True):
         shape, best = rigid, first
         for pairs in range(1, MOST_PAIRS + 1):
+            # Four values for each parameter, or a pair would fit the noise.
             if count < 4 * (3 + 4 * pairs):
                 break
             more = _Shape(quantity, at_load, pairs)
@@ -211,6 +218,7 @@ def _fits(response: FrequencyResponse, quantity: str) -> Iterator[tuple[_Shape, 
 def _residual(response: FrequencyResponse, s: Response, shape: _Shape, parameters: Series) -> Series:
     with np.errstate(all="ignore"):
         rest = np.log(response.response / shape.response(parameters, s))
+    # As bad as can be and yet finite, so that the search turns back from there.
     rest = np.where(np.isfinite(rest), rest, 1e3)
     return np.concatenate([response.weights * rest.real, response.weights * rest.imag])
 
@@ -236,9 +244,11 @@ def _start(response: FrequencyResponse, s: Response, shape: _Shape, pairs: Seque
     ratio = response.response / shape.response(there, s)
     size = float(np.average(np.log(np.abs(ratio)), weights=response.weights**2))
     phase, omega, weights = np.unwrap(np.angle(ratio)), s.imag, response.weights**2
+    # A whole turn is no delay.
     phase -= 2.0 * np.pi * np.round(phase[0] / (2.0 * np.pi))
     there[0], there[2] = (
         size,
+        # No machine acts before it is driven.
         max(0.0, -1e3 * float((weights * omega * phase).sum() / (weights * omega**2).sum())),
     )
     return there
@@ -261,6 +271,7 @@ def _figures(shape: _Shape, fitted: LeastSquares) -> dict[str, tuple[float, floa
     size, root = math.exp(parameters[0]), abs(float(parameters[1]))
     found = {
         "acceleration_per_output": (size, size * float(errors[0])),
+        # Of a square: at 0, where its slope is none, the square of the error is left.
         "viscous_friction": (root**2, 2.0 * root * float(errors[1]) + float(errors[1]) ** 2),
         "delay": (float(parameters[2]) * 1e-3, float(errors[2]) * 1e-3),
     }

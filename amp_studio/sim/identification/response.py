@@ -77,6 +77,7 @@ class FrequencyResponse:
         """
         if self.coherence is None:
             return np.ones(len(self.frequency))
+        # A coherence of 1 would have an infinite weight.
         sure = np.clip(self.coherence, LEAST_COHERENCE, 0.9999)
         return np.asarray(np.sqrt(sure / (1.0 - sure)))
 
@@ -152,12 +153,14 @@ def _is_in_radians(phase: Series, unit: str) -> bool:
 
 
 def _size(gain: Series, unit: str) -> Series:
+    # An absolute gain is above 0, so that a column that goes below is in dB.
     if unit == "db" or (not unit and (gain <= 0.0).any()):
         if (np.abs(gain) > _DECIBELS).any():
             raise SimulationError("A gain must be between -1000 and 1000 dB")
         return np.asarray(10.0 ** (gain / 20.0))
     if not unit:
         raise SimulationError("The gain names no unit: gain_db or gain_abs")
+    # A unit with a slash, as mm/s/A, is an absolute one.
     if unit not in _ABSOLUTE and "/" not in unit:
         raise SimulationError(f"The unit {unit} of the gain is not known: dB or abs")
     if (gain < 0.0).any():
@@ -217,12 +220,14 @@ def response_of_record(period: float, torque: Series, motion: Series, difference
     moved, driven = np.diff(motion, differences), torque[: len(torque) - differences]
     # Welch: segments that overlap by half, each under a Hann window, which has its smallest weight where the
     # next segment has its largest. Without averages the coherence would be 1 at each frequency.
+    # Segments that overlap by half cover half as many lengths as there are, and half a length more.
     length = 2 * len(driven) // (SEGMENTS + 1)
     window = np.hanning(length)
     cross = np.zeros(length // 2 + 1, dtype=np.complex128)
     given, answered = np.zeros(length // 2 + 1), np.zeros(length // 2 + 1)
     for n in range(SEGMENTS):
         part = slice(n * length // 2, n * length // 2 + length)
+        # Without its mean, which the window would spread into the lowest frequencies.
         x, y = (np.fft.rfft(window * (each[part] - each[part].mean())) for each in (driven, moved))
         cross += np.conj(x) * y
         given, answered = given + np.abs(x) ** 2, answered + np.abs(y) ** 2

@@ -73,18 +73,21 @@ def contour_error(plan: ProgramPlan, axes: Sequence[AxisLaw | None]) -> ContourE
     after = max(SETTLES / axis.position_rate for _, axis in moving)
     motions = {n: run_axis(axis, profiles[n], Until(plan.time + after), thin=True) for n, axis in moving}
     alarms = [alarm for n, axis in moving for alarm in alarms_of(axis, motions[n])]
+    # After the alarm of one axis the others have no common path any more.
     samples = min(len(motion.columns["time_s"][motion.driven]) for motion in motions.values())
     time = next(iter(motions.values())).columns["time_s"][:samples]
 
     def column(name: str, start: PathRows) -> PathRows:
         resting = np.zeros(len(time))
         return np.column_stack(
+            # Profiles begin at 0 (`profiles.axis_profiles`): the start of the path is added.
             [start[n] + (_on(motions[n], name, time) if n in motions else resting) for n in range(len(axes))]
         )
 
     place, commanded = column("position", plan.path.start), column("command_position", plan.path.start)
     following = column("following_error", np.zeros(len(axes)))
     found = np.searchsorted(plan.start, time, side="right") - 1
+    # After the last row, while the axes settle, that row counts on.
     rows = np.clip(found, 0, max(len(plan.start) - 1, 0)).astype(np.int64)
     error = distances(place, commanded, ways_gone(plan, commanded, rows), path_points(plan, ON_ARC)[0])
     alarms.sort(key=lambda alarm: alarm.time_s)
@@ -151,6 +154,7 @@ def distances(place: PathRows, commanded: PathRows, gone: PathRows, points: Path
 
 def _share(place: PathRows, begins: PathRows, ends: PathRows, way: PathRows) -> PathRows:
     """Return where on each piece the nearest point is, 0 to 1."""
+    # A piece without length is its first point.
     size = np.where(way > 0.0, way * way, 1.0)
     share: PathRows = np.clip(((place - begins) * (ends - begins)).sum(axis=1) / size, 0.0, 1.0)
     return share

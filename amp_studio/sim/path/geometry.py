@@ -41,16 +41,19 @@ def geometry_of(path: ToolPath, chord: float | None) -> Geometry:
     last, share = first.copy(), np.abs(first)
     for plane in range(3):
         rows = arcs[path.plane[arcs] == plane]
+        # A plane without arcs may have an axis that the path has not.
         if not len(rows):
             continue
         a, b = places_of(path, int(rows[0]))
         x, y = begins[rows, a] - path.center[rows, 0], begins[rows, b] - path.center[rows, 1]
         r, sweep = np.hypot(x, y), path.sweep[rows]
+        # A helix: what is left beside the plane is its rise, the same all along.
         along = delta[rows].copy()
         along[:, a] = along[:, b] = 0.0
         whole = np.sqrt((r * sweep) ** 2 + (along * along).sum(axis=1))
         sign, begun = np.sign(sweep), np.arctan2(y, x)
         planar = r * np.abs(sweep) / whole
+        # The tangent follows the sine of the angle in the first axis and the cosine in the second.
         for tangents, angle in ((first, begun), (last, begun + sweep)):
             tangents[rows] = along / whole[:, None]
             tangents[rows, a] = -sign * np.sin(angle) * planar
@@ -75,6 +78,7 @@ def _most_sine(begun: PathRows, sweep: PathRows) -> PathRows:
 
 
 def _unit(delta: PathRows, length: PathRows) -> PathRows:
+    # A row without a way has no direction: zeros, no division by 0.
     unit: PathRows = delta / np.where(length > 0.0, length, 1.0)[:, None]
     return unit
 
@@ -84,15 +88,19 @@ def _chorded(path: ToolPath, begins: PathRows, arcs: npt.NDArray[np.int64], chor
     columns = plane_columns(path)[path.plane[arcs]]
     begun = np.take_along_axis(begins[arcs], columns, axis=1) - path.center[arcs]
     radius, sweep = np.hypot(begun[:, 0], begun[:, 1]), path.sweep[arcs]
+    # mc_arc: floor(|sweep r / 2| / sqrt(tolerance (2 r - tolerance))); an arc smaller than the tolerance is
+    # one piece.
     inside = np.maximum(chord * (2.0 * radius - chord), 0.0)
     wanted = np.abs(0.5 * sweep * radius) / np.sqrt(np.where(inside > 0.0, inside, math.inf))
     pieces = np.ones(len(path), np.int64)
+    # Bounded before it becomes an integer, in which a huge quotient would overflow.
     pieces[arcs] = np.maximum(1, np.floor(np.minimum(wanted, MOST_PIECES + 1.0)))
     if pieces.sum() > MOST_PIECES:
         raise SimulationError("The arcs of the program become more straight pieces than can be planned")
     row = np.repeat(np.arange(len(path)), pieces)
     last = np.cumsum(pieces) - 1
     ends = path.ends[row]
+    # The last piece of an arc keeps the programmed end, free of the rounding of sines.
     # The ends inside of each arc: ``each`` is its place among the arcs.
     each = np.repeat(np.arange(len(arcs)), pieces[arcs] - 1)
     number = np.arange(len(each)) - np.repeat(

@@ -82,6 +82,7 @@ def what_if(
         wrong = tuple(
             text for address, value in values.items() if (text := fault(file.evaluation, address, value))
         )
+        # A value that is not allowed is tried too, and named: the question may be what the limit costs.
         for address, value in values.items():
             tried.set(address, value)
         try:
@@ -120,5 +121,6 @@ def scaled(file: ParameterFile, address: Address, share: float) -> Value:
     if value is None or isinstance(value.value, (bool, str)):
         named = file.machine_schema.short(address)
         raise SimulationError(f"{named} has no number that a share could be taken of", address[0])
+    # Nine digits: the rounding of a float product is not written into a file.
     number = value.value * share
     return replace(value, value=round(number) if isinstance(value.value, int) else float(f"{number:.9g}"))

@@ -46,6 +46,7 @@ def limits_met(plan: ProgramPlan, axes: Sequence[AxisLaw]) -> Iterator[PathAlarm
             continue
         try:
             travel = axis.travel()
+        # The limits of an axis whose figures are missing are not known; the others are checked.
         except SimulationError:
             continue
         for title, (low, high) in travel.limits.items():
@@ -58,6 +59,8 @@ def limits_met(plan: ProgramPlan, axes: Sequence[AxisLaw]) -> Iterator[PathAlarm
             begun = (
                 "the block is not begun" if travel.refuses or travel.reads_ahead else "the axis stops there"
             )
+            # A control that reads ahead refuses the block: it has another alarm than an axis that arrives
+            # at a limit.
             code = travel.reads_ahead or (travel.alarm_negative if is_low else "") or travel.alarm
             yield PathAlarm(
                 int(path.line[plan.geometry.row[row]]),
@@ -201,11 +204,13 @@ def _entered(
         begin, way = begins[:, n], ends[:, n] - begins[:, n]
         moves = np.abs(way) > EPSILON
         scale = np.where(moves, way, 1.0)
+        # A hair inside both sides: a path along the side of a zone is not in it.
         one, two = (low + EPSILON - begin) / scale, (high - EPSILON - begin) / scale
         inside = (begin > low + EPSILON) & (begin < high - EPSILON)
         enters = np.where(moves, np.minimum(one, two), np.where(inside, 0.0, 2.0))
         leaves = np.where(moves, np.maximum(one, two), np.where(inside, 1.0, -1.0))
         low_share, high_share = np.maximum(low_share, enters), np.minimum(high_share, leaves)
+        # Limits of travel keep the axes in: broken by a piece that ends beyond, where it leaves the side.
         beyond = (ends[:, n] < low - BEYOND) | (ends[:, n] > high + BEYOND)
         left = np.where(beyond, np.minimum(left, np.clip(leaves, 0.0, 1.0)), left)
     rows: PathRows = left if keeps_in else np.where(low_share < high_share, low_share, 2.0)

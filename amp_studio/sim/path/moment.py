@@ -46,6 +46,7 @@ def moment_at(plan: ProgramPlan, time: float) -> PathMoment | None:
     length = float(plan.geometry.length[row])
     share = min(gone / length, 1.0) if length > 0.0 else 1.0
     line = int(plan.path.line[plan.geometry.row[row]])
+    # Time that is left after the three parts of a row is its rest (dwell, in position).
     return PathMoment(line, _place(plan, row, share), 0.0 if left > 0.0 else speed)
 
 

@@ -116,6 +116,7 @@ def _classes(file: ParameterFile, run: ProgramRun, letters: dict[int, str], colo
         wanted = plan.path.feed[plan.geometry.row]
         time = np.maximum(plan.times.sum(axis=1), 1e-12)
         shares = np.where(wanted > 0.0, plan.geometry.length / time / np.maximum(wanted, 1e-12), 1.0)
+        # digitize needs rising edges, and shares fall from colour to colour: both with a minus.
         by = np.digitize(-shares, [-part for part in FEED_PARTS])
         texts = _parts(FEED_PARTS, "from {} % of the feed on", "below {} % of the feed")
     else:
@@ -150,6 +151,7 @@ def path_scene(
         row = int(rows[last])
         rapid = bool(plan.is_rapid[row])
         letter = "R" if rapid else letters.get(int(by[row]), "")
+        # The last point of a part is kept, so that thinning opens no gap to the next colour.
         kept = [*range(first, last, step), last]
         lines.append(
             Polyline(tuple((float(flat[n, 0]), float(flat[n, 1])) for n in kept), limit_sort(letter), rapid)
@@ -199,6 +201,7 @@ def _zones(
     for box in run.guarded:
         if not box.keeps_in and set(box.sides) & set(axes[:2]):
             (left, right), (low, high) = _sides(box, axes, size)
+            # Zones and limits do not widen the picture: in a large machine the path would be a dot.
             if left < wide[1] and right > wide[0] and low < tall[1] and high > tall[0]:
                 yield FilledArea(left, low, right, high, "outside", box.name)
 
@@ -228,6 +231,7 @@ def _flat(points: PathRows, *, tilted: bool) -> PathRows:
 
 def _span(values: PathRows) -> tuple[float, float]:
     low, high = float(values.min()), float(values.max())
+    # A path in a straight line has no extent across it.
     room = 0.06 * (high - low) or 1.0
     return low - room, high + room
 
@@ -237,6 +241,7 @@ def limit_sort(letter: str) -> ShapeSort:
     if letter == "R":
         return "dim"
     place = ord(letter) - ord("B") if letter else -1
+    # More limits than colours: the last colour is shared by those with the least time.
     return SORTS[min(place, len(SORTS) - 1)] if place >= 0 else "ink"
 
 

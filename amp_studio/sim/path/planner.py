@@ -122,6 +122,7 @@ def plan_program(
     ``waits`` gives the time in s that the axes need to be in position after a row that ends exactly;
     ``progress`` gets the share that is done, and may raise to cancel. Raises SimulationError.
     """
+    # All below uses the mean of both ends as the mean speed of a ramp, which an exponential one has not.
     for ramp in (rules.feed_ramp, rules.rapid_ramp):
         if ramp.kind not in SYMMETRIC:
             raise SimulationError(f"A path with {ramp.kind} ramps is not simulated")
@@ -279,6 +280,7 @@ def _tops(
         cause = table.limits[int(by[moving][np.argmin(top[moving])])]
         named = cause.param[0] if cause.param else cause.title
         raise SimulationError(f"A move would never end: {named} is 0", named)
+    # A row without way, a dwell, has no speed: both joints beside it are at rest.
     top[~moving] = 0.0
     return wanted, top, by
 
@@ -295,6 +297,7 @@ def _accelerations(
     value, by = np.full(count, math.inf), np.zeros(count, np.int16)
     for limits, where in ((rules.feed_acceleration, ~is_rapid), (rules.rapid_acceleration, is_rapid)):
         for limit in limits:
+            # 0 is "no ramp" here, as in `Ramp`: no bound.
             bound = np.full(count, limit.value if limit.value > 0.0 else math.inf)
             _lowered(value, by, bound, table.number(limit), where)
     rapid = of_axes if rules.axis_rapid_acceleration is None else rules.axis_rapid_acceleration
@@ -346,10 +349,12 @@ def _look_ahead(
     entry_by = np.concatenate([[-1], joint_by[:-1]]).astype(np.int16) if count else joint_by
     most = np.concatenate([[0.0], joint[:-1]]) if count else joint
     straight = all(ramp.kind in ("none", "linear") for ramp in (rules.feed_ramp, rules.rapid_ramp))
+    # Braking ways add up as v² = 2 a s with straight ramps only.
     if rules.look_ahead is not None and straight:
         # The rows that are known must be enough to stop in: their braking ways are added up. That bound is
         # all a shorter look-ahead changes, as every bound of a row farther ahead is higher than it.
         known = max(1, int(rules.look_ahead.value))
+        # Finite, as the difference of two infinite sums is no number.
         braking = np.where(np.isfinite(slopes[1]), slopes[1], 1e12)
         gain = np.concatenate([[0.0], np.cumsum(2.0 * braking * geometry.length)])
         room = gain[np.minimum(np.arange(count) + known, count)] - gain[:-1]
@@ -453,11 +458,13 @@ def _rests(
 ) -> tuple[PathRows, Causes]:
     """Return how long the axes rest at the end of each row, and why."""
     rest = path.seconds[geometry.row].copy()
+    # Cause 1 is the dwell, the second that `CauseTable` numbers.
     by = np.ones(len(rest), np.int16)
     if rules.pause > 0.0:
         stops = (leave == 0.0) & (geometry.length > 0.0)
         rest[stops], by[stops] = rules.pause, table.number(rules.stop)
     if rules.waits:
+        # An arc in pieces ends with the last of them.
         last = np.append(geometry.row[:-1] != geometry.row[1:], True)
         exact = (path.corner[geometry.row] == EXACT) & (path.kind[geometry.row] != DWELL) & last
         cause = table.number(rules.stop)

@@ -57,6 +57,7 @@ def _pieces(plan: ProgramPlan, n: int, ramp: Ramp) -> list[Piece]:
     """Return the pieces of a row along the path."""
     entry, peak, leave = float(plan.entry[n]), float(plan.peak[n]), float(plan.leave[n])
     slopes = float(plan.acceleration[n]), float(plan.deceleration[n])
+    # In a `Ramp`, 0 is a change of speed at once.
     up, down = (each if math.isfinite(each) else 0.0 for each in slopes)
     own = Ramp(ramp.kind, up, down, ramp.jerk, ramp.time)
     even = [Piece(float(plan.times[n, 1]), peak)] if plan.times[n, 1] > 0.0 else []
@@ -94,6 +95,7 @@ def _row(
             SINE,
             phase,
         ]
+    # With its sign, which `geometry.share` has not.
     share = float(geometry.ends[n, axis] - geometry.begins[n, axis]) / float(geometry.length[n])
     position = float(geometry.begins[n, axis]) - origin + share * gone
     return [

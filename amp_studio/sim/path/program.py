@@ -72,6 +72,7 @@ def run_program(
     rules = replace(rules, override=override, rapid_override=rapid_override)
     axes = _axes(machine, path)
     waits = _Waits(axes, rules.feed_ramp if rules.waits else Ramp())
+    # First without waits: how long one is depends on the speed into the stop.
     plan = plan_program(path, rules, progress=lambda share: progress(0.5 * share))
     path = plan.path
     notes = [*path.assumptions, *rules.assumptions]
@@ -143,9 +144,11 @@ class _Waits:
 
     def look(self, plan: ProgramPlan) -> None:
         """Take the largest exact stop of the plan as the example."""
+        # 1 is the dwell, and what rows without any rest have.
         exact = np.flatnonzero((plan.rest_by != 1) & (plan.times.sum(axis=1) > 0.0))
         if not len(exact):
             return
+        # One example, the fastest: the loops at every stop would be run for longer than the program.
         row = int(exact[np.argmax(plan.peak[exact])])
         for n, axis in enumerate(self._axes):
             share = float(plan.geometry.share[row, n])
@@ -158,6 +161,7 @@ class _Waits:
 def _wait(axis: AxisLaw, way: float, speed: float, ramp: Ramp) -> float:
     profile = move(way, speed, ramp, axis.machine.position_count)
     end = end_of(profile)
+    # In position for 0.2 s: a loop that overshoots leaves its band again.
     motion = run_axis(
         axis, profile, Until(end + LONGEST_WAIT, axis.inposition_band, 0.2, LONGEST_WAIT), thin=True
     )
@@ -178,6 +182,7 @@ def _contour(plan: ProgramPlan, axes: list[AxisLaw]) -> tuple[ContourError | Non
         return None, "the program moves nothing"
     if any(axis.sources.keys().isdisjoint(axis.gains) for axis in moving):
         return None, "this control has no servo loop whose gains are in the file"
+    # A distance from the path of mm and degrees together has no unit.
     if len({axis.unit for axis in moving}) > 1:
         return None, "the axes do not move in one unit"
     try:

@@ -92,6 +92,7 @@ def limit_tries(file: ParameterFile, run: ProgramRun) -> Iterator[Mapping[Addres
     `TRIED_SHARE`.
     """
     times = run.plan.time_by_cause()
+    # One more than tried: the programmed feed is among the limits and has no parameter.
     for n in sorted(range(len(times)), key=lambda n: -times[n])[: MOST_TRIES + 1]:
         limit = run.plan.causes[n]
         if limit.param is not None and times[n] > 0.0:

@@ -46,6 +46,7 @@ def typed_values(file: ParameterFile, texts: Sequence[str]) -> dict[Address, Val
             address = file.find(param.strip())
             present = file.get(address)
             share = _SHARE.fullmatch(wanted.strip())
+            # For a value that is a percentage itself, +20% is that value, not a share of it.
             if share is not None and (present is None or present.unit != "%"):
                 found[address] = scaled(file, address, 1.0 + float(share[1]) / 100.0)
             else:
@@ -70,6 +71,7 @@ def typed_steps(file: ParameterFile, text: str) -> list[dict[Address, Value]]:
     if not 2 <= count <= MOST_STEPS:
         raise SimulationError(f"{quoted(text)} has {count} steps; it takes 2 to {MOST_STEPS}")
     steps = [first + (last - first) * n / (count - 1) for n in range(count)]
+    # `_SHARE` knows a share by its sign.
     sign = "+" if match[2] else ""
     return [typed_values(file, [f"{param}={each:{sign}.9g}{'%' if match[2] else ''}"]) for each in steps]
 

@@ -95,6 +95,7 @@ def run_circle(axis: AxisLaw, settings: ScenarioSettings, second: AxisLaw | None
         for alarm in alarms_of(each, motion)
     )
     alarms = tuple(sorted(alarms, key=lambda alarm: alarm.time_s))
+    # A loop that is not stable is the cause of all other alarms: it is shown alone.
     alarms = _unstable(axis, other, models) or alarms
     columns = _columns(circle, *motions)
     return Trace(
@@ -134,6 +135,7 @@ def _circle(
             f" {MOST_TURNS} turns until the axes follow evenly. Give a larger radius or a lower feedrate",
             "move.radius",
         )
+    # The rate rises evenly from 0, so that half a turn takes twice the time it has at the full rate.
     return _Circle(radius, programmed, rate, 2.0 * RISE / rate, turns)
 
 
@@ -149,6 +151,7 @@ def _columns(circle: _Circle, first: Motion, second: Motion) -> dict[str, Series
     """
     rows = min(len(first.columns["time_s"]), len(second.columns["time_s"]))
     one, two = ({name: column[:rows] for name, column in m.columns.items()} for m in (first, second))
+    # Both commands begin at 0, at the right of the circle: x there is the radius.
     x, y = circle.radius + one["position"], two["position"]
     angle = np.unwrap(np.arctan2(y, x))
     begin = 2.0 * math.pi * circle.turns

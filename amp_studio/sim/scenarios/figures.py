@@ -37,6 +37,7 @@ def steady(series: Series, noise: float) -> float | None:
         return None
     before, after = float(second.mean() - first.mean()), mean - float(second.mean())
     ratio = after / before if before else 0.0
+    # What is still to come is after (r + r² + …); a change that grows never ends.
     to_go = abs(after) * (ratio / (1.0 - ratio) if 0.0 < ratio < 1.0 else np.inf if ratio >= 1.0 else 1.0)
     if abs(after) > noise / NOISE_COUNTS and to_go > max(noise, DRIFT * abs(mean)):
         return None
@@ -100,6 +101,7 @@ def grows(series: Series, count: float) -> bool:
     by more than 3 counts.
     """
     half = len(series) // 2
+    # Too few samples to tell a swing from noise.
     if half < 4:
         return False
     swings = [float(np.ptp(part)) for part in (series[:half], series[half:])]

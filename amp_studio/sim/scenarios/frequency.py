@@ -158,6 +158,7 @@ def _known(loop: _Loop, low: float, high: float) -> list[float]:
 
 def _frequencies(low: float, high: float, points: int, curve: Series) -> npt.NDArray[np.int64]:
     """Return the indices of the swept frequencies in the curve: evenly spaced, and those of the figures."""
+    # A hair lower, so that rounding skips no point of the curve.
     even = np.searchsorted(curve, np.geomspace(low, high, points) * (1.0 - 1e-12))
     own = np.flatnonzero(~np.isin(curve, np.geomspace(low, high, CURVE)))
     return np.unique(np.concatenate([np.minimum(even, len(curve) - 1), own])).astype(np.int64)
@@ -226,6 +227,7 @@ def _columns(loop: _Loop, curve: Series, swept: _Swept) -> dict[str, Series]:
     )
     for name, linear, found in pairs:
         phase = np.degrees(np.unwrap(np.angle(linear)))
+        # An unwrapped phase is open by whole turns: the lowest frequency is put between -270° and 90°.
         phase -= 360.0 * round((phase[0] + 90.0) / 360.0)
         known, apart = np.isfinite(found), np.full(len(curve), np.nan)
         # The sweep is unwrapped by the model: its own points are too far apart to count turns.
@@ -326,6 +328,7 @@ def _falls(curve: Series, size: Series, level: float) -> float | None:
     if not below.size or below[0] == 0:
         return None
     n = int(below[0])
+    # interp needs rising values, and the amplitude falls: both with a minus.
     return math.exp(float(np.interp(-math.log(level), -y[[n - 1, n]], f[[n - 1, n]])))
 
 
@@ -343,6 +346,7 @@ def _swept_gain(opened: Response) -> float | None:
     """Return the gain margin of the swept loop in dB; None where it does not cross the negative axis."""
     known = np.isfinite(opened)
     response = opened[known]
+    # From below alone: there the phase falls through -180°.
     turn = np.flatnonzero((response.imag[:-1] < 0.0) & (response.imag[1:] >= 0.0) & (response.real[1:] < 0.0))
     if not turn.size:
         return None

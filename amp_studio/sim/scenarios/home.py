@@ -252,6 +252,7 @@ def _doubts(axis: AxisLaw, homing: Homing, around: Around, homed: Homed) -> list
             f"ASSUMED: the axis runs {value_text(homed.overrun, axis.unit)} over a switch of"
             f" {value_text(around.length, axis.unit)}, stops behind it and comes back over it; the "
             "control waits"
+            # The reach of this failure is a share of a turn, the grid is in %.
             " until it goes off again."
         )
     return notes

@@ -134,6 +134,7 @@ def _time(loops: Loops) -> float:
 
 def _loaded(motion: Motion, lasts: float) -> Loaded:
     time, position = motion.columns["time_s"], motion.columns["position"]
+    # A row on the border belongs to the next phase, whatever rounding made of its time.
     parts = [(time >= n * lasts - 1e-9) & (time < (n + 1) * lasts - 1e-9) for n in range(len(PHASES))]
     rest = _end(position[parts[0]])
     return Loaded(

@@ -68,6 +68,7 @@ def _point(settings: ScenarioSettings, name: str, axes: Mapping[str, AxisLaw]) -
     if given is None:
         return None
     text = f"{given!r}" if isinstance(given, float) else str(given)
+    # Between semicolons a comma is a decimal one.
     parts = text.split(";") if ";" in text else text.split(",")
     if len(parts) != len(axes):
         raise SimulationError(f"{name} is '{text}'; it takes {len(axes)} figures, as 3,6", name)
@@ -319,6 +320,7 @@ def _moved(
 ) -> tuple[dict[str, MovingAxis], tuple[Zone, float] | None]:
     """Step all axes along the line; returns them, and the zone that stopped them with its moment."""
     courses = _begun(axes, line)
+    # Axes may have other servo periods: in steps of the longest one they stay together.
     period = max(axis.servo_period for axis in axes.values())
 
     def place() -> AxisPoint:

@@ -186,6 +186,7 @@ def ramp(before: float, after: float, gear: Gear, iteration: float) -> Callable[
     def course(time: Series) -> Series:
         if lasts == 0.0:
             return np.full_like(time, after)
+        # The output changes once an iteration, at its begin to what the ramp is at its end.
         moment = np.floor(time / iteration + 1e-9) * iteration + iteration if iteration else time
         found: Series = before + (after - before) * np.clip(moment / lasts, 0.0, 1.0)
         return found
@@ -256,6 +257,7 @@ def _oriented(spindle: Spindle, settings: ScenarioSettings) -> Trace:
     sign = math.copysign(1.0, before) if before else orient.sign
     turning = before != 0.0 or unknown == "unknown"
     lasts = ramp_time(before, sign * orient.speed, gear) if turning else 0.0
+    # 1 rpm is 6 deg/s.
     at = start + (before + sign * orient.speed) / 2.0 * 6.0 * lasts
     way = _way(orient, at, angle, sign, turning=turning, unknown=unknown == "unknown")
     rows = _approach(orient, gear, start, before, lasts, at, way, sign, turning=turning)
@@ -300,6 +302,7 @@ def _oriented(spindle: Spindle, settings: ScenarioSettings) -> Trace:
 def _way(orient: Orient, at: float, angle: float, sign: float, *, turning: bool, unknown: bool) -> float:
     """Return the signed way in deg from an angle to the orient angle."""
     if unknown:  # on to the marker at 0, by the calibration, then to the angle
+        # In the direction of rotation: a spindle that turns does not go back.
         to_marker = sign * ((-sign * at) % 360.0)
         calibration = sign * (sign * orient.calibration % 360.0)
         return to_marker + calibration + _shortest(angle)
@@ -335,6 +338,7 @@ def _approach(
     even = max(abs(way) - loop, 0.0) / rate
     fades = min(abs(way), loop)
     standstill_band = orient.standstill * 6.0 / gear.gain if math.isfinite(orient.standstill) else math.inf
+    # The position loop fades as an exponential and never reaches a band of 0.
     band = min(max(orient.band, 1e-6), standstill_band)
     settles = math.log(fades / band) / gear.gain if fades > band else 0.0
     done = lasts + even + settles

@@ -70,6 +70,7 @@ def tones_of(
     tones: list[Tone] = []
     start = 0.0
     for frequency in frequencies:
+        # Whole cycles, so that each tone begins at the zero of its sine, where the one before ended.
         wait = math.ceil(dies * frequency) / frequency
         cycles = max(CYCLES, math.ceil(SAMPLES * model.period * frequency))
         begin, end = start + wait, start + wait + cycles / frequency
@@ -90,6 +91,7 @@ def _amplitude(axis: AxisLaw, model: LinearModel, frequency: float) -> float:
     """
     rate, machine = 2.0 * math.pi * frequency, axis.machine
     answer = complex(model.follows(np.array([frequency]))[0])
+    # Bounded below: what hardly moves the axis must not ask for a boundless amplitude.
     follows, error = max(abs(answer), 1e-3), max(abs(1.0 - answer), 1e-3)
     limits = [level for level in axis.limits.values() if 2.0 * axis.inposition_band < level < math.inf]
     most = [SHARE * level / error for level in limits]
@@ -117,6 +119,7 @@ def sweep(axis: AxisLaw, tones: Sequence[Tone], *, feed_forward: bool = True) ->
     time = np.ascontiguousarray(columns["time_s"])
     found = np.full((2, len(tones)), np.nan, dtype=np.complex128)
     for n, tone in enumerate(tones):
+        # An alarm ended the run before this tone was measured.
         if time[-1] < tone.end - 2.0 * axis.servo_period:
             break
         inside = slice(*np.searchsorted(time, (tone.begin - 1e-9, tone.end - 1e-9)))  # time only grows

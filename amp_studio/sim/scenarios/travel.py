@@ -107,6 +107,7 @@ def _approach(axis: AxisLaw, settings: ScenarioSettings) -> _Approach:
     zone = _zone(travel, settings)
     if zone is not None:
         travel = replace(travel, limits=zone, notes=(travel.zone_note, *travel.notes), page=travel.zone_page)
+    # Without a start from as far off as can be: then any limit in that direction is ahead.
     found = travel.nearest(-sign * math.inf if given is None else given, sign)
     if found is None:
         raise SimulationError(

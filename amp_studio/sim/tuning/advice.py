@@ -61,6 +61,7 @@ def recommendations(
     found = gain_recommendations(trial, solved, f"{why_not_sound(loops)}; ")
     named = {each.parameter for each in found}
     notes = () if solved.sound else (f"{why_not_sound(loops)}. {none_sound(solved)}",)
+    # One recommendation for a parameter: that of the solver, whose gains belong together.
     rest = (each for each in own if each.parameter not in named)
     return (*found, *rest), (*notes, *chatter)
 
@@ -213,6 +214,7 @@ def stable_inertias(axis: AxisLaw) -> tuple[float, float] | None:
 def _stable_to(axis: AxisLaw, furthest: float) -> float:
     """Return the last share of the inertia on the way to ``furthest`` with which an axis is stable."""
     good, bad = 0.0, 0.0
+    # In equal ratios to the first share that is not stable: what may be stable beyond it is of no use.
     for n in range(1, STEPS + 1):
         if not _with_inertia(axis, furthest ** (n / STEPS)).is_stable():
             bad = n / STEPS
@@ -236,6 +238,7 @@ def chatters_in_gap(axis: AxisLaw) -> bool:
     machine = axis.machine
     if machine.backlash == 0.0 or machine.velocity_per_output > 0.0:
         return False
+    # Without its load the motor is faster by all the inertia that is gone.
     light = machine.acceleration_per_output * (1.0 + machine.coupling[2])
     alone = replace(machine, acceleration_per_output=light, backlash=0.0, resonance=0.0, load_sensor=False)
     loops = Loops(replace(axis, machine=alone))

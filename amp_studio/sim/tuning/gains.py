@@ -72,6 +72,7 @@ def gains_of(trial: Tried) -> list[Gain]:
         least = max(low or 0.0, 0.0) if sign > 0.0 else 0.0
         whole = source.whole or isinstance(value.value, int)
         decimals = trial.decimals(source.parameter)
+        # A gain of 0 opens its loop: the least value above it that the control can have.
         smallest = 1.0 if whole else SMALLEST if decimals is None else 10.0**-decimals
         gain = Gain(
             name,

@@ -39,6 +39,7 @@ class Candidate:
         """By which share of its range one count of the feedback moves the output."""
         machine = self.axis.machine
         full = FULL_PERCENT if self.axis.output_unit == "%" else machine.output_limit
+        # The coarser device moves the output most.
         count = max(machine.motor_count, machine.position_count)
         return self.law.jolt() * count / full if math.isfinite(full) else 0.0
 

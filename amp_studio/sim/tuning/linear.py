@@ -109,6 +109,7 @@ class LinearModel(SampledLoop):
         z = self._z(frequencies)
         if self._modes is None:
             return -_response(self.open, self.measured, self.sensed, z)
+        # The open loop out of the closed one, whose modes are known.
         closed = self._answer(self.measured, self.sensed, z)
         return np.asarray(-closed / (1.0 + closed))
 
@@ -116,6 +117,7 @@ class LinearModel(SampledLoop):
         """Return the closed loop: from commanded to actual position, feed-forward included."""
         z, turn = self._z(frequencies), 2j * math.pi * frequencies
         parts = [self._answer(self.command[:, [n]], self.position, z) for n in range(3)]
+        # Velocity and acceleration of the command are jω and (jω)² of its position.
         return np.asarray(parts[0] + turn * parts[1] + turn**2 * parts[2])
 
     def forwards_velocity(self) -> bool:
@@ -147,6 +149,8 @@ class LinearModel(SampledLoop):
         size = _crossings(lambda f: np.log(np.abs(self.loop(f)) + _NOTHING), grid, halvings)
         phase = _least([(_phase_margin(self._at(f)), f) for f in size])
         real = _crossings(lambda f: self.loop(f).imag, grid, halvings)
+        # At Nyquist the response is real, without a change of sign; at a pole the sign changes and the
+        # response is not real.
         gains = [
             (-20.0 * math.log10(abs(at)), f)
             for f in [*real, self.nyquist]
@@ -204,6 +208,7 @@ class LinearModel(SampledLoop):
         needed = math.log(1e-4) / math.log(slowest) if slowest > 0.0 else 1.0
         steps = math.ceil(min(max(needed, window / self.period + 1.0), LONGEST_STEP / self.period))
         way = np.abs(self.pushed_way(steps))
+        # A push that is not followed to its end stays where (I - A)⁻¹ puts it.
         stays = float(
             (self.position @ np.linalg.solve(np.eye(len(self.closed)) - self.closed, self.pushed))[0, 0]
         )
@@ -230,6 +235,7 @@ class LinearModel(SampledLoop):
     def oscillations(self) -> list[tuple[float, float]]:
         """Return (rate in 1/s, damping ratio) of every oscillation of the closed loop."""
         poles = self.poles()
+        # A pole at 0 is over in one sample and has no rate; of a pair one is taken.
         rates = np.log(poles[np.abs(poles) > 1e-9]) / self.period
         swinging = rates[rates.imag > 1e-6 * np.abs(rates)]
         return [(float(abs(rate)), float(-rate.real / abs(rate))) for rate in swinging]

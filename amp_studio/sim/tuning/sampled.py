@@ -22,6 +22,7 @@ Matrix = npt.NDArray[np.float64]
 
 LONGEST_DELAY = 100
 """Most samples of the faster loop from an output to its effect."""
+# A power of two, so that the division by it is exact.
 _STEP = 2.0**-23
 """Disturbance of a signal at rest, in its own unit: far below every limit, far above rounding."""
 
@@ -167,6 +168,8 @@ def sampled(
     rows[taken, range(size, size + len(taken))] = 1.0
     rows[signal["motor"]] = plant.motor[0] @ rows[:x]
     rows[x : x + law] = position @ rows[x : x + law]
+    # In the order of the kernel: the position sample, then each velocity sample with the motor as it is by
+    # then.
     for _ in range(loops):
         if velocity is not None:
             rows[signal["motor"]] = plant.motor[0] @ rows[:x]
@@ -247,6 +250,7 @@ class _Move:
         )
         if rest <= 1e-9:
             return cls(phi, gamma, None, push, places)
+        # In the first share of the period the older output still acts, then the newer one.
         phi_early, gamma_early = zero_order_hold(plant.a, plant.b, (1.0 - rest) * step)
         _, gamma_late = zero_order_hold(plant.a, plant.b, rest * step)
         return cls(phi, phi_early @ gamma_late, gamma_early, push, places)

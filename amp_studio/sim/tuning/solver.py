@@ -284,6 +284,7 @@ def solve(trial: Tried, aim: Aim, *, slowest: float = math.inf) -> Solved:
     chosen = _worth(settings, present, best, now, level, levels)
     after = settings.candidate(chosen) or before
     numbers = settings.search(chosen[0]).numbers(chosen[1])
+    # Not rounded to the steps of the search: the same gains must not look like a change.
     if chosen[1] == present[1]:
         numbers |= {gain.parameter: gain.present for gain in gains}
     return Solved(gains, filters.present, aim, numbers, _exactly(before), _exactly(after), min(now, level))

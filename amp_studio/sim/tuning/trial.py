@@ -98,5 +98,6 @@ class Trial:
         except (RangeError, SimulationError):
             return None
         finally:
+            # Unchecked: the value of the file may itself be out of range, and has to come back.
             for address, value in before.items():
                 self._file.set(address, value)

@@ -85,6 +85,7 @@ def measure(
     out[3] = out[4] = np.nan
     out[5], out[6], out[7] = most, (squares / driven) ** 0.5, output
     out[8] = abs(wanted[TARGET] - rows[at, 1] + rows[at, 5])
+    # Never settled, or for the last samples only, which may be a passage through the band.
     if stop != 0.0 or end < 0.0 or first >= samples - 2:
         return
     # A swing that grows from the first half of the rest to the second is no settling, however small it

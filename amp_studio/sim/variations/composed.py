@@ -93,6 +93,7 @@ class ComposedAxes:
         shared = SETTLED if self._base.settled else frozenset()
         for n, number in enumerate(point):
             changed = self._changed(n, number)
+            # Two figures move the same number: only the file knows what both together make of it.
             if changed is None or not changed.keys() & together.keys() <= shared:
                 return self._bind(point)
             together |= changed

@@ -120,6 +120,7 @@ def _duration(settings: Mapping[str, ParameterValue]) -> float | None:
 
 
 def _loops(axis: AxisLaw, law: LawMatrices | None) -> list[float]:
+    # A sweep has thousands of loops: within half a percent is enough for each.
     loops = Loops(axis, law, exact=False)
     if not (loops.closed and loops.stable and loops.inner_stable):
         return [math.nan] * (len(LOOP_FIGURES) - 1) + [0.0]
@@ -221,6 +222,7 @@ def _nothing(_parameter: str, _instance: str) -> ParameterValue:
     return None
 
 
+# Kept from one batch to the next, so that a process reads the file of a job once.
 @lru_cache(maxsize=2)
 def _axes(job: SweepJob) -> Axes:
     return Axes(job)

@@ -61,6 +61,7 @@ class Varied:
     def at(self, share: float) -> float:
         """Return the value that this share of its distribution is below."""
         if self.normal:
+            # The distribution has no value at 0 and at 1.
             far = NormalDist().inv_cdf(min(max(share, 1e-9), 1.0 - 1e-9))
             return self.low + self.high * min(max(far, -_SIGMAS), _SIGMAS)
         if self.geometric:
