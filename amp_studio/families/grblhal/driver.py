@@ -96,6 +96,7 @@ class GrblDriver(GrblContentKind, LineDriver):
         with self._opened_line() as line:
             report = line.report()
             alarm = f"ALARM:{line.alarm}" if line.alarm else ""
+        # While it moves, `$I` would wait behind the moves: the state alone is asked for then.
         if self._known is None and state_in(report) in AT_REST:
             self._known = self._identity()
         return status_of(self._known or ControlIdentity(FAMILY, self.protocol, "Grbl"), report, alarm)
@@ -116,6 +117,7 @@ class GrblDriver(GrblContentKind, LineDriver):
                 # learn what the control contains.
                 if stage != "verify" or self._waiting.now() >= end:
                     raise
+                # The line that broke is closed (`_opened_line`): the next turn makes another one.
                 self._waiting.sleep(PAUSE)
 
     def _names(self, content: bytes) -> dict[str, str]:
@@ -134,6 +136,8 @@ class GrblDriver(GrblContentKind, LineDriver):
                 # machine is not overwritten.
                 if write_content(self._read(line)) != replacement.current:
                     raise ImageChangedError("somebody has changed the settings since they were read")
+                # What was reported earlier belongs to earlier commands: from here on a message is about
+                # this download.
                 line.messages, line.has_lost_memory, self._has_lost_memory = [], False, False
                 writing.run(line, self._waiting.notify)
                 self._check_memory(line)
@@ -202,6 +206,7 @@ class GrblDriver(GrblContentKind, LineDriver):
         """
         end = self._waiting.now() + RECONNECT
         found: GrblContent | None = None
+        # Nothing was sent: the control still contains what was read before.
         has_begun = writing.sent.has_begun
         while has_begun and found is None and self._waiting.now() < end and not self._waiting.is_stopped:
             with contextlib.suppress(TransferError), self._opened_line() as line:

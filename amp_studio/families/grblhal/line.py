@@ -91,6 +91,7 @@ class GrblLine:
         self._buffer = b""
         self._lines: deque[str] = deque()
         self._owed = 0  # refusals of first lines that may still come, before any other answer
+        # Opening is bounded too: a port that opens and never answers would be waited for without an end.
         self._begin(START, lingers=False)
         try:
             self._link = open_link(self.look)
@@ -135,6 +136,7 @@ class GrblLine:
             line = self._line(ANSWER)
             if line == "ok":
                 self._waiting.heard()
+                # Refusals of first lines come before any other answer: none is owed any more.
                 self._owed = 0
                 return answer
             # error:7 answers no command: the firmware prints it at its start, when its memory could not
@@ -245,6 +247,7 @@ class GrblLine:
         if data:
             self._waiting.heard()
         *lines, self._buffer = (self._buffer + data).split(b"\n")
+        # Bounded: at a wrong baud rate everything is one line without an end.
         if len(self._buffer) > LONGEST_LINE or any(len(line) > LONGEST_LINE for line in lines):
             raise ProtocolMismatchError("the control sends a line without an end")
         texts = (line.strip(b"\r\0").decode("utf-8", errors="replace") for line in lines)

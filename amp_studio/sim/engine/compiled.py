@@ -114,6 +114,7 @@ def kernel_name(position_sample: Sample, velocity_sample: Sample | None) -> str:
 
 
 def _name(entry: Callable[..., Any], own: dict[str, FunctionType]) -> str:
+    # An option changes the machine code as a line of source does.
     described = [repr(OPTIONS), *_described(entry, own, {})]
     return f"{entry.__name__}_{hashlib.sha256(chr(10).join(described).encode()).hexdigest()[:16]}"
 
@@ -130,6 +131,7 @@ def pays(position_sample: Sample, velocity_sample: Sample | None, steps: float) 
     law = position_sample, velocity_sample
     if law in _loaded:
         return True
+    # Summed over the process: a thousand short runs are worth the loading as a long one is.
     _plain_steps[law] = _plain_steps.get(law, 0.0) + steps
     return _plain_steps[law] > PLAIN_STEPS
 
@@ -152,6 +154,7 @@ def _copy(function: Callable[..., Any], names: dict[str, Any]) -> FunctionType:
 def _called(function: Callable[..., Any], own: dict[str, FunctionType]) -> dict[str, FunctionType]:
     """Return the functions that a function calls by their names, the law's for the kernel's two."""
     source = cast(FunctionType, function)
+    # co_names are attributes and modules too (math.sqrt): what is left are functions of the globals.
     names = own if source is kernel.run else {}
     found = {name: names.get(name, source.__globals__.get(name)) for name in source.__code__.co_names}
     return {name: each for name, each in found.items() if isinstance(each, FunctionType)}
@@ -164,6 +167,7 @@ def _described(
     calls.
     """
     source = cast(FunctionType, function)
+    # A function that two others call is described once.
     if source in seen:
         return []
     seen[source] = None
@@ -171,6 +175,7 @@ def _described(
     called = _called(source, own)
     for name in source.__code__.co_names:
         constant = source.__globals__.get(name)
+        # numba freezes the globals it reads: another value needs other machine code.
         if isinstance(constant, (int, float, str, tuple)):
             text.append(f"{name}={constant!r}")
     for name, each in called.items():
@@ -179,5 +184,6 @@ def _described(
 
 
 def _code(code: CodeType) -> list[str]:
+    # The repr of a code object has its address, which is another one in each process.
     constants = [repr(each) for each in code.co_consts if not isinstance(each, CodeType)]
     return [code.co_code.hex(), *constants, *code.co_names, *code.co_varnames]

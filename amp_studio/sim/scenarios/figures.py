@@ -101,7 +101,7 @@ def grows(series: Series, count: float) -> bool:
     by more than 3 counts.
     """
     half = len(series) // 2
-    # Too few samples to tell a swing from noise.
+    # Too few samples to know a swing from noise.
     if half < 4:
         return False
     swings = [float(np.ptp(part)) for part in (series[:half], series[half:])]

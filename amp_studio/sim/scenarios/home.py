@@ -224,6 +224,7 @@ def _compare(homing: Homing, homed: Homed, others: Sequence[Homed]) -> None:
     failure, first = homing.failures.get("scatter"), _grid(homing, homed)
     for other in others:
         again = _grid(homing, other)
+        # The reach of this failure is a share of a turn, the grid is in %.
         if failure and first is not None and again is not None and abs(again - first) > failure.reach * 100.0:
             homed.fail(failure)
             return
@@ -252,7 +253,6 @@ def _doubts(axis: AxisLaw, homing: Homing, around: Around, homed: Homed) -> list
             f"ASSUMED: the axis runs {value_text(homed.overrun, axis.unit)} over a switch of"
             f" {value_text(around.length, axis.unit)}, stops behind it and comes back over it; the "
             "control waits"
-            # The reach of this failure is a share of a turn, the grid is in %.
             " until it goes off again."
         )
     return notes

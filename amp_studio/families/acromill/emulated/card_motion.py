@@ -92,6 +92,7 @@ class CardMotion:
         axis = self._machine.axes.get(name)
         if axis is None:
             return 0.0
+        # PPU is pulses for one unit of the card, positions here are in mm.
         pulses = float(self._settings.values[f"PPU {name}"]) / self._unit
         return float(round(axis.position * pulses)) if measured else axis.command * pulses
 
@@ -178,6 +179,7 @@ class CardMotion:
             raise ValueError("home takes the letters of axes")
         order: dict[int, list[str]] = {}
         for name in names:
+            # All axes before the first one moves: one that cannot be homed refuses the whole order.
             self._law_homing(name)
             order.setdefault(self._priority(name), []).append(name)
         order.pop(0, None)  # an axis that need not home (page 65)
@@ -284,6 +286,7 @@ class CardMotion:
         """Return an axis as the settings make it now; one that EXC has stopped is taken up again.
         Raises SimulationError.
         """
+        # Settings that changed while an axis moves count from its next order on.
         if self._settings.values != self._bound and not self._machine.is_busy:
             self._bound, self._file = dict(self._settings.values), None
             for other, axis in self._machine.axes.items():

@@ -79,6 +79,7 @@ def single(text: str) -> float:
     """Return a figure as the card keeps it, in 32 bits (the Board screen of page 94 shows seven digits)."""
     number = float(text)
     try:
+        # Through 32 bits, so that a figure is read back as rounded as a card has it.
         kept: float = struct.unpack("<f", struct.pack("<f", number))[0]
     except OverflowError:
         raise CommandError("Number out of range") from None
@@ -134,6 +135,7 @@ class CardSettings:
     def load(self) -> None:
         """Make active what is saved, as at power-up and by ELOAD."""
         self.values = {**self._delivered(), **self._set_up}
+        # A last line without its end was being written when the power went: it does not count.
         for line in (self._memory.read(SAVED) or b"").rpartition(b"\n")[0].decode("latin-1").splitlines():
             name, _, value = line.partition("=")
             self.values[name] = value
@@ -150,6 +152,8 @@ class CardSettings:
         saved = CardSettings(self._memory, self._set_up).values
         for name, value in self.values.items():
             if saved.get(name) != value:
+                # One append a setting: a power failure in between leaves the first ones saved, as an EEPROM
+                # does.
                 self._memory.append(SAVED, f"{name}={value}\n".encode())
         self._memory.sync(SAVED) if self._memory.read(SAVED) is not None else None
 

@@ -64,6 +64,7 @@ class CardContent:
             raise ImageError("this is not the script of an ACR card")
         found = cls(head[1])
         *lines, end, rest = text[head.end() :].split("\n") if text.endswith("\n") else ["", ""]
+        # The number of lines at its end shows a script that was cut off, between two lines too.
         if rest or end != f"end {len(lines)}":
             raise ImageError("the script of the card has been cut off")
         by_name = {setting.name: setting for setting in settings()}
@@ -72,6 +73,7 @@ class CardContent:
         return found
 
     def _read_line(self, line: str, number: int, by_name: dict[str, CommandSetting]) -> None:
+        # Cut before it is matched: a damaged line may be of any length.
         word = _BALLSCREW.fullmatch(line[: LONGEST + 1])
         name, figures = (f"BSC {word[1]}", (str(word[3]),)) if word else _figures_of(line, by_name)
         if not name or len(line) > LONGEST or name in self.figures or name in self.ballscrew:
@@ -220,6 +222,7 @@ def same_figures(a: Iterable[str], b: Iterable[str]) -> bool:
 def plain_figure(text: str) -> str:
     """Return a figure without an exponent: ``1.99E-07`` is ``0.000000199``."""
     number = Decimal(text)
+    # abs of a zero: "-0" and "0" are one figure.
     plain = format(number or abs(number), "f")
     return plain.rstrip("0").rstrip(".") if "." in plain else plain
 
@@ -254,6 +257,7 @@ def _figures_of(line: str, by_name: dict[str, CommandSetting]) -> tuple[str, tup
     if line in by_name:
         return line, ()
     figure = r"([+-]?(?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+))"
+    # A name may be the beginning of another one: the whole line decides.
     for name, setting in by_name.items():
         if line.startswith(name):
             pattern = re.escape(setting.write(["\0"] * len(setting.addresses))).replace("\0", figure)

@@ -126,6 +126,7 @@ class TerminalDriver(AcrContent, LineDriver):
     def status(self) -> ControlStatus:
         """Return encoder positions, setpoints and excess-error bits of all axes: queries alone."""
         if self._known is None:
+            # PPU makes pulses readable and is read once: positions are asked for again and again.
             self._known = self._identity()
             found = {axis: self._figures(f"PPU {axis}", 1) for axis in AXES}
             self._pulses = {axis: float(figures[0]) for axis, figures in found.items() if figures}
@@ -184,6 +185,8 @@ class TerminalDriver(AcrContent, LineDriver):
         for what in self._read_all(content, stage):
             self._read_into(content, what)
         missing = [setting for setting in settings() if setting.name not in content.figures]
+        # Once more for what is missing: an answer that was lost looks like a setting that the card does not
+        # have.
         for setting in missing:
             self._read_into(content, setting)
         # A setting missing in both readings may not exist on this card; one that ever was there has
@@ -226,6 +229,7 @@ class TerminalDriver(AcrContent, LineDriver):
             found.ballscrew = others | self._ballscrew(what)
             return
         figures = self._figures(what.name, len(what.addresses))
+        # A second reading replaces what the first one found, by nothing too.
         found.figures.pop(what.name, None)
         if figures is not None:
             found.figures[what.name] = figures
@@ -277,10 +281,13 @@ class TerminalDriver(AcrContent, LineDriver):
     def _send(self, replacement: Replacement, sent: SentValues) -> Receipt:
         """Send the commands that differ, read each back, save."""
         transfer = _ScriptTransfer(replacement, sent)
+        # A card that lost its power forgot what it had not saved: a new cut of the line shows that it may
+        # have.
         cuts = self._terminal.cuts
         for number, name in enumerate(transfer.names, 1):
             self._waiting.look()
             if name in transfer.content.ballscrew:
+                # A position has no query: tables are read back as a whole, below.
                 self._command(transfer, name)
             else:
                 self._set(transfer, name)

@@ -94,6 +94,7 @@ class Terminal:
                 self._is_clear, fault = False, str(error)
                 self.faults += 1
                 continue
+            # Only a whole answer counts as heard: noise must not keep a dead line alive.
             self._waiting.heard()
             return rows
         raise ControlSilentError(f"the card does not take '{line}': {fault or 'the line breaks each time'}")
@@ -141,13 +142,16 @@ class Terminal:
         Raises _DamagedError for what is to be tried again.
         """
         self._type(link, line)
+        # From here on the card may have obeyed, whatever comes back.
         sent()
         self._is_clear = False
         link.write(b"\r")
+        # The prompt is at the end: eight characters are enough to look in, however long a table is.
         answer = self._read_until(
             link, lambda got: _PROMPT.search(got[-8:]) is not None, seconds, gap=seconds
         )
         match = _PROMPT.search(answer)
+        # Behind the carriage return a card begins a new line; anything else is left of an earlier answer.
         if match is None or not answer.startswith((b"\r", b"\n")):
             raise _DamagedError("there is no prompt behind its answer")
         self._is_clear = True

@@ -114,6 +114,8 @@ class Firmware:
     def power_cycle(self) -> None:
         """Cut the power: while the memory is being written all of it is lost."""
         if self.is_writing:
+            # Once: a memory that is half written has a wrong checksum, and the next start begins with the
+            # defaults.
             self._memory.replace(MEMORY, b"")
         self._out.clear()
         self._boot()
@@ -161,6 +163,7 @@ class Firmware:
             self._line = self._line[:-1]
         elif byte > (0x1F if self._line else 0x20) and byte < 0x80:
             limit = CLASSIC_LINE if self.settings.is_classic else LINE
+            # The buffer of the firmware has room for the line and the zero at its end.
             self._overflows = self._overflows or len(self._line) >= limit - 1
             self._line = (self._line + character)[: limit - 1]
 

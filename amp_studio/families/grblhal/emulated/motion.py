@@ -82,6 +82,7 @@ class GrblMotion:
         for axis in block.targets:
             self._axis(axis)
         self._blocks.append(block)
+        # The next block begins where this one ends, however far the machine is by now.
         self.planned |= block.targets
         self._next()
 
@@ -98,6 +99,7 @@ class GrblMotion:
     def home(self, axes: str) -> None:
         """Begin to home; raises SimulationError where an axis cannot be homed."""
         wanted = self._phases(axes)
+        # All axes before the first one moves: one that cannot be homed refuses the whole cycle.
         for name in (each for cycle in wanted for each in cycle):
             homing(self._read(name))
             self._axis(name)
@@ -205,6 +207,7 @@ class GrblMotion:
             for other, axis in self._machine.axes.items():
                 axis.bind(self._law(other))
         if name not in self._machine.axes:
+            # An axis that has not moved yet is where the blocks so far have put it.
             self._machine.axes[name] = SimulatedAxis(self._law(name), position=self.planned[name])
         return self._machine.axes[name]
 

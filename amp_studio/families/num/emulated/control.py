@@ -135,6 +135,7 @@ class NumControl:
             self._whole_line()
         elif character != ord("\r") or self._line.endswith(b"\r"):
             self._line.append(character)
+            # Three more for ";" and the two digits of the length.
             if len(self._line) > LONGEST + 3:
                 self._fail("a line without an end")
 

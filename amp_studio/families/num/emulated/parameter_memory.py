@@ -171,6 +171,7 @@ class ParameterMemory:
         """Take the words of a data line so that they outlast the power; raises TableError, OSError."""
         if fault := self.fault_of(header, data):
             raise TableError(fault)
+        # On the disk before it counts: a load that is cut off leaves what was taken so far.
         self._memory.append(TAKEN, measured(f"{header.spelled}#{' '.join(data)}"))
         self.take(header, data)
 
@@ -185,6 +186,8 @@ class ParameterMemory:
 
     def settle(self) -> None:
         """Write all words as one table; raises OSError."""
+        # The table first: if the power goes before the lines are removed, they are replayed, which changes
+        # nothing.
         self._memory.replace(TABLE, b"".join(self.lines()) + b"\x13")
         self._memory.remove(TAKEN)
 

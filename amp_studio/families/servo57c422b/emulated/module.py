@@ -275,6 +275,7 @@ class Module:
         self._put(axis + FEEDBACK, motion.position)
         scans = max(self.words[axis + PERIOD], 1)
         self._put(axis + VELOCITY, round(motion.counts_a_scan * scans))
+        # One word with a sign: a larger error stays at its end.
         self.words[axis + ERROR] = max(-0x8000, min(0x7FFF, motion.following_error)) & 0xFFFF
 
     def _put(self, register: int, value: int) -> None:
@@ -286,6 +287,7 @@ class Module:
         """Set bits of a status or fault register; those that are enabled cause an interrupt (pages 4-43 to
         4-45).
         """
+        # Bits that are new alone: a fault that lasts causes one interrupt.
         new = bits & ~self.words[register]
         self.words[register] |= bits
         axis, number = register // AXIS_Y * AXIS_Y, register % AXIS_Y

@@ -51,6 +51,7 @@ class ModuleMotion:
         """Take the registers of the module over while the axis is at rest;
         returns whether an axis can move with them.
         """
+        # From 63 on the registers are commands and their answers, which make no other axis.
         own = tuple(words[self._first : self._first + AXIS_Y])
         if own[:63] == self._words or (self.simulated and self.simulated.is_busy):
             return self.simulated is not None
@@ -88,6 +89,7 @@ class ModuleMotion:
         """Move to a position."""
         self.commanded = target
         if self.simulated:
+            # A velocity of 0 would be a move without an end.
             self.simulated.move(target, max(self.speed(words), 1e-3), self.ramp(words))
 
     def run(self, sign: float, words: Sequence[int]) -> None:

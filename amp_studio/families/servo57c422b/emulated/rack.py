@@ -42,6 +42,7 @@ class Rack:
             if byte == 10:
                 self._obey(bytes(self._line).removesuffix(b"\r"))
                 self._line.clear()
+            # One character too many is kept, so that a line that is too long is no request.
             elif len(self._line) <= LONGEST:
                 self._line.append(byte)
 
