@@ -61,7 +61,7 @@ class ContentKind(Protocol):
         "from byte 7 on"; "" if it is.
         """
 
-    def shown(self, content: bytes, found: bytes) -> bytes:
+    def displayed(self, content: bytes, found: bytes) -> bytes:
         """Return ``content`` as a control that contains ``found`` shows it: what that is coarser of, and not
         other than.
         """
@@ -82,7 +82,7 @@ class TakesAllOrRefuses:
         """Return "": what is read of such a control is whole."""
         return ""
 
-    def shown(self, content: bytes, found: bytes) -> bytes:  # noqa: ARG002  # controls that round need it
+    def displayed(self, content: bytes, found: bytes) -> bytes:  # noqa: ARG002  # controls that round need it
         """Return the content itself: the control shows all of it."""
         return content
 

@@ -113,14 +113,15 @@ class GrblContentKind:
         startup = {**present.startup, **{n: line for n, line in copy.startup.items() if n in present.startup}}
         return write_content(replace(present, settings=settings, offsets=offsets, startup=startup))
 
-    def shown(self, content: bytes, found: bytes) -> bytes:
+    def displayed(self, content: bytes, found: bytes) -> bytes:
         """Return a content with the settings of another one that shows the same, coarser: ``32.7`` of
         ``32.735``.
         """
         wanted, present = read_content(content), read_content(found)
-        shown = {n: present.settings.get(n, "") for n in wanted.settings}
+        displayed = {n: present.settings.get(n, "") for n in wanted.settings}
         settings = {
-            n: shown[n] if is_shown_as(text, shown[n]) else text for n, text in wanted.settings.items()
+            n: displayed[n] if is_shown_as(text, displayed[n]) else text
+            for n, text in wanted.settings.items()
         }
         return write_content(replace(wanted, settings=settings))
 

@@ -127,7 +127,7 @@ def verify_content(file: ParameterFile, fetched: bytes) -> ImageComparison:
         stays = kind.stays(file, fetched)
         is_same, is_whole = not missing and not kind.difference(content, fetched), content == fetched
         # In the control's own units, with what the file leaves as it is, and as coarse as it is shown.
-        wanted = present if is_same else kind.decode(kind.shown(content, fetched))
+        wanted = present if is_same else kind.decode(kind.displayed(content, fetched))
     except ImageError as error:
         missing = str(error)
     head = _head_differences(file, present) if kind.has_header else ()
@@ -159,11 +159,11 @@ def completed(content: ParameterFile, image: bytes, file: ParameterFile) -> Para
         try:
             kind = kind_of(image)
             wanted = kind.encode(file, image)
-            sent, shown = kind.decode(wanted).values, kind.decode(kind.shown(wanted, image)).values
+            sent, displayed = kind.decode(wanted).values, kind.decode(kind.displayed(wanted, image)).values
         except ImageError:  # the control cannot take the file: all that differs is shown
             return found
         is_file = {a for a in file.values if a not in sent and a not in content.values}
-        is_file |= {a for a, value in sent.items() if a in file.values and value != shown.get(a)}
+        is_file |= {a for a, value in sent.items() if a in file.values and value != displayed.get(a)}
         found.take({a: file.values[a] for a in is_file})
     return found
 

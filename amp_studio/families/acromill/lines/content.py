@@ -184,7 +184,7 @@ class AcrContent(TakesAllOrRefuses):
         _take_ballscrew(card, copy.ballscrew, as_a_whole=True)
         return card.written()
 
-    def shown(self, content: bytes, found: bytes) -> bytes:
+    def displayed(self, content: bytes, found: bytes) -> bytes:
         """Return a content with the figures of another one that a card shows the same."""
         wanted, present = CardContent.read(content), CardContent.read(found)
         for name, figures in present.figures.items():
