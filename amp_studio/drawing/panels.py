@@ -18,6 +18,8 @@ from .ticks import figure_text, round_step
 if TYPE_CHECKING:
     from .scene import Series
 
+DIVISIONS = 8
+"""Of the vertical axis of a recorder."""
 MARGIN = 0.06
 """Share of a range that is free above and below the curves."""
 _BASE, _DEVIATION = 2.0, 1.0
@@ -78,6 +80,8 @@ def linked(panels: Sequence[Scene]) -> tuple[Scene, ...]:
 
 def zoomed(panel: Scene, span: tuple[float, float]) -> Scene:
     """Return a panel over a part of its horizontal axis; the vertical one follows what is visible."""
+    if panel.y.is_fixed:
+        return replace(panel, x=replace(panel.x, low=span[0], high=span[1]))
     low, high = visible(panel.curves, panel.levels, span)
     room = MARGIN * (high - low)
     return replace(
@@ -85,6 +89,15 @@ def zoomed(panel: Scene, span: tuple[float, float]) -> Scene:
         x=replace(panel.x, low=span[0], high=span[1]),
         y=replace(panel.y, low=low - room, high=high + room),
     )
+
+
+def on_divisions(panel: Scene, per_division: float, middle: float) -> Scene:
+    """Return a panel with the vertical scale of a recorder: so much for each of DIVISIONS, with ``middle``
+    half way up; zooming keeps it.
+    """
+    half = 0.5 * DIVISIONS * abs(per_division)
+    scale = replace(panel.y, low=middle - half, high=middle + half, step=abs(per_division), is_fixed=True)
+    return replace(panel, y=scale)
 
 
 def visible(

@@ -208,6 +208,8 @@ class Scale:
     """Distance of the figures where round decimal numbers are wrong (degrees); 0 for those."""
     is_written: bool = True
     """Whether there are figures; a panel leaves those along x to the last one below it."""
+    is_fixed: bool = False
+    """Whether it was chosen: it stays whatever is visible."""
     rows: tuple[tuple[float, str, str], ...] = ()
     """In place of figures: where, name at the left and at the right end."""
 

@@ -49,7 +49,16 @@ if TYPE_CHECKING:
     from .identification.identify import figure_rows, identified_text, identify, machine_settings
     from .identification.identify_response import identify_response
     from .identification.machine_file import machine_for, read_machine, write_machine
-    from .identification.overlay import Trigger, laid_over, trigger_of
+    from .identification.overlay import laid_over, unit_factor
+    from .identification.recording import SIGNALS as RECORDED_SIGNALS
+    from .identification.recording import (
+        LiveRecorder,
+        SignalRecord,
+        Trigger,
+        read_recording,
+        trigger_of,
+        write_recording,
+    )
     from .identification.response import is_response
     from .law import AlarmText, AxisLaw, BoundMachine, Law, Leader, LoopFilter, Prediction, Source, law_of
     from .listings import SimulationListing, listing
@@ -83,7 +92,7 @@ if TYPE_CHECKING:
         RowBounds,
         ShapedPath,
     )
-    from .picture import picture_of, plot_svg, settling_span
+    from .picture import picture_of, plot_svg, recording_picture, settling_span
     from .probing import Probing
     from .rounding import rounded_down, rounded_up, value_text
     from .run import machine_tests, simulate, simulated_axes, sweep

@@ -26,6 +26,7 @@ from amp_studio.drawing import (
 )
 from amp_studio.scenarios import CHARTS
 
+from .identification.recording import SignalRecord
 from .loop_picture import nichols, nyquist, tuned
 from .rounding import value_text
 from .series import Series
@@ -154,6 +155,9 @@ def _has_own_output(trace: Trace) -> bool:
     return trace.units.get("output", "") != trace.units.get("torque", "")
 
 
+_DOTTED = 0.2
+"""Share of the rows that a record has, below which its readings are dots: nothing is known between them."""
+
 _WORDS: dict[str, tuple[str, ShapeSort]] = {
     "command_position": ("command", "dim"),
     "position": ("actual", "now"),
@@ -193,6 +197,9 @@ def _curve(trace: Trace, name: str) -> Curve:
         trace.columns[name][known],
         sort,
         dashed=sort == "dim",
+        dots=bool(known.size)
+        and float(np.mean(known)) < _DOTTED
+        and name.startswith(("recorded_", "difference_")),
         is_stepped=name == "command_velocity",
         dense=sort == "output" or name == "following_error",
     )
@@ -202,6 +209,20 @@ def _before(before: Trace | None, name: str) -> list[Curve]:
     if before is None or name not in before.columns:
         return []
     return [Curve("before", before.columns["time_s"], before.columns[name], "before")]
+
+
+def recording_picture(recording: SignalRecord) -> Picture:
+    """Return the readings of a recording that is being made, as dots: nothing is known between them."""
+    panels = [
+        panel_of(
+            signal.replace("_", " "),
+            (Curve("", recording.time, values, "outside", dots=True),),
+            _TIME,
+            recording.units.get(signal, ""),
+        )
+        for signal, values in recording.signals.items()
+    ]
+    return Picture("", (), linked(panels))
 
 
 def _error(trace: Trace, before: Trace | None, alarms: Sequence[NamedPlace]) -> Scene | None:

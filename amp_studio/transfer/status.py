@@ -26,6 +26,14 @@ class AxisStatus:
     known_states: tuple[str, ...] = ()
     """Every state that the control shows of an axis, on or off; those that are off are shown too."""
 
+    def signals(self) -> dict[str, tuple[float | None, str]]:
+        """Return each figure that can be recorded over the time with its unit; None where it is not shown."""
+        return {
+            "position": (self.position, self.unit),
+            "velocity": (self.velocity, f"{self.unit}/s"),
+            "following_error": (self.following_error, self.unit),
+        }
+
 
 @dataclass(frozen=True)
 class ActiveFault:

@@ -59,6 +59,7 @@ PAST_THE_DOOR = {
         "verbs/controls/ports.py": "transfer",
         "verbs/controls/receive.py": "files transfer",
         "verbs/controls/send.py": "transfer",
+        "verbs/controls/status.py": "sim",
         "verbs/documents/sheet.py": "sheet transfer",
         "verbs/facts/calculate.py": "validate",
         "verbs/files/axis.py": "files",

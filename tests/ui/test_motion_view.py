@@ -406,11 +406,11 @@ def test_a_record_of_the_machine_is_laid_over_until_none_is_named(
     rows = (f"{time!r},{place!r}" for time, place in zip(*map(np.ndarray.tolist, columns), strict=True))
     record.write_text("time (s),position (mm)\n" + "\n".join(rows))
     monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(record), ""))
-    view.over.click()
+    view.recorder.open.click()
     settled(view, qtbot)
     assert view.trace.result["difference_rms_position"][0] == pytest.approx(1.0, abs=0.01)
     assert any(curve.name == "recorded position" for curve in view.plot.panels[0].curves)
     monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: ("", ""))
-    view.over.click()
+    view.recorder.open.click()
     settled(view, qtbot)
     assert "difference_rms_position" not in view.trace.result

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from amp_studio.sim import AxisParameters, SimulationError
 
 from . import law_samples as samples
-from .formulas.tuning import dac_monitor_function
+from .formulas.tuning import DAC_PITCHES, dac_monitor_function, dac_starting_scale
 from .law_facts import ids
 from .law_reading import above_zero, demand
 
@@ -42,10 +42,21 @@ SIGNALS = {
     200: samples.FOLLOWING_ERROR,
     300: samples.INTEGRAL_TORQUE,
     400: samples.VELOCITY_ERROR,
+    500: samples.COMMAND_SPEED,
+    600: samples.FINAL_VELOCITY,
 }
-"""Function code (Table A.B, A-6) -> column. Coarse IPCs (500) and Final Velocity (600)
-are named there and nowhere explained."""
-OF_ANALOG = (200,)
+"""Function code (Table A.B, A-6) -> column."""
+INFERRED = {
+    500: (
+        "INFERRED: coarse IPCs (500) are increments of the position command (IPC in Figure 7.4), as the"
+        " velocity of the command: the time of an increment is in the unit."
+    ),
+    600: (
+        "INFERRED: final velocity (600) is the velocity command that velocity error and feedback (400, 100)"
+        " belong to; the manual has its name alone (A-6)."
+    ),
+}
+OF_ANALOG = (200, 500)
 """Those that an analog servo has, too (A-6)."""
 
 NOTE = (
@@ -77,10 +88,25 @@ def columns(read: AxisParameters, drive: str, p: list[float], notes: list[str]) 
         first = samples.DAC + samples.DAC_FIGURES * len(found)
         p[first : first + samples.DAC_FIGURES] = [float(signal), volts / (divisor * unit), abs(volts)]
         found.append((f"dac_{channel.number}", "V"))
-        texts = f"{volts:g}", samples.MONITORS[signal][0], f"{divisor:g}", f"{unit:g}"
+        name = "command_velocity" if signal == samples.COMMAND_SPEED else samples.MONITORS[signal][0]
+        texts = f"{volts:g}", name, f"{divisor:g}", f"{unit:g}"
         notes.append(NOTE.format(channel.number, *texts, f"{abs(volts):g}", channel.unit))
+        notes += _about(read, channel)
     p[samples.CHANNELS] = float(len(found))
     return found
+
+
+def _about(read: AxisParameters, channel: Channel) -> list[str]:
+    """Return what is inferred of the signal, and the scale that is printed to begin with."""
+    function, _ = dac_monitor_function(read.number(ids.dac_monitor, at=channel.place))
+    small, large = (dac_starting_scale(function, pitch) for pitch in DAC_PITCHES)
+    return [
+        *([INFERRED[function]] if function in INFERRED else []),
+        (
+            f"Scale to begin with for the signal {function:g} (Table A.C, A-7): {small:g} at a pitch of"
+            f" 0.1 in, {large:g} at 0.5 in, for 10 V; other pitches are not printed."
+        ),
+    ]
 
 
 def _signal(read: AxisParameters, channel: Channel, drive: str, notes: list[str]) -> int | None:
@@ -101,10 +127,8 @@ def _signal(read: AxisParameters, channel: Channel, drive: str, notes: list[str]
     if str(axis) != read.axis:
         notes.append(f"{place}: it shows axis {axis}, so it is no column of axis {read.axis}.")
         return None
-    if function not in SIGNALS:
-        raise SimulationError(
-            f"{place}: the manual does not say what this signal is (A-6). Take 100 to 400", ids.dac_monitor
-        )
     if drive == "analog" and function not in OF_ANALOG:
-        raise SimulationError(f"{place}: an analog servo has no such signal (A-6). Take 200", ids.dac_monitor)
+        raise SimulationError(
+            f"{place}: an analog servo has no such signal (A-6). Take 200 or 500", ids.dac_monitor
+        )
     return SIGNALS[function]

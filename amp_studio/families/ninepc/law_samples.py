@@ -80,8 +80,9 @@ MONITORS = (
     ("feed_share", ""),
     ("velocity_feedback", "u/s"),
 )
-VELOCITY_ERROR, INTEGRAL_TORQUE, FOLLOWING_ERROR, VELOCITY_FEEDBACK = 1, 2, 3, 6
-"""Places in MONITORS of what a DAC monitor can show."""
+FINAL_VELOCITY, VELOCITY_ERROR, INTEGRAL_TORQUE, FOLLOWING_ERROR, VELOCITY_FEEDBACK = 0, 1, 2, 3, 6
+COMMAND_SPEED = COMMAND_VELOCITY - MONITOR
+"""Places from MONITOR on of what a DAC monitor can show; the velocity of the command comes before it."""
 DAC_MONITOR = 7
 """The DAC monitors come after those."""
 

@@ -3,62 +3,51 @@ with the difference and its root mean square.
 
 The lag is sought by the correlation of the first signal that both have (command, position, velocity,
 following error, torque), to a part of a row by a parabola (C. Knapp, G. Carter, IEEE Transactions on
-Acoustics, Speech, and Signal Processing 24, 1976).
+Acoustics, Speech, and Signal Processing 24, 1976). A record that is much coarser than the simulation, as the
+readings of a control, is compared at its readings alone: nothing is known between two of them.
 """
 
 from __future__ import annotations
 
-import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from amp_studio.files import text_of_name
-from amp_studio.schema import UnitError, canonical, dimension, read_table_text, unit_named
+from amp_studio.schema import UnitError, canonical, dimension, unit_named
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Figure, Trace
 
-from .drive_record import named_columns, read_number_table, seconds_of
+from .recording import LEAST_ROWS, SIGNALS, SignalRecord, Trigger, read_recording
 
-SIGNALS = {
-    "command_position": "command( position)?|(position )?(command|setpoint)|commanded position|sollposition",
-    "position": "position|pos|(actual|measured|axis) (position|pos)|istposition",
-    "velocity": "velocity|speed|(actual|measured|axis) (velocity|speed)|istgeschwindigkeit",
-    "following_error": "following error|position error|error|schleppfehler",
-    "torque": "torque|current|(actual|measured|motor) (torque|current)|iq|istmoment",
-}
-"""Signal of a trace -> names of its column in a record."""
-_TIME = "time|t|zeit"
-LEAST_ROWS = 20
 MOST_ROWS = 20_000
 """Rows in which the lag is sought; longer traces are thinned for it."""
+COARSE = 8.0
+"""Rows of the simulation from one of the record to the next, from which it is compared at its readings
+alone.
+"""
+_TRIED = 2000
+"""Lags that are tried of a coarse record."""
 
 
-def read_channels(path: Path, trace: Trace) -> tuple[Series, dict[str, Series]]:
-    """Return time in s and the signals of a record that the trace has too, in its units;
-    raises SimulationError, OSError.
-    """
-    name, text = text_of_name(path.name), read_table_text(path)
-    places = named_columns(text, {"time": _TIME, **SIGNALS})
-    known = {signal: place for signal, place in places.items() if signal in trace.columns}
-    if "time" not in places or not known:
-        signals = ", ".join(filter(trace.columns.__contains__, SIGNALS))
-        raise SimulationError(f"{name}: it needs a column of time and one of {signals}, with their units")
-    columns = read_number_table(text, [place for place, _ in (places["time"], *known.values())])
-    if len(columns[0]) < LEAST_ROWS:
-        raise SimulationError(f"{name}: {len(columns[0])} rows are too few: at least {LEAST_ROWS}")
-    time = columns[0] * seconds_of(name, places["time"][1])
-    if not (np.diff(time) > 0.0).all():
-        raise SimulationError(f"{name}: its time does not rise from row to row")
-    return time - time[0], {
-        signal: column * _factor(name, signal, unit, trace.units[signal])
-        for (signal, (_, unit)), column in zip(known.items(), columns[1:], strict=True)
+def channels_of(recording: SignalRecord, trace: Trace) -> dict[str, Series]:
+    """Return the signals of a recording that the trace has too, in its units; raises SimulationError."""
+    found = {
+        signal: values
+        * unit_factor(recording.name, signal, recording.units.get(signal, ""), trace.units[signal])
+        for signal, values in recording.signals.items()
+        if signal in trace.columns
     }
+    if not found:
+        signals = ", ".join(filter(trace.columns.__contains__, SIGNALS))
+        raise SimulationError(
+            f"{recording.name}: it needs a column of time and one of {signals}, with their units"
+        )
+    return found
 
 
-def _factor(name: str, signal: str, unit: str, wanted: str) -> float:
+def unit_factor(name: str, signal: str, unit: str, wanted: str) -> float:
     """Return how much of the trace's unit one of the record's is;
     a column without a unit is in that of the trace.
     """
@@ -75,69 +64,25 @@ def _factor(name: str, signal: str, unit: str, wanted: str) -> float:
     )
 
 
-@dataclass(frozen=True)
-class Trigger:
-    """Where a record begins, as at an oscilloscope: its signal passes a level (edge) or is at it (level)."""
-
-    signal: str
-    rising: bool
-    level: float
-    """In the unit of the trace."""
-    before: float = 0.0
-    """s of the record that are kept ahead of it; the rest is cut off."""
-    is_level: bool = False
-    """A signal that is at the level or beyond it in its first row, fires there: no edge is waited for."""
-
-    def time(self, name: str, time: Series, values: Series) -> float:
-        """Return when a signal passes the level first, between two rows on a line, or where it is there from
-        its first row; ``name`` is who has it.
-        """
-        excess = values - self.level if self.rising else self.level - values
-        above = excess >= 0.0 if self.is_level else excess > 0.0
-        if self.is_level and above[0]:
-            return float(time[0])
-        passes = np.flatnonzero(above[1:] & ~above[:-1])
-        if not passes.size:
-            way = "above" if self.rising else "below"
-            raise SimulationError(
-                f"{name}: its {self.signal.replace('_', ' ')} never goes {way} {self.level:g}, where the"
-                f" trigger is; it is between {values.min():g} and {values.max():g}"
-            )
-        n = int(passes[0])
-        share = (self.level - values[n]) / (values[n + 1] - values[n])
-        return float(time[n] + share * (time[n + 1] - time[n]))
-
-
-def trigger_of(text: str, before: float = 0.0) -> Trigger:
-    """Return a trigger as it is written, ``velocity>100`` (edge) or ``velocity>=100`` (level), in the unit
-    of the trace; raises SimulationError.
-    """
-    match = re.fullmatch(r"\s*([a-z _]+?)\s*([<>])(=?)\s*([+-]?[0-9]*[.,]?[0-9]+)\s*", text)
-    signal = match[1].replace(" ", "_") if match else ""
-    if match is None or signal not in SIGNALS:
-        known = ", ".join(SIGNALS)
-        raise SimulationError(
-            f"'{text[:40]}' is no trigger: velocity>100 or velocity>=100, with one of {known}"
-        )
-    if before < 0.0:
-        raise SimulationError(f"{before:g} s ahead of the trigger: it must be 0 or more")
-    return Trigger(signal, match[2] == ">", float(match[4].replace(",", ".")), before, match[3] == "=")
-
-
-def laid_over(trace: Trace, path: Path, trigger: Trigger | None = None) -> Trace:
+def laid_over(trace: Trace, record: Path | SignalRecord, trigger: Trigger | None = None) -> Trace:
     """Return a trace with the signals of a record (``recorded_…``) and the differences (``difference_…``,
     record less simulation).
 
     With a trigger both are laid over each other where their signal passes its level; else by the best lag.
     Raises SimulationError for a record that does not fit, OSError where it cannot be read.
     """
-    time, signals = read_channels(path, trace)
+    recording = record if isinstance(record, SignalRecord) else read_recording(record)
+    name, time, signals = recording.name, recording.time, channels_of(recording, trace)
+    if len(time) < LEAST_ROWS:
+        raise SimulationError(f"{name}: {len(time)} rows are too few: at least {LEAST_ROWS}")
     here = trace.columns["time_s"]
     first = next(iter(each for each in SIGNALS if each in signals))
+    is_coarse = float(np.median(np.diff(time))) > COARSE * float(np.median(np.diff(here)))
     if trigger is None:
-        lag = _lag(here, trace.columns[first], time, signals[first])
+        seek = _lag_of_readings if is_coarse else _lag
+        lag = seek(here, trace.columns[first], time, signals[first])
     else:
-        first, name = trigger.signal, text_of_name(path.name)
+        first = trigger.signal
         if first not in signals:
             raise SimulationError(f"{name}: it has no {first.replace('_', ' ')} for the trigger")
         there = trigger.time(name, time, signals[first])
@@ -146,8 +91,8 @@ def laid_over(trace: Trace, path: Path, trigger: Trigger | None = None) -> Trace
         time, signals = time[kept], {signal: values[kept] for signal, values in signals.items()}
     columns, units, result = dict(trace.columns), dict(trace.units), dict[str, Figure]()
     for signal, values in signals.items():
-        laid = np.interp(here + lag, time, values, left=np.nan, right=np.nan)
-        off = laid - trace.columns[signal]
+        over = _readings if is_coarse else _rows
+        laid, off = over(here, trace.columns[signal], time - lag, values)
         if not np.isfinite(off).any():
             continue
         columns[f"recorded_{signal}"], columns[f"difference_{signal}"] = laid, off
@@ -155,13 +100,30 @@ def laid_over(trace: Trace, path: Path, trigger: Trigger | None = None) -> Trace
         result[f"difference_rms_{signal}"] = float(np.sqrt(np.nanmean(off**2))), unit
         result[f"difference_peak_{signal}"] = float(np.nanmax(np.abs(off))), unit
     if not result:
-        raise SimulationError(f"{text_of_name(path.name)}: the record and the simulated move do not overlap")
+        raise SimulationError(f"{name}: the record and the simulated move do not overlap")
     note = (
         f"The record was laid over the simulation by its {first.replace('_', ' ')}: 0 s of the simulation is"
         f" {lag:.6g} s of the record."
     )
     found = {**trace.result, "record_lag": (lag, "s"), **result}
     return replace(trace, columns=columns, units=units, result=found, assumptions=(note, *trace.assumptions))
+
+
+def _rows(here: Series, simulated: Series, time: Series, values: Series) -> tuple[Series, Series]:
+    """Return a record, and how much more it is, in the rows of the simulation; NaN where it is not there."""
+    laid = np.interp(here, time, values, left=np.nan, right=np.nan)
+    return laid, laid - simulated
+
+
+def _readings(here: Series, simulated: Series, time: Series, values: Series) -> tuple[Series, Series]:
+    """Return the same of single readings, each in the row of the simulation that is nearest to it."""
+    laid, off = np.full(len(here), np.nan), np.full(len(here), np.nan)
+    inside = (time >= here[0]) & (time <= here[-1])
+    after = np.clip(np.searchsorted(here, time[inside]), 1, len(here) - 1)
+    nearest = np.where(time[inside] - here[after - 1] < here[after] - time[inside], after - 1, after)
+    laid[nearest] = values[inside]
+    off[nearest] = values[inside] - np.interp(time[inside], here, simulated)
+    return laid, off
 
 
 def _lag(here: Series, simulated: Series, time: Series, recorded: Series) -> float:
@@ -180,3 +142,20 @@ def _lag(here: Series, simulated: Series, time: Series, recorded: Series) -> flo
     low, middle, high = product[best - 1], product[best], product[(best + 1) % size]
     bend = low - 2.0 * middle + high
     return float(step * (best + (0.5 * (low - high) / bend if bend < 0.0 else 0.0)))
+
+
+def _lag_of_readings(here: Series, simulated: Series, time: Series, recorded: Series) -> float:
+    """Return the same of single readings: where they differ least from the simulation, which rests before and
+    after the move; a different zero is none.
+    """
+
+    def left(lag: float) -> float:
+        return float(np.var(recorded - np.interp(time - lag, here, simulated)))
+
+    lags = np.linspace(-float(here[-1]), float(time[-1]), _TRIED)
+    best = min(lags, key=left)
+    width = float(lags[1] - lags[0])
+    while width > 1e-6:  # by halves: the sum is smooth within the distance of two lags
+        best = min((best - 0.5 * width, best, best + 0.5 * width), key=left)
+        width *= 0.5
+    return float(best)

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -127,8 +127,18 @@ class _Shape:
 def fit_plant(response: FrequencyResponse, quantity: str | None = None) -> PlantFit:
     """Return the machine of a response; ``quantity`` None finds out which of QUANTITIES it is of.
 
-    Raises SimulationError for a response that such a machine does not have.
+    The torque of a record is that of a drive, which keeps it for a sample, or of something finer: what fits
+    better. Raises SimulationError for a response that such a machine does not have.
     """
+    found = _fit_plant(response, quantity)
+    if not response.period:
+        return found
+    kept = np.sinc(response.frequency * response.period)
+    other = _fit_plant(replace(response, response=response.response / kept), quantity)
+    return found if found.misfit < other.misfit else replace(other, model=other.model * kept)
+
+
+def _fit_plant(response: FrequencyResponse, quantity: str | None) -> PlantFit:
     fits = [
         (shape, fitted)
         for name in QUANTITIES
@@ -158,7 +168,7 @@ def fit_plant(response: FrequencyResponse, quantity: str | None = None) -> Plant
     return PlantFit(
         shape.quantity,
         shape.at_load,
-        _figures(shape, fitted),
+        _figures(shape, fitted.parameters, _errors(response, s, shape, fitted)),
         tuple(_pairs(shape, fitted)),
         shape.response(fitted.parameters, s),
         misfit,
@@ -266,8 +276,45 @@ def _starts(response: FrequencyResponse, s: Response, shape: _Shape, known: Seri
     return [start for _, start in sorted(tried, key=lambda each: each[0])[:STARTS]]
 
 
-def _figures(shape: _Shape, fitted: LeastSquares) -> dict[str, tuple[float, float]]:
-    parameters, errors = fitted.parameters, np.sqrt(np.maximum(np.diag(fitted.covariance), 0.0))
+def _errors(response: FrequencyResponse, s: Response, shape: _Shape, fitted: LeastSquares) -> Series:
+    """Return the standard deviation of each parameter.
+
+    What the model does not describe is alike in neighbouring frequencies, which are then fewer than they
+    seem (W. Newey, K. West, Econometrica 55, 1987). What is above half of the sampling frequency of a
+    record is folded back, which shifts the parameters; nothing in the record shows how the torque was
+    between its rows, so that this shift is an uncertainty.
+    """
+    slopes, count = _slopes(response, s, shape, fitted.parameters), len(response.frequency)
+    pushes = slopes[:count] * fitted.residual[:count, None] + slopes[count:] * fitted.residual[count:, None]
+    lags = max(3, round(1.5 * count ** (1.0 / 3.0)))
+    spread = pushes.T @ pushes
+    for lag in range(1, min(lags, count - 1) + 1):
+        beside = pushes[lag:].T @ pushes[:-lag]
+        spread += (1.0 - lag / (lags + 1.0)) * (beside + beside.T)
+    inverse = np.linalg.pinv(slopes.T @ slopes)
+    freedom = 2 * count / max(1, 2 * count - len(fitted.parameters))
+    alike = freedom * np.diag(inverse @ spread @ inverse)
+    shift = inverse @ (slopes.T @ _folded(response, s, shape, fitted.parameters))
+    return np.asarray(np.sqrt(np.maximum(alike, np.diag(fitted.covariance)) + shift**2))
+
+
+def _folded(response: FrequencyResponse, s: Response, shape: _Shape, parameters: Series) -> Series:
+    """Return the residual of what is folded back where a torque is kept for a sample."""
+    weights, period = response.weights, response.period
+    if not period:
+        return np.zeros(2 * len(weights))
+    own = shape.response(parameters, s) * np.sinc(response.frequency * period)
+    other = sum(
+        shape.response(parameters, s - 2j * np.pi * n / period) * np.sinc(response.frequency * period - n)
+        for n in (-2, -1, 1, 2)
+    )
+    with np.errstate(all="ignore"):
+        rest = np.log(1.0 + other / own)
+    rest = np.where(np.isfinite(rest), rest, 0.0)
+    return np.concatenate([weights * rest.real, weights * rest.imag])
+
+
+def _figures(shape: _Shape, parameters: Series, errors: Series) -> dict[str, tuple[float, float]]:
     size, root = math.exp(parameters[0]), abs(float(parameters[1]))
     found = {
         "acceleration_per_output": (size, size * float(errors[0])),

@@ -1,9 +1,11 @@
 """The frequency response of an axis: read as a table, or estimated from the record of a chirp.
 
-H1 = Sxy / Sxx of torque and motion (J. Bendat, A. Piersol, *Random Data*, 2010, 6.1; P. Welch, IEEE
-Transactions on Audio and Electroacoustics 15, 1967), with its coherence. Motion is differenced to an
-acceleration before, which has no drift to leak from one frequency to the others, and the answer of the
-differences is taken out again exactly.
+H1 = Sxy / Sxx of torque and motion (J. Bendat, A. Piersol, *Random Data*, 2010, 6.1) over windows of
+neighbouring frequencies of the whole record, in which the response is a polynomial (J. Schoukens, G.
+Vandersteen, K. Barbé, R. Pintelon, European Journal of Control 15, 2009), with its coherence. Parts of a
+record, as P. Welch averages, would each have ahead of them what a chirp did in the part before, which takes
+up to 7 % off an acceleration. Motion is differenced to an acceleration before, which has no drift to leak
+from one frequency to the others, and the answer of the differences is taken out again exactly.
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -26,13 +28,15 @@ from .drive_record import read_number_table
 
 LEAST_COHERENCE = 0.8
 LEAST_POINTS = 12
-SEGMENTS = 12
-"""Parts of a record, half of each in the next one, that are averaged."""
+ORDER = 2
+"""Of the polynomial in a window."""
+LEAST_BESIDE, MOST_WINDOWS = 6, 500
+"""Frequencies on each side of the middle of a window; windows in a record."""
 LEAST_ROWS = 1000
 HIGHEST = 0.25
 """Share of the sampling frequency up to which a record is used."""
 LEAST_EXCITATION = 1e-4
-"""Share of the strongest torque in a frequency from which it is excited."""
+"""Share of the strongest torque in a window, by its square, from which it is excited."""
 _HEADS = {
     "frequency": r"(?:frequency|frequenz|freq|f)",
     "omega": r"(?:omega|ω|w|angular frequency|kreisfrequenz)",
@@ -69,6 +73,8 @@ class FrequencyResponse:
     coherence: Series | None
     left_out: int = 0
     """Frequencies with a coherence below LEAST_COHERENCE."""
+    period: float = 0.0
+    """s between two rows of the record that it is from; 0 where it is not from one."""
 
     @property
     def weights(self) -> Series:
@@ -211,32 +217,48 @@ def coherent(frequency: Series, response: Response, coherence: Series | None) ->
 
 
 def response_of_record(period: float, torque: Series, motion: Series, differences: int) -> FrequencyResponse:
-    """Return H1 of a record at even times: of a velocity (one difference) or a position (two).
+    """Return H1 of a record that begins at rest, of a velocity (one difference) or a position (two).
 
     Raises SimulationError for a record that is too short or not coherent.
     """
     if len(torque) < LEAST_ROWS:
         raise SimulationError(f"The record has {len(torque)} rows; a response needs at least {LEAST_ROWS}")
     moved, driven = np.diff(motion, differences), torque[: len(torque) - differences]
-    # Welch: segments that overlap by half, each under a Hann window, which has its smallest weight where the
-    # next segment has its largest. Without averages the coherence would be 1 at each frequency.
-    # Segments that overlap by half cover half as many lengths as there are, and half a length more.
-    length = 2 * len(driven) // (SEGMENTS + 1)
-    window = np.hanning(length)
-    cross = np.zeros(length // 2 + 1, dtype=np.complex128)
-    given, answered = np.zeros(length // 2 + 1), np.zeros(length // 2 + 1)
-    for n in range(SEGMENTS):
-        part = slice(n * length // 2, n * length // 2 + length)
-        # Without its mean, which the window would spread into the lowest frequencies.
-        x, y = (np.fft.rfft(window * (each[part] - each[part].mean())) for each in (driven, moved))
-        cross += np.conj(x) * y
-        given, answered = given + np.abs(x) ** 2, answered + np.abs(y) ** 2
-    frequency = np.asarray(np.fft.rfftfreq(length, period), dtype=np.float64)
-    # The first bin too is left out: the window spreads into it what is left of a drift.
-    excited = (given > LEAST_EXCITATION * np.max(given)) & (frequency > 1.5 / (length * period))
-    excited &= frequency < HIGHEST / period
-    frequency, cross, given, answered = frequency[excited], cross[excited], given[excited], answered[excited]
+    given, answered = (np.fft.rfft(each - each.mean()) for each in (driven, moved))
+    frequency = np.asarray(np.fft.rfftfreq(len(driven), period), dtype=np.float64)
+    middles, beside = _windows(frequency, np.abs(given) ** 2, period)
+    found = [
+        _at_middle(given[part], answered[part])
+        for part in (slice(k - beside, k + beside + 1) for k in middles)
+    ]
+    frequency, response = frequency[middles], np.array([each for each, _ in found])
+    # What is above half of the sampling frequency is folded back, for a torque that is kept for
+    # a sample in this share.
+    folded = (frequency * period / (1.0 - frequency * period)) ** (differences + 1)
+    coherence = 1.0 / (1.0 / np.maximum([each for _, each in found], 1e-9) + folded**2)
     # A difference of samples is a factor z - 1; divided out, the response is that of the motion itself. It
-    # was differenced because a position drifts, and a drift leaks into all frequencies of a segment.
+    # was differenced because a position drifts, and a drift leaks into all frequencies.
     ahead = (np.exp(2j * np.pi * frequency * period) - 1.0) ** differences
-    return coherent(frequency, cross / given / ahead, np.abs(cross) ** 2 / (given * answered))
+    return replace(coherent(frequency, response / ahead, coherence), period=period)
+
+
+def _windows(frequency: Series, power: Series, period: float) -> tuple[npt.NDArray[np.int64], int]:
+    """Return the middles of windows beside each other that are excited, and the frequencies on each side."""
+    width = 2 * LEAST_BESIDE + 1
+    smooth = np.convolve(power, np.full(width, 1.0 / width), "same")
+    excited = np.flatnonzero((smooth > LEAST_EXCITATION * smooth.max()) & (frequency < HIGHEST / period))
+    first, last = max(1, int(excited[0])), int(excited[-1])
+    beside = max(LEAST_BESIDE, math.ceil((last - first) / (2 * MOST_WINDOWS)))
+    return np.arange(first + beside, last - beside + 1, 2 * beside + 1), beside
+
+
+def _at_middle(given: Response, answered: Response) -> tuple[complex, float]:
+    """Return the response in the middle of a window, and the coherence: the share of the motion that follows
+    the torque.
+    """
+    away = np.linspace(-1.0, 1.0, len(given))
+    powers = given[:, None] * away[:, None] ** np.arange(ORDER + 1)
+    factors = np.linalg.lstsq(powers, answered, rcond=None)[0]
+    left = float(np.sum(np.abs(answered - powers @ factors) ** 2)) / (len(given) - ORDER - 1)
+    whole = float(np.mean(np.abs(answered) ** 2))
+    return complex(factors[0]), max(0.0, 1.0 - left / whole) if whole else 0.0

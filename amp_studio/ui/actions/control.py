@@ -67,6 +67,18 @@ class ControlDesk(Translated):
         action.setToolTip(self.tr("{name}: {state} (Alt+0)").format(name=name, state=state))
         action.setIcon(icon("warning-fill", "warn") if warns else icon("cpu"))
 
+    def read_address(self) -> str | None:
+        """Return where the control of the file in front shows its status, None where none is chosen; the page
+        Live reads it no more. Raises ValueError while something is sent.
+        """
+        if self.is_sending:
+            raise ValueError(self.tr("Something is being sent to a control: look at it afterwards."))
+        if self._live is not None and is_alive(self._live):
+            self._live.stop(self.tr("Stopped: the recorder reads the control."))
+        address = self.exchanges.chosen_address()
+        own = address is not None and address == self.emulated.address
+        return (self.emulated.screen or address) if own else address
+
     def live(self) -> None:
         """Show what the control of the file in front states of itself now;
         raises ValueError while something is sent.
@@ -74,15 +86,11 @@ class ControlDesk(Translated):
         from amp_studio.pictures import axis_limits
         from amp_studio.ui.control.live import LivePage
 
-        if self.is_sending:
-            raise ValueError(self.tr("Something is being sent to a control: look at it afterwards."))
-        workspace = self.window.workspace_in_front
-        address = self.exchanges.chosen_address()
-        if address is None:
+        workspace, seen = self.window.workspace_in_front, self.read_address()
+        if seen is None:
             return
         family = workspace.file.schema.family.family
-        own = self.emulated if address == self.emulated.address else None
-        seen = own.screen or address if own else address
+        own = self.emulated if seen in (self.emulated.address, self.emulated.screen) else None
         page = self._live = LivePage(
             seen,
             family,

@@ -85,7 +85,11 @@ def open_motion(window: PartsWindow) -> None:
         return
     address, file = window.selected(), page.workspace.file.copy()
     kind = in_background(window, tr("Loading the simulator"), partial(_motion_view, file))
-    made = _turn(window, MOTION, lambda page: kind(page.workspace, address, page.go_to))
+    made = _turn(
+        window,
+        MOTION,
+        lambda page: kind(page.workspace, address, page.go_to, control=window.control.read_address),
+    )
     if isinstance(made, kind) and address is not None:
         made.show_axis(address[1])
 

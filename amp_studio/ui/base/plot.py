@@ -25,6 +25,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from amp_studio.drawing import (
     BAR_ROOM,
+    Curve,
     Picture,
     Placement,
     Scene,
@@ -354,5 +355,11 @@ def _values_at(picture: Picture, one: float, two: float) -> Iterator[tuple[str, 
         for curve in curves:
             if len(curve.x):
                 words = panel.title if alone else f"{panel.title}, {curve.name}"
-                at_one, at_two = (float(np.interp(at, curve.x, curve.y)) for at in (one, two))
-                yield words, panel.y.unit, at_one, at_two
+                yield words, panel.y.unit, _value_at(curve, one), _value_at(curve, two)
+
+
+def _value_at(curve: Curve, place: float) -> float:
+    """Return the value of a curve at a place; of single readings that of the nearest one."""
+    if curve.dots:
+        return float(curve.y[int(np.argmin(np.abs(curve.x - place)))])
+    return float(np.interp(place, curve.x, curve.y))

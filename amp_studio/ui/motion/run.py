@@ -5,15 +5,16 @@ from __future__ import annotations
 import threading
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import cache_folder
 from amp_studio.sim import (
+    SignalRecord,
     SimulationError,
     SimulationListing,
     SweepWay,
     Trace,
+    Trigger,
     laid_over,
     law_of,
     listing,
@@ -34,8 +35,9 @@ class AskedMotion:
     file_before: ParameterFile | None
     before: Trace | None
     """The trace of ``file_before``, where the last run made it with the same settings."""
-    record: Path | None
+    record: SignalRecord | None = None
     """The record of the machine that is laid over."""
+    trigger: Trigger | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +50,8 @@ class SimulatedMotion:
     file: ParameterFile
     file_before: ParameterFile | None
     before: Trace | None
+    record_error: str = ""
+    """Why the record does not lie over the trace."""
 
 
 def run_motion(asked: AskedMotion, progress: TaskProgress, cancelled: threading.Event) -> SimulatedMotion:
@@ -67,8 +71,12 @@ def run_motion(asked: AskedMotion, progress: TaskProgress, cancelled: threading.
         trace = sweep(asked.file, asked.axis, asked.settings, way=way)
     else:
         trace = simulate(asked.file, asked.scenario, asked.axis, asked.settings)
-    trace = laid_over(trace, asked.record) if asked.record else trace
-    return SimulatedMotion(trace, asked.file, asked.file_before, _same_move(asked, trace, way))
+    why = ""
+    try:
+        trace = laid_over(trace, asked.record, asked.trigger) if asked.record else trace
+    except SimulationError as error:
+        why = str(error)
+    return SimulatedMotion(trace, asked.file, asked.file_before, _same_move(asked, trace, way), why)
 
 
 def _same_move(asked: AskedMotion, trace: Trace, way: SweepWay) -> Trace | None:

@@ -6,13 +6,11 @@ import html
 import re
 from collections.abc import Callable, Sequence
 from functools import partial
-from pathlib import Path
 
 from PySide6.QtCore import Qt, QUrl
 from PySide6.QtGui import QShowEvent, QStandardItemModel
 from PySide6.QtWidgets import (
     QComboBox,
-    QFileDialog,
     QHBoxLayout,
     QLabel,
     QPushButton,
@@ -24,7 +22,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.files import ParameterFile, RangeError, axis_title
 from amp_studio.scenarios import CHARTS
-from amp_studio.schema import Address, Value, angular
+from amp_studio.schema import Address, Value, angular, axis_name
 from amp_studio.sim import Recommendation, SimulationError, Trace, address_of, picture_of, settling_span
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task
@@ -36,6 +34,7 @@ from amp_studio.ui.forms.pages import LINK
 from amp_studio.ui.page.page_of_file import PageOfFile
 
 from .machine_page import MachinePage
+from .recorder import RecorderPage
 from .results import AssumptionsPage, FiguresPage, RecommendationsPage, name_of
 from .run import AskedMotion, SimulatedMotion, run_motion, simulated_by
 from .saving import ask_where, write_motion
@@ -57,7 +56,9 @@ class MotionView(PageOfFile):
         address: Address | None,
         show: Callable[[Address], None],
         parent: QWidget | None = None,
+        control: Callable[[], str | None] = lambda: None,
     ) -> None:
+        """``control`` gives the address where the control of the file shows its status."""
         super().__init__(parent)
         self.setAccessibleName(self.tr("Motion"))
         self._workspace, self._show_parameter = workspace, show
@@ -66,8 +67,6 @@ class MotionView(PageOfFile):
         self._asked: tuple[object, ...] = ()
         self._impossible: SimulationError | None = None
         self._counts = False  # whether the axis moves in counts, not in a length or an angle
-        self._record: Path | None = None
-        """The record of the machine that is laid over."""
         self.trace: Trace | None = None
         self.before: Trace | None = None
         self._reference_values: dict[tuple[str, str], ParameterFile] = {}
@@ -75,13 +74,13 @@ class MotionView(PageOfFile):
         # The values of both traces; None until there is one.
         self._file_ran: ParameterFile | None = None
         self._file_before: ParameterFile | None = None
-        self._make_widgets()
+        self._make_widgets(control)
         self._arrange()
         self._fill(address[1] if address else "")
         self._connect()
         self.run()
 
-    def _make_widgets(self) -> None:
+    def _make_widgets(self, control: Callable[[], str | None]) -> None:
         self.scenario, self.axis, self.against = QComboBox(), QComboBox(), QComboBox()
         for box in (self.scenario, self.axis, self.against):
             box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
@@ -91,10 +90,7 @@ class MotionView(PageOfFile):
         )
         self.machine = self.machine_page.form
         self.run_button, self.save_button = QPushButton(self.tr("&Run")), QPushButton(self.tr("&Save…"))
-        self.over = QPushButton(self.tr("&Lay Record Over…"))
-        self.over.setToolTip(
-            self.tr("The record of the machine (CSV) over the simulation, with the difference; none ends it")
-        )
+        self.recorder = RecorderPage(lambda: self._workspace.path, self._axis_names, control)
         self.settling, self.all_of_it = (
             QPushButton(self.tr("&Zoom to Settling")),
             QPushButton(self.tr("Show &All")),
@@ -139,7 +135,7 @@ class MotionView(PageOfFile):
             )
         )
         tools = QHBoxLayout()
-        for widget in (self.chart, self.settling, self.all_of_it, self.over):
+        for widget in (self.chart, self.settling, self.all_of_it):
             tools.addWidget(widget)
         tools.addStretch()
         below = QHBoxLayout()
@@ -157,6 +153,7 @@ class MotionView(PageOfFile):
             *pages,
             (self.machine_page, self.tr("Machine")),
             (self.values, self.tr("Cursors")),
+            (self.recorder, self.tr("Recorder")),
         ):
             self.tabs.addTab(page, title)
         side = QWidget()
@@ -189,7 +186,9 @@ class MotionView(PageOfFile):
         self.run_button.clicked.connect(self._run_or_stop)
         self.save_button.clicked.connect(self.save)
         self.chart.currentIndexChanged.connect(self._redraw)
-        self.over.clicked.connect(self._ask_record)
+        self.recorder.changed.connect(self.run)
+        self.recorder.rescaled.connect(self._redraw)
+        self.recorder.live.connect(self.plot.draw)
         self.settling.clicked.connect(self._zoom_to_settling)
         self.all_of_it.clicked.connect(lambda: self.plot.zoom(None))
         self.against.currentIndexChanged.connect(self.run)
@@ -233,6 +232,11 @@ class MotionView(PageOfFile):
         if (row := self.scenario.findData(scenario)) >= 0:
             self.scenario.setCurrentIndex(row)
 
+    def _axis_names(self) -> tuple[str, str]:
+        """Return number and letter of the chosen axis."""
+        axis = str(self.axis.currentData() or "")
+        return axis, axis_name(self._workspace.file.evaluation, axis) if axis else ""
+
     def _units(self) -> tuple[str, str]:
         """Return the units of distance and feedrate for the chosen axis."""
         if self._counts:
@@ -246,7 +250,7 @@ class MotionView(PageOfFile):
 
     def _choose(self, *_: object) -> None:
         """Take another scenario or axis, with what was kept for it."""
-        self.before = self._file_before = self._record = None
+        self.before = self._file_before = self.recorder.recording = None
         self._fill(str(self.axis.currentData()))
         self.machine_page.leave_axis(str(self.axis.currentData()))
         self.run()
@@ -305,6 +309,7 @@ class MotionView(PageOfFile):
             return
         try:
             settings = {**self.settings.filled_in(), **self.machine.filled_in()}
+            trigger = self.recorder.chosen_trigger()
         except ValueError as error:
             self._fail(error)
             return
@@ -314,10 +319,8 @@ class MotionView(PageOfFile):
         is_same = (self._file_before and self._file_before.values) == (file_before and file_before.values)
         before = self.before if is_same and asked == self._asked else None
         self._asked, self._file_before = asked, file_before
-        asks = AskedMotion(
-            scenario, str(axis) if axis else None, settings, file, file_before, before, self._record
-        )
-
+        wanted, record = str(axis) if axis else None, self.recorder.recording
+        asks = AskedMotion(scenario, wanted, settings, file, file_before, before, record, trigger)
         self.summary.setText(self.tr("Simulating …"))
         self.run_button.setText(self.tr("&Stop") if scenario == "sweep" else self.tr("&Run"))
         self._task = Task(partial(run_motion, asks))
@@ -369,6 +372,7 @@ class MotionView(PageOfFile):
     def _show_result(self, ran: SimulatedMotion) -> None:
         trace = ran.trace
         self.trace, self._file_ran = trace, ran.file
+        self.recorder.show_trace(trace, ran.record_error)
         self.before = ran.before if ran.before and ran.before.units == trace.units else None
         counts = trace.units.get("position") == "counts"
         if counts != self._counts:
@@ -399,23 +403,13 @@ class MotionView(PageOfFile):
     def _redraw(self, *_: object) -> None:
         if self.trace is not None:
             self.chart.setVisible(self.trace.scenario == "frequency")
-            self.plot.draw(picture_of(self.trace, self.before, str(self.chart.currentData())))
+            picture = picture_of(self.trace, self.before, str(self.chart.currentData()))
+            self.plot.draw(self.recorder.scaled(picture))
             family = self._workspace.file.schema.family.family
             self.figures.show_trace(family, self.trace, self.before, str(self.against.currentData()))
 
     def _zoom_to_settling(self) -> None:
         self.plot.zoom(settling_span(self.trace) if self.trace else None)
-
-    def _ask_record(self) -> None:
-        """Ask for a record of the machine and lay it over the simulation; without one as it was."""
-        text, _ = QFileDialog.getOpenFileName(
-            self,
-            self.tr("Record of the Machine"),
-            str(self._workspace.path.parent),
-            self.tr("Records (*.csv *.txt);;All files (*)"),
-        )
-        self._record = Path(text) if text else None
-        self.run()
 
     def _keep_before(self) -> None:
         if self._file_ran is not None:
@@ -485,6 +479,7 @@ class MotionView(PageOfFile):
     def _end(self) -> None:
         """Ignore the result of a run that has not finished."""
         self._workspace.changed.disconnect(self._after_edit)
+        self.recorder.end()
         if self._task is not None:
             self._task.done.disconnect(self._show_result)
             self._task.failed.disconnect(self._stop)

@@ -158,6 +158,13 @@ def test_the_functions_are_those_of_table_a_b() -> None:
     assert SCHEMA.tables["A.B"].column("Function Code") == DAC_FUNCTIONS
 
 
+def test_the_scales_to_begin_with_are_those_of_table_a_c() -> None:
+    table = SCHEMA.tables["A.C"]
+    for pitch, head in ((0.1, "Pitch 0.1 in."), (0.5, "Pitch 0.5 in.")):
+        found = [ninepc.dac_starting_scale(function, pitch) for function in DAC_FUNCTIONS]
+        assert found == [float(each) for each in table.column(head)]
+
+
 def test_a_tuned_integral_gain_is_5_to_10_times_smaller() -> None:
     # Page A-10; the gain is the default of page 37-3.
     assert ninepc.typical_integral_gain(17408) == (1740.8, 3481.6)
@@ -187,6 +194,11 @@ def test_a_tuned_integral_gain_is_5_to_10_times_smaller() -> None:
         (lambda: ninepc.dac_monitor_code(100, 9), "The axis number must be 1 to 8, not 9."),
         (lambda: ninepc.dac_monitor_function(200), "The axis number must be a whole number of at least 1"),
         (lambda: ninepc.dac_monitor_function(704), "A function code of the DAC monitor is"),
+        (
+            lambda: ninepc.dac_starting_scale(700, 0.1),
+            "A function code of the DAC monitor is 100, 200 to 600",
+        ),
+        (lambda: ninepc.dac_starting_scale(100, 0.2), "a scale for 0.2 in is not printed"),
     ],
 )
 def test_nonsense_is_refused_with_one_sentence(call: Callable[[], object], message: str) -> None:

@@ -37,6 +37,7 @@ def volts(axis: Axis, signal: float, **changed: float) -> float:
         (201.0, "control_following_error"),
         (301.0, "integral_torque"),
         (401.0, "velocity_error"),
+        (601.0, "velocity_command"),
     ],
 )
 def test_a_function_code_plus_the_axis_number_selects_the_signal(
@@ -51,6 +52,22 @@ def test_a_function_code_plus_the_axis_number_selects_the_signal(
     assert law.monitors[-1] == ("dac_86", "V")
     assert np.max(np.abs(columns[signal])) > 0.0
     assert columns["dac_86"] == pytest.approx(columns[signal] * 10.0 / (99999.9 * 0.01))
+
+
+def test_coarse_ipcs_are_shown_as_the_velocity_of_the_command_and_are_inferred(axis: Axis) -> None:
+    # Table A.B names them; IPC is the incremental position command of Figure 7.4.
+    law = axis({CODE_86: 501.0, VOLTS_820: 10.0, SPEED_910: 99999.9}, {UNIT_86: 0.01})
+    columns = run_step(law, {"move.distance": 2.0, "move.duration": 0.1}).columns
+    wanted = columns["command_velocity"] / 60.0 * 10.0 / (99999.9 * 0.01)  # mm/min there, mm/s here
+    assert np.max(columns["dac_86"]) == pytest.approx(np.max(wanted), rel=0.02)
+    assert any(text.startswith("INFERRED: coarse IPCs (500)") for text in law.assumptions)
+
+
+def test_the_result_has_the_scale_of_table_a_c_to_begin_with(axis: Axis) -> None:
+    law = axis({**TEN_VOLTS, CODE_86: 401.0}, {UNIT_86: 0.01})
+    assert any(
+        "400 (Table A.C, A-7): 50 at a pitch of 0.1 in, 20 at 0.5 in" in text for text in law.assumptions
+    )
 
 
 def test_820_is_the_voltage_at_full_scale_and_910_the_signal_there(axis: Axis) -> None:
@@ -134,8 +151,7 @@ def test_without_its_unit_nothing_is_shown(axis: Axis) -> None:
         ({CODE_86: 777.0}, 1.0, "is 777, no function code plus axis number; the control stays in E-STOP"),
         ({CODE_86: 201.5}, 1.0, "is 201.5, no function code"),
         ({CODE_86: float("nan")}, 1.0, "is nan, no function code"),
-        ({CODE_86: 501.0}, 1.0, "the manual does not say what this signal is"),
-        ({CODE_86: 601.0}, 1.0, "the manual does not say what this signal is"),
+        ({CODE_86: 701.0}, 1.0, "is 701, no function code plus axis number"),
         ({CODE_86: None}, 1.0, "patch.dac_monitor is not set"),
         ({VOLTS_820: 10.5}, 1.0, "spindle.voltage_at_max is 10.5; it must be from -10 to 10 V"),
         ({SPEED_910: 0.0}, 1.0, "spindle.max_speed is 0; it must be above 0"),

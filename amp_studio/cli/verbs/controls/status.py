@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from amp_studio.cli import candidates
-from amp_studio.cli.arguments import JSON
-from amp_studio.cli.console import family, print_json
+from amp_studio.cli.arguments import JSON, OUTPUT, seconds
+from amp_studio.cli.console import family, print_json, print_remark
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.output import check_replaced
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 TYPE_CHECKING = False  # the typing module is not loaded for it
@@ -20,7 +22,27 @@ VERB = Verb(
     VerbArgument(
         "--watch", action="store_true", help="ask again, five times a second, until it is interrupted"
     ),
+    OUTPUT.but(
+        required=False,
+        help="CSV in which readings of one axis are recorded, each at its time, for simulate --against",
+    ),
+    VerbArgument("--axis", help="-o: the axis by the letter that the control shows (default: its only one)"),
+    VerbArgument(
+        "--seconds", type=seconds, metavar="SECONDS", help="-o: how long is recorded (default: until Ctrl-C)"
+    ),
+    VerbArgument(
+        "--trigger",
+        metavar="SIGNAL>LEVEL",
+        help="-o: waits until a signal passes a level, 'velocity>100', or is at it, 'following_error>=20'",
+    ),
+    VerbArgument(
+        "--pre-trigger",
+        type=seconds,
+        metavar="SECONDS",
+        help="--trigger: what is kept ahead of it (default: one reading)",
+    ),
     JSON,
+    writes=("output",),
     sections=("ADDRESS",),
     at_control=True,
     examples=("amp-studio status tcp://127.0.0.1:8193",),
@@ -38,6 +60,10 @@ def run(options: Options) -> int:
 
     if options.family:
         family(options.family)
+    if options.output:
+        return _record(options)
+    if options.axis or options.seconds or options.trigger or options.pre_trigger:
+        raise UsageError("--axis, --seconds, --trigger and --pre-trigger belong to -o, which records")
     with closing(connect(options.address, options.family or "").watch()) as seen:
         while True:
             begun = time.monotonic()
@@ -49,6 +75,59 @@ def run(options: Options) -> int:
             if not options.watch:
                 return 0
             time.sleep(max(PERIOD - (time.monotonic() - begun), 0.0))
+
+
+def _record(options: Options) -> int:
+    """Record the readings of one axis; Ctrl-C ends it and keeps what there is."""
+    import time
+    from contextlib import closing, suppress
+
+    from amp_studio import connect
+    from amp_studio.sim import LiveRecorder, trigger_of, write_recording
+
+    check_replaced(options.output)
+    if options.pre_trigger and not options.trigger:
+        raise UsageError("--pre-trigger belongs to --trigger")
+    trigger = trigger_of(options.trigger, options.pre_trigger or 0.0) if options.trigger else None
+    recorder = LiveRecorder(trigger, options.seconds)
+    with closing(connect(options.address, options.family or "").watch()) as seen, suppress(KeyboardInterrupt):
+        began = time.monotonic()
+        while not recorder.is_done:
+            asked = time.monotonic()
+            axis = _axis_of(next(seen), options.axis)
+            if recorder.count == 0 and trigger is not None:
+                print_remark(f"Axis {axis.axis} waits for {trigger}")
+            recorder.add(time.monotonic() - began, axis.signals())
+            time.sleep(max(PERIOD - (time.monotonic() - asked), 0.0))
+    recording = recorder.recording(options.output.stem)
+    write_recording(recording, options.output)
+    facts = {
+        "file": str(options.output),
+        "axis": axis.axis,
+        "readings": len(recording.time),
+        "seconds": float(recording.time[-1]),
+        "rate": recording.rate,
+        "signals": list(recording.signals),
+        "has_fired": recorder.has_fired,
+    }
+    if options.json:
+        print_json(facts)
+        return 0
+    waited = "" if recorder.has_fired else f"; the trigger {trigger} did not fire"
+    print(
+        f"{options.output}: {facts['readings']} readings of axis {axis.axis} in {facts['seconds']:.1f} s,"
+        f" {recording.rate:.1f} a second: {', '.join(recording.signals).replace('_', ' ')}{waited}"
+    )
+    return 0
+
+
+def _axis_of(status: ControlStatus, name: str | None) -> AxisStatus:
+    """Return the axis by the letter that the control shows, its only one without; raises UsageError."""
+    found = [axis for axis in status.axes if name is None or axis.axis.casefold() == name.casefold()]
+    if len(found) == 1:
+        return found[0]
+    known = ", ".join(axis.axis for axis in status.axes) or "none"
+    raise UsageError(f"Name the axis that is recorded with --axis; the control shows {known}")
 
 
 def as_json(address: str, status: ControlStatus) -> dict[str, object]:

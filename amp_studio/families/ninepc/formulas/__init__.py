@@ -142,6 +142,7 @@ from .tuning import (
     calibration_limit,
     dac_monitor_code,
     dac_monitor_function,
+    dac_starting_scale,
     net_correction,
     typical_integral_gain,
 )

@@ -11,6 +11,17 @@ DAC_FUNCTIONS = (100, 200, 300, 400, 500, 600)
 """Velocity feedback, following error, velocity integrator, velocity error, coarse IPCs, final velocity
 (table A.B, page A-6)."""
 
+DAC_PITCHES = (0.1, 0.5)
+"""in: the pitches that Table A.C has (page A-7)."""
+_DAC_SCALES = {
+    100: (5000.0, 1000.0),
+    200: (99999.9, 20000.0),
+    300: (10000.0, 2000.0),
+    400: (50.0, 20.0),
+    500: (99999.9, 20000.0),
+    600: (10000.0, 2000.0),
+}
+
 LAST_AXIS = 8
 """A 9/PC has axes 1 to 8 (page 3-5)."""
 
@@ -34,6 +45,17 @@ def dac_monitor_function(code: float) -> tuple[int, int]:
     if dac_monitor_code(function * 100, axis) != code:
         raise ValueError(f"{code!r} is no function code plus axis number.")
     return function * 100, axis
+
+
+def dac_starting_scale(function: float, pitch: float) -> float:
+    """Value of 910 or 930 to begin with, for 820 or 830 at 10 V and a screw of 0.1 or 0.5 in pitch (page
+    A-7).
+    """
+    if function not in _DAC_SCALES:
+        raise ValueError(f"A function code of the DAC monitor is 100, 200 to 600, not {function!r}.")
+    if pitch not in DAC_PITCHES:
+        raise ValueError(f"Table A.C has pitches of 0.1 and 0.5 in; a scale for {pitch!r} in is not printed.")
+    return _DAC_SCALES[int(function)][DAC_PITCHES.index(pitch)]
 
 
 def typical_integral_gain(proportional_gain: float) -> tuple[float, float]:
