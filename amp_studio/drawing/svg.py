@@ -109,7 +109,7 @@ def picture_svg(
     parts: list[str] = []
     for scene in scenes:
         right = width - PLOT_RIGHT
-        heading = heading_of(scene, PLOT_LEFT, right, measured) if scene.look == "panel" else []
+        heading = heading_of(scene, PLOT_LEFT, right, _with_room) if scene.look == "panel" else []
         y += LINE * max((piece.line for piece in heading), default=0)
         height = scene.share * unit
         frame = _place_of(scene, right, y, height)
@@ -406,6 +406,11 @@ def measured(text: str, strong: bool) -> float:
     """Return how wide a text is in the widest of the fonts that an SVG names, about, in points."""
     wide = sum(_LETTERS.get(letter, CAPITAL if letter.isupper() else LETTER) for letter in text)
     return wide * STRONG if strong else wide
+
+
+def _with_room(text: str, strong: bool) -> float:
+    """Return how wide a text of a heading may become: a document puts it into its language later."""
+    return 1.3 * measured(text, strong)
 
 
 def _texts(frame: Placement, width: float, height: float) -> Iterator[str]:

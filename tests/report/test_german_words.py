@@ -10,6 +10,7 @@ from datetime import UTC, datetime
 import pytest
 
 from amp_studio.dossier import checks_of, machine_tests_of, motion_figures, programs_of
+from amp_studio.drawing.svg import measured
 from amp_studio.files import ParameterFile, compare, new_file, open_file
 from amp_studio.guide import progress
 from amp_studio.report import Contents
@@ -160,3 +161,12 @@ def test_signs_units_and_powers_are_german() -> None:
         "7.4 counts/V": "7,4 Ink/V",
     }
     assert {text: sentence(text) for text in german} == german
+
+
+def test_the_names_of_curves_have_room_in_german() -> None:
+    """A plot is laid out in English, with 30 % more room for another language."""
+    sentence = language_of("de").sentence
+    names = [f"{loop} loop, {kind}" for loop in ("closed", "open") for kind in ("model", "swept")]
+    names += ["gain (dB)", "phase (°)", "command", "actual", "before"]
+    wide = {text: measured(sentence(text), False) / measured(text, False) for text in names}
+    assert {text: share for text, share in wide.items() if share > 1.3} == {}

@@ -13,6 +13,8 @@ from amp_studio.formats import open_for_reading
 from amp_studio.formats.report_pdf import attached_machine
 from amp_studio.report import Contents, print_report, results_paper, write_paper
 
+from .test_pdf import output_of, poppler
+
 MILL = examples_folder() / "mill-1394" / "MILL_1394.amp"
 SHORT = Contents(changed_only=True, without=frozenset({"pictures", "motion", "power-up", "signatures"}))
 
@@ -59,6 +61,25 @@ def test_a_report_has_itself_as_data(printed: Path) -> None:
     packed = re.findall(rb"/EmbeddedFile\b.*?stream\r?\n(.*?)endstream", printed.read_bytes(), re.DOTALL)
     documents = [text for text in map(_unpacked, packed) if text[:1] == b"{"]
     assert json.loads(documents[0])["family"]
+
+
+@poppler
+def test_who_has_the_pages_read_aloud_hears_every_heading_and_the_heads_of_every_table(
+    tmp_path: Path,
+) -> None:
+    contents = Contents(changed_only=True, without=frozenset({"motion"}))
+    print_report(open_file(MILL).file, tmp_path / "mill.pdf", contents, source=MILL)
+    lines = output_of("pdfinfo", "-struct-text", tmp_path / "mill.pdf").splitlines()
+    parts = [(len(line) - len(line.lstrip()), line.strip()) for line in lines if line.strip()]
+    heads = [at for at, (_, text) in enumerate(parts) if re.match(r"H[12]\b", text)]
+    assert len(heads) > 20
+    assert [at for at in heads if parts[at + 1][0] <= parts[at][0]] == [], "a heading without words"
+    tables = [at for at, (_, text) in enumerate(parts) if text.startswith("Table")]
+    ends = {
+        at: next((n for n in range(at + 1, len(parts)) if parts[n][0] <= parts[at][0]), None) for at in tables
+    }
+    assert len(tables) > 5
+    assert [at for at in tables if not any(t.startswith("TH") for _, t in parts[at : ends[at]])] == []
 
 
 def _unpacked(packed: bytes) -> bytes:
