@@ -190,6 +190,7 @@ def _staged(path: Path, content: bytes, like: Path | None, notes: list[str]) -> 
     temporary = path.with_name(f".{path.name[:24]}.{os.urandom(8).hex()}.tmp")
     flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | NO_LINK | HARMLESS
     try:
+        # Closed to others until it has the mode of the file that it replaces.
         handle = os.open(temporary, flags, 0o666 if like is None else 0o600)
         try:
             write_all(handle, content)
@@ -235,6 +236,7 @@ def write_all(handle: int, content: bytes) -> None:
     rest = memoryview(content)
     while rest:
         taken = os.write(handle, rest)
+        # A system that takes nothing without an error would be asked for ever.
         if taken <= 0:
             raise OSError(errno.EIO, os.strerror(errno.EIO))
         rest = rest[taken:]

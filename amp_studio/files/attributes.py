@@ -21,6 +21,7 @@ def keep_attributes(old: Path, handle: int) -> list[str]:
     notes, mode = [], stat.S_IMODE(was.st_mode)
     if (now.st_uid, now.st_gid) != (was.st_uid, was.st_gid):
         notes.append(f"owner and group are now {_owners(now)}; {_owners(was)} could not be kept")
+        # Set-user and set-group bits were for the owner that it had.
         mode &= 0o777
     if now.st_gid != was.st_gid:  # what was allowed to the one group is not given to another
         mode = mode & 0o707 | (mode & 0o007) << 3

@@ -310,6 +310,7 @@ def reset_axis(file: ParameterFile, axis: str) -> None:
     for address in axis_addresses(file, axis):
         if address[0] in own:
             continue
+        # A control that lists its axes does not have the settings of the others: they have no default.
         gone = described and file.evaluation.state(address).state == "hidden"
         file.set(address, None if gone else file.default(address))
 
@@ -341,6 +342,7 @@ def _named(
             return {(declared.name.param, axis): file.read((declared.name.param, axis), letter)}
         return _with_group(file, declared, axis, group, _with_field(file, declared.name, axis, letter))
     except InvalidValueError as error:
+        # "none" is a choice of the parameter, and no name for an axis.
         raise AxisError(str(error).removesuffix(", none")) from None
 
 

@@ -152,6 +152,7 @@ def moved(file: ParameterFile, order: Mapping[str, str]) -> None:
     bits and references.
     """
     wanted: dict[Address, Value | None] = {}
+    # All is read before anything is set: axes may change places in a circle.
     notes, left = dict(file.header.value_notes), file.header.value_notes
     for source, target in order.items():
         for parameter_id, instance in axis_addresses(file, source):

@@ -103,5 +103,6 @@ def _cell(file: ParameterFile, address: Address, text: str, new: Value | None) -
     state = file.evaluation.state(address)
     if state.state == "hidden" and new is not None:
         return EnteredCell(address, text, old, new, f"{parameter.name} does not exist here: {state.why}")
+    # The same in another unit is no change, and stays written as it was.
     kept = old if old is not None and new is not None and same_value(old, new) else new
     return EnteredCell(address, text, old, kept)

@@ -24,6 +24,7 @@ def new_file(
     schema = load_schema(family)
     file = _empty_file(schema, machine, name)
     if profile := schema.family.axes:
+        # Types of axes first: on them depends which other parameters exist, and their units.
         for instance in schema.on(file.machine).instances(schema.parameters[profile.type]):
             default = file.default((profile.type, instance))
             if default is not None:
@@ -49,6 +50,7 @@ def _empty_file(schema: Schema, machine: str | None, name: str) -> ParameterFile
     header = Header(name=name, application=application, machine=machine, signature=schema.signature)
     file = ParameterFile(schema, header)
     if family.machine_parameter:
+        # A parameter has it: two places could contradict each other.
         header.machine = ""
         file.set((family.machine_parameter, ""), Value(machine))
     return file

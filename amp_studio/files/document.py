@@ -241,6 +241,7 @@ class Document:
         A line that is none is left out.
         """
         try:
+            # No link is followed: another user may have put it there. Of a long history the end is read.
             content = read_file(self.history_path, follow=False, tail=True)
         except OSError:
             return []
@@ -338,6 +339,7 @@ class Document:
             return None
         address = read_address(entry)
         parameter = schema.parameters.get(address[0])
+        # On any machine type: a change of the type may be in the journal too.
         if parameter is None or not any(
             address[1] in schema.on(machine).instances(parameter) for machine in schema.machines
         ):

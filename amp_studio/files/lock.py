@@ -145,6 +145,8 @@ def _locked(place: Path) -> int:
                 _lock(handle)
             except PermissionError:  # so Windows, and some servers of files, report that it is taken
                 raise BlockingIOError from None
+            # Between opening and locking its holder may have removed it: then no other program would find
+            # this one.
             if _still_named(handle, place):
                 return handle
         except BlockingIOError:

@@ -96,6 +96,7 @@ class Merge:
         _demand_one_family(a, b, base)
         self.initial: Side = initial
         """The side that the result has where nothing else is taken: that of the file into which it goes."""
+        # Controls that describe themselves have separate schemas: B is seen by that of A.
         self.a, self.b = a, by_schema(b, a.schema)
         self.base = None if base is None else by_schema(base, a.schema)
         self.rows: tuple[Row, ...] = tuple(self._rows())

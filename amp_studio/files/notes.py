@@ -18,6 +18,7 @@ from .parameter_file import ParameterFile
 
 LONGEST_NOTE = 4_000
 """Characters of a note."""
+# What YAML cannot contain: control characters, halves of surrogate pairs.
 _UNWRITABLE = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")
 
 NoteSubject = Literal["machine", "group", "value"]

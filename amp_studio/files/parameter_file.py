@@ -106,6 +106,7 @@ class HeaderSnapshot:
         file.unknown.update(self.unknown)
         for key, value in self.header.items():
             setattr(file.header, key, value)
+        # Conditions depend on both; only then is all forgotten, which is slow.
         if (file.machine, file.header.application) != decided_by:
             file.evaluation.forget()
 
@@ -153,6 +154,7 @@ class ParameterFile:
         that the family does not have.
         """
         value = self.values.get(address)
+        # A value that is there needs no check of its address: most calls end here.
         if value is None and address not in self.machine_schema.places:
             self._check_address(address)
         return value
@@ -253,12 +255,15 @@ class ParameterFile:
             self.values.pop(change.address, None)
         else:
             self.values[change.address] = change.new
+        # The mark was of one value: another one out of range has to be forced again.
         self.forced.pop(change.address, None)
         self.revision += 1
+        # Before the listeners, which ask for states and units.
         self.evaluation.forget_dependents(change.address)
         self._notify(change)
 
     def _notify(self, change: Change) -> None:
+        # A copy, as a listener may end itself.
         for listener in list(self._listeners):
             listener(change)
 

@@ -205,6 +205,7 @@ def _read(path: Path, content: bytes) -> ProjectInfo:
     try:
         text = text_of(path, content, ParameterFileError)
         document = read_yaml(text, text_scalar, spans=True)
+        # Twice: known entries are texts, whatever they look like (1.0, yes), unknown ones keep their type.
         typed = read_yaml(text, spelled_scalar).data
     except YamlError as error:
         raise ParameterFileError(path, error.line, error.what) from None
@@ -267,6 +268,7 @@ def _texts(path: Path, document: YamlDocument) -> dict[str, str]:
     return texts
 
 
+# Windows takes the small raised digits for 1 to 3.
 _RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{d}{n}" for d in ("COM", "LPT") for n in "123456789¹²³")}
 
 
@@ -296,6 +298,7 @@ def _move(source: Path, target: Path) -> None:
     sides = [(place(source), place(target)) for place in (history_path, backup_path)]
     copied = []
     try:
+        # Copied before the rename: whatever ends the program, the file has its companions beside it.
         for side, copy in sides:
             if side.exists():
                 copied.append(copy)

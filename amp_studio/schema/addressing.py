@@ -87,6 +87,7 @@ def resolve_address(evaluation: FileState, text: str) -> ResolvedAddress:
     try:
         return _whole(evaluation, text)
     except UnknownParameterError:
+        # Only now: the text as a whole may be a number with a point.
         head, _, bit = text.strip().rpartition(".")
         if not re.fullmatch("[0-9]{1,2}", bit):
             raise
@@ -147,6 +148,7 @@ def _only_word(evaluation: FileState, words: Sequence[Address], text: str) -> Ad
 def _claims(evaluation: FileState, text: str) -> list[Address]:
     """Return the parameters that a number is printed for, those that exist for this machine if any does."""
     claims = evaluation.machine_schema.addressed_by(text)
+    # Where all are hidden, the one for whose absence there is the least reason is the likeliest.
     return [a for a in claims if evaluation.state(a).state != "hidden"] or evaluation.least_hidden(claims)
 
 
@@ -180,6 +182,7 @@ def _instance(evaluation: FileState, parameter: Parameter, instance: str, text: 
     instances = evaluation.machine_schema.instances(parameter)
     if instance in instances:
         return instance
+    # An instance by its own name comes before an axis by the letter that the file gives it.
     alike = [i for i in instances if i and i.casefold() == instance.casefold()]
     alike = alike or _of_letter(evaluation, parameter, instance)
     if len(alike) == 1:
@@ -311,6 +314,7 @@ def _nearest(schema: Schema, text: str) -> list[str]:
     numbers = list(dict.fromkeys(n for m in schema.family.machines for n in schema.on(m.key).every_number))
     if _NUMBER_FORM.fullmatch(name) and not sign and len(name) < _LONGEST_NUMBER:
         return _nearest_numbers(numbers, name)
+    # Ids last: where a name is spelled like an id, the id counts.
     known = {p.name.casefold(): p.id for p in schema.parameters.values()}
     known |= {p.id.partition(".")[2]: p.id for p in schema.parameters.values()}
     known |= dict(zip(schema.parameters, schema.parameters, strict=True))

@@ -28,6 +28,7 @@ def word_of_labels(parameter: Parameter, text: str) -> int | None:
     """
     if plain(text) == "none":
         return 0
+    # Bounded, as what follows takes the square of their number.
     pieces = text.split(",", _MOST) if len(text) <= _LONGEST else []
     word, at, unknown = 0, 0, []
     while at < len(pieces):
@@ -74,6 +75,7 @@ def _part(field: Bit, number: int, *, is_alone: bool) -> str:
     if field.width > 1 or field.choices:
         label = next((c.label for c in field.choices or () if c.raw == number), str(number))
         return f"{field.label}: {label}"
+    # A label with a comma would be read back as two entries.
     return field.label if is_alone and "," not in field.label else f"bit {field.bit}"
 
 

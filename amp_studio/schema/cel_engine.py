@@ -27,6 +27,7 @@ def _engine() -> ModuleType:
                     sys.modules.setdefault("cel.cel", module)
                     spec.loader.exec_module(module)
                     return module
+    # Without a library beside the package: the whole of it, slower to load, has the same names.
     return importlib.import_module("cel")
 
 

@@ -46,6 +46,7 @@ def cached_data(name: str, sources: Sequence[Path], make: Callable[[], Any]) -> 
     digest = hashlib.sha256()
     for source in sources:
         content = source.read_bytes()
+        # With its length: a text that moves from one file to the next makes another digest.
         digest.update(f"{len(content)}:".encode())
         digest.update(content)
     path = cache_folder() / f"{name}-{digest.hexdigest()[:24]}.json"
@@ -68,6 +69,7 @@ def write_cached(path: Path, kept: bytes, name: str) -> bool:
     temporary = ""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        # In the same folder, so that a rename is enough: of two starts at once each keeps a whole file.
         handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".tmp")
         with os.fdopen(handle, "wb") as stream:
             stream.write(_digest(kept) + b"\n" + kept)

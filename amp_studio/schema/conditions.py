@@ -132,6 +132,7 @@ class Conditions:
         condition, reads_all = self._schema.family.conditions[name], True
         for parameter_id, which in map(read_address, condition.reads.values()):
             instances = self._here.instances(self._schema.parameters[parameter_id])
+            # What comes before or after an instance is another one for each, and so is a part.
             if which in ("<", ">") or (which == "" and any("." in instance for instance in instances)):
                 return "each"
             reads_all &= which not in ("", ".") or (which == "" and instances == ("",))
@@ -209,6 +210,7 @@ class Conditions:
         """
         found = self._answers.get(keys)
         if found is None:
+            # All at once, as `expression.Remembered` does.
             if len(self._answers) >= _MOST_ANSWERS:
                 self._answers.clear()
             found = self._answers[keys] = Answers() if before is None else self._after(before, changed)
@@ -293,6 +295,7 @@ class Conditions:
         try:
             return self.reference(text, instance, scope)
         except UnknownParameterError:
+            # Raises for a name that no machine type has: that is a fault of the facts.
             self._schema.parameter(read_address(text)[0])
             return None
 
@@ -326,6 +329,7 @@ class Conditions:
 
     def _resolve(self, text: str, instance: str, scope: str | None) -> Reference:
         parameter_id, which, order, kin = self._named(text, scope)
+        # Axis 1 and process 1 have one name and nothing in common.
         if not kin:
             instance = ""
         instances = tuple(order)
@@ -336,6 +340,7 @@ class Conditions:
             at = order.get(instance, len(instances))
             chosen = {"*": instances, "<": instances[:at], ">": instances[at + 1 :]}[which]
             return Reference(tuple((parameter_id, i) for i in chosen), True)
+        # For a part (1.3): its own value, that of its whole (1), else the one of the control.
         candidates = (which,) if which else (instance, whole_of(instance), "")
         for own in candidates:
             if own in order:

@@ -94,6 +94,7 @@ def _printed(ranges: dict[str, Range], unit: str) -> tuple[str | None, bool]:
     if unit in ranges:
         return unit, False
     for printed in ranges:
+        # Its own system of units first: printed inch and metric ranges differ in the last digit.
         if dimension(printed) == dimension(unit) and _system(printed) == _system(unit):
             return printed, False
     for printed in ranges:
@@ -117,6 +118,7 @@ def _bound(
     if isinstance(bound, BoundRef):
         source = evaluation.reference(bound.param, address[1], evaluation.scope(address)).addresses[0]
         found = evaluation.canonical(source)
+        # A parameter that does not exist on this machine, or has no number, bounds nothing.
         if not isinstance(found, float) or evaluation.state(source).state == "hidden":
             return None, source
         return convert(found, canonical_unit(unit), unit), source
@@ -234,6 +236,7 @@ def clip(evaluation: Evaluation, address: Address, value: Value) -> Value:
     number = float(value.value)
     whole = isinstance(value.value, int)
     if allowed.low is not None and math.isfinite(allowed.low):
+        # Rounded inwards: the nearest whole number may lie outside.
         number = max(number, float(math.ceil(allowed.low)) if whole else allowed.low)
     if allowed.high is not None and math.isfinite(allowed.high):
         number = min(number, float(math.floor(allowed.high)) if whole else allowed.high)

@@ -204,6 +204,7 @@ class DescribedSchema:
         name = first.name[:1].upper() + first.name[1:]
         facts = _value_facts(first, self._described)
         if first.kind == "integer" and known and known.storage:
+            # A description has no width of whole numbers.
             facts["storage"] = facts["storage"].model_copy(update={"bits": known.storage.bits})
         if first.kind == "bits":
             facts["first_axis"] = 0 if first.of_axes else known.first_axis if known else None
@@ -229,6 +230,7 @@ class DescribedSchema:
 
     def _id(self, first: DescribedParameter, known: Parameter | None) -> str:
         wanted = known.id if known else f"{first.group.key}.{group_key(first.name) or 'setting'}"
+        # An id of the facts stays theirs, whether this control lists that parameter or not.
         is_taken = wanted in self._ids or (known is None and wanted in self._of_this)
         parameter_id = f"{wanted}_{first.number}" if is_taken else wanted
         self._ids.add(parameter_id)

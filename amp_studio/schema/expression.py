@@ -235,6 +235,7 @@ class PartsDecision:
 
     @cached_property
     def _none(self) -> Program:
+        # On a line by itself the bracket is not part of a comment at the end of the text.
         return program(f"{_PARTS}.all(part, !({self._text}\n))")
 
     @cached_property

@@ -279,6 +279,7 @@ def _valid(path: Path, document: YamlDocument, data: Any, model: type[T], family
         return read_model(model, data, family)
     except ModelError as error:
         raise _error_of(path, document, error.slips) from None
+    # A file may be nested deeper than Python follows.
     except RecursionError:
         raise DatabaseError(path, 1, "is too deep") from None
 
@@ -321,6 +322,7 @@ def content_key(files: list[Path]) -> str:
     own = (*sorted((here / "model").glob("*.py")), Path(__file__), here / "compiled_cache.py", UNITS_FILE)
     for path in [*own, *files]:
         content = path.read_bytes()
+        # With name and length: a text that moves from one file to the next makes another key.
         digest.update(f"{path.name}:{len(content)}:".encode())
         digest.update(content)
     return digest.hexdigest()[:24]

@@ -143,6 +143,7 @@ class MachineSchema:
         words: dict[str, list[Address]] = {}
         for address, number in self._numbers.items():
             if match := re.fullmatch(r"([a-z]*)([0-9]+)[a-z]+[0-9]+", number.casefold()):
+                # With and without its letters: a set, as it may have none.
                 for head in {match[1] + match[2], match[2]}:
                     words.setdefault(head, []).append(address)
         return words

@@ -169,6 +169,7 @@ def _several(kind: Any, text: str) -> Any:
         return word if is_plain else "null" if word.casefold() == "none" else json.dumps(word)
 
     spelt = _WORD.sub(spelled, text)
+    # A list of pairs may be written with its outer brackets or without.
     return json.loads(spelt if spelt.startswith("[[") else f"[{spelt}]")
 
 

@@ -49,6 +49,7 @@ class Checks:
             if address not in order:
                 continue
             state = known.get(address) or evaluation.state(address)
+            # To a rule a value without effect is not set.
             seen.append((address, keys[address] if state is ACTIVE else None))
             if state is not ACTIVE and state.state in _NOT_LOOKED_AT and address not in file.forced:
                 continue

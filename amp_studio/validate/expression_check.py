@@ -83,6 +83,7 @@ class ExpressionCheck:
             worths = [worth for worth, _ in parts]
             found, own = self._of(node, worths)
             cost = own + sum(cost for _, cost in parts)
+        # Bounded: the figures of nested macros multiply.
         return found, min(cost + _STEP + found.size, LARGEST)
 
     def _of(self, node: Node, parts: list[Worth]) -> tuple[Worth, int]:

@@ -223,6 +223,7 @@ def _about(rule: Rule, spoken_of: set[str], asked_of: set[str]) -> tuple[dict[st
     what the rule checks or shows comes before what decides whether it applies.
     """
     replaced = {used.set: f"({used.value}\n) != it" for used in rule.effective}
+    # Where a rule does not name it: what the control replaces, else the first value that is read.
     blames = rule.blames or replaced or dict.fromkeys(list(rule.reads)[:1], "true")
     own = {*blames, *rule.compares}
     others = [name for name, text in rule.reads.items() if name not in own and not is_list(text)]

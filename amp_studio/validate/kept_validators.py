@@ -57,6 +57,7 @@ class KeptValidators:
         yield nearest
         self._kept[kind] = [*validators[1 - _OF_A_KIND :], nearest]
         if len(self._kept) > _KINDS:
+            # The one that was asked longest ago: each use puts its kind at the end.
             del self._kept[next(iter(self._kept))]
 
 
@@ -72,5 +73,6 @@ def _nearest(
     for validator in reversed(validators):
         differing = validator.file.differing(file)
         if len(differing) <= most and validator.has_run:
+            # From now on only one that differs in fewer.
             nearest, least, most = validator, differing, len(differing) - 1
     return nearest, least

@@ -105,6 +105,7 @@ class ValueChecks:
         """Return what is wrong with a value, if anything is."""
         facts = self._facts[address[0]]
         turns = facts.turning is not None and self._turns(facts.parameter, address[1])
+        # With its class: to a key 1, 1.0 and True are one value.
         key: Hashable = (value.value.__class__, value.value, value.unit, turns)
         if not facts.own_range:
             key = key, self._bounds_of(facts, address)

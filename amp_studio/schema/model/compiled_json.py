@@ -58,6 +58,7 @@ def text_record(text: str | bytes) -> Any:
         kind = entry.pop(_KIND, None)
         if kind is None:
             return entry
+        # Past the constructor: what was checked when it was compiled needs no second check.
         record = object.__new__(kinds[kind])
         record.__dict__.update(entry)
         return record

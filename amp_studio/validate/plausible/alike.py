@@ -155,6 +155,7 @@ class Alike:
             return False
         rows = self._rows.setdefault(scope, {})
         row = rows.get(instance)
+        # An instance that had no value until now is compared in all of them.
         if row is None:
             self.look_at_all()
             return True
@@ -224,6 +225,7 @@ class Alike:
         """
         for (scope, a, b), pair in self._pairs.items():
             compared, count = pair.compared[0], len(pair.differing)
+            # What differs in more than an eighth differs on purpose.
             if not count or compared < _LEAST or count > max(1, compared // 8):
                 continue
             is_sure = count == 1 and compared >= _SURE

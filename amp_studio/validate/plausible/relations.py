@@ -288,5 +288,6 @@ def _factor_without(n: int, numbers: Sequence[float]) -> float | None:
     if len(steps) < 2 or max(steps) > _AGREE * min(steps) or min(steps) <= 1:
         return None
     usual = (max(steps) * min(steps)) ** 0.5
+    # Over the gap that the value leaves, two steps have to fit.
     across = numbers[n + 1] / numbers[n - 1] if 0 < n < last else usual**2
     return usual if usual**2 / _AGREE <= across <= usual**2 * _AGREE else None

@@ -90,6 +90,8 @@ def _is_rounded(value: float, exact: float) -> bool:
 
 def _is_swapped(value: float, other: float) -> bool:
     """Return whether two neighbouring digits of one are exchanged in the other."""
+    # Neighbours that are swapped make ten times of a number at most; a change below 2 % is none that
+    # matters.
     if not 1.02 < abs(value / other) < 50 and not 1.02 < abs(other / value) < 50:
         return False
     a, b = _digits(value), _digits(other)

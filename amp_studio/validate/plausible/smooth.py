@@ -52,6 +52,7 @@ class _Table:
             return
         # The slip itself is in three differences of the sorted ones.
         usual = self.sorted[(len(self.sorted) - 3) // 2] or 1e-9 * max(map(abs, self.points))
+        # At the point itself the second difference is twice what the point is off.
         limit, bends = 2 * _MANY * usual, self.bends
         for n in [n for n, bend in enumerate(bends) if bend > limit or bend < -limit]:
             off = -bends[n] / 2

@@ -114,8 +114,7 @@ class Firmware:
     def power_cycle(self) -> None:
         """Cut the power: while the memory is being written all of it is lost."""
         if self.is_writing:
-            # Once: a memory that is half written has a wrong checksum, and the next start begins with the
-            # defaults.
+            # A memory that is half written has a wrong checksum: the next start begins with the defaults.
             self._memory.replace(MEMORY, b"")
         self._out.clear()
         self._boot()
