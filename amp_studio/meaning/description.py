@@ -87,12 +87,20 @@ class ConceptFigure:
 
 @dataclass(frozen=True)
 class AxisMeaning:
-    """One axis: its letter, the instance in its file, whether it turns, and its figures by concept."""
+    """One axis: its letter, the instance in its file, whether it turns, and its figures by concept;
+    ``shares`` where another axis of the machine has this letter too.
+    """
 
     letter: str
     instance: str
     turns: bool
     figures: Mapping[str, ConceptFigure]
+    shares: bool = False
+
+    @property
+    def name(self) -> str:
+        """What questions call it: its letter, with its number where another axis has that letter."""
+        return f"{self.letter}{self.instance}" if self.shares else self.letter
 
     def number(self, concept: str) -> float | None:
         """Return a number, None where there is none."""

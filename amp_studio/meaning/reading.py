@@ -58,10 +58,15 @@ def read_meaning(file: ParameterFile, answers: Mapping[str, str] = MappingProxyT
             or reader.value(facts.is_axis.reads, facts.is_axis.value, instance, {}) is True
         ):
             figures = {f.concept: f for f in reader.figures(facts.axis, instance)}
-            axes.append(AxisMeaning(letters[instance].upper(), instance, axis_turns(file, instance), figures))
+            turns, shares = axis_turns(file, instance), _shares_letter(letters, instance)
+            axes.append(AxisMeaning(letters[instance].upper(), instance, turns, figures, shares))
     figures = {f.concept: f for f in reader.figures(facts.machine, "")}
     questions = tuple(reader.questions(axes))
     return MachineMeaning(file.schema.family.family, file.header.name, tuple(axes), figures, questions)
+
+
+def _shares_letter(letters: Mapping[str, str], instance: str) -> bool:
+    return sum(each.upper() == letters[instance].upper() for each in letters.values()) > 1
 
 
 @dataclass
@@ -72,8 +77,9 @@ class _Reader:
 
     def answered(self, instance: str) -> dict[str, float | None]:
         """Return the numbers that a person gave for an axis, None for one that is open or none."""
-        letter = axis_letters(self.file)[instance].upper()
-        found = {q.gives: self.answers.get(f"{q.id}.{letter}", "") for q in self.facts.questions if q.gives}
+        letters = axis_letters(self.file)
+        name = letters[instance].upper() + (instance if _shares_letter(letters, instance) else "")
+        found = {q.gives: self.answers.get(f"{q.id}.{name}", "") for q in self.facts.questions if q.gives}
         return {
             name: float(text) if re.fullmatch(NUMBER, text.strip()) else None for name, text in found.items()
         }
@@ -134,8 +140,8 @@ class _Reader:
                 if not fact.when or fact.when in axis.figures:
                     sources = tuple(self.sources({p: p for p in fact.params}, axis.instance))
                     yield MigrationQuestion(
-                        f"{fact.id}.{axis.letter}",
-                        fact.ask.format(axis=axis.letter),
+                        f"{fact.id}.{axis.name}",
+                        fact.ask.format(axis=axis.name),
                         sources,
                         is_number=bool(fact.gives),
                     )

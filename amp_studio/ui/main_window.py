@@ -220,6 +220,7 @@ class MainWindow(PartsWindow):
         self.menus.enable(
             {
                 "": True,
+                "seen": self.page is not None and not self.page.turned_to and not self.control.is_shown,
                 "file": workspace is not None,
                 "edit": may_edit,
                 "axes": may_edit and has_axes,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+import pytest
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QKeySequence
 from PySide6.QtTest import QTest
@@ -17,7 +18,7 @@ from amp_studio.ui.dialogs.file_dialogs import ReportDialog
 from amp_studio.ui.main_window import MainWindow
 
 from .at_control import at_control, settled
-from .conftest import WAIT_MS, Control, User, on_disk
+from .conftest import WAIT_MS, Control, User, action, on_disk
 
 EXCESS = ("servo.excess_error", "1")
 BAND = ("servo.inposition_band", "1")
@@ -177,3 +178,22 @@ def test_a_second_click_of_the_tool_bar_sends_nothing(
     window.menus["control.page"].trigger()
     assert settled(window, qtbot).session.phase == "ready"
     assert window.workspace.is_dirty
+
+
+@pytest.mark.parametrize("name", ["At the Control", "Motion"])
+def test_no_command_changes_values_that_are_not_seen(window: MainWindow, name: str) -> None:
+    """F8 and Clear were taken by the hidden table while another page was in front."""
+    window.go_to(EXCESS)
+    window.edits.commit(EXCESS, "0.5 mm")
+    action(window, name).trigger()
+    steps = window.workspace.undo_stack.index()
+    for each in ("edit.clear", "edit.fix", "edit.default", "edit.all_axes", "guide.done"):
+        assert not window.menus[each].isEnabled(), each
+        window.menus[each].trigger()
+    Hands().press("F8")
+    assert window.workspace.undo_stack.index() == steps
+    window.menus["view.findings"].trigger()
+    assert window.page_in_front.findings.isVisible(), (
+        "what is shown beside the values brings them to the front"
+    )
+    assert window.menus["edit.clear"].isEnabled()

@@ -84,8 +84,8 @@ class _SettingsWriter:
         what = "turns" if axis.turns else "does not turn"
         sources = axis.figures["kind"].sources if "kind" in axis.figures else ()
         question = MigrationQuestion(
-            f"letter.{axis.letter}",
-            f"Axis {axis.letter} {what}: which letter shall it have ({', '.join(free)})?",
+            f"letter.{axis.name}",
+            f"Axis {axis.name} {what}: which letter shall it have ({', '.join(free)})?",
             sources,
         )
         return self.out.answer(question, self.answers, f"[{''.join(free)}]").upper()
@@ -126,8 +126,8 @@ class _SettingsWriter:
         if axis.turns:
             self.values[376] = str(int(self.values.get(376, "0")) | 1 << n - _LEAST)
         question = MigrationQuestion(
-            f"steps.{axis.letter}",
-            f"How many steps make 1 {'degree' if axis.turns else 'mm'} of {axis.letter} at the new motor"
+            f"steps.{axis.name}",
+            f"How many steps make 1 {'degree' if axis.turns else 'mm'} of {axis.name} at the new motor"
             f" (${100 + n})?",
         )
         if number := self.out.number(question, self.answers):
@@ -237,8 +237,8 @@ class _SettingsWriter:
             for source in axis.figures[concept].sources
         ]
         question = MigrationQuestion(
-            f"travel.{axis.letter}",
-            f"How far may {axis.letter} go from where it is after homing, in {'deg' if axis.turns else 'mm'}"
+            f"travel.{axis.name}",
+            f"How far may {axis.name} go from where it is after homing, in {'deg' if axis.turns else 'mm'}"
             f" (${130 + n})? The old file does not say, and with 0 there is no limit.",
             tuple(dict.fromkeys(sources)),
         )

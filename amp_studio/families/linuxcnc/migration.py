@@ -86,7 +86,7 @@ class _Migration:
         self._programs()
         self._path()
         for axis in self.ordered:
-            self._joint(axis, asked.get(f"feedback.sign.{axis.letter}", ""), steps)
+            self._joint(axis, asked.get(f"feedback.sign.{axis.name}", ""), steps)
         self._spindle()
         self._startup()
         texts = self.out.texts
@@ -110,8 +110,8 @@ class _Migration:
         what = "turns" if axis.turns else "does not turn"
         source = axis.figures["kind"].sources if "kind" in axis.figures else ()
         question = MigrationQuestion(
-            f"letter.{axis.letter}",
-            f"Axis {axis.letter} {what}: which letter shall it have ({', '.join(free)})?",
+            f"letter.{axis.name}",
+            f"Axis {axis.name} {what}: which letter shall it have ({', '.join(free)})?",
             source,
         )
         return self.out.answer(question, self.answers, f"[{''.join(free)}]").upper()
@@ -495,8 +495,8 @@ class _Migration:
     def _absolute(self, axis: AxisMeaning, j: str) -> None:
         """Write and grade an axis whose encoder knows its position: what it reports at zero is in no file."""
         question = MigrationQuestion(
-            f"home.encoder.{axis.letter}",
-            f"Which position does the encoder of {axis.letter} report at the new card where the old control"
+            f"home.encoder.{axis.name}",
+            f"Which position does the encoder of {axis.name} report at the new card where the old control"
             f" shows 0, in {'deg' if axis.turns else 'mm'}?",
         )
         found = self.out.answer(question, self.answers, _SIGNED)
@@ -516,8 +516,8 @@ class _Migration:
     def _asked_speed(self, axis: AxisMeaning, towards: float) -> tuple[float | None, float | None]:
         unit = "deg/min" if axis.turns else "mm/min"
         question = MigrationQuestion(
-            f"home.speed.{axis.letter}",
-            f"With which speed does {axis.letter} search its switch, in {unit}? The PLC of the old control"
+            f"home.speed.{axis.name}",
+            f"With which speed does {axis.name} search its switch, in {unit}? The PLC of the old control"
             " set it.",
         )
         speed = self.out.number(question, self.answers)

@@ -209,6 +209,7 @@ class ControlDesk(Translated):
         page.show_file(workspace, direction)
         self._centre.setCurrentWidget(page)
         self.window.docks.show_page(None)
+        self.window.enable()
         if place := address or self.exchanges.address_of(workspace):
             self.use(place)
         else:

@@ -38,6 +38,17 @@ def show_values(window: PartsWindow) -> None:
     window.page_in_front.uncover()
 
 
+def in_values(does: Callable[[PartsWindow], object]) -> Callable[[PartsWindow], object]:
+    """Return what shows the values, where another page is in front, and then does what is done there."""
+
+    def shown(window: PartsWindow) -> None:
+        if window.control.is_shown or window.page_in_front.turned_to:
+            show_values(window)
+        does(window)
+
+    return shown
+
+
 def is_shown(window: PartsWindow, name: str) -> bool:
     """Return whether a page of the file in front is seen; ``""`` is that of its values."""
     return window.page is not None and window.page.turned_to == name and not window.control.is_shown

@@ -13,7 +13,7 @@ from PySide6.QtGui import QKeySequence
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.window.action import Action, FilledMenu, Menu
 
-from . import axis, document, filters, guide, project, view
+from . import axis, document, filters, guide, pages, project, view
 from . import help as help_menu
 from .edit import show_redo, show_undo
 from .find_box import COMMANDS
@@ -126,7 +126,14 @@ def _edit() -> Menu[PartsWindow]:
             Action("edit.calculator", tr("Ca&lculator…"), lambda w: w.edits.calculator(), "F3"),
             Action("edit.tables", tr("&Tables of the Manual…"), lambda w: w.edits.tables(), "Shift+F3"),
             None,
-            Action("edit.fix", tr("F&ix Selected Finding"), lambda w: w.edits.fix_selected(), "F8", "edit"),
+            Action(
+                "edit.fix",
+                tr("F&ix Selected Finding"),
+                lambda w: w.edits.fix_selected(),
+                "F8",
+                "edit",
+                of_selected=True,
+            ),
             Action(
                 "edit.fix_several",
                 tr("Fix Se&veral…"),
@@ -141,12 +148,18 @@ def _edit() -> Menu[PartsWindow]:
                 tr("S&how Explanation of Finding"),
                 lambda w: w.edits.explain_selected(),
                 "Shift+F1",
+                of_selected=True,
             ),
             None,
             Action("edit.find", tr("&Find…"), lambda w: w.finder.box.begin(), ("Ctrl+F", "Ctrl+K"), ""),
             Action("edit.go_to", tr("&Go to Number…"), lambda w: w.finder.box.begin(), "Ctrl+G"),
             Action(
-                "edit.bookmark", tr("Boo&kmark"), filters.toggle_bookmark, "Ctrl+B", icon="bookmark-simple"
+                "edit.bookmark",
+                tr("Boo&kmark"),
+                filters.toggle_bookmark,
+                "Ctrl+B",
+                icon="bookmark-simple",
+                of_selected=True,
             ),
         ),
     )
@@ -239,9 +252,22 @@ def _guide() -> Menu[PartsWindow]:
         "guide",
         tr("&Guide"),
         (
-            Action("guide.next", tr("&Next Not Set"), guide.go_on, "Ctrl+."),
-            Action("guide.done", tr("Mark Step as &Done"), guide.tick_step, "Ctrl+Shift+.", "edit"),
-            Action("guide.defaults", tr("Keep De&faults of This Step"), guide.keep_defaults, needs="edit"),
+            Action("guide.next", tr("&Next Not Set"), pages.in_values(guide.go_on), "Ctrl+."),
+            Action(
+                "guide.done",
+                tr("Mark Step as &Done"),
+                guide.tick_step,
+                "Ctrl+Shift+.",
+                "edit",
+                of_selected=True,
+            ),
+            Action(
+                "guide.defaults",
+                tr("Keep De&faults of This Step"),
+                guide.keep_defaults,
+                needs="edit",
+                of_selected=True,
+            ),
             None,
             Action(
                 "guide.later",

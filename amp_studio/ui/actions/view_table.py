@@ -15,6 +15,10 @@ from .parts import PartsWindow
 _KEY = QKeySequence.StandardKey
 
 
+def _to_dock(name: str, window: PartsWindow) -> None:
+    window.docks.toggle(name)
+
+
 def view_menu() -> Menu[PartsWindow]:
     """Return the menu of what is shown, and where."""
     return Menu(
@@ -160,11 +164,16 @@ def view_menu() -> Menu[PartsWindow]:
                 tr("Filte&r"),
                 (
                     *(
-                        Action(f"filter.{mark}", name, partial(filters.toggle, mark=mark), tip=tip)
+                        Action(
+                            f"filter.{mark}",
+                            name,
+                            pages.in_values(partial(filters.toggle, mark=mark)),
+                            tip=tip,
+                        )
                         for mark, name, tip in filters.listed()
                     ),
                     None,
-                    Action("filter.none", tr("&All Rows"), filters.show_all_rows, "Ctrl+0"),
+                    Action("filter.none", tr("&All Rows"), pages.in_values(filters.show_all_rows), "Ctrl+0"),
                 ),
             ),
             None,
@@ -178,10 +187,15 @@ def _places() -> Menu[PartsWindow]:
         "places",
         tr("&Go To"),
         (
-            Action("view.table", tr("&Table"), view.to_table, "Ctrl+1"),
-            Action("view.groups", tr("&Groups"), lambda w: w.docks.toggle("Groups"), "Ctrl+2"),
-            Action("view.parameter", tr("&Parameter Help"), lambda w: w.docks.toggle("Parameter"), "Ctrl+3"),
-            Action("view.findings", tr("&Findings"), lambda w: w.docks.toggle("Findings"), "Ctrl+4"),
+            Action("view.table", tr("&Table"), pages.in_values(view.to_table), "Ctrl+1"),
+            *(
+                Action(f"view.{name.lower()}", text, pages.in_values(partial(_to_dock, name)), keys)
+                for name, text, keys in (
+                    ("Groups", tr("&Groups"), "Ctrl+2"),
+                    ("Parameter", tr("&Parameter Help"), "Ctrl+3"),
+                    ("Findings", tr("&Findings"), "Ctrl+4"),
+                )
+            ),
             Action("view.next_finding", tr("&Next Finding"), lambda w: w.step_findings(1), "Alt+Down"),
             Action("view.previous_finding", tr("Pre&vious Finding"), lambda w: w.step_findings(-1), "Alt+Up"),
             None,

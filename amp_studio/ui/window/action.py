@@ -16,9 +16,12 @@ from amp_studio.ui.base.workspace import Workspace
 W = TypeVar("W")
 """The window whose parts an action may use."""
 
-Needs = Literal["", "file", "edit", "axes", "project", "units", "undo", "redo", "emulated", "no emulated"]
+Needs = Literal[
+    "", "file", "edit", "axes", "project", "units", "undo", "redo", "emulated", "no emulated", "seen"
+]
 """What has to be there: nothing, an open file, the right to change it, axes as well, a project, several
-systems of units, a step to undo or redo, an emulated control that runs, a file and none that runs."""
+systems of units, a step to undo or redo, an emulated control that runs, a file and none that runs, the values
+in front."""
 
 Shortcut = str | QKeySequence.StandardKey | tuple[str, ...]
 
@@ -47,6 +50,8 @@ class Action(Generic[W]):
     """Shows in it what depends on the file in front: text, icon."""
     of_a_cell: bool = False
     """Also in the menu of a cell."""
+    of_selected: bool = False
+    """It acts on what is selected among the values, as all of a cell do: off while these are not in front."""
     only_in_table: bool = False
     """Its keys mean it in the table only: a text field has its own copy and paste."""
 

@@ -98,6 +98,7 @@ class Menus(Mapping[str, QAction], Generic[W]):
         window, workspace = self._window, self._window.workspace
         for key, row in self._rows.items():
             action, able = self._actions[key], can[row.needs]
+            able = able and (can["seen"] or not (row.of_a_cell or row.of_selected))
             if row.why_not is not None and workspace is not None:
                 reason = row.why_not(workspace)
                 able = able and not reason
