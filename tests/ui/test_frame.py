@@ -79,6 +79,9 @@ def test_tools_have_words_only_where_there_is_room(window: MainWindow) -> None:
     assert window.tools.toolButtonStyle() == styles.ToolButtonTextBesideIcon
     displayed(window, 1024, 700)
     assert window.tools.toolButtonStyle() == styles.ToolButtonIconOnly
+    control = window.tools.widgetForAction(window.menus["control.page"])
+    assert control.toolButtonStyle() == styles.ToolButtonTextBesideIcon, "the control keeps its name"
+    assert control.geometry().right() <= window.tools.width()
 
 
 def test_the_segment_of_units_shows_and_switches_them(window: MainWindow) -> None:

@@ -41,12 +41,12 @@ def show_values(window: PartsWindow) -> None:
 def in_values(does: Callable[[PartsWindow], object]) -> Callable[[PartsWindow], object]:
     """Return what shows the values, where another page is in front, and then does what is done there."""
 
-    def shown(window: PartsWindow) -> None:
+    def act(window: PartsWindow) -> None:
         if window.control.is_shown or window.page_in_front.turned_to:
             show_values(window)
         does(window)
 
-    return shown
+    return act
 
 
 def is_shown(window: PartsWindow, name: str) -> bool:

@@ -70,13 +70,14 @@ class MainToolBar(QToolBar):
 
     def fit(self, width: int) -> None:
         """Show words where the window has room for them: first those of the file go, then those of the
-        pages.
+        pages; the control keeps its name and state longest.
         """
-        for has_words, of_file in ((width >= WIDE, width >= _FILE_WIDE), (width >= WIDE, False)):
-            self._show_words(has_words, of_file)
-            if not has_words or self._needed() <= width:
+        is_wide = width >= WIDE
+        for has_words, of_file in ((is_wide, width >= _FILE_WIDE), (is_wide, False), (False, False)):
+            self._show_words(has_words, of_file, of_control=True)
+            if self._needed() <= width:  # the words of a longer language may have none
                 return
-        self._show_words(False, False)  # the words of a longer language
+        self._show_words(False, False, of_control=False)
 
     def _needed(self) -> int:
         """Return the width at which everything is seen."""
@@ -86,11 +87,12 @@ class MainToolBar(QToolBar):
         widths = (part.sizeHint().width() for part in parts if part not in own)
         return sum(widths) + _CONTROL_WIDTH + _FIND_LEAST + spacing
 
-    def _show_words(self, has_words: bool, of_file: bool) -> None:
+    def _show_words(self, has_words: bool, of_file: bool, *, of_control: bool) -> None:
         style = Qt.ToolButtonStyle
         words, bare = style.ToolButtonTextBesideIcon, style.ToolButtonIconOnly
         self.setToolButtonStyle(words if has_words else bare)
-        self._control.setMinimumWidth(_CONTROL_WIDTH if has_words else 0)
+        self._control.setToolButtonStyle(words if of_control else bare)
+        self._control.setMinimumWidth(_CONTROL_WIDTH if of_control else 0)
         self._control.setMaximumWidth(_CONTROL_WIDTH)
         for button in self._bare:
             button.setToolButtonStyle(bare)
