@@ -25,11 +25,13 @@ class Placement:
     @classmethod
     def within(cls, scene: Scene, width: float, height: float) -> Placement:
         """Return the largest place in a sheet; with one scale for both axes in the middle of it."""
+        # Rows have their units at the right end, outside the frame.
         right = RIGHT + (44.0 if any(row[2] for row in scene.y.rows) else 0.0)
         inner = max(width - LEFT - right, 10.0), max(height - TOP - BOTTOM, 10.0)
         if not scene.equal:
             return cls(scene, LEFT, TOP, *inner)
         spans = scene.x.high - scene.x.low, scene.y.high - scene.y.low
+        # The tighter of both: a circle must stay a circle, whatever the shape of the sheet.
         unit = min(inner[0] / spans[0], inner[1] / spans[1])
         size = spans[0] * unit, spans[1] * unit
         return cls(scene, LEFT + 0.5 * (inner[0] - size[0]), TOP + 0.5 * (inner[1] - size[1]), *size)
@@ -75,11 +77,14 @@ def _gap(scene: Scene, horizontal: bool) -> float:
 
 def _share(scale: Scale, value: float) -> float:
     if scale.log:
+        # A logarithmic scale has no place for it: a frequency or a gain of 0 is drawn at its lower end.
         if value <= 0.0:
             return 0.0
         share = math.log(value / scale.low) / math.log(scale.high / scale.low)
     else:
         share = (value - scale.low) / (scale.high - scale.low)
+    # A hair beyond the edge, so that a line is seen to leave the drawing; no farther, as infinite sides
+    # come here too.
     return min(max(share, -0.02), 1.02)
 
 

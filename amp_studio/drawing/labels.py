@@ -133,6 +133,7 @@ def heading_of(panel: Scene, left: float, right: float, measure: Measure) -> lis
     """Return what a panel shows, and its curves by name where it has several, from left to right:
     no name is left out.
     """
+    # In the heading: a panel is too low for a text along its vertical axis.
     title = f"{panel.title} ({unit_text(panel.y.unit)})" if panel.y.unit else panel.title
     pieces = [Heading(left, 0, title, strong=True)]
     x, line = left + measure(title, True) + 2.0 * _BETWEEN, 0
@@ -140,9 +141,11 @@ def heading_of(panel: Scene, left: float, right: float, measure: Measure) -> lis
         pieces.append(Heading(x, 0, panel.subtitle))
         x += measure(panel.subtitle, False) + 2.0 * _BETWEEN
     named = [curve for curve in panel.curves if curve.name and len(curve.x)]
+    # A single curve is what the title names.
     if len(named) < 2:
         return pieces
     widths = [SAMPLE + _BETWEEN + measure(curve.name, False) + 2.0 * _BETWEEN for curve in named]
+    # All fit into the line of the title: at its right end, where the eye finds them clear of the title.
     if x + sum(widths) <= right:
         x = right - sum(widths)
     for curve, width in zip(named, widths, strict=True):
@@ -223,6 +226,7 @@ class _Placing:
                 y, name = found[-1][0], f"{found.pop()[1]}, {name}"
             found.append((y, name))
         for y, name in found:
+            # One at the very top is named below its line, or its name would be in the heading of the panel.
             base = y + 0.9 * self._line if y - frame.top < self._line + 4.0 else y - 4.0
             self.placed.append(Label(self._box(x, base, Text((x, y), name), "", "end"), name, over=True))
 
@@ -233,6 +237,7 @@ class _Placing:
             x = frame.at((mark.at, 0.0))[0]
             if mark.name and frame.left <= x <= frame.left + frame.width:
                 base = frame.top + frame.height - 8.0 - self._line * (n % 2)
+                # At the left edge there is no room before the line: that name is behind it.
                 at_left = x - self._measure(mark.name, False) - 4.0 > frame.left
                 box = self._box(
                     x - 4.0 if at_left else x + 4.0,
@@ -253,6 +258,7 @@ class _Placing:
         # A text with a value names a parameter; a bare figure can be read off the scale where it has no room.
         for text in sorted(scene.texts, key=lambda each: not each.value):
             point = self._frame.at(text.at)
+            # Tips have the figures of the other rows.
             is_first = not is_dense or (text.at[1] == rows[0][0] and text.anchor == "above")
             label = self._placed(text, point) if is_first else None
             if label is None:
@@ -284,6 +290,7 @@ class _Placing:
         if box is None:
             return None
         end = box.nearest(point)
+        # Without a line nobody could see which of several points a text so far away belongs to.
         far = max(abs(end[0] - point[0]), abs(end[1] - point[1]))
         leader = (point, end) if far > _LED else None
         return Label(box, text.text, value, bool(text.value), text.sort, text.address, leader)

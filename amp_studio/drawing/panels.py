@@ -50,6 +50,7 @@ def panel_of(
     first, last = _extent(curves)
     low, high = visible(curves, levels, None)
     if not without_zero:
+        # With 0 in it an error is seen in proportion; a position far from 0 is better off without.
         low, high = min(0.0, low), max(0.0, high)
     room = MARGIN * (high - low)
     return Scene(
@@ -113,9 +114,11 @@ def visible(
             low, high = min(low, float(inside.min())), max(high, float(inside.max()))
     if low > high:
         low = high = 0.0
+    # A limit farther away than the curves are high would press them into a flat line: it is not shown.
     room = 1.0 * (high - low)
     near = [level.at for level in levels if span is None or low - room <= level.at <= high + room]
     low, high = min([low, *near]), max([high, *near])
+    # A constant curve is drawn half way up, in a range of any height.
     return (low, high) if high > low else (low - 1.0, high + 1.0)
 
 
@@ -159,6 +162,7 @@ def map_scene(
 
 def _is_geometric(values: Series) -> bool:
     """Return whether values are rather a constant ratio than a constant distance apart."""
+    # Equal steps have a ratio of 1 here, and a geometric row of a useful span far more than 4.
     return bool(values[0] > 0.0 and 4.0 * (values[1] - values[0]) < values[-1] - values[-2])
 
 
@@ -166,6 +170,7 @@ def _edges(values: Series, log: bool) -> Series:
     """Return where cells around values end: half way to the next one, as it is drawn."""
     places = np.log(values) if log else values
     middle = 0.5 * (places[:-1] + places[1:])
+    # The outer cells have no neighbour: they end as far outside as inside.
     edges = np.concatenate([[2.0 * places[0] - middle[0]], middle, [2.0 * places[-1] - middle[-1]]])
     return np.exp(edges) if log else edges
 
@@ -173,6 +178,7 @@ def _edges(values: Series, log: bool) -> Series:
 def _ends(values: NDArray[np.float64], safe: NDArray[np.bool_]) -> tuple[float, float]:
     """Return least and greatest value; of the safe cells where there are any, so that these differ."""
     known = np.isfinite(values)
+    # A loop that is nearly unstable has figures so large that the safe cells would all have one colour.
     chosen = values[known & safe] if (known & safe).any() else values[known]
     if not chosen.size:
         return 0.0, 1.0
@@ -215,6 +221,8 @@ def ring_scene(rings: Sequence[Ring], unit: str) -> Scene:
         )
     curves = []
     for ring in rings:
+        # Only the deviation is magnified, as ball-bar software does it: a circle of 100 mm and an error of
+        # 5 µm could not be drawn on one scale.
         radius = _BASE + scale * ring.deviation
         curves.append(Curve("", radius * np.cos(ring.angle), radius * np.sin(ring.angle), ring.sort))
     across = Scale("", "", -edge, edge, is_written=False)
@@ -240,7 +248,9 @@ def _points(places: np.ndarray) -> tuple[Point, ...]:
 
 def ring_levels(rings: Sequence[Ring]) -> tuple[list[float], float]:
     """Return the deviations at which a ball-bar plot has rings, and the largest that it shows."""
+    # A path without any deviation has rings too: the least is that of a nanometre.
     peak = max((float(np.max(np.abs(r.deviation), initial=0.0)) for r in rings), default=0.0) or 1e-6
     step = round_step(0.5 * peak)
+    # Less a hair: a peak on a ring must not get another ring through rounding.
     count = math.ceil(peak / step - 1e-9)
     return [n * step for n in range(-count, count + 1)], count * step

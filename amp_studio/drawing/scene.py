@@ -216,8 +216,11 @@ class Scale:
     def __post_init__(self) -> None:
         """Give a scale without length one, so that whatever a file sets can be drawn."""
         low, high = sorted((self.low, self.high))
+        # From a file any number may come, 0 and negative ones too.
         if self.log:
             low = max(low, LEAST)
+        # Relative: next to a large number a shorter scale has no room for two floats, and its ticks would
+        # never end.
         least = LEAST * max(abs(low), abs(high), 1.0)
         if high - low < least and not (self.log and high > low):
             high = low * 10.0 if self.log else low + least

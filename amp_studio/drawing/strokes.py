@@ -28,6 +28,7 @@ def strokes_of(frame: Placement, curve: Curve) -> tuple[Series, Series | None]:
     columns = max(int(frame.width), 2)
     if curve.is_stepped:
         x, y = unheld(x, y)
+    # More than two samples in a column of the screen: as a line they would be a solid block.
     if (curve.is_stepped or curve.dense) and len(x) > 2 * columns:
         x, y, least, most = banded(x, y, columns)
         return _placed(frame, x, y), _placed(
@@ -54,8 +55,10 @@ def cell_boxes(frame: Placement, cells: HeatMap) -> Iterator[tuple[float, float,
 def _inside(frame: Placement, curve: Curve) -> tuple[Series, Series]:
     """Return the part of a curve that its scale shows, with one point more on both sides."""
     x, scale = curve.x, frame.scene.x
+    # A ring or a path does not rise along x: it cannot be cut between two indices.
     if not len(x) or (scale.low <= x[0] and x[-1] <= scale.high) or np.any(np.diff(x) < 0.0):
         return x, curve.y
+    # One point more, or the line would end short of the edge of the frame.
     first = max(int(np.searchsorted(x, scale.low)) - 1, 0)
     last = int(np.searchsorted(x, scale.high, side="right")) + 1
     return x[first:last], curve.y[first:last]
@@ -64,6 +67,7 @@ def _inside(frame: Placement, curve: Curve) -> tuple[Series, Series]:
 def _placed(frame: Placement, x: Series, y: Series) -> Series:
     scale, height = frame.scene.x, frame.scene.y
     across = (
+        # The spectrum begins at 0 Hz, which has no logarithm.
         np.log(np.maximum(x, 1e-300) / scale.low) / np.log(scale.high / scale.low)
         if scale.log
         else (x - scale.low) / (scale.high - scale.low)
@@ -79,6 +83,7 @@ def thinned(x: Series, y: Series, columns: int, unseen: float = 0.0) -> tuple[Se
     stretch that rises or falls by less than ``unseen`` is its first point alone:
     three of four points of a smooth curve.
     """
+    # Four points of a column are kept: fewer points than that lose nothing by being drawn.
     if len(x) <= 4 * columns:
         return x, y
     count = len(x) // columns
@@ -107,8 +112,10 @@ def unheld(x: Series, y: Series) -> tuple[Series, Series]:
     A sample that stays much longer than the others keeps its end, so that a pause stays level.
     """
     changes = np.flatnonzero(np.diff(y)) + 1
+    # Without two changes there is no period to compare a pause with.
     if len(changes) < 2:
         return x, y
+    # Median: pauses, which are long, must not count as the period of the samples.
     period = float(np.median(np.diff(changes)))
     gaps = np.diff(np.concatenate([[0], changes]))
     ends = changes[gaps > 1.5 * period] - 1
@@ -120,6 +127,7 @@ def banded(x: Series, y: Series, columns: int) -> tuple[Series, Series, Series, 
     """Return (x, mean, least, greatest) of each of ``columns`` stretches,
     for a value that jumps at every sample.
     """
+    # No more columns than samples: of an empty one ``reduceat`` would return the sample after it.
     edges = np.linspace(0, len(x), min(columns, len(x)) + 1).astype(np.int64)
     starts = edges[:-1]
     counts = np.diff(edges)

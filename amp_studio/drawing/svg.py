@@ -103,6 +103,7 @@ def picture_svg(
     ``small_print`` what was assumed.
     """
     letters = round(PLOT_WRAP * width / PLOT_WIDTH)
+    # Facts are in larger letters than the small print: fewer go into a line.
     facts = _fact_lines(picture.facts, letters - 14)
     y = PLOT_TOP + FACT * max(0, len(facts) - 1)
     scenes = (*filter(None, [picture.above]), *picture.panels, *filter(None, [picture.close]))
@@ -227,6 +228,8 @@ def _cells(frame: Placement, cells: HeatMap) -> Iterator[str]:
     for n in range(BAR_STEPS):
         top = frame.top + frame.height - (n + 1) * step
         yield (
+            # Half a point higher than the step: viewers leave hair lines between rectangles that only
+            # touch.
             f'<rect x="{left:.1f}" y="{top:.1f}" width="{BAR:g}" height="{step + 0.5:.1f}"'
             f' fill="{_shade((n + 0.5) / BAR_STEPS)}"/>'
         )
@@ -239,6 +242,7 @@ def bar_figures(frame: Placement, cells: HeatMap) -> list[tuple[float, str]]:
     least, most = cells.ends
     return [
         (
+            # Moved in by half a line, or the outer two figures would jut out above and below the bar.
             frame.top + (1.0 - share) * (frame.height - 8.0) + 4.0,
             figure_text(float(f"{least + share * (most - least):.3g}")),
         )
@@ -309,6 +313,7 @@ def _wrapped(text: str) -> Iterator[str]:
     for word in text.split():
         if len(line) + len(word) > WRAP:
             yield line.rstrip()
+            # Each line of a note carries the mark: the colour of a line is chosen by it alone.
             line = "! " if text.startswith("! ") else ""
         line += word + " "
     yield line.rstrip()
@@ -356,6 +361,7 @@ def _area(frame: Placement, area: FilledArea) -> str:
 def _line(frame: Placement, line: Polyline) -> str:
     points = " ".join(f"{x:.1f},{y:.1f}" for x, y in map(frame.at, line.points))
     dash = ' stroke-dasharray="5 4"' if line.dashed else ""
+    # The rail is what the axis moves on: wide and pale, so that what lies on it remains visible.
     width = 6.0 if line.sort == "rail" else 2.0 if line.sort in ("now", "error") else 1.2
     return (
         f'<polyline points="{points}" fill="none" stroke="{COLOURS[line.sort]}" stroke-width="{width:g}"'

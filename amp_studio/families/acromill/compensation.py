@@ -59,9 +59,11 @@ class BallscrewTable:
         count = len(table.points)
         words = {}
         for at, by in table.points:
+            # Fractions: whether a place is whole must not depend on rounding.
             place = at / size - home
             if place.denominator != 1:
                 raise CalibrationError("a ballscrew table has a word for each whole position and no other")
+            # Places before home wrap to the end of the table (107).
             words[int(place) % count] = _figure(-by / size)
         if sorted(words) != list(range(count)):
             raise CalibrationError("a ballscrew table has a word for each whole position, without a gap")
@@ -134,6 +136,7 @@ class BallscrewTable:
                     "the soft limits of the axis are not set: they give the length of the table"
                 )
             found.append(Fraction(repr(value)) / _unit(file))
+        # Towards home on both sides: a word beyond a soft limit is never used.
         low, high = -int(max(-found[0], Fraction(0))), int(max(found[1], Fraction(0)))
         if high - low >= _MOST_WORDS:
             raise CalibrationError(f"{high - low + 1} positions are too many for a ballscrew table")
@@ -145,6 +148,8 @@ class BallscrewTable:
             low, high = self._travel(file, axis)
         except CalibrationError:
             return 0
+        # A table of another length than the travel does not show where it wraps: it is taken to begin at
+        # home.
         return low if high - low + 1 == count else 0
 
 
@@ -172,6 +177,7 @@ def _figure(correction: Fraction) -> str:
         raise CalibrationError(
             f"a correction of {float(correction):.5f} has digits before the point, for which there is no form"
         )
+    # No minus before a correction that is rounded to nothing.
     return ("-" if correction < 0 and text != "0.00000" else "") + text[1:]
 
 

@@ -103,6 +103,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         output_limit=loop.FULL_VOLTS,
         motor_count=1.0 / pulses,
         position_count=1.0 / pulses,
+        # Velocity feedback needs a second encoder, at the motor (135): the position is that of the load then.
         load_sensor=p[loop.FBVEL] != 0.0,
     )
     rapid = _or(read, ids.speeds_rapid, 1e9, everywhere=True)
@@ -140,6 +141,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         sources=_sources(pulses, ids.speeds_rapid if rapid else ids.max_machine),
         assumptions=tuple(notes),
         assumed=plant.REASONS,
+        # A swept sine passes the limit of the error on purpose.
         sweep_parameters=[*p[: loop.EXCESS], 0.0, *p[loop.EXCESS + 1 :]],
         linear_parameters=_linear(p),
         settled=_settled,
@@ -182,6 +184,7 @@ def _parameters(read: AxisParameters, pulses: float, period: float, notes: list[
     p[loop.I_DELAY] = read.within(ids.i_delay, 0.0, 1e9) * _MILLISECONDS
     if p[loop.I_LIMIT] <= 0.0:  # no room to work in (page 59)
         p[loop.I_LIMIT] = p[loop.I_GAIN] = 0.0
+    # D Time is sampled in whole servo periods; 0 means each of them (113).
     p[loop.D_PERIODS] = max(1.0, round(read.within(ids.d_time, 0.0, 1e6) * _MILLISECONDS / period))
     p[loop.DAC_SHARE] = _dac_share(read)
     p[loop.DAC_WORDS] = NORMAL_DAC_GAIN
@@ -235,6 +238,7 @@ def _rate(p: Sequence[float], machine: Machine) -> float:
         + machine.acceleration_per_output * machine.viscous_friction
     )
     undamped = math.sqrt(stiffness)
+    # Overdamped, the slow pole is spring over brake: the axis creeps at that rate.
     return min(undamped, stiffness / brake) if brake > 0.0 else undamped
 
 
@@ -255,6 +259,7 @@ def _rest_band(p: Sequence[float], machine: Machine) -> float:
     """
     if p[loop.I_GAIN] > 0.0:
         return 0.0
+    # P Gain alone stops pushing where its volts equal the friction: a count more, as the encoder rounds.
     volts = max(machine.static_friction, machine.coulomb_friction) + abs(machine.gravity)
     return volts / abs(p[loop.P_GAIN] * p[loop.PULSES] * p[loop.DAC_SHARE]) + machine.position_count
 
@@ -267,10 +272,12 @@ def _predicted(p: Sequence[float], machine: Machine, speed: float) -> Prediction
     """
     pulses = speed * p[loop.PULSES]
     needed = machine.viscous_friction * speed + machine.coulomb_friction + machine.gravity
+    # The torque cannot keep the speed: the following error grows without end.
     if needed > p[loop.TORQUE_LIMIT] * p[loop.DAC_SHARE]:
         return Prediction(None, "mm", "59")
     left = needed / p[loop.DAC_SHARE] + (p[loop.FBVEL] - p[loop.VEL_FFWD]) * pulses
     if p[loop.I_DELAY] == 0.0 and p[loop.I_GAIN] > 0.0:
+        # The integral takes all that its limit allows; P Gain has the rest.
         left -= min(max(left, -p[loop.I_LIMIT]), p[loop.I_LIMIT])
     return Prediction(abs(left / p[loop.P_GAIN]) / p[loop.PULSES], "mm", "115")
 
@@ -296,6 +303,7 @@ def _sources(pulses: float, feedrate: str) -> Mapping[str, Source]:
 def advise(axis: AxisLaw, trace: Trace) -> Sequence[Recommendation]:
     """Return the Vel FFwd after a move with a steady error (page 115)."""
     error, p = error_at_speed(trace), axis.parameters
+    # With the integral at work there is no steady error that a feed-forward could take away.
     if trace.alarms or error is None or p[loop.I_DELAY] == 0.0 < p[loop.I_GAIN]:
         return ()
     return follow(axis) if abs(error * p[loop.PULSES]) >= 2.0 else ()
@@ -309,6 +317,7 @@ def follow(axis: AxisLaw) -> Sequence[Recommendation]:
     if not speed:
         return ()
     volts = machine.viscous_friction * speed + machine.coulomb_friction + machine.gravity
+    # Three digits, as a person keys them in.
     wanted = float(f"{volts / p[loop.DAC_SHARE] / (speed * p[loop.PULSES]) + p[loop.FBVEL]:.3g}")
     if wanted < 0.0 or abs(wanted - p[loop.VEL_FFWD]) <= SAME * wanted:
         return ()

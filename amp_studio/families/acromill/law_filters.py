@@ -58,6 +58,7 @@ def _warped(name: str, frequency: float, servo_hz: float) -> float:
             f" update frequency, which is {servo_hz:g} Hz",
             ids[f"{name.lower()}_frequency"],
         )
+    # The bilinear transform bends frequencies; the tangent puts this one back in its place.
     return math.tan(math.pi * frequency / servo_hz)
 
 
@@ -71,4 +72,5 @@ def _bilinear(above: tuple[float, float, float], below: tuple[float, float, floa
 
     n0, n1, n2 = mapped(*above)
     d0, d1, d2 = mapped(*below)
+    # The printed form takes b1 and b2 off below the line: their signs are turned.
     return n0 / d0, n1 / d0, n2 / d0, -d1 / d0, -d2 / d0

@@ -60,6 +60,7 @@ def path_rules(machine: BoundMachine) -> PathRules:
         feed_acceleration=present_ones(limit(ids.feed_acc_dec)),
         rapid_acceleration=present_ones(limit(ids.rapid_acc_dec)),
         corner=_corner(limit(ids.acute_angle_1), limit(ids.acute_angle_2), limit(ids.min_corner, minute)),
+        # The block that is being made counts as known too.
         look_ahead=PathLimit(blocks.value + 1.0, blocks.param) if blocks else None,
         rapid_rests=True,
         waits=True,
@@ -72,6 +73,7 @@ def _corner(first: PathLimit | None, second: PathLimit | None, slow: PathLimit |
     """Return the rule of the corners of G62; an angle of 0 is off (page 61)."""
 
     def rule(corners: Corners) -> Sequence[tuple[PathLimit, PathRows]]:
+        # Clipped: directions of length 1 can give a hair more, of which there is no arccos.
         cosine = np.clip((corners.before * corners.after).sum(axis=1), -1.0, 1.0)
         turned = np.degrees(np.arccos(cosine))
         found = []

@@ -78,6 +78,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
 
     resting = s[RESTING] + p[PERIOD] if velocity == 0.0 and acceleration == 0.0 else 0.0
     integral, derivative = s[INTEGRAL], s[DERIVATIVE]
+    # In pulses per period: divided by the period where it is used, once.
     speed = motor - s[MOTOR_BEFORE]
     s[RESTING], s[MOTOR_BEFORE] = resting, motor
     # I Delay counts from where the command rests; 0 integrates always.

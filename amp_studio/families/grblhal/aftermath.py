@@ -40,6 +40,7 @@ def after_break(
         at, new = writing.sent.answered_state()
     else:
         at, new = ("unknown", tuple(writing.sent.names)) if writing.sent.has_begun else ("old", ())
+    # What the memory contains is not what the control shows: it could not be written.
     if error.at_control == "unknown" and at != "defaults":
         at = "unknown"
     error.at_control, error.new = at, new
@@ -76,6 +77,7 @@ def _seen(
     now = names_of(content)
     for name in {*names} & {*present, *wanted}:
         is_new = _is_shown(writing, content, name, wanted[name], now.get(name, ""))
+        # A value that is shown the same before and after is new only if it was sent.
         if is_new and (now.get(name) != present.get(name) or name in writing.sent.names):
             now[name] = wanted[name]
     # The firmware moves these itself: they may be others without the download.

@@ -38,6 +38,7 @@ def check_text(setting: DescribedSetting | None, number: int, text: str, axes: i
     ``setting`` is None where the control does not describe it: a Grbl 1.1.
     """
     name = f"${number} {setting.name}" if setting else f"${number}"
+    # A byte of a longer character could be a real-time command, which acts in the middle of a line.
     if not text.isascii() or not text.isprintable():
         raise BoundsError(f"{name} takes plain ASCII characters only")
     if (setting is None or setting.type == DECIMAL) and not _NUMBER.fullmatch(text):
@@ -62,6 +63,7 @@ def _check_length(setting: DescribedSetting, name: str, text: str) -> None:
 def _check_whole(setting: DescribedSetting, name: str, text: str, axes: int) -> None:
     if not text.isdecimal():
         raise BoundsError(f"{name} takes whole numbers from 0 on, not '{text[:40]}'")
+    # 0 is allowed for some below their least value: it switches them off.
     if not (setting.may_be_zero and int(text) == 0):
         low, high = _bounds(setting, axes)
         if not low <= int(text) <= high:

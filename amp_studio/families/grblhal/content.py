@@ -90,6 +90,7 @@ class GrblContent:
         letters = self.identity_word("AXS").partition(":")[2]
         if letters:
             return tuple(letters)
+        # Without letters the coordinates of an offset show how many axes there are.
         return tuple("XYZABCUVW"[: max(1, next(iter(self.offsets.values()), "0,0,0").count(",") + 1)])
 
 
@@ -119,6 +120,7 @@ def read_content(data: bytes) -> GrblContent:
         dict(_numbered(sections["$N"], _STARTUP, "a start-up line")),
         {name: tuple(sections[name]) for name in ENUMERATIONS if name in sections},
     )
+    # Order and repeats would be lost by reading: a copy must come back byte for byte.
     if write_content(content) != data:
         raise ImageError(
             "the copy of the settings is not in the order in which it is written, or has something twice"
@@ -137,6 +139,7 @@ def _sections(data: bytes) -> dict[str, list[str]]:
     lines = text.split("\n")
     if lines[0] != MAGIC:
         raise ImageError("this is not a copy of Grbl settings")
+    # The number of lines is in the last one: a copy that was cut off anywhere is noticed.
     if lines[-1] != "" or lines[-2] != f"end {len(lines) - 2}":
         raise ImageError("the copy of the settings has been cut off")
     if match := _CONTROL_CHARACTER.search(text):
@@ -154,6 +157,7 @@ def _sections(data: bytes) -> dict[str, list[str]]:
             raise ImageError(f"line {number} of the copy of the settings belongs to no section")
         else:
             here.append(line)
+    # The others are of controls that describe themselves.
     for name in _SECTIONS[:4]:
         if name not in sections:
             raise ImageError(f"the copy of the settings has no section {name}")

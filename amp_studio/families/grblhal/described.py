@@ -142,6 +142,7 @@ class _Maker:
                 if text:
                     new = {"id": f"{reaction}-{n}", "code": f"{word}:{n}", "reaction": reaction, "page": page}
                     same = by_code.get(f"{word}:{n}")
+                    # The control's words, with the causes and cures that are known of the code.
                     facts = same.model_dump() if same is not None else new
                     own.append(
                         ControlMessage.model_validate(facts | {"text": text, "title": "", "page": page})
@@ -156,6 +157,7 @@ class _Maker:
         group = self.described.groups.get(setting.group)
         inside = self.described.groups.get(group.parent) if group else None
         if dash and letter in self.axes and inside is not None and inside.name == _AXIS_GROUP:
+            # The last digit of a number is its axis; another one only looks like the setting of an axis.
             return letter if self.axes.index(letter) == setting.number % 10 else ""
         return ""
 
@@ -169,6 +171,7 @@ class _Maker:
             return DescribedGroup("other", "Other", order=order)
         same = next((g for g in self.known.groups if g.name == group.name), None)
         parent = self.described.groups.get(group.parent)
+        # The root group is its own parent: it is no heading of anything.
         inside = parent is not None and parent.number not in (group.number, parent.parent)
         key = same.key if same else group_key(group.name) or f"group_{group.number}"
         if inside and parent:

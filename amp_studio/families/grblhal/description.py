@@ -232,6 +232,7 @@ _READERS = {
 
 def _keep(known: dict[int, T], number: int, entry: T, most: int, what: str) -> None:
     if number in known:
+        # Asked twice it comes twice: only a contradiction is an error.
         if known[number] == entry:
             return
         raise DescriptionError(f"the {what} {number} is described twice, each time otherwise")
@@ -241,6 +242,7 @@ def _keep(known: dict[int, T], number: int, entry: T, most: int, what: str) -> N
 
 
 def _parts(rest: str, count: int, what: str) -> list[str]:
+    # Groups and codes end with a text, in which a bar may be.
     parts = rest.split("|", count - 1 if count == 3 else -1)
     if len(parts) != count:
         raise DescriptionError(f"'{short(rest)}' is not {what}: {count} entries between bars are wanted")

@@ -76,7 +76,9 @@ def fit_to(file: ParameterFile, schema: Schema, axes: Sequence[str]) -> Fitted:
         if number is None:
             if address in found.machine_schema.addresses:
                 found.set(address, value)
+        # What is hidden is not in the control that the file is of.
         elif file.evaluation.state(address).state != "hidden":
+            # A bit of an axis that is not there would be refused, or be that of another option.
             if number in no_room and isinstance(value.value, (int, float)):
                 bits = no_room[number]
                 text = str(int(value.value))

@@ -103,6 +103,8 @@ class GrblContentKind:
         How the control describes itself stays, so that a copy of another build goes back too, by the numbers.
         """
         copy, present = read_content(content), read_content(current)
+        # Offsets of axes that the copy does not have stay: in two units one line of them could not be
+        # written.
         if copy.axes != present.axes and reports_inches(copy) != reports_inches(present):
             raise ImageError(
                 "the copy is of a control with other axes, and shows offsets in another unit: set $13 alike"
@@ -186,6 +188,7 @@ def _settings_for(file: ParameterFile, present: GrblContent, current: bytes) -> 
     try:
         schema = _schema_of(present, current)
         build = _build(schema, present)
+        # Of the same build only bits of axes can differ: names of all others are the same.
         kept = bits_beyond(build, build_of(file), axes_only=file.schema.signature == schema.signature)
         if file.schema.signature != schema.signature:
             fitted = fit_to(file, schema, present.axes)
@@ -268,6 +271,7 @@ def _fitted(
         # A control shows a password as asterisks: sent back, they would become the password.
         if number in known and known[number].type == PASSWORD and not text.strip("*"):
             continue  # a mask, not a password
+        # It is there already: not written, so that the memory is not worn.
         if is_shown_as(text, reported) and _is_as_fine(text, reported):
             continue
         try:
@@ -326,6 +330,7 @@ def _moved_by_homing(settings: Mapping[int, str], homing: str) -> dict[int, str]
     """Return the settings that go with a new value of $22."""
     if not homing.isdecimal():
         return {}
+    # Without homing the firmware switches soft limits off: no position is known to check.
     moved = {} if int(homing) & 1 else {SOFT_LIMITS: "0", JOG_LIMITS: "0"}
     if settings.get(RESET_ACTIONS, "").isdecimal():
         keeps = int(homing) & 1 and int(homing) & _KEEP_HOMED

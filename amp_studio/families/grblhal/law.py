@@ -80,6 +80,7 @@ def bind(read: AxisParameters) -> AxisLaw:
     steps, rate, acceleration = (
         read.above_zero(name) for name in (ids.axis_steps, ids.max_rate, ids.axis_acceleration)
     )
+    # $376 has a bit for each axis from A on.
     unit = "deg" if _bit(read, ids.rotary_axes, MOTION.axes.index(read.axis) - 3) else "mm"
     ramp = Ramp("linear", acceleration=acceleration)
     return AxisLaw(
@@ -93,6 +94,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         servo_period=SAMPLE,
         velocity_period=SAMPLE,
         machine=Machine(
+            # High on purpose: a stepper follows its steps, or loses them, which is not simulated.
             acceleration_per_output=1e4,
             velocity_per_output=1.0 / 60.0,
             velocity_bandwidth=MOTION.value("velocity_bandwidth"),
@@ -178,6 +180,7 @@ def travel(read: AxisParameters) -> Travel:
     if read.value(ids.limits_soft, everywhere=True) not in (True, "yes"):
         return Travel({}, "ALARM:2", SOURCE, ("Soft limits are off ($20): only switches stop an axis.",))
     length, cycle = read.number(ids.max_travel), int(read.optional(ids.homing_cycle, everywhere=True) or 0.0)
+    # The pull-off is taken off the travel only where hard limits would trip at its end.
     back = (read.optional(ids.pull_off, everywhere=True) or 0.0) if _bit(read, ids.limits_hard, 0) else 0.0
     low, high = back - length, -back
     if cycle & ORIGIN:

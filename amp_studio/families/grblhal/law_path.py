@@ -61,8 +61,11 @@ def _corner(deviation: PathLimit, accelerations: Mapping[str, PathLimit]) -> Cor
                 ),
                 axis=1,
             )
+            # Half the angle by its sine, without an arc function (half-angle formula).
             half = np.sqrt(0.5 * (1.0 - cosine))
             speed = np.sqrt(bound * deviation.value * half / (1.0 - half))
+        # ``cosine`` is of the angle inside the corner: 1 is a reversal, -1 straight on, where 1 - half is
+        # 0.
         speed[cosine > STRAIGHT] = 0.0
         speed[cosine < -STRAIGHT] = np.inf
         return ((deviation, speed),)

@@ -156,6 +156,7 @@ class GrblLine:
                 continue
             answer.append(line)
             size += len(line) + 2
+            # A line without ``ok``, as of another program, would fill the memory.
             if size > LONGEST_ANSWER:
                 raise ProtocolMismatchError("the control answers without an end")
 
@@ -184,6 +185,7 @@ class GrblLine:
         and read all that is still to come of earlier commands.
         """
         self._begin(START, lingers=False)
+        # So that the first line is sent at once.
         sent, sent_at, asked_at, refused = 0, -AGAIN, 0.0, 0
         is_alive = False  # it reports its state: no boot loader has swallowed the first line
         while not refused:
@@ -250,6 +252,7 @@ class GrblLine:
         # Bounded: at a wrong baud rate everything is one line without an end.
         if len(self._buffer) > LONGEST_LINE or any(len(line) > LONGEST_LINE for line in lines):
             raise ProtocolMismatchError("the control sends a line without an end")
+        # Replaced, not refused: a damaged byte is found by reading twice (``reading``).
         texts = (line.strip(b"\r\0").decode("utf-8", errors="replace") for line in lines)
         self._lines.extend(text for text in texts if text.strip())
 
@@ -266,6 +269,7 @@ class GrblLine:
         if match := _ALARM.fullmatch(line):
             self.alarm = int(match[1])
             return True
+        # A status report that somebody else has asked for.
         return line.startswith("<")
 
     # -- patience ------------------------------------------------------------------------------------

@@ -36,6 +36,7 @@ class Build:
         first = parameter.first_axis
         if first is None:
             return {bit.bit: bit.label for bit in parameter.bits or ()}
+        # A mask of rotary axes begins with the fourth axis: its bit 0 is A.
         return {n - first: self.axes[n] for n in range(first, len(self.axes))}
 
 

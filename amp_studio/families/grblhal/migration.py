@@ -72,6 +72,7 @@ class _SettingsWriter:
         self.out.texts[f"{name}.settings"] = "\n".join(
             (*lines, *(f"${n}={self.values[n]}" for n in order), f"$N0={self.startup}", "")
         )
+        # First: of all that is lost this is the most dangerous.
         self.out.less_safe.insert(0, "no axis is measured: a lost step or a blocked axis is not noticed")
         return self.out
 
@@ -101,6 +102,7 @@ class _SettingsWriter:
         minus = sum(1 << place for axis, place in homed if _homes_to_minus(axis))
         self.values[23] = str(minus)
         steps = self.out.home_steps([LETTERS[place] for _, place in homed], self.answers)
+        # $44 to $49: the firmware has six phases.
         for at, step in enumerate(steps[:6]):
             self.values[44 + at] = str(
                 sum(1 << LETTERS.index(letter) for letter in step if letter in LETTERS)

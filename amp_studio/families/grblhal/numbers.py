@@ -44,13 +44,16 @@ def read_number(text: str) -> float:
     if match is None or not (match[1] or match[2]):
         raise ValueError(f"'{text[:40]}' is no number")
     whole, fraction = match[1].lstrip("0"), match[2] or ""
+    # The firmware counts nine digits and drops the rest without rounding.
     number = int((whole + fraction).lstrip("0")[:DIGITS] or "0")
     if len(whole) >= DIGITS:
         exponent = len(whole) - DIGITS
     else:
         zeros = len(fraction) - len(fraction.lstrip("0")) if not whole else 0
         exponent = -min(len(fraction), zeros + DIGITS - len(whole))
+    # Nine digits do not fit a 32-bit float: rounded here once, as the firmware does.
     value = single(float(number))
+    # Before it is scaled: thousands of digits would multiply for ever.
     if value and (exponent > DIGITS or value * 10.0**exponent > LARGEST):
         raise ValueError(f"{text[:20]} is too large")
     value = _scaled(value, exponent) if value else value
@@ -73,6 +76,8 @@ def shown_number(value: float, decimals: int) -> str:
     rest = single(abs(value) + single(0.5 * 10.0**-decimals))
     whole = int(rest)
     rest, left = single(rest - whole), decimals
+    # Two digits at a time, as ``ftoa``: each multiplication rounds, and another order would round
+    # otherwise.
     while left >= 2:
         rest, left = single(rest * 100.0), left - 2
     if left:

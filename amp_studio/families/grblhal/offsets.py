@@ -63,6 +63,7 @@ def offset_commands(wanted: GrblContent, present: GrblContent) -> Iterable[tuple
     """Yield name and command of each offset that is to be put back; a command is in the unit that it
     names.
     """
+    # In the unit in which they were shown: nothing is converted, nothing rounded.
     unit = "G20" if reports_inches(wanted) else "G21"
     for name in offset_differences(wanted, present):
         parts = wanted.offsets[name].split(",")

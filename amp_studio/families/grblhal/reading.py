@@ -54,6 +54,7 @@ def read_control(
     progress(stage, 0, steps)
     settings, offsets, startup = _read_twice(line, who, step)
     enumerations: Mapping[str, tuple[str, ...]] = {}
+    # The enumerations are most of the bytes: over a serial line they last seconds.
     if before is not None and (before.identity, before.settings.keys()) == (who.identity, settings.keys()):
         enumerations = before.enumerations
     elif is_grblhal(who):
@@ -127,6 +128,7 @@ def read_settings(line: GrblLine, who: GrblContent) -> dict[int, str]:
 def _enumeration(line: GrblLine, name: str) -> dict[str, tuple[str, ...]]:
     """Return the answer under its command; nothing where this build does not know it."""
     try:
+        # A line that begins so would be a section of the kept content.
         lines = (_clean(text).removeprefix("> ") for text in line.ask(name))
         return {name: tuple(text for text in lines if text.strip())}
     except GrblRefusalError:

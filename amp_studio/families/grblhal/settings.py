@@ -75,6 +75,7 @@ def text_of_value(parameter: Parameter, value: Value, *, turns: bool = False) ->
     """Return the text that sets a value: no exponent, in the control's unit; raises StorageError."""
     if parameter.type == "text":
         return str(value.value)
+    # Through the shortest text of the float: the firmware reads no exponent.
     text = format(Decimal(repr(to_figure(parameter, value, stored_unit(parameter, turns=turns)))), "f")
     return text.rstrip("0").rstrip(".") if "." in text else text
 
@@ -93,6 +94,7 @@ def values_of_settings(
     deciding = {
         read.partition("@")[0] for c in schema.family.conditions.values() for read in c.reads.values()
     }
+    # First the settings that decide in which unit others are.
     for number in sorted(settings, key=lambda n: (known.get(n, ("", ""))[0] not in deciding, n)):
         if number not in known:
             continue

@@ -27,6 +27,7 @@ def status_of(identity: ControlIdentity, report: str, alarm: str = "") -> Contro
     state, *parts = report.strip("<>").split("|")
     fields = dict(part.partition(":")[::2] for part in parts)
     try:
+        # $10 decides which of both is in the report.
         places = _numbers(fields.get("MPos") or fields.get("WPos") or "")
         feed, speed, *_ = (*_numbers(fields.get("FS", fields.get("F", ""))), 0.0, 0.0)
     except ValueError:

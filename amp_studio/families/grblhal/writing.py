@@ -109,6 +109,7 @@ class Writing:
         line.ask(unit, writes=True)
 
     def _write(self, line: GrblLine, name: str, command: str) -> None:
+        # Between two settings is the only point at which a download may stop.
         line.go_on()
         self.sent.begin(name)
         try:

@@ -124,5 +124,7 @@ def write_figure(parameter: Parameter, value: Value, unit: str) -> str:
     if parameter.type == "text":
         return _line_text(parameter, str(value.value))
     number = to_stored(parameter, value, unit)
+    # Through the shortest text of the float, without an exponent: LinuxCNC reads one, but a person should
+    # not have to.
     text = format(Decimal(repr(float(number))) if parameter.type == "real" else Decimal(int(number)), "f")
     return text.rstrip("0").rstrip(".") if "." in text else text

@@ -14,6 +14,7 @@ _SET = re.compile(r"\s*(?:setp\s+(\S+)|sets\s+(\S+))", re.IGNORECASE)
 def references(text: str) -> Iterator[tuple[int, str, str]]:
     """Yield line, ``[JOINT_0]P``, and the pin or signal that the line sets to it; "" for another use."""
     for number, row in enumerate(text.splitlines(), 1):
+        # A remark names keys without using them.
         line = row.split("#")[0]
         match = _SET.match(line)
         for each in _REFERENCE.finditer(line):

@@ -115,10 +115,13 @@ class _Reader:
             self._begin(match[1], file, at)
         elif (match := _KEY.match(row)) and self._section is not None:
             self._entry(match, file, rows, at, count)
+        # A new key goes below the last line with content: behind remarks and blank lines it would seem to
+        # be of the next section.
         if not file and self._section is not None and not self._is_again and _CONTENT.match(row):
             self.last[self._section] = at + count - 1
 
     def _include(self, name: str) -> None:
+        # A file that includes itself, directly or through others, would go on for ever.
         text = self.beside(name) if len(self.lines) <= _MOST_INCLUDES and name not in self.lines else None
         if text is None:
             self.missing.append(name)
@@ -139,6 +142,7 @@ class _Reader:
         )
         more = [row.rstrip("\r").removesuffix("\\") for row in rows[at + 1 : at + count]]
         value = "".join((first, *more)).strip(" \t\r")
+        # Before the backslash of a value over several lines, which is taken away where it is replaced.
         end = match.end() + (len(first.rstrip(" \t\r")) if count == 1 else len(first))
         where = (self._section, match[1])
         shadow = ""
@@ -148,6 +152,7 @@ class _Reader:
             before = self._seen[where]
             shadow = f"{_place(before.file, before.line)} comes first and counts"
         entry = IniEntry(self._section, match[1], value, file, at, count, match.end(), end, shadow)
+        # Kept without a value too: an empty first line also hides the ones after it.
         self._seen.setdefault(where, entry)
         if value or shadow:  # without a value it is as if it were not there (F465), and so are those after it
             self.entries.append(entry)

@@ -109,6 +109,7 @@ def bind(read: AxisParameters) -> AxisLaw:
     gain, forward = joint.optional("pid_p"), joint.optional("pid_ff1")
     notes = [RAMP] + ([] if gain else [NO_LOOP])
     ferror = joint.number("ferror", 1.0)
+    # Without MIN_FERROR LinuxCNC takes FERROR for it.
     least = joint.number("min_ferror", ferror)
     rate = gain or MOTION.value("position_gain")
     # Without a loop in the file the joint follows as the assumed one does, feed-forward included.
@@ -125,6 +126,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         servo_period=(read.optional(ids.servo_period, everywhere=True) or 1.0) / 1000.0,
         velocity_period=(read.optional(ids.servo_period, everywhere=True) or 1.0) / 1000.0,
         machine=Machine(
+            # High on purpose: of the drive nothing is known but that it follows its speed.
             acceleration_per_output=1e4,
             velocity_per_output=1.0,
             velocity_bandwidth=MOTION.value("velocity_bandwidth"),
@@ -132,6 +134,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         output_unit=f"{unit}/s",
         position_rate=rate,
         feedrate=top,
+        # No such band is in the file: a tenth of the error that is allowed at rest.
         inposition_band=max(least / 10.0, 1e-6),
         ramps={"linear": Ramp("linear", acceleration=ramp), "none": Ramp()},
         monitors=(("following_error_limit", unit),),
@@ -190,6 +193,7 @@ def homing(joint: _Joint) -> Homing:
         coordinate=home,
         final=final if final > 0.0 else fastest,
         offset=home - offset,
+        # The joints of a negative step make the final move together; its order is the same.
         order=None if sequence is None else abs(int(sequence)),
         pause=MOTION.value("home_pause"),
         page="H796",

@@ -172,6 +172,7 @@ class _Shaping:
     def _kinked(self, one: Integers, two: Integers, speed: PathRows) -> PathRows:
         """Return the share of an acceleration that a change of direction takes in a cycle (TP1894)."""
         moves, straight = self._moves, self._straight
+        # The whole speed changes its direction within one cycle, on top of the ramp of the next move.
         at_once = speed / self._figures.period + moves.acceleration[two]
         turn = np.abs(moves.first[two] - moves.last[one])[:, straight]
         share = (turn * at_once[:, None] / self._limits.accelerations[straight]).max(axis=1)
@@ -187,7 +188,9 @@ class _Shaping:
         """
         moves, tolerance = self._moves, self._moves.tolerance
         cosine = (moves.last[one] * moves.first[two]).sum(axis=1)
+        # Half the angle between the two moves inside the corner; ``phi`` is by how much the path turns.
         theta = 0.5 * np.arccos(np.clip(-cosine, -1.0, 1.0))
+        # Straight on there is nothing to round, and back no arc fits.
         turns = (theta > SMALLEST_ANGLE) & (theta < 0.5 * math.pi - SMALLEST_ANGLE)
         one, two, theta, slow = one[turns], two[turns], theta[turns], slow[turns]
         phi = math.pi - 2.0 * theta
@@ -206,7 +209,9 @@ class _Shaping:
         half = 0.5 * acceleration
         time = np.minimum(np.sqrt(2.0 * half * room), speed) / half
         radius = np.maximum(speed * speed / (NORMAL * acceleration), np.minimum(time * speed / phi, largest))
+        # An arc shorter than a cycle at its speed would be jumped over.
         speed = np.minimum(speed, radius * phi / self._figures.period)
+        # Where the sharp corner is passed faster, the planner leaves it sharp.
         is_round = (radius * phi >= SHORTEST) & (speed > slow)
         at, after = one[is_round], two[is_round]
         between.speed[at], between.by[at], between.kink[at] = math.inf, 0, 0.0
@@ -225,6 +230,7 @@ class _Shaping:
         """Return the wanted speed, or what the axes have in every direction of a corner if that is less
         (blendParamKinematics).
         """
+        # Just short of a right angle, where the cosine would be 0.
         flat = np.cos(np.minimum(phi, math.pi * 0.49))
         a = np.minimum(self._top[one], self._top[two] / flat)
         b = np.minimum(self._top[two], self._top[one] / flat)
@@ -245,6 +251,7 @@ class _Shaping:
         # Two axes that move lie in it whole.
         is_flat = moving.sum(axis=1) == 2
         lies[is_flat] = moving[is_flat]
+        # An axis that is square to the plane bounds nothing in it.
         found = bounds[self._straight] / np.maximum(lies, 1e-12)
         least = found.argmin(axis=1)
         return found[np.arange(len(least)), least], np.array(self._straight)[least]
@@ -263,6 +270,7 @@ class _Shaping:
             planes >= 0, 2, _straight_rows(between.radius[rounds], between.angle[rounds])
         )
         left, top, top_by, acceleration = self._left(between)
+        # A move that its two corners take whole leaves no row.
         is_row = ~between.is_round | (left > SHORTEST)
         total = int(is_row.sum() + parts.sum())
         if total > MOST_ROWS:
@@ -297,6 +305,8 @@ class _Shaping:
         top, top_by, acceleration = self._top.copy(), moves.top_by.copy(), moves.acceleration.copy()
         rounds = between.is_round
         short = np.zeros(len(left), bool)
+        # What is left would be faster than the arcs for a few cycles only: the planner goes on at their
+        # speed.
         short[rounds] = left[rounds] / between.top[rounds] < GAP_CYCLES * period
         slower = short & (between.top < top)
         top[slower], top_by[slower] = between.top[slower], between.top_by[slower]
@@ -362,8 +372,10 @@ class _Shaping:
         """
         u, v = self._moves.last[rounds], self._moves.first[rounds + 1]
         found = np.full(len(rounds), -1)
+        # The first plane wins where a corner is in several.
         for n, (_, _, third) in reversed(self._planes.items()):
             found[(u[:, third] == 0.0) & (v[:, third] == 0.0)] = n
+        # Rapid rows are straight: an arc would have a feedrate.
         found[self._moves.kind[rounds] == RAPID] = -1
         return found
 
@@ -398,6 +410,7 @@ class _Shaping:
         is_rapid = moves.kind[corner] == RAPID
         out.kind[at] = np.where(is_rapid, RAPID, np.where(planes[each] >= 0, ARC, LINE))
         out.row[at], out.plane[at] = moves.row[corner], np.maximum(planes[each], 0)
+        # Half of the corner is of the block before, half of the one after.
         out.line[at] = path.line[moves.row[np.where(part * 2 > parts[each], corner + 1, corner)]]
         out.feed[at] = np.where(is_rapid, 0.0, between.programmed[corner])
         out.arc[at] = arc[each]

@@ -73,6 +73,7 @@ class AxisLimits:
 def along(direction: PathRows, bounds: PathRows) -> tuple[PathRows, Integers]:
     """Return what the axes allow in each direction (n, axes), and the axis that bounds it (CN739)."""
     share = np.abs(direction)
+    # An axis that does not move bounds nothing, and would divide by 0.
     moves = share > 1e-12
     allowed = np.where(moves, bounds / np.where(moves, share, 1.0), math.inf)
     axis = allowed.argmin(axis=1)
@@ -181,6 +182,8 @@ def _joined(begin: PathRows, points: PathRows, goes_on: Booleans, joins: float, 
     first, n = second - 1, second + 2
     end = min(second + MOST_JOINED, len(points))
     while n < end:
+        # As many as were joined so far: so a long row of points takes few rounds, and a short one few
+        # checks in vain.
         tried = np.arange(n, min(n + max(8, n - first), end))
         replaced = points[first : tried[-1]]
         near = _is_near(begin, points[tried][:, None], replaced[None], joins)
@@ -260,6 +263,7 @@ def _round(path: ToolPath, geometry: Geometry, found: PathSegments, limits: Axis
             geometry.first[rows],
             geometry.last[rows],
         )
+        # A helix takes the longer of the two: the turn, or the rise of its third axis.
         top[arcs] = length[arcs] / np.maximum(time, rises)
         acceleration[arcs] = length[arcs] / np.maximum(ramp_time, ramps)
         flat_by = np.where(is_across, len(limits.speeds) + weakest, slowest)

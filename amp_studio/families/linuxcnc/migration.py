@@ -388,6 +388,7 @@ class _Migration:
     def _loop(self, axis: AxisMeaning, j: str, sign: str) -> None:
         limit, gain, forward = axis.number("error.limit"), axis.number("gain"), axis.number("feed_forward")
         if limit:
+            # The old control has one limit at every speed; with both alike LinuxCNC has too.
             for key in ("FERROR", "MIN_FERROR"):
                 self.ini.put(j, key, not_above(limit), self._of(axis, "error.limit", "exact"))
             self.out.grade(axis, "error.limit", "exact", f"[{j}]FERROR, [{j}]MIN_FERROR", not_above(limit))
@@ -403,6 +404,7 @@ class _Migration:
             self.out.grade(axis, "gain", "exact", f"[{j}]P", not_above(gain))
         self.ini.put(j, "FF1", not_above(forward or 0.0), self._of(axis, "feed_forward", "exact"))
         self.out.grade(axis, "feed_forward", "exact", f"[{j}]FF1", not_above(forward or 0.0))
+        # 0 is no limit.
         self.ini.put(j, "MAX_OUTPUT", "0")
         if (play := axis.number("backlash")) is not None:
             self.ini.put(j, "BACKLASH", not_above(play), self._of(axis, "backlash", "approximate"))
@@ -502,6 +504,7 @@ class _Migration:
         found = self.out.answer(question, self.answers, _SIGNED)
         if found:
             self.ini.put(j, "HOME_ABSOLUTE_ENCODER", "2", self._of(axis, "home.kind", "exact"))
+            # The encoder's reading and the offset add up to 0 there.
             self.ini.put(j, "HOME_OFFSET", inwards_high(0.0 - float(found)), "answered")
         self.out.grade(
             axis,
@@ -537,6 +540,7 @@ class _Migration:
         least, most = at if low is None else low + room, at if high is None else high - room
         within = min(max(at, least), most)
         outcome: GradeKind = "exact" if within == at else "approximate"
+        # Rounded into the travel: a last decimal outward would be an error at every homing.
         text = inwards_low(within) if within == least else inwards_high(within)
         self.ini.put(j, "HOME", text, self._of(axis, "home.coordinate", outcome))
         self.out.grade(
@@ -561,6 +565,7 @@ class _Migration:
 
     def _home_speeds(self, axis: AxisMeaning, j: str, search: float, leave: float, *, alone: bool) -> None:
         rapid = axis.number("rapid") or abs(search)
+        # Without a switch there is no search: the latch goes to the marker.
         first = 0.0 if alone else math.copysign(min(abs(search), rapid), search)
         latch = search if alone else leave
         slow = math.copysign(min(abs(latch), rapid), latch)

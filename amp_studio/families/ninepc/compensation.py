@@ -66,6 +66,7 @@ class NinePcTable:
             )
         points = tuple((_rounded(at), _rounded(by)) for at, by in table.points)
         text = CalibrationText(table.input, table.start, table.unit, points).written()
+        # A table without points is nothing in the file; there is no text to check.
         if points:
             try:
                 read_calibration(text)
@@ -90,7 +91,9 @@ class NinePcTable:
             raise CalibrationError(
                 "a calibration point has at most six digits before the point: check the units"
             )
+        # Only the positions yet: deviations are rounded after the shift, so that no rounding is made twice.
         points = [(_rounded(at), by) for at, by in _filled(errors, LONGEST_INTERVAL[table.unit]).points]
+        # The end at which the screen begins, whose deviation the control takes as 0 (36-7).
         first = 0 if table.start == "-" else -1
         origin = points[first][1]
         if origin:
@@ -103,6 +106,7 @@ class NinePcTable:
         kept = _thinned(shifted, self._left(file, axis))
         if len(kept) < len(shifted):
             notes.append(f"{len(kept)} of {len(shifted)} points fit into the table of the control")
+        # After thinning: the 2 % count over the way from the point before, which is longer then.
         steep = _gentle(kept, reverse=table.start == "+")
         if len(steep) < len(kept):
             notes.append(
@@ -110,6 +114,7 @@ class NinePcTable:
                 " way from the one before"
             )
         made = replace(table, points=tuple((at, _rounded(by)) for at, by in steep))
+        # What was made here must pass the check of what a person enters.
         self.write(file, axis, made)
         return FittedTable(made, tuple(notes))
 
@@ -174,6 +179,7 @@ def _closed(
             f"the points reach over {float(high - low):g} deg, and the axis rolls over at {float(turn):g}"
         )
     if high - low < turn:
+        # At the end entered last: the other one is where the deviation is 0.
         end = (low + turn, first) if start == "-" else (high - turn, last)
         notes.append(
             f"the turn is closed with a point at {float(end[0]):g} deg that has the deviation of the start"
@@ -191,6 +197,7 @@ def _rollover(file: ParameterFile, axis: str) -> Fraction:
     """Return the angle at which an axis rolls over; 0 where it does not."""
     address = ("axis.rollover", axis)
     value = file.evaluation.canonical(address)
+    # 0 switches rollover off (4-6).
     if not isinstance(value, float) or value <= 0 or not file.evaluation.state(address).is_active:
         return Fraction(0)
     return Fraction(repr(value))
@@ -206,6 +213,7 @@ def _filled(errors: ErrorCurve, longest: Fraction) -> ErrorCurve:
     points = list(errors.points[:1])
     for at, by in errors.points[1:]:
         low = points[-1][0]
+        # Rounded up, in fractions: a float could leave a piece a hair too long.
         pieces = -int(-(at - low) // longest) if at - low > longest else 1
         points += [(p, errors.at(p)) for p in (low + (at - low) * n / pieces for n in range(1, pieces))]
         points.append((at, by))
@@ -227,6 +235,7 @@ def _thinned(points: list[tuple[Fraction, Fraction]], most: int) -> list[tuple[F
         _, at, low, high = worst.pop(worst.index(max(worst)))
         kept.append(at)
         for one, other in ((low, at), (at, high)):
+            # Between neighbours there is no point to miss.
             if other - one > 1:
                 worst.append((*_farthest(rough, one, other), one, other))
     return [points[n] for n in sorted(kept)]
@@ -249,6 +258,7 @@ def _gentle(points: list[tuple[Fraction, Fraction]], *, reverse: bool) -> list[t
         if abs(_rounded(by)) <= STEEPEST * abs(at - kept[-1][0]):
             kept.append((at, by))
     while kept[-1] != entered[-1] and len(kept) > 1:  # the end of the travel has to be in the table
+        # The end is too steep from there: points before it make way until it is not.
         kept.pop()
         at, by = entered[-1]
         if abs(_rounded(by)) <= STEEPEST * abs(at - kept[-1][0]):

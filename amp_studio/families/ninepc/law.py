@@ -102,11 +102,13 @@ def bind(read: AxisParameters) -> AxisLaw:
     The slave of a split axis goes with its master (chapter 32).
     """
     slave = split.slave_of(read)
+    # Its loops are in the drive: nothing of a split axis is known of it.
     if _kind(read).drive == "sercos":
         return _alone(read)
     if slave is None:
         return _leading(read)
     master = read.of(slave.master)
+    # A chain would make each of them wait for the motion of another.
     if split.slave_of(master) is not None:
         raise SimulationError(f"The master of axis {read.axis} is a slave itself", split.SETS[0][0])
     law, unit, stiffness = _alone(read, master), _kind(read).unit, split.coupling_of(read)
@@ -122,6 +124,7 @@ def _leading(read: AxisParameters) -> AxisLaw:
         return law
     stiffness, other = split.coupling_of(read), read.of(partner)
     own = split.slave_of(other)
+    # Nothing of the slave reaches the master: it is simulated alone.
     if own is None or not stiffness:
         return replace(law, assumptions=(*law.assumptions, split.LOOSE.format(law.unit)))
     law = replace(law, assumptions=(*law.assumptions, split.JOINED))
@@ -261,6 +264,7 @@ def _limits(parameters: list[float], read: AxisParameters, loop: Loop) -> dict[s
         "feedrate suppression": parameters[samples.SUPPRESSION],
         "inposition band": not_negative(read, ids.inposition_band),
     }
+    # At a ratio of 1 the gain does not change there: the point is no limit of anything.
     if loop.break_ratio < 1.0:
         limits["gain break point"] = loop.break_point
     return limits
@@ -280,6 +284,7 @@ def _bounded(source: Source, unit: str) -> Source:
     parameter = load_schema("9pc").parameters[source.parameter]
     turning = (v.ranges for v in parameter.range_variants if v.when == "rotary_axis" and unit == "deg")
     ranges = next(turning, parameter.ranges or {})
+    # Bounds are printed in two units: those in inches are the same ones, rounded otherwise.
     metric = ((printed, high) for printed, (_, high) in ranges.items() if not printed.startswith("in"))
     printed, high = next(metric, ("", None))
     largest = canonical(high, printed) if isinstance(high, float) else math.inf

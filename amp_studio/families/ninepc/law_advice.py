@@ -52,6 +52,8 @@ class ServoFigures:
         value = rounded_up(value) if up else rounded_down(value)
         if source.whole:
             value = float(math.ceil(value) if up else math.floor(value))
+        # The control takes no more (Patch AMP checks no range): the recommendation ends there and states
+        # it.
         if value > source.largest:
             value = source.largest
             why = f"{why[:-1]}; the upper limit of {source.parameter} is {value_text(value)}."
@@ -129,6 +131,7 @@ def _order(m: ServoFigures) -> Iterator[Recommendation]:
     otherwise the control corrects them itself.
     """
     highest = _excess_target(m)
+    # Only a smaller excess error can fall below the limits under it.
     if highest >= m.p[samples.EXCESS] or highest >= m.p[samples.SUPPRESSION]:
         return
     limits = "each limit of the following error must not be above the next one"
@@ -136,6 +139,7 @@ def _order(m: ServoFigures) -> Iterator[Recommendation]:
     yield from m.advise("feedrate_suppression", highest, m.axis.unit, why, ORDER_PRICE)
     point = m.axis.limits.get("gain break point", math.inf)
     cutting = m.p[samples.CUTTING] or 0.5 * m.feedrate
+    # Not below two in-position bands: the break must not come into the band in which the axis rests.
     wanted = max(cutting / m.loop.rate, 2.0 * m.axis.inposition_band)
     if highest <= point < math.inf and wanted < highest:
         why = f"Lower the gain break point too, to the following error at the cutting feedrate: {limits}."
@@ -145,6 +149,7 @@ def _order(m: ServoFigures) -> Iterator[Recommendation]:
 def _suppression(m: SimulatedMove) -> Iterator[Recommendation]:
     limit, point = _excess_target(m), m.p[samples.SUPPRESSION]
     lost = int((m.trace.columns["feed_share"] < 1.0).sum()) * _step(m)
+    # Above the excess error it never acts: there is nothing to gain.
     if lost == 0.0 or limit <= point:
         return
     why = (
@@ -176,6 +181,7 @@ def _ramp(m: SimulatedMove) -> Iterator[Recommendation]:
     now = max(ramp.acceleration, ramp.deceleration) if ramp else 0.0
     if ramp is None or now == 0.0 or used > 1.01 * now:
         return  # the move was not made with the linear ramp of the axis
+    # Of two ramps the steeper one uses the most torque; a change of the other would change nothing.
     steeper = "linear_deceleration" if ramp.deceleration > ramp.acceleration else "linear_acceleration"
     available = RESERVE * _available(m)
     limited = _time_at_limit(m)
@@ -209,6 +215,7 @@ def _time_at_limit(m: SimulatedMove) -> float:
     limit = (
         min(m.p[samples.LIMIT_POSITIVE], m.p[samples.LIMIT_NEGATIVE]) or m.axis.machine.torque_limit_positive
     )
+    # The current loop lags: the torque comes near its limit without reaching it.
     return float((torque >= 0.999 * limit).sum()) * _step(m)
 
 

@@ -85,6 +85,7 @@ def columns(read: AxisParameters, drive: str, p: list[float], notes: list[str]) 
             read, ids.voltage_at_max, volts, abs(volts) <= VOLTS, "must be from -10 to 10 V", everywhere=True
         )
         demand(read, ids.spindle_max_speed, divisor, divisor > 0.0, "must be above 0", everywhere=True)
+        # By the channels found, not by their number: an output that shows another axis takes no place.
         first = samples.DAC + samples.DAC_FIGURES * len(found)
         p[first : first + samples.DAC_FIGURES] = [float(signal), volts / (divisor * unit), abs(volts)]
         found.append((f"dac_{channel.number}", "V"))

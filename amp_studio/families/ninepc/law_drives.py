@@ -78,8 +78,10 @@ def digital(read: AxisParameters, parts: Parts) -> AxisLaw:
         torque_for(integral, travel),
     )
     p[samples.TORQUE_UNIT] = torque_for(1.0, travel)
+    # A whole number of velocity samples in a SERCOS cycle, next to the inferred 1 ms.
     p[samples.PERIOD] = common["servo_period"] / max(1, round(common["servo_period"] / VELOCITY_PERIOD))
     delay, bandwidth = if_set(read, OWN_DELAY, 1e3 * DELAY) / 1e3, if_set(read, OWN_BANDWIDTH, CURRENT_LOOP)
+    # ``_torque`` sets limits and filter in ``p``: what follows reads them.
     lag = lag_of(delay, bandwidth, _torque(read, p, notes))
     rate = 0.0 if p[samples.OPEN] else loop.rate
     notes += [notes_of.GAINS, notes_of.VELOCITY_LOOP, notes_of.LIMITS]
@@ -96,6 +98,7 @@ def digital(read: AxisParameters, parts: Parts) -> AxisLaw:
         motor_count=feedback.motor_count,
         position_count=feedback.position_count,
         load_sensor=feedback.on_load,
+        # Friction is what the control compensates at the motor: all of it is taken to act there.
         motor_friction=1.0,
     )
     assumed = MOTION.reasons(bandwidth="current_loop", delay="delay")
@@ -140,6 +143,7 @@ def _inertia(read: AxisParameters, motor: str, ratio: int, travel: float) -> Ine
 def _without_faults(p: list[float]) -> list[float]:
     """Return the array without limits of the following error and without reversal error compensation."""
     free = list(p)
+    # A swept sine goes past them on purpose, and a reversal in every period would distort it.
     free[samples.EXCESS] = free[samples.SUPPRESSION] = math.inf
     free[samples.REVERSAL] = 0.0
     return free
@@ -224,6 +228,8 @@ def _torque(read: AxisParameters, p: list[float], notes: list[str]) -> float:
     if cutoff is None or cutoff >= FILTER_OFF:
         return math.inf
     demand(read, ids.torque_filter, cutoff, cutoff > 0.0, "must be above 0")
+    # The share that a first-order filter takes over in one sample, 1 - exp(-w T): exact for any cutoff,
+    # also one near the sample rate.
     p[samples.FILTER] = -math.expm1(-2.0 * math.pi * cutoff * p[samples.PERIOD])
     notes.append(notes_of.FILTER)
     return cutoff
@@ -255,6 +261,7 @@ def analog(read: AxisParameters, parts: Parts) -> AxisLaw:
             " by it (7-41): set a value",
             ids.feedrate_rapid,
         )
+    # The sign of the negative voltage is its direction; the loop needs its size alone.
     positive, negative = (
         _volts(read, ids.analog_positive_voltage, 1.0),
         _volts(read, ids.analog_negative_voltage, -1.0),
@@ -347,6 +354,8 @@ def third_party(read: AxisParameters, unit: str, common: dict[str, Any]) -> Axis
     p = [0.0] * samples.SIZE
     p[samples.GAIN], p[samples.BREAK_POINT], p[samples.BREAK_RATIO] = loop.rate, math.inf, 1.0
     p[samples.EXCESS] = p[samples.SUPPRESSION] = p[samples.VOLTS_LIMIT] = math.inf
+    # The output is u/s itself: the drive gets velocities as numbers over the ring, without a scale of
+    # volts.
     p[samples.VOLTS_POSITIVE] = p[samples.VOLTS_NEGATIVE] = 1.0
     turn = 360.0 if unit == "deg" else USUAL_PITCH
     why = (

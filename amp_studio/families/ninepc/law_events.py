@@ -131,6 +131,7 @@ def jogging(read: AxisParameters) -> Jogging:
     speeds["traverse"] = if_set(read, ids.traverse_speed) / 60.0
     increments = {name: if_set(read, ids[f"jog_increment_{name}"]) for name in INCREMENTS}
     return Jogging(
+        # A speed of 0 moves nothing: it would be a jog without an end.
         {name: speed for name, speed in speeds.items() if speed},
         {name: way for name, way in increments.items() if way},
         "third",
@@ -145,6 +146,7 @@ def travel(read: AxisParameters) -> Travel:
     if read.value(ids.overtravel_used) is not True:
         return Travel({}, "OVERTRAVEL", "6-10", zones=zones, zone_page=ZONE_PAGE, zone_note=ZONES)
     low, high = (read.optional(ids[f"zone_overtravel_{side}"]) for side in ("negative", "positive"))
+    # An end that is not set stops nothing on its side.
     edges = (-math.inf if low is None else low, math.inf if high is None else high)
     notes = (
         STOPPED,
@@ -164,6 +166,7 @@ def _zones(read: AxisParameters) -> dict[str, tuple[float, float]]:
     found = {}
     for zone in ("2", "3"):
         low, high = (read.optional(ids[f"zone_limit{zone}_{side}"]) for side in ("min", "max"))
+        # Equal or crossed limits enclose nothing, so that there is no zone.
         if low is not None and high is not None and low < high:
             found[zone] = (low, high)
     return found

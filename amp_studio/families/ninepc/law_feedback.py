@@ -38,11 +38,13 @@ def feedback_of(read: AxisParameters, unit: str, *, digital: bool, notes: list[s
     turn = _turn(read, unit, device, digital=digital, notes=notes)
     counts = above_zero(read, ids.position_counts)
     if device == "dcm":
+        # The counts of a coded scale are those within its smaller period.
         count = above_zero(read, ids.dcm_small_period) / counts
     else:
         gear, screw = (above_zero(read, name) for name in POSITION_TEETH)
         count = turn * gear / (counts * screw)
         notes.append("One electrical cycle of the feedback device is taken as one turn: one marker (7-33).")
+    # An analog drive closes the velocity loop itself: the control has no motor device to count.
     if not digital:
         return Feedback(turn, turn, count, 0.0, device in SCALES)
     gear, screw = (1.0 if read.optional(name) is None else above_zero(read, name) for name in VELOCITY_TEETH)

@@ -73,6 +73,7 @@ def run_hard_stop(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
     torque = np.abs(motion.columns["torque"])
     found = np.flatnonzero(torque >= detection)
     row = int(found[0]) if found.size else None
+    # An alarm after the detection is none: the feed has ended by then.
     alarms = alarms_of(axis, motion) if row is None else ()
     if row is not None:  # there the control ends the feed: what was commanded beyond is not done
         torque = torque[: row + 1]
@@ -100,6 +101,7 @@ def run_hard_stop(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
 def _pressed(axis: AxisLaw, detection: float, stiffness: float, speed: float) -> Motion:
     """Move from the stop on, farther than the detection needs with the following error that this takes."""
     against = replace(axis, machine=replace(axis.machine, spring=stiffness), after=None)
+    # The following error is part of the way: the axis is late by it while it presses.
     way = FARTHER * (detection / stiffness + max(axis.limits.values(), default=1.0))
     ramp = next(iter(axis.ramps.values()))
     profile = move(min(way, speed * LONGEST), speed, ramp)

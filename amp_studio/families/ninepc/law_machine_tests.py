@@ -32,6 +32,7 @@ def machine_tests(machine: BoundMachine, axis: AxisLaw) -> list[MachineTest]:
             )
         ]
     rate = next(iter(axis.ramps.values())).acceleration
+    # Both ramps take v² / a; the half of it again is the constant speed on which overshoot shows.
     needs = (feed / 60.0) ** 2 / rate * 1.5 if rate else 0.0
     room = _room(axis)
     way = min(max(PRINTED, needs), ROOM * room)

@@ -87,8 +87,10 @@ def _corner(steps: Mapping[str, PathLimit]) -> CornerRule:
         change = np.abs(corners.after - corners.before)
         found = []
         for n, axis in enumerate(corners.axes):
+            # Without a velocity step the axis must stop in every corner.
             step = steps.get(axis, PathLimit(0.0, None, "no velocity step"))
             bound = np.full(len(change), math.inf)
+            # An axis that goes straight on sets no bound, and would divide by 0.
             np.divide(step.value, change[:, n], out=bound, where=change[:, n] > STRAIGHT)
             found.append((step, bound))
         return found

@@ -38,6 +38,7 @@ def ramps_of(read: AxisParameters, unit: str, notes: list[str]) -> dict[str, Ram
             " used."
         )
         own = "linear"
+    # The first of the dictionary is what moves use by default; ``found`` has it again, in its place.
     return {own: found[own], **found}
 
 

@@ -131,6 +131,7 @@ def position_loop(p: Vector, s: Vector, io: Vector) -> None:
     closed = io[MODE] == POSITION_LOOP and p[OPEN] == 0.0
     if closed and p[REVERSAL] != 0.0:
         reversal_error(p, s, io[COMMAND_VELOCITY])
+    # The axis is meant to be off by the compensation: it is no following error of the load.
     io[REFERENCE_LAG] = -s[SHIFT]
     error = io[COMMAND] + s[SHIFT] - io[POSITION]
     size = abs(error)
@@ -160,6 +161,7 @@ def reversal_error(p: Vector, s: Vector, velocity: float) -> None:
     if velocity == 0.0:
         return
     direction = 1.0 if velocity > 0.0 else -1.0
+    # Before the first motion the sign of the parameter decides which side the play is taken up on (7-18).
     before = s[CAME_FROM] if s[CAME_FROM] != 0.0 else p[FIRST]
     if direction != before:
         s[SHIFT] += direction * p[REVERSAL]
@@ -174,11 +176,13 @@ def slave_gain(p: Vector, s: Vector, io: Vector, error: float) -> float:
     """
     samples, k = int(p[MASTER_SAMPLES]), int(s[SAMPLE])
     s[SAMPLE] += 1.0
+    # The motion of the master may end first: it rests then, with its last error.
     master = p[MASTER + min(k, samples - 1)]
     skew = error - master
     io[MONITOR + 4] = skew
     if abs(skew) > p[SKEW_LIMIT]:
         io[STOP] = EXCESS_SKEW_ALARM
+    # Never negative: a gain that changes its sign would drive the slave away.
     return max(0.0, 1.0 + p[DESKEW] * (skew if error > 0.0 else -skew))
 
 
@@ -227,4 +231,5 @@ def summed(total: float, error: float, discharge: float) -> float:
     if total * error >= 0.0:
         return total + error
     after = total + discharge * error
+    # Past zero it builds up in the other direction, where errors count once again.
     return after if after * total >= 0.0 else after / discharge

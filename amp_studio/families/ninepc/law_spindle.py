@@ -121,6 +121,7 @@ def tapping(machine: BoundMachine, _spindle: Spindle, gear: Gear, axis: AxisLaw,
     gain = min(own, gear.gain) if gear.gain else own
     rates = [rate for rate in (next(iter(axis.ramps.values())).acceleration, gear.tap_rate * pitch) if rate]
     axis_gain = read.optional(ids.initial_gain)
+    # The gain goes to the axis as its parameter, in the ratio of both loops: units cancel.
     overrides = {} if axis_gain is None or gain >= own else {ids.initial_gain: axis_gain * gain / own}
     forced = read.value(ids.position_loop_type) == "zfe"
     notes = (TAPPED, FORCED) if forced else (TAPPED,)

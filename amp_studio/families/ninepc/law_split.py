@@ -144,12 +144,15 @@ def _joined(master: AxisLaw, slave: AxisLaw, stiffness: float, run: Leader) -> t
     """
 
     def pulled(axis: AxisLaw, other: Positions) -> AxisLaw:
+        # The force is stiffness x (other - own): the own part is a spring to zero, the other's a push over
+        # time.
         spring = axis.machine.spring + stiffness
         push = (stiffness * other).tolist()
         return replace(axis, machine=replace(axis.machine, spring=spring), push=push)
 
     def answer(positions: Positions) -> tuple[AxisLaw, AxisLaw, Positions]:
         """Return both servos with a motion of the slave given, and the one that it answers with."""
+        # The first round has no motion of the slave yet: the master runs free.
         feels = pulled(master, positions) if positions.size else master
         leads = run(feels)
         goes = pulled(_following(slave, leads), leads["position"])
@@ -164,10 +167,13 @@ def _joined(master: AxisLaw, slave: AxisLaw, stiffness: float, run: Leader) -> t
     for _ in range(ROUNDS):
         feels, goes, answered = answer(positions)
         if positions.size:
+            # A motion ends when the axis rests, so both may be of different length.
             length = min(len(positions), len(answered))
             if float(np.max(np.abs(positions[:length] - answered[:length]))) < same:
                 return feels, goes
+            # Older ones are of a problem that was farther away, and make the least squares worse.
             given, answers = [*given, positions][-KEPT:], [*answers, answered][-KEPT:]
+        # The answer alone need not settle where the coupling is stiff: each servo answers too much.
         positions = _mixed(given, answers) if len(given) > 1 else answered
     raise SimulationError(
         f"The coupling of {stiffness:g} % for 1 {master.unit} is too stiff for these loops to be computed:"
@@ -184,6 +190,7 @@ def _mixed(given: list[Positions], answers: list[Positions]) -> Positions:
 
     length = max(map(len, [*given, *answers]))
     g, a = (
+        # Ended early is at rest: the last position goes on.
         np.array([np.pad(each, (0, length - len(each)), "edge") for each in kept])
         for kept in (given, answers)
     )

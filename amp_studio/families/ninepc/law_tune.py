@@ -98,6 +98,7 @@ def with_gains(axis: AxisLaw, proportional: float, integral: float) -> AxisLaw:
     p[samples.PROPORTIONAL] = proportional * p[samples.TORQUE_UNIT]
     p[samples.INTEGRAL] = integral * p[samples.TORQUE_UNIT]
     p[samples.FILTER], p[samples.DISCHARGE] = 1.0, 1.0
+    # An alarm would cut off the chart of a gain that is only too low yet.
     p[samples.EXCESS] = p[samples.SUPPRESSION] = math.inf
     return replace(axis, parameters=p)
 
@@ -110,6 +111,8 @@ def chart(axis: AxisLaw, feedrate: float, proportional: float, integral: float) 
     limit = min(axis.parameters[samples.LIMIT_POSITIVE], axis.parameters[samples.LIMIT_NEGATIVE])
     lag = 1.0 / axis.position_rate
     ramp = min(BELOW * limit * axis.machine.acceleration_per_output, feedrate / (2.0 * lag))
+    # Both ramps together, 0.8 s and five time constants of constant speed: long enough for an overshoot to
+    # die away before the braking.
     profile = move(feedrate * (feedrate / ramp + 0.8 + 5.0 * lag), feedrate, Ramp("linear", ramp, ramp))
     end = end_of(profile)
     if end > LONGEST:
@@ -119,6 +122,7 @@ def chart(axis: AxisLaw, feedrate: float, proportional: float, integral: float) 
         )
     motion = run_axis(axis, profile, Until(end + 13.0 * lag), engine="compiled", thin=True)
     time, velocity, torque = (motion.columns[name] for name in ("time_s", "velocity_feedback", "output"))
+    # Cut off by an alarm or unstable: worse than any figure.
     if motion.stop or time[-1] < end:
         return Chart(motion, math.inf, math.inf, math.inf)
     braking = end - feedrate / ramp
@@ -189,6 +193,7 @@ def procedure_run(axis: AxisLaw, settings: Mapping[str, ParameterValue]) -> Trac
         )
     if min(axis.parameters[samples.LIMIT_POSITIVE], axis.parameters[samples.LIMIT_NEGATIVE]) <= 0.0:
         raise SimulationError(f"A torque limit of axis {axis.axis} is 0: it cannot move")
+    # Alone, without the other servo of a split axis: one is tuned after the other.
     axis = replace(axis, after=None)
     given = above_zero(settings, "move.feedrate")
     feedrate = given / 60.0 if given else axis.parameters[samples.CUTTING] or axis.feedrate
@@ -197,6 +202,7 @@ def procedure_run(axis: AxisLaw, settings: Mapping[str, ParameterValue]) -> Trac
             "The cutting feedrate of the axis is not set. Give a feedrate for the move", "move.feedrate"
         )
     found = procedure(axis, feedrate)
+    # Rounded down: the procedure ends at the edge of stability, and a gain above it would be over it.
     proportional, integral = (rounded_down(each) for each in (found.proportional, found.integral))
     last = chart(axis, feedrate, proportional, integral)
     result: dict[str, Figure] = {

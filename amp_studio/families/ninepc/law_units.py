@@ -119,10 +119,14 @@ def highest_rate(lag: float = LAG, integral_time: float = math.inf) -> float:
     atan(w Ti) = w lag.
     """
     if math.isinf(integral_time):
+        # Without an integral part it is rate exp(-s lag) / s, whose phase is -180 degrees at w lag = pi /
+        # 2.
         return 0.5 * math.pi / lag
     if integral_time <= lag:
         return 0.0
+    # Beyond, the phase of the dead time alone is past -90 degrees, and the atan cannot make up for it.
     low, high = 0.0, 0.5 * math.pi / lag
+    # Halved 60 times an interval is as narrow as a float.
     for _ in range(60):
         middle = 0.5 * (low + high)
         if math.atan(middle * integral_time) > middle * lag:

@@ -139,6 +139,7 @@ def _stage(before: ParameterFile, after: ParameterFile, address: Address) -> int
     if address[0] not in _LIMITS | _FAST:
         return OTHER
     old, new = _size(before, address), _size(after, address)
+    # What is not known before counts as opened: it comes late.
     if old is not None and new is not None and new < old:
         return CAREFUL
     return WIDER if address[0] in _LIMITS else FASTER
@@ -159,6 +160,7 @@ def _size(file: ParameterFile, address: Address) -> float | None:
         return None
     if address[0] == "zone.overtravel_positive":
         return size
+    # The lower end of the travel lets the machine go farther the smaller it is.
     return -size if address[0] == "zone.overtravel_negative" else abs(size)
 
 

@@ -53,6 +53,8 @@ def axes(file: ParameterFile) -> tuple[str, ...]:
         value = file.evaluation.canonical((parameter, ""))
         return int(value) if isinstance(value, float) else 0
 
+    # Measuring inputs 24 to 27 are of spindles, 28 to 31 of handwheels: P6 and P14 have a bit for each
+    # (4-8).
     taken = (word(ids.spindle_measured) & 15) << 24 | (word(ids.axes_handwheels) & 15) << 28
     declared = word(ids.axes_measured) & word(ids.axes_servoed) & ~taken
     return tuple(str(address) for address in range(32) if declared >> address & 1)
@@ -71,6 +73,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         )
         return replace(law, assumptions=(*law.assumptions, note))
     leader = read.of(address)
+    # Before the leader is bound: a chain would go round.
     refuse_chain(read, leader)
     return synchronised(law, read, _alone(leader)[0], length)
 
@@ -94,9 +97,12 @@ def _alone(read: AxisParameters) -> tuple[AxisLaw, float]:
         raise SimulationError(f"Axis {read.axis}: {error}") from None
     ramps = _ramps(read, words.acceleration, notes)
     linear = list(parameters)
+    # The linear model has no steps, no dry friction, no check and no limit: none of them has a transfer
+    # function.
     linear[sample.WHOLE], linear[sample.FRICTION], linear[sample.TOLERANCE] = 0.0, 0.0, -1.0
     linear[sample.EMAX], linear[sample.BACKLASH] = math.inf, 0.0
     swept = list(parameters)
+    # The check would end a swept sine, which no loop follows at its upper frequencies.
     swept[sample.TOLERANCE] = -1.0
     law = AxisLaw(
         axis=read.axis,
@@ -159,6 +165,7 @@ def predicted(words: Words, feedrate: float) -> Mapping[str, Prediction]:
         speed = approach_speed(words.work_acceleration, words.curve_constant * 1000.0)
         approach["approach_speed"] = Prediction(speed, f"{words.unit}/min", "6-36")
     return {
+        # Above 10 V the reference ends and the following error grows without end: there is no steady one.
         "steady_following_error": Prediction(behind if volts <= 10.0 else None, words.unit, "6-14"),
         "time_constant_following_error": Prediction(
             abs(feedrate) * words.constant * (1.0 - words.share), words.unit, "6-18"

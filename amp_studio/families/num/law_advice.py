@@ -60,6 +60,7 @@ def _fits(axis: AxisLaw) -> bool:
     """Return whether gain and time constant are the same thing, as far as whole ms can say it."""
     constant = axis.parameters[sample.CONSTANT]
     near = abs(axis.position_rate * constant - 1.0) <= APART
+    # A short time constant cannot be closer than half a ms, which may be more than 3 %.
     return near or abs(1.0 / axis.position_rate - constant) <= HALF_MS
 
 
@@ -69,6 +70,7 @@ def _largest_error(axis: AxisLaw, trace: Trace | None = None) -> Iterator[Recomm
     wanted = FOLLOWING_ERROR_MARGIN * (axis.feedrate or 0.0) / axis.position_rate
     anticipated = trace is not None and axis.parameters[sample.SHARE] > 0.0
     peak = (trace.result["peak_following_error"][0] or 0.0) if trace else 0.0
+    # With anticipation the error is far below VMAX x T: what the move reached decides.
     low = limit < (peak if anticipated else wanted / FOLLOWING_ERROR_MARGIN)
     if not low and limit <= LOOSE * wanted:
         return
@@ -93,10 +95,12 @@ def _acceleration(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
     available = RESERVE * axis.machine.acceleration_per_output * (limit - axis.machine.coulomb_friction)
     now = next(iter(axis.ramps.values())).acceleration
     limited = (trace.result["peak_torque"][0] or 0.0) >= limit
+    # An assumed machine shows an assumed torque: no ramp is lowered by it.
     if "acceleration_per_output" in axis.assumed or not limited or not 0.0 < available < now:
         return
     source = axis.sources["acceleration"]
     value = float(math.floor(rounded_down(available)))
+    # P32 is in whole units; below 1 there is none that helps.
     if value >= 1.0:
         yield Recommendation(
             source.parameter,
@@ -116,6 +120,7 @@ def _window(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
     count, band = axis.machine.position_count, axis.inposition_band
     left = abs(float(trace.columns["following_error"][-1]))
     arrived = trace.result["in_position_time"][0] is not None
+    # An axis that is far from its end is not at rest there: its window is not what is wrong.
     if trace.alarms or (arrived and band > count) or left > 0.01 * abs(trace.result["distance"][0] or 0.0):
         return
     why = (
@@ -140,6 +145,7 @@ def _tolerance(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
     """Yield a tolerance of the dynamic check (11-8: 2 to 4 windows) where there is none,
     no less than this move needs.
     """
+    # Where gain and time constant do not fit, the check would end every move: that comes first.
     if axis.unit != "mm" or axis.parameters[sample.TOLERANCE] >= 0.0 or trace.alarms or not _fits(axis):
         return
     import numpy as np  # what binds an axis only needs none
@@ -163,5 +169,6 @@ def _tolerance(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
 
 def _counted(source: Source, figure: float, why: str, price: str) -> Recommendation:
     """Return a recommendation in whole units of the file, rounded up."""
+    # Rounded before: a float a hair above a whole number is not to become the next one.
     value = float(math.ceil(round(figure * source.scale, 6)))
     return Recommendation(source.parameter, value, source.unit or "", why, price)

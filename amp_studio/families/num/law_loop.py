@@ -25,6 +25,7 @@ def loop(
     p[sample.AHEAD] = _ahead(read, words, notes)
     p[sample.EMAX] = read.number(ids.max_following_error) * words.length
     p[sample.TOLERANCE] = _tolerance(read, words, notes)
+    # No synchronisation yet: a driven axis gets its threshold when it is bound to its leader.
     p[sample.SYNC_LIMIT], p[sample.BACKLASH] = math.inf, _backlash(read, words, notes)
     limit = value_text(p[sample.EMAX], words.unit)
     alarms = {
@@ -76,6 +77,7 @@ def _friction(read: AxisParameters, words: Words, notes: list[str]) -> tuple[flo
     if not amplitude:
         return 0.0, 0.0
     time = (read.optional(ids.friction_time) or 0.0) / 1000.0
+    # 1 - period / time is the factor from sample to sample: at -1 and below it does not die away.
     if not time > words.period / 2.0:
         raise SimulationError(
             f"The dry friction correction of axis {read.axis} has the time constant {time * 1000.0:g} ms"
@@ -118,6 +120,7 @@ def _backlash(read: AxisParameters, words: Words, notes: list[str]) -> float:
     compensation = read.optional(ids.travel_backlash) or 0.0
     if not compensation:
         return 0.0
+    # Compensating a play that is not there would itself be an error of the axis.
     if not read.optional("model.backlash"):
         notes.append(
             f"The reversal error compensation P18N{read.axis} is not used: the machine has no backlash unless"

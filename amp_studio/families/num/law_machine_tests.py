@@ -129,6 +129,7 @@ def _homing(machine: BoundMachine, axis: AxisLaw, letter: str) -> MachineTest:
         int(machine.read(axis.axis).optional(ids.axes_modulo, everywhere=True) or 0.0) >> int(axis.axis) & 1
     )
     reached = [place for place in (low, high) if math.isfinite(place)]
+    # The middle of the travel is inside whatever the signs of P17 are.
     check = 0.5 * (low + high) if len(reached) == 2 else 0.0
     home = axis.homing().coordinate if axis.homing else 0.0
     if not low <= check <= high:
@@ -221,6 +222,7 @@ def _speeds(machine: BoundMachine, axis: AxisLaw, letter: str) -> list[MachineTe
     speeds = []
     for name, share in (("slow", SLOW), ("fast", 1.0)):
         speed = feed * share
+        # Half of it to speed up and half to stop: v² / 2a each.
         if rate and way < (speed / 60.0) ** 2 / rate:
             refusal = (
                 f"The travel of axis {letter} is too short to reach {value_text(speed, f'{axis.unit}/min')}."
@@ -244,6 +246,7 @@ def _speeds(machine: BoundMachine, axis: AxisLaw, letter: str) -> list[MachineTe
 def _of_speed(machine: BoundMachine, axis: AxisLaw, letter: str, speed: float) -> tuple[MachineTestStep, ...]:
     """Return what is done and seen at a speed in u/min: the following error of speed and time constant."""
     words = read_words(machine.read(axis.axis), [])
+    # In internal units, as the ERROR column shows it.
     behind = speed / 60.0 * words.constant / words.length
     return (
         MachineTestStep(

@@ -85,7 +85,9 @@ def refuse_chain(read: AxisParameters, leader: AxisParameters) -> None:
 
 def _with_leader(leader: AxisLaw, axis: AxisLaw, run: Leader) -> AxisLaw:
     """Return the axis with the measured positions of its drive axis, sample by sample."""
+    # Measured ones: the driven axis compares encoders, not references (6-30).
     positions = run(leader)["measured_position"]
+    # The kernel takes flat arrays alone, so the motion of the leader goes behind the parameters.
     p = [*axis.parameters[: sample.PARAMETERS], *positions]
     p[sample.LEADER] = float(len(positions))
     return replace(axis, parameters=p, after=None)

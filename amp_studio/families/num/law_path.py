@@ -44,6 +44,7 @@ def path_rules(machine: BoundMachine) -> PathRules:
     notes: list[str] = []
     for axis in machine.fitted:
         read, letter = machine.read(axis), machine.letter(axis)
+        # An axis without a name is in no program.
         if not letter:
             continue
         words = read_words(read, [])
@@ -51,6 +52,7 @@ def path_rules(machine: BoundMachine) -> PathRules:
         work[letter] = PathLimit(_work(words, axis), (ids.acceleration_work, axis))
         fast[letter] = PathLimit(words.acceleration, (ids.acceleration_fast, axis))
         steps[letter] = _approach(read, words, axis, notes)
+    # Bit 5 of P7N1 is of the whole control: the first axis has the same kind of ramp as all.
     ramp = next(iter(machine.axis(machine.fitted[0]).ramps.values()))
     return PathRules(
         feed_ramp=ramp,
@@ -92,6 +94,7 @@ def _corner(steps: Mapping[str, PathLimit]) -> CornerRule:
         found = []
         for n, axis in enumerate(corners.axes):
             bound = np.full(len(change), math.inf)
+            # An axis that goes straight on sets no bound, and would divide by 0.
             np.divide(steps[axis].value, change[:, n], out=bound, where=change[:, n] > STRAIGHT)
             found.append((steps[axis], bound))
         return found

@@ -84,6 +84,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     moved = io[POSITION] - s[MEASURED]
 
     apart = 0.0
+    # The motion of the leader may end first: then nothing is corrected any more.
     if p[LEADER] > 0.0 and s[SAMPLE] < p[LEADER]:
         apart = p[PARAMETERS + int(s[SAMPLE])] - io[POSITION]
         s[SAMPLE] += 1.0
@@ -113,6 +114,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     if theoretical < 0.0:
         slowest, fastest = fastest, slowest
     io[OUTPUT] = 10.0 * points / FULL_POINTS
+    # What filter and compensation put between command and reference is no error of the axis.
     io[REFERENCE_LAG] = io[COMMAND] - reference - s[ADDED]
     if abs(error) > p[EMAX]:
         io[STOP] = EXCESS_ERROR

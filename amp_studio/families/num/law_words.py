@@ -85,6 +85,7 @@ def read_words(read: AxisParameters, notes: list[str]) -> Words:
     modulo, limited = (each or 0.0 for each in bits)
     turns = axis_turns(address, modulo, limited, assignment)
     length = axis_unit(address, modulo, limited, assignment, *_dividers(read, turns, notes))
+    # P9 has the group in its high four bits, from 0 on; 15 is no group (4-24).
     group = int(assignment) >> 4
     named = str(group + 1) if group < 8 else None
     own = read.optional(ids.axis_time_constant)
@@ -159,6 +160,7 @@ def above(figure: float, parameter: str, what: str) -> None:
 
 def _period(read: AxisParameters, notes: list[str]) -> float:
     """Return the active sampling period in s (9-10)."""
+    # In whole µs: a period in ms is not exact as a float, and would be rounded down to the step below.
     given = round(read.number(ids.sampling_period, everywhere=True) * 1000.0, 6)
     taken = sampling_period_in_force(given, read.application == UC_SII)
     if taken != given:

@@ -129,6 +129,7 @@ def bind(read: AxisParameters) -> AxisLaw:
     """Return one axis; raises SimulationError that names every register that has to be set."""
     _refuse_missing(read)
     _refuse_no_gain(read)
+    # The bit of Drive Setup is lost; by 5-3 a velocity gain of 0 belongs to a drive that takes a velocity.
     current = read.number(ids.gain_velocity) != 0.0
     per_volt = None if read.value(PER_VOLT) is None else read.within(PER_VOLT, 1.0, 1e9)
     machine = plant.machine(current_reference=current, velocity_per_volt=per_volt)
@@ -195,6 +196,7 @@ def _parameters(read: AxisParameters, machine: Machine, current: bool) -> tuple[
     for place, gain, scale in zip(places, gains, scales, strict=True):
         p[place] = read.within(gain, *_WORD) / scale
     p[loop.CURRENT_REFERENCE], p[loop.WHOLE_WORDS] = float(current), 1.0
+    # So scaled, the output is the speed that the loop asks for, whatever the drive makes of a volt.
     if not current:
         p[loop.VELOCITY] = loop.WORDS_PER_VOLT / (machine.velocity_per_output * loop.SCAN)
     p[loop.DEADBAND] = read.within(ids.gain_deadband, *_WORD)
@@ -284,6 +286,7 @@ def _rest_band(p: Sequence[float], machine: Machine) -> float:
     """Return how far from its target dry friction may keep the axis, counts;
     0 where the integral brings it there.
     """
+    # The integral, or that of the drive, overcomes any friction in time.
     if p[loop.INTEGRAL] > 0.0 or machine.velocity_per_output > 0.0:
         return 0.0
     volts = max(machine.static_friction, machine.coulomb_friction) + abs(machine.gravity)
@@ -297,6 +300,7 @@ def _predicted(p: Sequence[float], machine: Machine, speed: float) -> Prediction
     if machine.velocity_per_output > 0.0:
         volts = speed / machine.velocity_per_output
     words = volts * loop.WORDS_PER_VOLT
+    # At the clamp of register 31 the speed is never reached.
     if words > p[loop.CLAMP]:
         return Prediction(None, "counts", "4-17")
     if p[loop.INTEGRAL] > 0.0:
@@ -324,6 +328,7 @@ def _sources() -> Mapping[str, Source]:
 def advise(axis: AxisLaw, trace: Trace) -> Sequence[Recommendation]:
     """Return the Feedforward Gain after a move with a steady following error (page 5-4)."""
     error = error_at_speed(trace)
+    # Below two counts the error is the encoder's, not the gain's.
     if trace.alarms or error is None or abs(error) < 2.0 or axis.parameters[loop.INTEGRAL] > 0.0:
         return ()
     return follow(axis)
@@ -343,6 +348,7 @@ def follow(axis: AxisLaw) -> Sequence[Recommendation]:
         machine.viscous_friction * speed + machine.coulomb_friction + machine.gravity
     ) * loop.WORDS_PER_VOLT
     share = 1.0 + (words - p[loop.DEADBAND]) / p[loop.VELOCITY] / commanded
+    # Rounded down: the error must not become negative (5-4).
     gain = float(math.floor(share * axis.scales.feed_forward))
     if not 0.0 <= gain <= _WORD[1] or abs(gain / axis.scales.feed_forward - p[loop.FEED_FORWARD]) < SAME:
         return ()

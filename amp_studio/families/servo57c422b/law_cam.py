@@ -54,6 +54,7 @@ def time_cam(
     for point in islice(order, intervals):
         start = position
         position += sign * values[point]
+        # From the start of the interval, not scan by scan: so rounding does not add up over a long cam.
         positions += [start + (position - start) * (k + 1) / scans for k in range(scans)]
     return positions
 
@@ -70,5 +71,6 @@ def position_cam(table: Sequence[int], increment: int, travelled: float, base: f
             ids.position_increment,
         )
     step = min(max(travelled / increment, 0.0), len(table) - 1.0)
+    # At the last point the line before it is gone to its end.
     point = min(int(step), len(table) - 2)
     return base + table[point] + (table[point + 1] - table[point]) * (step - point)

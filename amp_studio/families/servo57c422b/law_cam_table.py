@@ -63,6 +63,7 @@ def _steps(file: ParameterFile, axis: str, count: int, mode: int) -> list[int]:
     else:
         words = [_number(file, ids.byte_points, f"{axis}.{k}") for k in range((count + 1) // 2)]
         found = [each for word in words if word is not None for each in word_bytes(word)]
+        # An odd number of bytes leaves half of the last word over.
         del found[count:]
     if None in found or len(found) < count:
         raise SimulationError(f"The cam of axis {axis} has points that are not set", ids.time_points)
@@ -80,6 +81,7 @@ def _time_cam(file: ParameterFile, axis: str, points: CamPoints, scans: int) -> 
         raise SimulationError(
             f"A cycle of {cycle:g} s has more than {WORDS} steps of {scans} scans: take more scans"
         )
+    # The last step may be shorter than the others: it ends with the cycle.
     at = np.minimum(np.arange(count + 1) * scans * SCAN, cycle)
     rounded = np.round(np.interp(at, points.x, points.position))  # the sum is exact: nothing drifts away
     steps = [int(each) for each in np.diff(rounded)]
@@ -89,6 +91,7 @@ def _time_cam(file: ParameterFile, axis: str, points: CamPoints, scans: int) -> 
             " slower cam",
             ids.time_points,
         )
+    # Only these two bits: direction, mirror and the others of register 130 stay as they are.
     mode = (_mode(file, axis) | 1 << WORDS_BIT) & ~(1 << POSITION_BIT)
     settings: dict[Address, Value | None] = {
         (ids.cam_points, axis): Value(count),
@@ -96,6 +99,7 @@ def _time_cam(file: ParameterFile, axis: str, points: CamPoints, scans: int) -> 
         (ids.cam_mode, axis): Value(mode),
         **_table(file, axis, ids.time_points, steps),
     }
+    # A loop back point beyond the new table would be no point of it.
     if _number(file, ids.loop_back, axis) is None or (_number(file, ids.loop_back, axis) or 0.0) >= count:
         settings[ids.loop_back, axis] = Value(0)
     return _profile(file, axis, steps, scans, settings)
@@ -105,6 +109,7 @@ def _position_cam(file: ParameterFile, axis: str, points: CamPoints) -> CamProfi
     """Return a position cam: points one increment of the master apart, as many as there is room for."""
     span = round(float(points.x[-1]))
     least = max(math.ceil(span / (POSITIONS - 1)), 1)
+    # The least that fits whole into the cycle: the most points that the table has room for.
     increment = next((n for n in range(least, MOST_INCREMENT + 1) if span % n == 0), None)
     if increment is None or increment > span:
         raise SimulationError(

@@ -170,6 +170,7 @@ def run_gear(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     time = above_zero(settings, "gear.time") or 1.0
     ramped = module.bit(ids.gearing_modes, 3)
     sign = -1 if module.bit(ids.control_mode, 4) else 1
+    # Whole counts of the master: what the module gears is what its encoder gives.
     master = [round(speed * SCAN * k) for k in range(_scans(time))]
     positions = followed(master, sign * upper, lower, axis.ramps["linear"].acceleration if ramped else 0.0)
     lost = abs(master[-1] * ratio) - abs(positions[-1])
@@ -240,6 +241,7 @@ def _time_cam(axis: ModuleAxis, settings: ScenarioSettings, points: int, cycles:
         loop_back=int(axis.register(ids.loop_back) or 0) if continuous else 0,
     )
     intervals = points * cycles * (2 if mirror and not continuous else 1)
+    # For its check of the length alone, before the table is gone through.
     _scans(intervals * scans * SCAN)
     return time_cam(values, scans, order, intervals, negative=_yes(settings, "cam.negative"))
 
@@ -290,6 +292,7 @@ def run_backlash(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
         part = move(way, axis.feedrate or 0.0, axis.ramps["linear"])
         rows += _shifted(part, start, position)
         start, position = start + end_of(part) + _PAUSE, position + way
+        # The last piece of a move is rest without an end: between two moves it is a pause.
         rows[-7] = _PAUSE
     rows[-7] = math.inf
     figures: dict[str, Figure] = {f"move_{k}": (float(way), "counts") for k, way in enumerate(moves, 1)}
@@ -305,6 +308,7 @@ def run_backlash(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
 
 def _shifted(profile: Sequence[float], start: float, position: float) -> list[float]:
     rows = list(profile)
+    # A piece of a profile has eight figures: its begin first, its position third.
     for row in range(0, len(rows), 8):
         rows[row] += start
         rows[row + 2] += position
@@ -334,6 +338,7 @@ def _run(
 ) -> Trace:
     motion = run_axis(axis, profile, Until(end + rest))
     columns = motion.columns
+    # At the scans: between them the command goes on, and the module sees none of it.
     peak = float(np.abs(columns["following_error"][:: motion.rows_per_servo_period]).max())
     alarms = alarms_of(axis, motion)
     result: dict[str, Figure] = {

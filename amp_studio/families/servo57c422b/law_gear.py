@@ -45,6 +45,7 @@ def geared(master: Sequence[int], upper: int, lower: int) -> Iterator[int]:
     """
     rest, position, before = 0, 0, master[0] if master else 0
     for now in master:
+        # Whole numbers: the remainder goes into the next scan, so that no count is lost (4-15).
         travel, rest = divmod((now - before) * upper + rest, lower)
         position, before = position + travel, now
         yield position
@@ -65,6 +66,7 @@ def followed(master: Sequence[int], upper: int, lower: int, acceleration: float)
         asked = float(now - before)
         if not together:
             travel = min(max(asked, travel - step), travel + step)
+            # Once in step it stays so: ramp velocity control is for the start alone (4-21).
             together = travel == asked
         position += asked if together else travel
         positions.append(position)

@@ -32,6 +32,7 @@ def homing(read: AxisParameters) -> Homing:
     counts: Literal["next", "none"] = "next" if marker else "none"
     return Homing(
         approach=sign * fast,
+        # Without a switch there is nothing to back off: the marker is searched straight on.
         leave=-sign * slow if switch else sign * slow,
         marker=counts,
         turn=MOTION.value("marker_distance"),

@@ -57,10 +57,12 @@ def run_passive_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     first = number(settings, "move.marker")
     sign = math.copysign(1.0, distance)
     first = sign * QUARTER * turn if first is None else first
+    # Markers are a turn apart on both sides: the next one in the direction of the motion.
     marker = first + turn * (math.ceil(-first / turn) if sign > 0.0 else math.floor(-first / turn))
     coordinate = axis.needed(ids.command_position, "it is the position of the marker (page 4-33)")
     trace = STEP.run(axis, {"move.distance": distance})
     position = trace.columns["position"]
+    # Times the sign, one comparison serves both directions.
     rows = np.flatnonzero(sign * position >= sign * marker)
     met = bool(rows.size) and not trace.alarms
     alarms = trace.alarms

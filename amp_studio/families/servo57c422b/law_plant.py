@@ -55,6 +55,7 @@ def machine(*, current_reference: bool, velocity_per_volt: float | None) -> Mach
             position_count=1.0,
         )
     return Machine(
+        # The output of a velocity drive is a speed: its torque is in % there, not in volts.
         acceleration_per_output=ACCELERATION / PERCENT_PER_VOLT,
         viscous_friction=VISCOUS * PERCENT_PER_VOLT,
         coulomb_friction=COULOMB * PERCENT_PER_VOLT,

@@ -83,6 +83,7 @@ def velocity_sample(p: Vector, s: Vector, io: Vector) -> None:
     """The velocity loop in the same scan: from wanted and measured velocity to volts."""
     commanded, velocity = io[COMMAND_VELOCITY] * SCAN, io[MOTOR] - s[BEFORE]
     s[BEFORE] = io[MOTOR]
+    # With a velocity reference the drive takes the measured speed off itself.
     word = p[VELOCITY] * (s[WANTED] - p[CURRENT_REFERENCE] * velocity)
     if io[MODE] == OUTPUT_TEST:  # the direct drive reference of register 28
         word = io[COMMAND] * WORDS_PER_VOLT

@@ -72,6 +72,7 @@ def gains(axis: AxisLaw, scales: Scales, increment: float) -> Left:
     Raises SimulationError where the shaft vibrates at the least gain.
     """
     faults = {place: axis.parameters[place] for place in (loop.POSITION_ERROR, loop.VELOCITY_ERROR)}
+    # Without faults: at the gain that is sought the shaft vibrates, which is not to end the search.
     axis = with_figures(axis, {loop.POSITION_ERROR: -1.0, loop.VELOCITY_ERROR: -1.0, loop.INTEGRAL: 0.0})
     found = {ids.gain_deadband: deadband(axis)}
     axis = with_figures(axis, {loop.DEADBAND: found[ids.gain_deadband]})
@@ -79,12 +80,14 @@ def gains(axis: AxisLaw, scales: Scales, increment: float) -> Left:
 
         def velocity(gain: float) -> bool:
             trial = with_figures(axis, {loop.VELOCITY: gain / scales.velocity})
+            # The velocity loop alone: position gains have no part in it yet.
             return vibrates(trial, increment, VELOCITY_LOOP)
 
         found[ids.gain_velocity] = _third("Velocity Gain", velocity)
         axis = with_figures(axis, {loop.VELOCITY: found[ids.gain_velocity] / scales.velocity})
 
     def proportional(gain: float) -> bool:
+        # Without feed-forward, which moves the axis but has no part in its stability.
         trial = {loop.PROPORTIONAL: gain / scales.proportional, loop.FEED_FORWARD: 0.0}
         return vibrates(with_figures(axis, trial), increment, POSITION_LOOP)
 
@@ -96,6 +99,7 @@ def gains(axis: AxisLaw, scales: Scales, increment: float) -> Left:
     found[ids.gain_proportional] = gain
     integral = found[ids.gain_integral] / scales.integral
     tuned = with_figures(axis, {loop.PROPORTIONAL: share, loop.INTEGRAL: integral, **faults})
+    # The search looks at the shaft for 0.1 s: a slow growth is not seen there.
     if not linear_model(tuned).is_stable():
         raise SimulationError(
             "The search ended at gains that are not stable: this axis has to be tuned by hand (page 5-2)"
@@ -119,6 +123,7 @@ def dynamics(axis: AxisLaw, travel: float, speed: float, up: float, down: float)
 
     gentle = 1.25 / travel  # ramps that leave a fifth of the travel for the speed itself
     velocity = _greatest(speed, lambda v: good(v, gentle * v * v, gentle * v * v))
+    # The gentle ramp at the other end, so that only one figure is tried at a time.
     acceleration = _greatest(up, lambda a: good(velocity, a, min(a, gentle * velocity**2)))
     deceleration = _greatest(down, lambda d: good(velocity, min(acceleration, gentle * velocity**2), d))
     deceleration = min(max(deceleration, acceleration / 5.0), acceleration * 5.0)  # page 4-14
@@ -141,6 +146,7 @@ def feed_forward(axis: AxisLaw, scales: Scales, positive: float, negative: float
 
     def error(share: float) -> float:
         trial = with_figures(quiet, {loop.FEED_FORWARD: share})
+        # The direction that is ahead sooner decides: the error must not be negative in either.
         return min(_at_speed(trial, positive, speed), _at_speed(trial, negative, speed))
 
     low, high = 0.0, 1.0
@@ -179,6 +185,7 @@ def deadband(axis: AxisLaw) -> float:
     for way in (1.0, -1.0):
         coarse = _breakaway(axis, 0.0, way * clamp)
         found.append(abs(_breakaway(axis, 0.5 * coarse, coarse)))  # once more, slowly
+    # The smaller of both directions, rounded down: more would move an axis that is to rest.
     return float(math.floor(min(found)))
 
 
@@ -209,6 +216,7 @@ def vibrates(axis: AxisLaw, increment: float, mode: float) -> bool:
     last = position[motion.columns["time_s"] > 4.0 * WAY + 0.5 * REST]
     if motion.stop != 0 or last.size < 2:
         return True
+    # Less the way from first to last: creeping to the end is no vibration.
     to_and_fro = float(np.abs(np.diff(last)).sum()) - abs(float(last[-1] - last[0]))
     return to_and_fro > QUIET
 
@@ -265,4 +273,5 @@ def _at_speed(axis: AxisLaw, travel: float, speed: float) -> float:
             " too near",
             ids.setup_overtravel_positive,
         )
+    # The second half of the constant speed: in the first the ramp still dies away.
     return float(columns["following_error"][even[even.size // 2 :]].mean()) * math.copysign(1.0, travel)

@@ -57,6 +57,7 @@ class _Edit(QUndoCommand):
         self._first = True
 
     def redo(self) -> None:
+        # ``push`` calls this at once, for a change that has been made already: it made the step.
         if self._first:
             self._first = False
         else:
@@ -68,6 +69,7 @@ class _Edit(QUndoCommand):
         self._notify()
 
     def _notify(self) -> None:
+        # A mark can change without its value: then no change of a value names the cell to paint.
         marked = self._before.forced.items() ^ self._after.forced.items()
         addresses = [c.address for c in self._changes] + [a for a, _ in marked]
         self._workspace.after_edit(list(dict.fromkeys(addresses)))
@@ -205,6 +207,7 @@ class Workspace(QObject):
         if value is None:
             return self.tr("Clear {name}").format(name=self.name_of(address))
         parameter = self.file.schema.parameters[address[0]]
+        # The list of steps is on the screen longer than a secret may be.
         value_text = show_value(parameter, value, secrets=False)
         text = self.tr("Set {name} to {value}").format(name=self.name_of(address), value=value_text)
         return f"{text} ({expression})" if expression and not parameter.secret else text
@@ -218,6 +221,7 @@ class Workspace(QObject):
         with self.file.step() as changes:
             operation()
         after = HeaderSnapshot.of(self.file)
+        # No step that undoes nothing: Ctrl+Z would seem not to work.
         if not changes and before == after:
             return False
         self.undo_stack.push(_Edit(self, text, changes, before, after))
@@ -353,6 +357,7 @@ class Workspace(QObject):
 
     def effective(self) -> dict[Address, Value]:
         """Return the effective values where they differ from the values of the file."""
+        # The findings are in their order of weight: of two about one value the first counts.
         return {s.address: s.value for f in reversed(self.findings) for s in f.effective}
 
     def count(self, severity: str) -> int:

@@ -70,8 +70,11 @@ def conditions_of(session: ControlSession | None, file: ParameterFile) -> list[C
 def _same_machine(session: ControlSession, file: ParameterFile) -> ControlCondition:
     seen, signature = session.seen, file.schema.signature
     assert seen is not None
+    # Some controls do not name their family: then what they answer must do.
     if seen.control.family and seen.control.family != file.schema.family.family:
         return ControlCondition(tr("Another family: {name}").format(name=seen.control.family), False)
+    # By another schema a number can mean another parameter. A driver that maps them sends by the numbers of
+    # the control's own.
     theirs = seen.control.signature
     if theirs and theirs != signature and not seen.abilities.maps_numbers:
         return ControlCondition(tr("Numbers its parameters by another schema"), False, theirs[:9])

@@ -109,6 +109,7 @@ class DifferenceTable(QTreeWidget):
         and a choice made before stays. There is no choice where a backup ``returns``: all of it is put back.
         """
         is_chosen = returns is None
+        # A choice is kept over a new reading; rows that had none would bring their forced side into it.
         before = {
             address: row.takes_file for address, row in self.rows.items() if not row.is_fixed and is_chosen
         }
@@ -117,6 +118,8 @@ class DifferenceTable(QTreeWidget):
         self.show_nothing()
         schema = file.schema
         for difference in found:
+            # The side that gives has no value: nothing can be sent or taken, so the other side stays. A
+            # whole backup replaces that too.
             only = difference.a is None if to_control else difference.b is None
             only = only and returns != "whole"
             dangers = dangers_of_change(file, [difference], facts_in_words(file.schema))
@@ -126,6 +129,8 @@ class DifferenceTable(QTreeWidget):
         blocks: dict[str, list[Address]] = {}
         for address in self.rows:
             blocks.setdefault(self._block_of(address, screen_text), []).append(address)
+        # The sort is stable: only the folded ones move to the end, the others stay in the order of the
+        # file.
         for title, addresses in sorted(blocks.items(), key=lambda block: block[0].startswith("\0")):
             self._add_block(title, addresses)
         self._share_room()
@@ -197,6 +202,7 @@ class DifferenceTable(QTreeWidget):
             self._show_side(address)
         # With all its rows: in the tree each of their texts, icons and fonts would be a change to be shown.
         self.addTopLevelItem(head)
+        # Only an item that is in the tree takes this.
         head.setFirstColumnSpanned(True)
         head.setExpanded(not title.startswith("\0"))
 
@@ -278,6 +284,7 @@ class DifferenceTable(QTreeWidget):
         """Select the next row (``by`` 1) or the one before (-1) that would be sent and can be dangerous."""
         marked = [address for address, row in self.rows.items() if row.dangers and row.takes_file]
         row = self.current()
+        # From no marked row the first step goes to the first one, or backwards to the last.
         before_first = -1 if by > 0 else 0
         is_marked = row is not None and row.difference.address in marked
         here = marked.index(row.difference.address) if row is not None and is_marked else before_first

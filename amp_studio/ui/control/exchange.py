@@ -62,6 +62,8 @@ class ControlExchange(Translated):
         """
         project, settings = self.window.project, self.window.settings
         own = settings.control_of(workspace.path) if workspace is not None else ""
+        # The nearest first: what was chosen for this very file counts before the machine, and that before
+        # habit.
         known = (own, project.info.control if project else "", self._emulated.address, self._last(workspace))
         return next(filter(None, known), "")
 
@@ -71,6 +73,7 @@ class ControlExchange(Translated):
         known = (control.family for control in self.window.settings.controls() if control.address == last)
         family = next(known, "")
         own = workspace.file.schema.family.family if workspace is not None else family
+        # An address of another family would be read with the wrong protocol.
         return last if family in ("", own) else ""
 
     def chosen_address(self) -> str | None:

@@ -145,6 +145,7 @@ class HandSheet(QWidget):
 
         ``seen`` is the reading of the control that it is made against; None for a file.
         """
+        # Both or none: ``source`` may raise, and the sheet on the screen must go with its own ticks.
         self.sheet, self.ticks = source()
         self._make, self.seen = source, seen
         self.bar.hide()
@@ -310,6 +311,7 @@ class HandSheet(QWidget):
             else:
                 self.ticks.read_back(entry, item.text(_READ))
         except OSError as error:
+            # The tick stays on the screen: the value was keyed in, whether that can be stored or not.
             self.bar.say(self.tr("The tick is not kept: {error}.").format(error=error), "error")
         self.list.blockSignals(True)
         self._judge(item)

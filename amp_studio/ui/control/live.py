@@ -221,6 +221,7 @@ class LivePage(QDialog):
     def _over(self, error: object) -> None:
         self._silence.stop()
         self.toggle.setText(self.tr("&Start"))
+        # Without an error it was stopped here, which has its own reason.
         self.state.setText(str(error) if error is not None else self._why)
         self._grey(True)
 
@@ -257,6 +258,7 @@ class LivePage(QDialog):
             self.stop(self.tr("Stopped: the control has a fault."))
 
     def _show_axes(self, axes: tuple[AxisStatus, ...]) -> None:
+        # Not at every reading: a list that is filled again would lose the chosen axis five times a second.
         if self.axes.rowCount() != len(axes):
             self.axes.setRowCount(len(axes))
             self.chosen.clear()
@@ -270,6 +272,7 @@ class LivePage(QDialog):
             )
             for column, text in enumerate((axis.axis, place, error, velocity, ", ".join(axis.states))):
                 item = item_at(self.axes, row, column)
+                # Qt repaints a cell for the same text too.
                 if item.text() != text:
                     item.setText(text)
             self._axes.setdefault(axis.axis, AxisReadings()).add(now, axis)

@@ -74,6 +74,7 @@ def primary_button(state: PageState) -> PrimaryButton:
     session = state.session
     if session is None or session.is_busy:
         return PrimaryButton()
+    # With a password missing the field above tries again: the same without one would only fail once more.
     if session.phase == "away" and session.error and not session.needs_password:
         return PrimaryButton(tr("Try Again"))
     if session.phase in ("away", "failed"):
@@ -121,9 +122,11 @@ def _why_not_sent(state: PageState, session: ControlSession) -> str:
     """Return what is missing before something is sent, in the order of the conditions."""
     workspace = state.workspace
     if state.file is not None:
+        # What is not known (None) does not keep from sending: the driver asks it again before it writes.
         missing = next((c for c in conditions_of(session, state.file) if c.met is False), None)
         if missing is not None:
             return tr("Waiting: {what}").format(what=missing.text)
+    # A backup goes back as it was, errors and all: the machine ran with it.
     is_of_file = state.backup is None and workspace is not None
     if is_of_file and not state.accepted_errors and workspace.count("error"):
         return tr("Waiting: the file has errors")
@@ -150,6 +153,7 @@ def bar_message(state: PageState) -> BarMessage | None:
         return BarMessage(" ".join(session.notes), "advice") if session.notes else None
     if state.direction != "send" or session.seen is None:
         return None
+    # None is a control without such a state.
     if session.in_estop is False:
         text = tr("Press E-stop at the machine. While an axis can move, the control takes no parameters.")
         return BarMessage(text, "warning", ((tr("Ask Now"), "ask"),))

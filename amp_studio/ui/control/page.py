@@ -111,7 +111,9 @@ class ControlPage(ControlPageParts):
     def turn(self, direction: str) -> None:
         """Change the direction; what was read stays."""
         wanted = DIRECTIONS.get(direction, "compare")
+        # Without a file there is nothing to send or to compare with.
         self.direction = wanted if self.workspace is not None or self.backup is not None else "read"
+        # A backup can only be put back.
         self.backup = self.backup if self.direction == "send" else None
         if self.direction in ("read", "hand") or self.workspace is None:
             self.known.several.setChecked(False)
@@ -135,6 +137,7 @@ class ControlPage(ControlPageParts):
             self.hand.show_file(workspace)
             self.states.setCurrentWidget(self.hand)
             seen = self.session.seen if self.session is not None and self.session.phase == "ready" else None
+            # A sheet against a file stays: it was asked for, and its ticks go with it.
             is_of_control = self.hand.sheet is None or self.hand.seen is not None
             if seen is not None and is_of_control and self.hand.seen is not seen:
                 self.hand.control_wanted.emit()
@@ -156,6 +159,7 @@ class ControlPage(ControlPageParts):
         self.known.several.setChecked(False)
         self._show_state()
         if self.session is not None:
+            # The one before may still be at work: its end must not be shown as that of the new one.
             self.session.changed.disconnect(self._follow)
             self.session.progressed.disconnect(self.show_progress)
         self.session, self.name = session, name
@@ -235,6 +239,7 @@ class ControlPage(ControlPageParts):
         assert session is not None
         if self._needs_sheet and not session.is_busy:
             self._sheet_after_reading(session)
+        # Asked before the parts follow the new state: then the button is gone, and with it the keyboard.
         was_running = not self.cancel.isHidden()
         if session.phase in ("ready", "done") and not session.is_busy:
             self._fill()
@@ -242,6 +247,7 @@ class ControlPage(ControlPageParts):
             self.refresh()
         if not session.is_busy and self.isVisible():
             self.take_keyboard(session, is_lost=was_running)
+        # Pressed at the machine, E-stop is seen here without a click.
         needs = session.phase == "ready" and session.in_estop is False and self.direction == "send"
         self._asking.start() if needs and self.isVisible() else self._asking.stop()
         self.state_changed.emit()
@@ -341,6 +347,7 @@ class ControlPage(ControlPageParts):
         message = bar_message(state)
         if message is None:
             self.bar.hide()
+        # Not shown again while it is there: screen readers would read it out at every change.
         elif self.bar.isHidden() or self.bar.text.text() != message.text:
             acts: dict[BarAnswer, Callable[[], object]] = {
                 "ask": self._ask_again,
@@ -428,9 +435,11 @@ class ControlPage(ControlPageParts):
         assert workspace is not None
         if workspace.is_dirty and workspace.may_edit and not self._save():
             return  # what is sent is on disk
+        # The thread sends this while the file may be edited on.
         file = workspace.file.copy()
         kept = {row.difference.address: row.difference.b for row in self.table.kept()}
         if kept:
+            # Forced: what the control contains may lie outside the limits of the schema, and stays.
             file.set_checked(kept, force=self.tr("kept at the control"))
         session.send(file, workspace.path)
 
@@ -480,6 +489,7 @@ class ControlPage(ControlPageParts):
             self.hint.setText(self.tr("Stopping at the next safe point …"))
 
     def _escape(self) -> None:
+        # Escape stops before it leaves: nobody should leave while something is being written.
         if self.several.is_busy:
             self.several.stop_all()
         elif self.session is not None and self.session.phase == "running":
@@ -495,5 +505,6 @@ class ControlPage(ControlPageParts):
     def _enter_password(self) -> None:
         if self.session is not None:
             text = self.password.text()
+            # Before the connection is tried: it is not left in a field while a thread waits.
             self.password.clear()
             self.session.enter_password(text)

@@ -70,6 +70,8 @@ class StatusReadings(QObject):
             while not cancelled.is_set():
                 begun = time.monotonic()
                 self.read.emit(reader.read())
+                # From question to question, so a slow line is asked without a pause but never faster than
+                # this.
                 cancelled.wait(max(PERIOD - (time.monotonic() - begun), 0.0))
 
 

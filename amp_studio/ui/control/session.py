@@ -92,6 +92,7 @@ class ControlSession(QObject):
     def ask(self) -> None:
         """Ask the control for its state again; nothing is read or changed."""
         if self.seen is not None and not self.is_busy:
+            # In the phase it is in: a question every 2 s must not make the page flicker.
             self._begin(self.phase, self._identify, self._take_state, self._not_reached)
 
     def enter_password(self, password: str) -> None:
@@ -164,6 +165,7 @@ class ControlSession(QObject):
         if self.seen is None:
             return None
         state = self.seen.content, _content_of(file)
+        # A page asks for it at every change, and a comparison of a whole file lasts.
         if self._compared is None or self._compared[0] != state:
             self._compared = state, verify_content(file, self.seen.content)
         return self._compared[1]
@@ -180,6 +182,7 @@ class ControlSession(QObject):
         def work(exchange: Exchange) -> Outcome:
             from amp_studio.transfer.client import download_file, sha256
 
+            # A control that was changed since it was read is noticed: then nothing is replaced.
             expected = sha256(seen.content)
             return download_file(file, self.address, exchange, expected=expected, known=seen.content)
 
@@ -265,6 +268,8 @@ class ControlSession(QObject):
             return work(Exchange(progress, cancel, keep=path, record=path, notify=self.notes.append))
 
         task = self._task = Task(run)
+        # Taken after the thread has ended: what a result sets off may begin the next exchange, for which
+        # this one must be over.
         results: list[Callable[[], None]] = []
         task.done.connect(lambda result: results.append(lambda: done(result)))
         task.failed.connect(lambda error: results.append(lambda: failed(error)))

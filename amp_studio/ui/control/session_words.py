@@ -80,8 +80,10 @@ def text_of_failure(session: ControlSession) -> str:
     if session.outcome is not None:
         return message_in_words(session.outcome.text)
     failure = session.failure
+    # Without a failure of the transfer it broke before anything was sent.
     state = failure.at_control if failure is not None else "old"
     head = _heads(session.backup_name).get(state or "old", tr("It is not known what the control contains."))
+    # Some of both, or not known: gains and limits may not fit each other.
     danger = "" if state in ("old", "", "new") else tr("Do not move the machine before it was read.")
     return " ".join(filter(None, (head, danger, error_in_words(session))))
 

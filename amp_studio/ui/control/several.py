@@ -210,6 +210,7 @@ class SeveralControls(QWidget):
 
             def exchange(address: str) -> Exchange:
                 def show(stage: str, done: int, total: int) -> None:
+                    # They would take the place of the stage that the row was in, which is still under way.
                     if stage not in _SILENT:
                         progress(f"{stage} {address}", done, total)
 

@@ -70,6 +70,7 @@ class ExchangeSteps(QWidget):
             self._title.setText(
                 self.tr("What happened") if phase in ("done", "failed") else self.tr("What will happen")
             )
+            # Where it failed it stays where it got to, so that the ticks show how far it was.
             self._at = len(STAGES) if phase == "done" else self._at if phase == "failed" else -1
         whole = session is None or session.seen is None or session.seen.abilities.all_or_nothing
         texts = _texts(count, whole) if is_sent else _reading()
@@ -102,6 +103,7 @@ class ExchangeSteps(QWidget):
     def show_stage(self, stage: str, done: int, total: int) -> None:
         """Show how far an exchange is."""
         step = _OF_PROGRESS.get(stage)
+        # Stages of waiting belong to no step.
         if step is None:
             return
         self._at = step

@@ -108,6 +108,7 @@ class Command:
 
     @cached_property
     def _pattern(self) -> re.Pattern[str]:
+        # The longest first, or AXIS1 would be found in AXIS10.
         names = "|".join(re.escape(i) for i in sorted(self.instances, key=len, reverse=True))
         places = {"i": rf"\s*(?P<i>{names})\s*", "k": "(?P<k>[0-9]{1,9})", "n": "(?P<n>[0-9]{1,9})"}
         text, count = "", 0
@@ -116,6 +117,7 @@ class Command:
                 text += places.get(part["place"], _figure(count))
                 count += part["place"] not in places
             elif part["blank"]:
+                # A blank may be left out only beside a sign, which parts the words anyway.
                 text += r"(?:\s+|(?<=[^A-Za-z0-9.])|(?=[^A-Za-z0-9.+-]))"
             else:
                 text += re.escape(part[0]) if part["word"] else rf"\s*{re.escape(part[0])}\s*"
@@ -149,6 +151,7 @@ def _commands(schema: Schema, machine: str, forms: Callable[[Parameter], tuple[s
         for template in forms(parameter):
             settings = commands.setdefault(template, {})
             for setting in _settings(schema, machine, parameter, template):
+                # Two parameters of one command (NOTCH) both name it: it is one setting.
                 settings.setdefault(setting.addresses, setting)
     return [
         Command(template, tuple(settings.values())) for template, settings in commands.items() if settings

@@ -75,8 +75,10 @@ def word_of(text: str) -> str:
 
 
 def script_lines(text: str, commands: list[Command], words: set[str]) -> Iterator[ScriptLine]:
+    # Editors put a byte order mark in front, which is three characters in either of these code pages.
     for n, row in enumerate(text.removeprefix(_MARK).removeprefix(_MARK_SEEN_AS_LATIN).split("\n"), 1):
         line = ScriptLine(n, row.rstrip("\r"))
+        # Patterns with repeats take long on a long line: a script has none.
         if len(line.text) > _LONGEST_LINE:
             line.fault = FormatError(f"the line is longer than {_LONGEST_LINE} characters", n)
         elif not _REMARK.fullmatch(line.text):
@@ -98,6 +100,7 @@ def _is_of_a_program(text: str, words: set[str]) -> bool:
     word = (match["word"] or "").upper()
     if not word:
         return True
+    # DAC with another word is a setting of the card, not one here.
     if word == "DAC":
         return not re.match(r"\s*DAC[0-9]*\s+GAIN\b", text, re.IGNORECASE)
     return word not in words and (_LATER.fullmatch(word) or _WORDS.fullmatch(word)) is not None

@@ -50,6 +50,7 @@ def _figure(difference: float) -> str:
         raise ValueError(
             f"A compensation of {difference!r} has digits before the point, for which no form is printed."
         )
+    # No minus before a compensation that is rounded to nothing.
     return (sign if digits != "0.00000" else "") + digits[1:]
 
 

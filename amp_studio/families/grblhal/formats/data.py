@@ -43,6 +43,7 @@ def with_signs(text: str) -> str:
     is_data = text.lstrip(f"{MARK} \t\r\n").startswith(("[", "{", "<"))
     for shape in _DATA if is_data else ():
         found = list(shape.finditer(text[:_LONGEST]))
+        # Numbers alone are in many texts: only those that look like a whole set of settings are taken.
         if {match.groups()[-2] for match in found} >= _OF_EVERY_GRBL and len(found) >= _LEAST:
             return _TAG.sub(" ", shape.sub(_with_sign, text))
     return text
@@ -50,6 +51,7 @@ def with_signs(text: str) -> str:
 
 def _with_sign(match: re.Match[str]) -> str:
     number, value = match.groups()[-2:]
+    # As many lines as before: messages name the line of the text.
     return f" ${number}={value} " + "\n" * match[0].count("\n")
 
 

@@ -101,6 +101,7 @@ def _plain(text: str) -> tuple[str, str, str]:
     Where only some lines end with a return, it stays in them.
     """
     try:
+        # Read as latin-1, every byte is one character: so the bytes are known here, and UTF-8 can be tried.
         text, encoding = text.encode("latin-1").decode("utf-8"), "utf-8"
     except UnicodeError:
         encoding = "latin-1"
@@ -141,6 +142,7 @@ def _hal_references(ini: IniText, beside: Callable[[str], str | None]) -> dict[s
     for entry in (each for each in ini.entries if each.section == "HAL"):
         if entry.key.endswith("HALFILE"):
             name = next(iter(entry.text.split()), "")
+            # Files of the library come with LinuxCNC: they are not beside the configuration.
             text = "" if name.startswith("LIB:") else beside(name)
             for line, where, pin in references(text or ""):
                 place = f"{name} line {line}"
@@ -245,6 +247,7 @@ def contents_of(file: ParameterFile, before: Mapping[str, bytes]) -> dict[str, b
     made = dict(before)
     for name, text in texts_of(file).items():
         plain, encoding, newline = _plain(before[name].decode("latin-1"))
+        # Bytes that were not changed stay as they are: mixed line ends and marks of the file survive.
         if text != plain:
             made[name] = _encoded(text, encoding).replace(b"\n", newline.encode())
     return made
@@ -283,12 +286,14 @@ class _Edited:
     def rows(self) -> dict[str, list[str]]:
         """Return the lines of each file, with new values at the ends of their sections."""
         new = self._new_lines()
+        # From the last section up: lines put in below do not move the places above.
         for section in sorted(new.keys() & self.ini.last.keys(), key=self.ini.last.__getitem__, reverse=True):
             at = self.ini.last[section] + 1
             self.lines[""][at:at] = new.pop(section)
         rows = {name: [row for row in lines if row is not None] for name, lines in self.lines.items()}
         for section, lines in new.items():
             main = rows[""]
+            # A file that ends with a new line ends with one again.
             ends = bool(main) and main[-1] == ""
             main[len(main) - ends :] = ["", f"[{section}]", *lines, *[""] * ends]
         return rows
@@ -311,12 +316,14 @@ class _Edited:
             parameter = self.file.schema.parameters[address[0]]
             text = write_figure(parameter, value, unit)
             if not parameter.choices and parameter.type != "text":
+                # What a person wrote behind the number stays.
                 text += row.entry.text[len(number_in(parameter, row.entry.text)) :]
             lines = self.lines[row.entry.file]
             lines[row.entry.line] = with_value(str(lines[row.entry.line]), row.entry, text)
             if row.entry.lines > 1:
                 lines[row.entry.line] = str(lines[row.entry.line]).removesuffix("\\")
             for at in range(row.entry.line + 1, row.entry.line + row.entry.lines):
+                # Marked, not taken out: the entries below know their lines by number.
                 lines[at] = None
 
     def _drop(self, entry: IniEntry) -> None:

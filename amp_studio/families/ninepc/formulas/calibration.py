@@ -76,6 +76,7 @@ def read_calibration(text: str) -> CalibrationText:
 
 
 def _check(table: CalibrationText) -> None:
+    # The screen checks in the order of entry, which begins at the start of the table (36-7).
     entered = table.points if table.start == "-" else table.points[::-1]
     if len(entered) > MOST_POINTS:
         raise CalibrationTextError(f"it has {len(entered)} points, and {MOST_POINTS} are the most")
@@ -118,6 +119,7 @@ def calibration_fault(table: str, turns: bool) -> str:
 
 def calibration_points(tables: Sequence[str | None]) -> float:
     """Number of points in all tables together, of which the control stores 1001 (page 36-10)."""
+    # Three words come before the points; not read, as it counts tables that have faults as well.
     return float(sum(max(len(table.split()) - 3, 0) for table in tables if table))
 
 

@@ -168,12 +168,15 @@ def _arranged(texts: WordTexts, layout: TableLayout) -> list[Placed]:
     arranged: list[Placed] = []
     for block in layout.blocks:
         there = [word for word in block.words if left.pop(word, False)]
+        # A line that lost a word is divided again by the rules of the control: a gap in a line would shift
+        # its words.
         arranged += [block] if len(there) == block.count else runs(there, block.typed)
     added = list(runs(left, not layout.old_headers))
     if not arranged:
         return added
     for block in added:
         later = (n for n, other in enumerate(arranged) if other.first > block.first)
+        # New words go before the first line with a greater number, as the control would have them.
         arranged.insert(next(later, len(arranged)), block)
     return arranged
 
@@ -184,6 +187,7 @@ def runs(words: Iterable[Word], typed: bool) -> Iterator[Placed]:
     """
     first, count = (-1, -1), 0
     for parameter, n in words:
+        # Lines of the control begin at words 0, 10, 20 …, also after a gap.
         if count and (parameter, n) == (first[0], first[1] + count) and n % MOST_VALUES:
             count += 1
             continue
@@ -200,6 +204,7 @@ def _data(block: Placed, texts: WordTexts, forms: Mapping[int, Spelling]) -> str
     if block.data is not None and form is not None:
         own = [block.data] if block.count == 1 else block.data.split(" ")
         try:
+            # The old spelling (leading zeros, a sign) is kept only while it means the same words.
             if [form.spell(form.read(text)) for text in own] == spelled:
                 return block.data
         except InvalidValueError:

@@ -107,6 +107,7 @@ class _Reader:
                 f"P{parameter} of {self.schema.family.name} has words of type {own[0]}, not {block.code}"
             )
             raise FormatError(message, line, column)
+        # A parameter of more than ten words has a header for each line: all of them must agree.
         before = self.heads.setdefault(parameter, (block.code, block.count))
         if before != (block.code, block.count):
             message = f"a header above gives t{before[0]}n{before[1]} of P{parameter}"
@@ -272,11 +273,13 @@ def _write(file: ParameterFile) -> str:
         if there:
             cells[word] = _spelled(file, active_meaning(file, there), known.form(word[0], heads))
     for word, text in cells.items():
+        # Software of another index has fewer words: this one has no place there.
         if word[0] in layout.heads and word[1] >= layout.heads[word[0]][1]:
             message = (
                 f"the control that the table came from has {layout.heads[word[0]][1]} words of P{word[0]}"
             )
             raise FormatError(f"{name_of(word)}: {message}")
+        # A blank parts the values of a line.
         if (not text or " " in text) and word[0] not in alone:
             raise FormatError(f"{name_of(word)}: the text '{text}' would not be read as one value")
     forms = {a: form for a in known.counts if (form := known.form(a, heads)) is not None}

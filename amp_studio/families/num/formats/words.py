@@ -156,6 +156,7 @@ class WordMeaning:
         parameter = schema.parameters[address[0]]
         storage = parameter.storage or Storage()
         straight = storage.unit if storage.unit is not None else schema.unit(parameter, "metric", turns=False)
+        # A unit without an angular one (V, ms, %) is the same on every axis.
         fixed = straight == angular(straight) or (storage.unit is None and parameter.unit is not None)
         return cls(address, parameter, straight if fixed else None)
 
@@ -240,6 +241,7 @@ def words_of(schema: Schema, machine: str) -> KnownWords:
         meanings[a, b] = (*meanings.get((a, b), ()), meaning)
         counts[a] = max(counts.get(a, 0), b + 1)
         storage = meaning.parameter.storage or (None if meaning.parameter.type == "text" else Storage())
+        # Words of a parameter share one form: the first that has a code of a type is known best.
         if storage is not None and (a not in forms or forms[a].code is None):
             forms[a] = Spelling.of(storage)
     heads = {a: (form.code, counts[a]) for a, form in forms.items() if form.code is not None}

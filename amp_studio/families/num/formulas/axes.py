@@ -50,6 +50,7 @@ def indexing_increment(degrees: float) -> float:
     """Value of P65 for an indexing step in degrees (page 4-36): 0.5 degrees are 5000."""
     if degrees < 0.0:
         raise ValueError(f"A step is not negative, as {degrees:g} is.")
+    # Rounded: 0.1 degrees are 1000, and not a hair less.
     return round(degrees * 10000.0, 6)
 
 

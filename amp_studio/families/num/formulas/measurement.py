@@ -100,6 +100,7 @@ def unwatched_axis(measured: float, declared: float, spindles: float, handwheels
     """
     others = (int(spindles) & 15) << 24 | (int(handwheels) & 15) << 28
     left = int(measured) & ~int(declared) & ~others
+    # x & -x leaves the lowest bit alone; without any it is 0, and the result -1.
     return float((left & -left).bit_length() - 1)
 
 

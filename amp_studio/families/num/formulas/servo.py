@@ -98,9 +98,11 @@ def average_acceleration(speed_variation: float, least_time: float, acceleration
     ``least_time`` is the word of P53; 0 is the old way,
     half of the greatest acceleration whatever the change.
     """
+    # The mean of a sin² ramp is half of its greatest acceleration.
     half = not_negative("The acceleration", acceleration) / 2.0
     change = not_negative("The speed variation", speed_variation) / 60.0
     seconds = _seconds(least_time)
+    # A small change takes the least time of P53, and is gentler than the limit then.
     return change / seconds if change < seconds * half else half
 
 
@@ -157,6 +159,7 @@ def reference_points(voltage: float) -> float:
     """Points of the axis card's converter for a speed reference (page 6-14): 9 V are 29491."""
     if not 0 <= voltage <= 10:
         raise ValueError(f"The reference voltage must be 0 to 10 V, not {voltage!r}.")
+    # Whole points, rounded down: 9 V are 29491.2, and the page prints 29491.
     return float(math.floor(voltage / 10.0 * DAC_POINTS_AT_10_V))
 
 
@@ -176,6 +179,7 @@ def reference_voltage(coefficient: float, max_speed: float, time_constant: float
     """Reference in V that a KVAR gives at top speed (page 6-14); the converter ends at 10 V."""
     error = steady_following_error(max_speed, time_constant)
     points = not_negative("The loop gain coefficient", coefficient) * error / servo_coefficient(unit)
+    # By the printed 29491 points, so that KVAR and this give 9 V back exactly.
     return points * 9.0 / DAC_POINTS_AT_9_V
 
 

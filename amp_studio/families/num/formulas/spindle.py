@@ -104,6 +104,7 @@ def speed_gap(
     _same_length(minima, maxima, limits)
     ranges = [*_ranges(minima, maxima, limits)]
     last = max((end for _, end in ranges), default=0.0)
+    # By their ends: the first gap that is met is the lowest one.
     for _, end in sorted(ranges, key=lambda found: found[1]):
         following = (low for low, other in ranges if other > end and low is not None)
         if end < last and not any(low <= end + 1.0 for low in following):

@@ -58,6 +58,7 @@ def to_internal(length: float, unit: float) -> float:
     """
     if not unit > 0.0:
         raise ValueError(f"An internal unit is longer than nothing, not {unit:g}.")
+    # Rounded: 0.3 mm of 0.1 mm are 3 units, and not a hair less.
     return round(length / unit, 6)
 
 

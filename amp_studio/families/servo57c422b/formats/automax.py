@@ -88,6 +88,7 @@ def _write_table(file: ParameterFile) -> str:
             rows[one.register] = f"{one.register}\t{_number(registers, one)}\t{remark}"
             continue
         for n, word in enumerate(one.words):
+            # In bits: half of a number has no sign, and is no number that a person would read.
             rows[one.register + n] = f"{one.register + n}\t{write_hexadecimal(word)}\t" + (
                 remark if n == 0 else "the rest of it"
             )
@@ -184,6 +185,7 @@ def _is_task(text: str) -> bool:
 
 def _write_task(file: ParameterFile) -> str:
     registers, variables = registers_of(file.schema, file.machine), Variables(file.schema)
+    # A variable is one register or two: longer values have none.
     settings = [one for one in contents_of(file, registers) if len(one.words) <= 2]
     statements = {one.register: _assignment(registers, variables, one) for one in settings}
     layout = lines_kept(file, _KIND)

@@ -75,6 +75,7 @@ class BasicLine:
         at = self._places[id(statement)]
         piece = self.pieces[at]
         if texts:
+            # In its blanks: the columns of the task stay as a person has set them.
             self.pieces[at] = piece.replace(statement.text, " \\ ".join(texts), 1)
             return
         self.pieces[at] = piece[: len(piece) - len(piece.lstrip())]

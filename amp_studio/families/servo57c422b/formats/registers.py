@@ -159,6 +159,7 @@ class RegisterValues:
         or the number is too long.
         """
         bits = WORD * source.words
+        # Decimal numbers may be signed or not: both forms of a word are in use.
         low = 0 if source.is_pattern else -(1 << (bits - 1))
         if not low <= source.number < 1 << bits:
             what = "two registers" if source.words > 1 else "a register"
@@ -180,6 +181,7 @@ class RegisterValues:
                 several.append(register)
             else:
                 self._decide(register, claims, "is of no parameter")
+        # Shared registers last: which of their parameters exists depends on the others.
         file = ParameterFile(self.registers.schema, Header(machine=self.registers.machine))
         file.take(self.values)
         for register in several:
@@ -220,6 +222,7 @@ class RegisterValues:
         source = cells[0].source
         is_whole = source.words == len(cells) and all(cell.source is source for cell in cells)
         try:
+            # A signed number is taken as it was written; words in bits are put together first.
             if is_whole and not source.is_pattern and not is_low_first(parameter):
                 return value_of_register(parameter, source.number, unit)
             return value_of_words(parameter, tuple(cell.word for cell in cells), unit)

@@ -77,5 +77,6 @@ def word_bytes(word: float) -> tuple[int, int]:
     stored = whole("The register", word, 0)
     if stored > 0xFFFF:
         raise ValueError(f"The register must fit 16 bits, not {word!r}.")
+    # A byte has a sign: two's complement.
     low, high = (byte - 256 if byte > 127 else byte for byte in (stored & 0xFF, stored >> 8))
     return low, high
