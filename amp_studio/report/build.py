@@ -20,9 +20,10 @@ from amp_studio.files import (
     axis_kind,
     axis_letter,
     content_of,
+    file_content,
     fitted_axes,
     machine_note,
-    open_file,
+    read_content,
     without_secrets,
 )
 from amp_studio.guide import Present, present
@@ -78,6 +79,7 @@ def build_report(
     heads, axes = _axes(file, found.rows, now.findings)
     family = file.schema.family
     name = source.name if source else ""
+    content = content_of(without_secrets(file))
 
     def with_part(part: str, made: Callable[[], Iterable[_T]]) -> tuple[_T, ...]:
         """Return a part that may be left out; then it is not made either."""
@@ -91,7 +93,7 @@ def build_report(
         program=f"AMP Studio {__version__}",
         contents=contents,
         machine=tuple(_machine(file, project)),
-        facts=tuple(_facts(file, source, contents)),
+        facts=tuple(_facts(file, source, contents, content)),
         counts=tuple(_counts(file, found, len(printed), now)),
         remarks=machine_note(file).strip(),
         remarked=tuple(_remarked(file)),
@@ -112,9 +114,9 @@ def build_report(
         checks=tuple(checks),
         programs=tuple(programs),
         family_id=family.family,
-        file_data=_file_data(file, source),
+        file_data=_file_data(file, source, content),
         totals=_totals(file, found, now),
-        machine_file=content_of(without_secrets(file)).decode("utf-8"),
+        machine_file=content.decode("utf-8"),
         help={i: tuple(_help(file.schema, i, language)) for i in _ids_of(printed)},
     )
 
@@ -188,11 +190,13 @@ def _machine(file: ParameterFile, of_project: ProjectInfo | None) -> list[tuple[
     return [(title, text.strip() or "–") for title, text in facts]
 
 
-def _facts(file: ParameterFile, source: Path | None, contents: Contents) -> list[tuple[str, str]]:
+def _facts(
+    file: ParameterFile, source: Path | None, contents: Contents, content: bytes
+) -> list[tuple[str, str]]:
     units = file.header.units if contents.units == "file" else UNIT_CHOICES[contents.units]
     return [
         ("File", source.name if source else "not saved yet"),
-        _checksum(file, source),
+        _checksum(file, source, content),
         ("Schema signature", _signature(file)),
         ("Unit system", units),
         ("Order", SORTS[contents.sort]),
@@ -200,29 +204,33 @@ def _facts(file: ParameterFile, source: Path | None, contents: Contents) -> list
     ]
 
 
-def _checksum(file: ParameterFile, source: Path | None) -> tuple[str, str]:
+def _checksum(file: ParameterFile, source: Path | None, content: bytes) -> tuple[str, str]:
     """Return title and checksum of the file on disk, with a note where its values differ from the report.
 
-    With the report, somebody could try all passwords against a checksum, so it excludes secrets.
+    With the report, somebody could try all passwords against a checksum, so it excludes secrets, as
+    ``content`` does.
     """
     title = "SHA-256 of the file"
     if without_secrets(file) is not file:
         title, file = "SHA-256 without the secret values", without_secrets(file)
     if source is None:
-        return title, _digest(file) + " (not saved yet)"
+        return title, _digest(content) + " (not saved yet)"
     try:
-        opened = open_file(source)
+        stored = file_content(source)
+        if stored == content:
+            return title, _digest(content)
+        opened = read_content(source, stored)
     except ParameterFileError:
         return title, "the file on disk cannot be read"
-    on_disk = without_secrets(opened.file)
-    digest = opened.digest if on_disk is opened.file else _digest(on_disk)
+    on_disk = without_secrets(opened)
+    digest = _digest(stored if on_disk is opened else content_of(on_disk))
     if on_disk.values != file.values:
         return title, digest + " – but this report contains unsaved changes"
     return title, digest
 
 
-def _digest(file: ParameterFile) -> str:
-    return hashlib.sha256(content_of(file)).hexdigest()
+def _digest(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()
 
 
 def _signature(file: ParameterFile) -> str:
@@ -255,10 +263,10 @@ def _counts(file: ParameterFile, found: Rows, printed: int, now: Present) -> lis
     return counts
 
 
-def _file_data(file: ParameterFile, source: Path | None) -> dict[str, str | bool | None]:
+def _file_data(file: ParameterFile, source: Path | None, content: bytes) -> dict[str, str | bool | None]:
     """Return what is known of the file as data; the checksum is that of the values that are printed."""
     return {
-        "sha256": _digest(without_secrets(file)),
+        "sha256": _digest(content),
         "without_secrets": without_secrets(file) is not file,
         "saved": source is not None,
         "signature": file.schema.signature,

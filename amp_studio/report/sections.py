@@ -102,12 +102,12 @@ def _by_step(file: ParameterFile, rows: Sequence[ReportRow], language: Language)
     by_parameter: dict[str, list[ReportRow]] = {}
     for row in rows:
         by_parameter.setdefault(row.id, []).append(row)
-    sections = []
+    heads, sections = _columns(file), []
     for step in steps_of(file.schema):
         own = [row for parameter in step.parameters for row in by_parameter.get(parameter.id, ())]
         if own:
             title = f"{step.number} {language.title(step.title)}"
-            sections.append(Section(f"step-{step.number}", title, tuple(_group_parts(file, "", own))))
+            sections.append(Section(f"step-{step.number}", title, tuple(_group_parts(file, "", own, heads))))
     return tuple(sections)
 
 
@@ -116,26 +116,33 @@ def _by_step(file: ParameterFile, rows: Sequence[ReportRow], language: Language)
 
 def _by_group(file: ParameterFile, rows: Sequence[ReportRow]) -> tuple[Section, ...]:
     """Return one section for each group; the parts of a long group stay together."""
+    heads = _columns(file)
     sections: list[Section] = []
     for name, members in groupby(rows, key=lambda r: r.group):
         parts: list[Listing | Grid] = []
         for title, part in groupby(members, key=lambda r: file.schema.group_of[r.id].section):
-            parts += _group_parts(file, title, list(part))
+            parts += _group_parts(file, title, list(part), heads)
         sections.append(Section(f"group-{len(sections) + 1}", name, tuple(parts)))
     return tuple(sections)
 
 
-def _group_parts(file: ParameterFile, title: str, rows: list[ReportRow]) -> list[Listing | Grid]:
-    axes = printed_axes(file)
+def _columns(file: ParameterFile) -> dict[str, Column]:
+    """Return the head of each printed axis."""
+    return {axis: Column(axis_label(file, axis), axis_note(file, axis)) for axis in printed_axes(file)}
+
+
+def _group_parts(
+    file: ParameterFile, title: str, rows: list[ReportRow], heads: dict[str, Column]
+) -> list[Listing | Grid]:
+    axes = tuple(heads)
     if not any(_is_axis(file, r) for r in rows):
         return [Listing(title, tuple(rows), any(r.place for r in rows))]
     grids: list[Listing | Grid] = []
     for start in range(0, len(axes), _WIDEST_GRID):
         listed = axes[start : start + _WIDEST_GRID]
         lines = tuple(_lines(file, rows, listed, with_others=start == 0))
-        columns = tuple(Column(axis_label(file, axis), axis_note(file, axis)) for axis in listed)
         if lines:
-            grids.append(Grid(title, columns, lines))
+            grids.append(Grid(title, tuple(heads[axis] for axis in listed), lines))
     return grids
 
 

@@ -16,7 +16,7 @@ from amp_studio.sim.trace import Recommendation
 
 from .aims import NORMAL
 from .gains import Gain
-from .linear import LinearModel, Margins, linear_model
+from .linear import LawMatrices, LinearModel, Margins, linear_model
 from .loops import Loops
 from .solver import Solved, solve
 from .tried import Tried
@@ -208,27 +208,28 @@ def stable_inertias(axis: AxisLaw) -> tuple[float, float] | None:
     """
     if axis.machine.velocity_per_output > 0.0:
         return None
-    return _stable_to(axis, INERTIAS[0]), _stable_to(axis, INERTIAS[1])
+    law = LawMatrices.of(axis)  # the inertia has no part in it
+    return _stable_to(axis, law, INERTIAS[0]), _stable_to(axis, law, INERTIAS[1])
 
 
-def _stable_to(axis: AxisLaw, furthest: float) -> float:
+def _stable_to(axis: AxisLaw, law: LawMatrices, furthest: float) -> float:
     """Return the last share of the inertia on the way to ``furthest`` with which an axis is stable."""
     good, bad = 0.0, 0.0
     # In equal ratios to the first share that is not stable: what may be stable beyond it is of no use.
     for n in range(1, STEPS + 1):
-        if not _with_inertia(axis, furthest ** (n / STEPS)).is_stable():
+        if not _with_inertia(axis, law, furthest ** (n / STEPS)).is_stable():
             bad = n / STEPS
             break
         good = n / STEPS
     for _ in range(HALVINGS if bad else 0):
         middle = 0.5 * (good + bad)
-        good, bad = (middle, bad) if _with_inertia(axis, furthest**middle).is_stable() else (good, middle)
+        good, bad = (middle, bad) if _with_inertia(axis, law, furthest**middle).is_stable() else (good, middle)
     return float(furthest**good)
 
 
-def _with_inertia(axis: AxisLaw, inertia: float) -> LinearModel:
+def _with_inertia(axis: AxisLaw, law: LawMatrices, inertia: float) -> LinearModel:
     machine = replace(axis.machine, acceleration_per_output=axis.machine.acceleration_per_output / inertia)
-    return linear_model(replace(axis, machine=machine))
+    return linear_model(replace(axis, machine=machine), law)
 
 
 def chatters_in_gap(axis: AxisLaw) -> bool:
