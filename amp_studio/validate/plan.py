@@ -111,6 +111,12 @@ class RuleCheck:
         """Every address the rule reads here, single values first."""
         return (*self.reads, *(a for _, listed in self.lists for a in listed.addresses))
 
+    def is_about(self, address: Address) -> bool:
+        """Return whether the rule reads an address here."""
+        if address in self.reads:
+            return True
+        return bool(self.lists) and any(address in listed.places for _, listed in self.lists)
+
     def address_of(self, name: str) -> Address:
         """Return what a name of a single value means."""
         return self._by_name[name]

@@ -203,8 +203,8 @@ class Validator:
 
     def rules_of(self, address: Address) -> tuple[Rule, ...]:
         """Return the rules that read an address itself."""
-        woken = self._plan.rule_readers.get(address, ())  # also by what a state depends on
-        checks = [check for check in woken if address in check.addresses]
+        # Not by what an edit wakes, which is worked out for all addresses at once: the window asks before that.
+        checks = (check for check in self._plan.checks if check.is_about(address))
         return tuple({check.rule.id: check.rule for check in checks}.values())
 
     def check_of(self, finding: Finding) -> RuleCheck | None:
