@@ -203,7 +203,7 @@ class Validator:
 
     def rules_of(self, address: Address) -> tuple[Rule, ...]:
         """Return the rules that read an address itself."""
-        # Not by what an edit wakes, which is worked out for all addresses at once: the window asks before that.
+        # Not by what an edit wakes, which takes all addresses at once: the window asks before the first edit.
         checks = (check for check in self._plan.checks if check.is_about(address))
         return tuple({check.rule.id: check.rule for check in checks}.values())
 

@@ -223,7 +223,9 @@ def _stable_to(axis: AxisLaw, law: LawMatrices, furthest: float) -> float:
         good = n / STEPS
     for _ in range(HALVINGS if bad else 0):
         middle = 0.5 * (good + bad)
-        good, bad = (middle, bad) if _with_inertia(axis, law, furthest**middle).is_stable() else (good, middle)
+        good, bad = (
+            (middle, bad) if _with_inertia(axis, law, furthest**middle).is_stable() else (good, middle)
+        )
     return float(furthest**good)
 
 
