@@ -82,6 +82,23 @@ def rules(named: str, current: str) -> Sequence[str]:  # noqa: ARG001  # every c
     return [rule.id for file in _files(named) for rule in file.schema.rules]
 
 
+def targets(named: str, current: str) -> Sequence[str]:  # noqa: ARG001  # every completion takes both
+    """Return the families that a machine can be migrated to."""
+    from amp_studio.meaning import targets as migrated
+
+    return migrated()
+
+
+def machine_tests(named: str, current: str) -> Sequence[str]:  # noqa: ARG001  # every completion takes both
+    """Return the names of the tests at the machine."""
+    from amp_studio.sim import SimulationError, machine_tests
+
+    try:
+        return [test.name for file in _files(named) for test in machine_tests(file)]
+    except SimulationError:  # a file without axes, a family without a law
+        return ()
+
+
 def axes(named: str, current: str) -> Sequence[str]:  # noqa: ARG001  # every completion takes both
     """Return the axes, by letter where they have one."""
     from amp_studio.files import axis_letter, fitted_axes

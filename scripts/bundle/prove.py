@@ -38,6 +38,7 @@ DAY = (
     "export a.amp -o a.settings",
     f"validate {EXAMPLE}",
     f"simulate {EXAMPLE} step --axis X",
+    f"simulate {EXAMPLE} sweep --axis X -o map.svg --jobs 2",
     f"check {EXAMPLE}",
     "demo --terminal",
 )

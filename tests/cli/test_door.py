@@ -16,7 +16,7 @@ WORDS = {"schema", "report"}
 PAST_THE_DOOR = {
     "the paths, folders and dialogues of a command line": {
         "asking.py": "transfer",
-        "candidates.py": "files guide validate",
+        "candidates.py": "files guide meaning sim validate",
         "outcome.py": "files",
         "out_of_range.py": "files",
         "output.py": "files",

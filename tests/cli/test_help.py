@@ -363,6 +363,10 @@ LINES = [
     ("amp-studio set MILL_1394.amp 350=La", ["Lathe"]),
     ("amp-studio show 9pc home.cal", ["home.calibration"]),
     ("amp-studio sheet MILL_1394.amp --tick 130", ["1300"]),
+    ("amp-studio machine-tests MILL_1394.amp tu", ["tuning"]),
+    ("amp-studio migrate MILL_1394.amp --to li", ["linuxcnc"]),
+    ("amp-studio form nu", ["num"]),
+    ("amp-studio show 9pc servo.ex", ["servo.excess_error"]),
 ]
 """A line as it is typed, and what bash puts in the place of what comes after its last word break."""
 

@@ -138,7 +138,7 @@ def _set_up_print(page: Any, title: str, paper: PaperSize, *, has_heads: bool) -
     if has_heads:
         page.print_title_rows = "1:1"
     page.oddFooter.left.text = _text(title).replace("&", "&&")[:_MOST_FOOT]
-    page.oddFooter.center.text, page.oddFooter.right.text = "&A", "&P / &N"
+    page.oddFooter.right.text = "&A   &P / &N"  # in the middle it would lie under a long title
 
 
 def _without_times(content: io.BytesIO) -> bytes:

@@ -7,6 +7,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
+from amp_studio.cli import candidates
 from amp_studio.cli.arguments import JSON, LANGUAGE, PATH, TEXT
 from amp_studio.cli.console import print_remark
 from amp_studio.cli.errors import UsageError
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 VERB = Verb(
     __doc__,
     PATH,
-    VerbArgument("--to", required=True, help="family of the new control"),
+    VerbArgument("--to", required=True, help="family of the new control", completes=candidates.targets),
     VerbArgument(
         "-o",
         "--output",

@@ -9,6 +9,7 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from amp_studio.cli import candidates
 from amp_studio.cli.arguments import AXIS, JSON, LANGUAGE, OUTPUT, PATH, TEXT
 from amp_studio.cli.console import print_json, print_remark
 from amp_studio.cli.errors import UsageError
@@ -26,7 +27,11 @@ VERB = Verb(
     __doc__,
     PATH,
     VerbArgument(
-        "name", nargs="?", metavar="TEST", help="one of them by its name; without it all are listed"
+        "name",
+        nargs="?",
+        metavar="TEST",
+        help="one of them by its name; without it all are listed",
+        completes=candidates.machine_tests,
     ),
     AXIS,
     OUTPUT.but(
