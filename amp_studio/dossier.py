@@ -11,6 +11,7 @@ from typing import BinaryIO
 
 from amp_studio.files import (
     RECORD,
+    TUNINGS,
     Notify,
     ParameterFile,
     axis_letter,
@@ -29,6 +30,9 @@ from amp_studio.report import (
     PrintedTest,
     ProgramLimit,
     SetReport,
+    TunedFigure,
+    TunedGain,
+    TuningLine,
     print_report,
     run_apart,
     set_report,
@@ -70,6 +74,7 @@ def write_report(
         notify=notify,
         motion=tuple((motion or motion_figures)(file)) if has_drawings else (),
         exchanges=() if "exchanges" in contents.without or source is None else tuple(exchanges_of(source)),
+        tunings=() if "tuning" in contents.without or source is None else tuple(tunings_of(file, source)),
         checks=tuple(checks_of(file)) if contents.check else (),
         programs=tuple(programs_of(file, contents.programs)),
     )
@@ -97,6 +102,7 @@ def set_dossier(
         notify=notify,
         motion=motion,
         exchanges=() if "exchanges" in contents.without else tuple(exchanges_of(source)),
+        tunings=() if "tuning" in contents.without else tuple(tunings_of(file, source)),
         checks=tuple(checks_of(file)) if contents.check else (),
         programs=tuple(programs_of(file, contents.programs)),
     )
@@ -219,6 +225,24 @@ def motion_apart(file: ParameterFile) -> tuple[PrintedFigure, ...]:
 def answer(asked: BinaryIO, out: BinaryIO) -> None:
     """Draw what ``motion_apart`` asks for, in the process apart."""
     pickle.dump(tuple(motion_figures(read_content(Path("the file"), asked.read()))), out)
+
+
+def tunings_of(file: ParameterFile, source: Path) -> Iterator[TuningLine]:
+    """Yield what the record of tunings has of a file, oldest first, and which gains it still has; raises
+    OSError.
+    """
+    if not os.path.lexists(real_path(source).parent / TUNINGS):  # most files have none
+        return
+    from amp_studio.sim import read_tunings, value_at
+
+    for each in read_tunings(source):
+        gains = tuple(
+            TunedGain(number, name, before, after, value_at(file, number) == after)
+            for number, name, before, after in each.gains
+        )
+        figures = tuple(TunedFigure(*figure) for figure in each.figures)
+        when = local_time(each.when)
+        yield TuningLine(when, each.who, each.axis, each.aim, gains, figures, each.plant, each.note)
 
 
 def exchanges_of(source: Path) -> Iterator[ExchangeLine]:

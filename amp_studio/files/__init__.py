@@ -96,6 +96,7 @@ if TYPE_CHECKING:
     from .paths import (
         ENDING,
         RECORD,
+        TUNINGS,
         backup_path,
         history_path,
         is_there,

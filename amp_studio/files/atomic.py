@@ -18,7 +18,7 @@ from amp_studio.errors import AmpStudioError
 from amp_studio.schema import HARMLESS, NO_LINK, demand_file, read_file
 
 from .attributes import keep_attributes
-from .paths import RECORD, backup_path, companions, destination, real_path, same_file
+from .paths import RECORD, TUNINGS, backup_path, companions, destination, real_path, same_file
 
 Notify = Callable[[str], None]
 """Takes one sentence about what a save could not keep."""
@@ -50,7 +50,7 @@ def _content_of(path: Path) -> bytes | None:
         return None
 
 
-_OF_A_FOLDER = {"project.yaml", "rules.yaml", RECORD}
+_OF_A_FOLDER = {"project.yaml", "rules.yaml", RECORD, TUNINGS}
 
 
 def check_output(path: Path, *inputs: Path) -> None:

@@ -15,8 +15,8 @@ from amp_studio.schema import demand_file
 
 ENDING = ".amp"
 """Of parameter files."""
-RECORD = "exchanges.jsonl"
-"""The record of exchanges of a folder."""
+RECORD, TUNINGS = "exchanges.jsonl", "tunings.jsonl"
+"""The record of exchanges of a folder, and that of tunings."""
 _LONGEST_NAME = 255
 """Bytes of a file name, on nearly every file system."""
 _BACKUP, _HISTORY = "{}.bak", "{}.history"

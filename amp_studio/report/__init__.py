@@ -12,7 +12,17 @@ from amp_studio.front_pages import front_page
 
 if TYPE_CHECKING:
     from .axes import place_of
-    from .chapters import CheckedFigure, CheckedMotion, Danger, ExchangeLine, PrintedProgram, ProgramLimit
+    from .chapters import (
+        CheckedFigure,
+        CheckedMotion,
+        Danger,
+        ExchangeLine,
+        PrintedProgram,
+        ProgramLimit,
+        TunedFigure,
+        TunedGain,
+        TuningLine,
+    )
     from .contents import CHAPTERS, PAPER_SIZES, SORTS, UNIT_CHOICES, Contents
     from .dangers import dangers_of_change
     from .findings.alike import alike, same_finding_text

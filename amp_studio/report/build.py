@@ -32,7 +32,7 @@ from amp_studio.validate import NO_RULES, BuilderRules, Finding, validator_of
 from amp_studio.version import __version__
 
 from .axes import printed_axes, scope_of
-from .chapters import CheckedMotion, ExchangeLine, PrintedProgram, ProgramState
+from .chapters import CheckedMotion, ExchangeLine, PrintedProgram, ProgramState, TuningLine
 from .contents import SORTS, UNIT_CHOICES, Contents
 from .dangers import dangers_of
 from .drawings import drawings
@@ -59,6 +59,7 @@ def build_report(
     own: BuilderRules = NO_RULES,
     motion: Sequence[PrintedFigure] = (),
     exchanges: Sequence[ExchangeLine] = (),
+    tunings: Sequence[TuningLine] = (),
     checks: Sequence[CheckedMotion] = (),
     programs: Sequence[PrintedProgram] = (),
 ) -> Report:
@@ -66,7 +67,7 @@ def build_report(
 
     ``source`` is its path on disk, ``project`` what its project has about the machine; ``date`` is printed,
     the present time if left out. ``motion`` are drawings of the simulator,
-    ``exchanges`` what the record has of this file, ``checks`` what every scenario found,
+    ``exchanges`` and ``tunings`` what the records have of this file, ``checks`` what every scenario found,
     ``programs`` part programs under it.
     """
     contents = contents or Contents()
@@ -111,6 +112,7 @@ def build_report(
         motion=with_part("motion", lambda: (_in_words(figure, language) for figure in motion)),
         power_up=with_part("power-up", lambda: _power_up(file, language)),
         exchanges=with_part("exchanges", lambda: exchanges),
+        tunings=with_part("tuning", lambda: tunings),
         checks=tuple(checks),
         programs=tuple(programs),
         family_id=family.family,

@@ -39,6 +39,84 @@ class ExchangeLine:
 
 
 @dataclass(frozen=True, slots=True)
+class TunedGain:
+    """One gain of a tuning."""
+
+    number: str
+    """As it is typed."""
+    name: str
+    before: str
+    """With its unit; empty where it was not set."""
+    after: str
+    is_in_file: bool
+    """Whether the file that is printed has what was proposed."""
+
+
+@dataclass(frozen=True, slots=True)
+class TunedFigure:
+    """A figure of the loop before and after; None for an unstable one."""
+
+    name: str
+    """Its key, as ``phase_margin``."""
+    before: float | None
+    after: float | None
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class TuningLine:
+    """One tuning of one axis, as the record has it."""
+
+    when: str
+    who: str
+    axis: str
+    aim: str
+    gains: tuple[TunedGain, ...]
+    figures: tuple[TunedFigure, ...]
+    plant: tuple[tuple[str, str, str], ...]
+    """Figure of the machine, value, and how it is known."""
+    note: str
+
+    def rows(self, words: Language) -> tuple[tuple[str, str, str, str], ...]:
+        """Return what was changed, what the loop had, and what the machine was taken for, as rows that are
+        printed: what, before, after, remark.
+        """
+
+        def figure(value: float | None, unit: str) -> str:
+            if value is None:
+                return words.text("unstable")
+            return f"{words.number(f'{value:.4g}')} {words.unit(unit)}".rstrip()
+
+        kept = words.text("in the file"), words.text("another in the file")
+        return (
+            *(
+                (
+                    f"{each.number} {words.sentence(each.name)}".strip(),
+                    each.before,
+                    each.after,
+                    kept[not each.is_in_file],
+                )
+                for each in self.gains
+            ),
+            *(
+                (
+                    words.sentence(n.name.replace("_", " ")),
+                    figure(n.before, n.unit),
+                    figure(n.after, n.unit),
+                    "",
+                )
+                for n in self.figures
+            ),
+            *((name, "", value, words.sentence(how)) for name, value, how in self.plant),
+        )
+
+    def head(self, words: Language) -> str:
+        """Return axis, time, person and aim in one line."""
+        aim = words.sentence(self.aim)
+        return f"{words.text('Axis')} {self.axis}, {self.when}, {self.who}, {words.text('Aim')}: {aim}"
+
+
+@dataclass(frozen=True, slots=True)
 class CheckedFigure:
     """One figure of a scenario."""
 

@@ -19,10 +19,10 @@ SORTS: dict[Sort, str] = {
     "steps": "by step of commissioning",
 }
 
-Chapter = Literal["pictures", "motion", "power-up", "exchanges", "signatures"]
+Chapter = Literal["pictures", "motion", "power-up", "tuning", "exchanges", "signatures"]
 
-CHAPTERS: tuple[Chapter, ...] = ("pictures", "motion", "power-up", "exchanges", "signatures")
-"""Chapters that can be left out of a PDF and of a web page; text and tables have only the last three,
+CHAPTERS: tuple[Chapter, ...] = ("pictures", "motion", "power-up", "tuning", "exchanges", "signatures")
+"""Chapters that can be left out of a PDF and of a web page; text and tables have only the last four,
 or none."""
 
 UnitChoice = Literal["file", "metric", "inch", "both"]

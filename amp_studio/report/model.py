@@ -14,7 +14,7 @@ from typing import Protocol
 
 from amp_studio.schema import MASKED, ParameterState
 
-from .chapters import CheckedMotion, Danger, ExchangeLine, PrintedProgram, ProgramState
+from .chapters import CheckedMotion, Danger, ExchangeLine, PrintedProgram, ProgramState, TuningLine
 from .contents import SORTS, Contents
 from .findings.printed_finding import PrintedFinding, PrintedSeverity
 from .language import language_of
@@ -326,6 +326,7 @@ class Report:
     motion: tuple[PrintedFigure, ...]
     power_up: tuple[ProgramState, ...]
     exchanges: tuple[ExchangeLine, ...]
+    tunings: tuple[TuningLine, ...]
     help: dict[str, tuple[tuple[str, str], ...]]
     """Id of a printed parameter -> (title, text) of its help and its page."""
     family_id: str = ""

@@ -12,7 +12,7 @@ from amp_studio.validate import NO_RULES, BuilderRules
 
 from .apart import What, made_apart
 from .build import build_report
-from .chapters import CheckedMotion, ExchangeLine, PrintedProgram
+from .chapters import CheckedMotion, ExchangeLine, PrintedProgram, TuningLine
 from .contents import Contents
 from .model import PrintedFigure, Report
 from .output.data import render_json
@@ -49,19 +49,20 @@ def print_report(
     own: BuilderRules = NO_RULES,
     motion: Sequence[PrintedFigure] = (),
     exchanges: Sequence[ExchangeLine] = (),
+    tunings: Sequence[TuningLine] = (),
     checks: Sequence[CheckedMotion] = (),
     programs: Sequence[PrintedProgram] = (),
     notify: Notify = lambda _note: None,
 ) -> bool:
     """Write the documentation of a file, whole or not at all; the file extension of ``path`` sets the format.
 
-    ``source`` is the path of the file on disk, from beside which the project's information is taken; ``date``
-    is printed (now when left out), ``own`` are the builder's rules; ``notify`` is called with each attribute
-    of a replaced file that could not be kept, and with the mistake of a project's template. Returns whether
-    the project's own template was used, where it has
-    one: False is the standard report in its place. ``motion``, ``exchanges``, ``checks`` and ``programs`` are
-    those of ``build_report``. Raises ValueError for an unknown file extension, ParameterFileError for a
-    project that cannot be read, SaveError when it cannot be written.
+    ``source`` is the path of the file on disk, from beside which the project's information is taken;
+    ``date`` is printed (now when left out), ``own`` are the builder's rules; ``notify`` is called with each
+    attribute of a replaced file that could not be kept, and with the mistake of a project's template.
+    Returns whether the project's own template was used, where it has one: False is the standard report in
+    its place. ``motion``, ``exchanges``, ``tunings``, ``checks`` and ``programs`` are those of
+    ``build_report``. Raises ValueError for an unknown file extension, ParameterFileError for a project that
+    cannot be read, SaveError when it cannot be written.
     """
     path, source, contents = Path(path), Path(source) if source else None, contents or Contents()
     if path.suffix.lower() not in FORMATS:
@@ -79,6 +80,7 @@ def print_report(
         own=own,
         motion=motion,
         exchanges=exchanges,
+        tunings=tunings,
         checks=checks,
         programs=programs,
     )
@@ -100,6 +102,7 @@ def set_report(
     own: BuilderRules = NO_RULES,
     motion: Sequence[PrintedFigure] = (),
     exchanges: Sequence[ExchangeLine] = (),
+    tunings: Sequence[TuningLine] = (),
     checks: Sequence[CheckedMotion] = (),
     programs: Sequence[PrintedProgram] = (),
     notify: Notify = lambda _note: None,
@@ -117,6 +120,7 @@ def set_report(
         own=own,
         motion=motion,
         exchanges=exchanges,
+        tunings=tunings,
         checks=checks,
         programs=programs,
     )

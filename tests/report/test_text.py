@@ -65,6 +65,7 @@ SMALL = Report(
     pictures=(),
     motion=(),
     exchanges=(),
+    tunings=(),
     counts=(("Values", "3"),),
     remarks="",
     remarked=(),

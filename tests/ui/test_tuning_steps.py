@@ -5,14 +5,18 @@ is proposed.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
+import numpy as np
 import pytest
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QToolButton
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import load_schema, registered_families
-from amp_studio.sim import Recommendation, Trace, law_of, simulate
+from amp_studio.sim import Recommendation, Trace, law_of, read_tunings, simulate
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.motion import tuning_steps
 from amp_studio.ui.motion.tuning_page import TuningView
@@ -69,22 +73,86 @@ def test_a_value_that_is_no_number_is_refused_and_the_old_one_is_back(
     assert not workspace.undo_stack.canUndo()
 
 
-def test_done_ticks_a_step_and_changes_no_value_and_proposals_are_one_step_of_undo(
+def test_done_ticks_a_step_in_the_file_and_changes_no_value(
     guided: TuningSteps, workspace: Workspace
 ) -> None:
+    before, done = dict(workspace.file.values), workspace.file.header
     guided.next.click()
-    assert (guided.steps.currentRow(), guided._done) == (RAISED + 1, {RAISED})
-    assert not workspace.undo_stack.canUndo()
+    assert guided.steps.currentRow() == RAISED + 1
+    (key,) = done.done
+    assert key == f"tuning-{RAISED + 1}@1"
+    assert done.done[key] in guided.steps.item(RAISED).toolTip()
+    assert workspace.file.values == before
     guided.back.click()
-    assert guided._done == set()
-    guided._apply(
-        [
-            Recommendation(GAIN[0], 2996.0, "", "why", "price"),
-            Recommendation("servo.initial_gain", 0.757, "", "why", "price"),
-        ]
+    assert not workspace.file.header.done
+    guided.next.click()
+    workspace.undo_stack.undo()
+    assert not workspace.file.header.done
+
+
+def test_ticks_are_there_again_and_of_one_axis(
+    guided: TuningSteps, workspace: Workspace, qtbot: QtBot
+) -> None:
+    guided.next.click()
+    again = TuningSteps(guided.guide, workspace, lambda work: work())
+    qtbot.addWidget(again)
+    again.show_target(guided._target)
+    assert " by " in again.steps.item(RAISED).toolTip()
+    again.axis.setCurrentIndex(again.axis.findData("2"))
+    assert " by " not in again.steps.item(RAISED).toolTip()
+
+
+def test_proposals_are_one_step_of_undo_and_go_into_the_record(
+    guided: TuningSteps, workspace: Workspace, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = (
+        Recommendation(GAIN[0], 2996.0, "", "why", "price"),
+        Recommendation("servo.initial_gain", 0.757, "", "why", "price"),
     )
+    result = {"Ms": (1.3, ""), "Ms_before": (2.8, "")}
+    guided.tuned = replace(guided.now, scenario="tune", recommendations=found, result=result)
+    guided._apply(found[:1])
+    assert read_tunings(workspace.path) == []  # with one of two the loop is neither that of before nor after
+    guided._apply(found)
     assert workspace.file.get(GAIN).value == 2996
+    assert workspace.undo_stack.count() == 2
+    (entry,) = read_tunings(workspace.path)
+    assert entry.gains[1][1:] == ("Initial Gain of Position Loop", "1", "0.757")
+    assert entry.figures == (("Ms", 2.8, 1.3, ""),)
+
+
+def test_a_click_in_the_map_proposes_its_gains(
+    guided: TuningSteps, workspace: Workspace, qtbot: QtBot
+) -> None:
+    names = ("servo.initial_gain", GAIN[0])
+    grid = np.array([(one, two) for one in (0.5, 1.0, 1.5) for two in (2000.0, 4000.0, 6000.4)])
+    columns = {names[0]: grid[:, 0], names[1]: grid[:, 1], "Ms": np.linspace(1.2, 2.0, 9), "safe": np.ones(9)}
+    columns["stiffness"] = np.arange(9.0)
+    guided._charted("sweep")
+    trace = Trace(
+        "sweep",
+        "1",
+        "",
+        columns,
+        dict.fromkeys(columns, ""),
+        {},
+        (),
+        (),
+        (),
+        {names[0]: (1.0, ""), names[1]: (6000.0, "")},
+        over=names,
+        figure="stiffness",
+    )
+    guided._mapped(trace)
+    guided.below.grab()  # what is not painted has no place
+    place = guided.below._map
+    at = place.at((1.45, 4100.0))
+    QTest.mouseClick(guided.below, Qt.MouseButton.LeftButton, pos=QPoint(round(at[0]), round(at[1])))
+    assert len(guided.proposed.buttons) == 3
+    guided.proposed.buttons[-1].click()
+    assert (workspace.file.get((names[0], "1")).value, workspace.file.get(GAIN).value) == (1.5, 4000)
     assert workspace.undo_stack.count() == 1
+    assert "1.9" in guided.figures.text()
 
 
 def test_what_the_steps_of_a_family_show_are_scenarios_that_it_has() -> None:

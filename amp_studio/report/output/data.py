@@ -11,7 +11,7 @@ import json
 from dataclasses import asdict
 from typing import Any
 
-from amp_studio.report.chapters import CheckedMotion, Danger, ExchangeLine, ProgramState
+from amp_studio.report.chapters import CheckedMotion, Danger, ExchangeLine, ProgramState, TuningLine
 from amp_studio.report.findings.printed_finding import PrintedFinding
 from amp_studio.report.model import Report, ReportRow
 
@@ -74,6 +74,7 @@ def report_data(report: Report) -> dict[str, Any]:
         "checks": [*map(_check, report.checks)],
         "part_programs": [*map(asdict, report.programs)],
         "exchanges": [*map(_fields, report.exchanges)],
+        "tunings": [*map(_tuning, report.tunings)],
     }
 
 
@@ -83,6 +84,25 @@ def _or_none(text: str) -> str | None:
 
 def _fields(record: ProgramState | ExchangeLine) -> dict[str, Any]:
     return {name: getattr(record, name) for name in record.__slots__}
+
+
+def _tuning(tuning: TuningLine) -> dict[str, Any]:
+    gains = [
+        {
+            "number": each.number,
+            "name": each.name,
+            "before": each.before or None,
+            "after": each.after,
+            "in_file": each.is_in_file,
+        }
+        for each in tuning.gains
+    ]
+    figures = [
+        {"name": n.name, "before": n.before, "after": n.after, "unit": n.unit or None} for n in tuning.figures
+    ]
+    plant = [{"name": name, "value": value, "from": how} for name, value, how in tuning.plant]
+    head = {name: getattr(tuning, name) for name in ("when", "who", "axis", "aim", "note")}
+    return {**head, "gains": gains, "figures": figures, "machine": plant}
 
 
 def _check(check: CheckedMotion) -> dict[str, Any]:

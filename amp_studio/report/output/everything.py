@@ -69,13 +69,20 @@ def _sheets(report: Report, words: Language) -> Iterator[WorkbookSheet]:
     yield WorkbookSheet("Check in motion", heads, [*_checks(report, words)])
     heads = ("When", "Who", "What", "Control", "Before", "After", "Result")
     yield _records("Exchanges", heads, report.exchanges)
+    tuned = [
+        (each.when, each.who, each.axis, words.sentence(each.aim), *row, each.note)
+        for each in report.tunings
+        for row in each.rows(words)
+    ]
+    columns = "When", "Who", "Axis", "Aim", "What", "Before", "After", "Result", "Note"
+    yield WorkbookSheet("Tuning record", columns, tuned)
     limits = [
         (each.name, limit.letter, words.sentence(limit.name), limit.param, limit.time_s, limit.share)
         for each in report.programs
         for limit in each.limits
     ]
-    columns = ("Program", "Letter", "What limits the feed", "Parameter", "s", "Share")
-    yield WorkbookSheet("Part programs", columns, limits)
+    of_programs = ("Program", "Letter", "What limits the feed", "Parameter", "s", "Share")
+    yield WorkbookSheet("Part programs", of_programs, limits)
     noted = [(text("Machine"), report.remarks), *report.remarked] if report.remarks else report.remarked
     yield WorkbookSheet("Notes", ("About", "Note"), noted)
     yield WorkbookSheet("Axes", report.axis_heads, [tuple(map(text, line)) for line in report.axes])

@@ -36,6 +36,7 @@ def _lines(report: Report, words: Language) -> Iterator[str]:
     yield from _power_up(report, words)
     yield from _checks(report, words)
     yield from _programs(report, words)
+    yield from _tunings(report, words)
     yield from _exchanges(report, words)
     if "signatures" not in report.contents.without:
         yield from _heading(words.text("Signatures").upper())
@@ -90,6 +91,20 @@ def _programs(report: Report, words: Language) -> Iterator[str]:
         for line in each.notes:
             yield from _wrapped(words.sentence(line), "")
         yield ""
+
+
+def _tunings(report: Report, words: Language) -> Iterator[str]:
+    if not report.tunings:
+        return
+    yield from _heading(words.text("Tuning record").upper())
+    for each in report.tunings:
+        yield from _wrapped(each.head(words), "")
+        for what, before, after, remark in each.rows(words):
+            values = " → ".join(filter(None, (before, after)))
+            yield from _wrapped(f"{what}: {values}{f' ({remark})' if remark else ''}", "    ")
+        if each.note:
+            yield from _wrapped(each.note, "    ")
+    yield ""
 
 
 def _exchanges(report: Report, words: Language) -> Iterator[str]:

@@ -111,6 +111,7 @@ def filled(
         stated=language.sentence,
         lines=note_lines,
         checked=lambda check: check.printed(language),
+        tuned=lambda tuning: (tuning.head(language), tuning.rows(language)),
     )
     environment.tests["listing"] = lambda part: isinstance(part, Listing)
     if own is None:

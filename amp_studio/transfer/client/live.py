@@ -33,6 +33,8 @@ class LiveTuning:
         """``keep`` and ``record`` are as those of an exchange, and hold for all of this session."""
         self._driver, self._place = driver, keep
         self._address, self._record = address, record
+        self.path = record or keep
+        """The parameter file that belongs to the control."""
         self._backup = ""
         self._start = b""
         self._current = b""

@@ -57,6 +57,8 @@ class Plot(QWidget):
 
     read = Signal(str)
     """What the cursors read, as HTML; empty without a picture."""
+    pointed = Signal(float, float)
+    """A place of the map above the panels that was clicked, in its units."""
 
     def __init__(self, *, has_cursors: bool = True) -> None:
         super().__init__()
@@ -67,6 +69,7 @@ class Plot(QWidget):
         self.cursors: tuple[float, float] = (0.0, 0.0)
         """Places along the horizontal axis."""
         self._frames: list[Placement] = []
+        self._map: Placement | None = None
         self._painted: QPixmap | None = None
         """All but the cursors; None where it is to be painted again."""
         self._grip: int | tuple[float, tuple[float, float]] | None = None
@@ -158,7 +161,7 @@ class Plot(QWidget):
 
     def _paint_scenes(self, painter: QPainter) -> None:
         """Paint the panels below each other in the height that there is, each with its heading."""
-        self._frames = []
+        self._frames, self._map = [], None
         if self.picture is None:
             return
         scenes = [*filter(None, [self.picture.above]), *self.panels]
@@ -183,6 +186,8 @@ class Plot(QWidget):
             paint_heading(painter, pieces, frame.top)
             if scene in self.panels:
                 self._frames.append(frame)
+            elif scene.cells is not None:
+                self._map = frame
             top += (
                 head
                 + height
@@ -224,6 +229,11 @@ class Plot(QWidget):
     def mousePressEvent(self, event: QMouseEvent) -> None:
         if event.button() == Qt.MouseButton.LeftButton and self._frames:
             x = event.position().x()
+            place = self._map
+            if place is not None and place.top <= event.position().y() <= place.top + place.height:
+                if place.left <= x <= place.left + place.width:
+                    self.pointed.emit(*place.world(x, event.position().y()))
+                return
             cursor = self._cursor_at(x)
             self._grip = cursor if cursor is not None else (x, self.span)
             self.update()

@@ -148,7 +148,7 @@ class TuningView(PageOfFile):
         _load_plots()
         from .tuning_steps import TuningSteps
 
-        steps = TuningSteps(guide, self.guarded)
+        steps = TuningSteps(guide, self._workspace, self.guarded)
         self.guided.append(steps)
         _put_into(holder, steps)
         steps.show_target(self.target)

@@ -4,9 +4,10 @@ now; beside them the gains that the solver proposes for an aim, before and after
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
+import numpy as np
 from PySide6.QtCore import QSize, Qt, QTimer, QUrl
 from PySide6.QtWidgets import (
     QComboBox,
@@ -21,14 +22,17 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.drawing import linked
-from amp_studio.files import ParameterFile
+from amp_studio.files import ParameterFile, now, user
+from amp_studio.guide import tick
 from amp_studio.schema import Address, Guide, Value, axis_name
 from amp_studio.sim import (
     Recommendation,
     SimulationError,
     Trace,
+    add_tuning,
     address_of,
     picture_of,
+    recorded_tuning,
     simulate,
     simulated_axes,
     value_text,
@@ -38,6 +42,7 @@ from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import CONTROL, GAP, GAP2, SMALL_ICON, icon
 from amp_studio.ui.base.translated import sentenced, worded
+from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.pages import LINK
 from amp_studio.ui.forms.segment import Segment
 
@@ -60,14 +65,16 @@ _DONE, _OPEN = "check-circle-fill", "circle"
 class TuningSteps(QWidget):
     """One guide of tuning, at the file or at a control."""
 
-    def __init__(self, guide: Guide, guarded: Callable[[Callable[[], object]], object]) -> None:
-        """``guarded`` runs what may fail and shows the error."""
+    def __init__(
+        self, guide: Guide, workspace: Workspace, guarded: Callable[[Callable[[], object]], object]
+    ) -> None:
+        """``workspace`` has the ticks; ``guarded`` runs what may fail and shows the error."""
         super().__init__()
-        self.guide, self._guarded = guide, guarded
+        self.guide, self._workspace, self._guarded = guide, workspace, guarded
         self._target: TuningTarget | None = None
         self._tasks: dict[str, Task] = {}
         self._again: set[str] = set()
-        self._done: set[int] = set()
+        self.mapped: Trace | None = None
         self.now: Trace | None = None
         self.before: Trace | None = None
         """The axis as it was when the step was opened."""
@@ -80,6 +87,7 @@ class TuningSteps(QWidget):
         self._timer.timeout.connect(self.run)
         self.steps.currentRowChanged.connect(lambda *_: self._open())
         self.axis.currentIndexChanged.connect(lambda *_: self._open())
+        self.below.pointed.connect(self._pointed)
         self.aim.chosen.connect(self._aimed)
         self.chart.chosen.connect(self._charted)
 
@@ -191,7 +199,6 @@ class TuningSteps(QWidget):
         for n, step in enumerate(self.guide.steps, 1):
             item = QListWidgetItem(icon(_OPEN), f"{n}  {worded(step.title, family)}")
             item.setSizeHint(QSize(0, CONTROL))
-            item.setToolTip(worded(step.title, family))
             self.steps.addItem(item)
         self.steps.setCurrentRow(row)
         self.steps.setFixedHeight(min(self.steps.count(), _ROWS) * (CONTROL + 1) + GAP)
@@ -201,13 +208,14 @@ class TuningSteps(QWidget):
     def _open(self) -> None:
         """Show the present step of the axis, from how it moves now."""
         step = self.guide.steps[max(0, self.steps.currentRow())]
-        self.before = self.now = self.tuned = None
+        self.before = self.now = self.tuned = self.mapped = None
         self.page.setText(worded(f"page {step.page}"))
         self.back.setEnabled(self.steps.currentRow() > 0)
         self._show_step()
         self._timer.start()
 
     def _show_step(self) -> None:
+        self._show_ticks()
         if self._target is not None and self.axis.currentData() is not None:
             step = self.guide.steps[max(0, self.steps.currentRow())]
             self.detail.show_step(self._target, step, str(self.axis.currentData()))
@@ -222,15 +230,29 @@ class TuningSteps(QWidget):
         self._timer.start()
 
     def _go(self, by: int) -> None:
-        """Tick the step and open the next one, or go back; no value is changed by it."""
+        """Tick the step in the file and open the next one, or go back; no value is changed by it."""
         row = self.steps.currentRow()
-        if by > 0:
-            self._done.add(row)
-        else:
-            self._done.discard(row - 1)
-        for n in range(self.steps.count()):
-            self.steps.item(n).setIcon(icon(_DONE if n in self._done else _OPEN))
+        ticked, file = row if by > 0 else row - 1, self._workspace.file
+        if self._workspace.may_edit and ticked >= 0:
+            who = self.tr("{now} by {user}").format(now=now(), user=user()) if by > 0 else None
+            name = self.steps.item(ticked).text()
+            text = self.tr("{test} done") if by > 0 else self.tr("{test} not done")
+            key = self._tick_of(ticked)
+            self._guarded(lambda: self._workspace.do(text.format(test=name), lambda: tick(file, key, who)))
         self.steps.setCurrentRow(min(max(0, row + by), self.steps.count() - 1))
+
+    def _tick_of(self, row: int) -> str:
+        """Return what the tick of a step of this axis is kept under in the file."""
+        return f"{self.guide.id}-{row + 1}@{self.axis.currentData()}"
+
+    def _show_ticks(self) -> None:
+        """Show which steps of the axis are done, and by whom."""
+        family = self._workspace.file.schema.family.family
+        for row, step in enumerate(self.guide.steps[: self.steps.count()]):
+            who = self._workspace.file.header.done.get(self._tick_of(row), "")
+            item = self.steps.item(row)
+            item.setIcon(icon(_DONE if who else _OPEN))
+            item.setToolTip("\n".join(filter(None, (worded(step.title, family), who))))
 
     # -- what is computed ----------------------------------------------------------
 
@@ -283,12 +305,8 @@ class TuningSteps(QWidget):
         self.tuned = trace
         if self._chart == _TUNE:
             self.below.draw(picture_of(trace))
-        may = self._target.may_edit
         schema = self._target.file.schema
-        self.proposed.show_all(
-            schema, trace.recommendations, lambda name: may and self._address(name) is not None
-        )
-        self.figures.setText(self._figures_text(trace))
+        self._propose(trace.recommendations, self._figures_text(trace))
         assumed = [text for text in trace.assumptions if text.startswith("ASSUMED: model.")]
         family = schema.family.family
         self.assumed.setText("\n".join(sentenced(text.split(". ")[0] + ".", family) for text in assumed))
@@ -312,7 +330,47 @@ class TuningSteps(QWidget):
             )
         return f"<table cellspacing=0 cellpadding=1 width=100%>{''.join(rows)}</table>"
 
+    def _propose(self, found: Sequence[Recommendation], figures: str) -> None:
+        """Show gains that can be applied, with what the loop has with them."""
+        assert self._target is not None
+        may = self._target.may_edit
+        self.proposed.show_all(
+            self._target.file.schema, found, lambda name: may and self._address(name) is not None
+        )
+        self.figures.setText(figures)
+
+    def _pointed(self, x: float, y: float) -> None:
+        """Propose the gains of a point of the map: the nearest that was computed."""
+        trace = self.mapped
+        if trace is None or self._target is None:
+            return
+        row = _nearest_row(trace, (x, y))
+        is_safe = trace.columns["safe"][row] == 1.0
+        why = self.tr("Point of the map: safe.") if is_safe else self.tr("Point of the map: not safe.")
+        found = [
+            Recommendation(
+                name, self._settable(name, float(trace.columns[name][row])), trace.limits[name][1], why, ""
+            )
+            for name in trace.over
+        ]
+        before = _nearest_row(trace, [trace.limits[name][0] or 0.0 for name in trace.over])
+        result = {
+            f"{name}{key}": (None if np.isnan(value) else float(value), trace.units.get(name, ""))
+            for name in _FIGURES
+            if name in trace.columns
+            for key, value in (("_before", trace.columns[name][before]), ("", trace.columns[name][row]))
+        }
+        self._propose(found, self._figures_text(replace(trace, result=result)))
+
+    def _settable(self, parameter: str, value: float) -> float:
+        """Return a gain as it can be set: whole where it is, else with three digits."""
+        address = self._address(parameter)
+        old = self._target.file.get(address) if self._target is not None and address else None
+        is_whole = old is not None and isinstance(old.value, int)
+        return float(round(value)) if is_whole else float(f"{value:.3g}")
+
     def _mapped(self, trace: Trace) -> None:
+        self.mapped = trace
         if self._chart == _MAP:
             self.below.draw(picture_of(trace))
 
@@ -355,12 +413,34 @@ class TuningSteps(QWidget):
                 old = target.file.get(address)
                 whole = old is not None and isinstance(old.value, int) and each.value.is_integer()
                 values[address] = Value(int(each.value) if whole else each.value, each.unit)
-        self._guarded(lambda: target.set(self.tr("Apply Recommendation"), values))
+        self._guarded(lambda: self._set_and_record(target, values))
+
+    def _set_and_record(self, target: TuningTarget, values: Mapping[Address, Value | None]) -> None:
+        """Set values; all that are proposed go into the tuning record, with what the loop had and has. Raises
+        ValueError, OSError.
+        """
+        found, before = self.tuned, target.file.copy()
+        target.set(self.tr("Apply Recommendation"), values)
+        # With a part of them the loop is neither that of before nor that of after.
+        if found is not None and all(
+            self._address(each.parameter) in values for each in found.recommendations
+        ):
+            add_tuning(target.path, recorded_tuning(before, target.path, found, self._aim))
 
     def _follow(self, url: QUrl) -> None:
         address = self._address(url.toString().removeprefix(LINK))
         if address in self.detail.fields:
             self.detail.fields[address].setFocus()
+
+
+def _nearest_row(trace: Trace, place: Sequence[float]) -> int:
+    """Return the row of a sweep that is nearest to values of what it varies, as its map is drawn."""
+    away = np.zeros(trace.rows)
+    for name, at in zip(trace.over, place, strict=True):
+        side = trace.columns[name]
+        drawn = np.log if side.min() > 0.0 < at else np.asarray
+        away += ((drawn(side) - drawn(at)) / (np.ptp(drawn(side)) or 1.0)) ** 2
+    return int(np.argmin(away))
 
 
 def _simulated(

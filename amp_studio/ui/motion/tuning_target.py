@@ -5,6 +5,7 @@ undone and read in the same way.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, Signal
@@ -49,6 +50,11 @@ class TuningTarget(QObject):
         """Whether values may be changed."""
         raise NotImplementedError
 
+    @property
+    def path(self) -> Path:
+        """The parameter file, beside which tunings are recorded."""
+        raise NotImplementedError
+
     def set(self, text: str, values: Mapping[Address, Value | None]) -> None:
         """Change values as one step, with those that the control changes by itself; raises ValueError,
         OSError.
@@ -81,6 +87,11 @@ class FileTarget(TuningTarget):
     def may_edit(self) -> bool:
         """Whether this program may change the file."""
         return self._workspace.may_edit
+
+    @property
+    def path(self) -> Path:
+        """The open file."""
+        return self._workspace.path
 
     def set(self, text: str, values: Mapping[Address, Value | None]) -> None:
         """Change values of the file as one undoable step; raises ValueError where another program has it."""
@@ -130,6 +141,11 @@ class ControlTarget(TuningTarget):
     def may_edit(self) -> bool:
         """Whether it is known what the control contains."""
         return self.live.file is not None
+
+    @property
+    def path(self) -> Path:
+        """The file that belongs to the control."""
+        return self.live.path
 
     @property
     def waiting(self) -> int:

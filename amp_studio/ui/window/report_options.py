@@ -84,6 +84,7 @@ def report_fields(contents: Contents) -> tuple[Field, ...]:
         "pictures": tr("Pi&ctures"),
         "motion": tr("&Motion, simulated"),
         "power-up": tr("Part pro&grams after power-up"),
+        "tuning": tr("&Tuning record"),
         "exchanges": tr("E&xchanges with controls"),
         "signatures": tr("&Signatures"),
     }

@@ -26,7 +26,7 @@ VERB = Verb(
     VerbArgument(
         "--without",
         action="append",
-        choices=("pictures", "motion", "power-up", "exchanges", "signatures"),
+        choices=("pictures", "motion", "power-up", "tuning", "exchanges", "signatures"),
         help="leave out a chapter; again for more",
     ),
     VerbArgument(

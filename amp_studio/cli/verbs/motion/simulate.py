@@ -65,6 +65,14 @@ VERB = Verb(
         help="tune: quiet, normal, stiff, or contour (equal gains on all axes)",
     ),
     VerbArgument(
+        "--keep",
+        metavar="NOTE",
+        help=(
+            "tune: keep before, after and the machine in the tuning record beside the file (tunings.jsonl),"
+            " with a note; the report prints it"
+        ),
+    ),
+    VerbArgument(
         "--over",
         action="append",
         default=[],
@@ -217,6 +225,8 @@ def run(options: Options) -> int:
         trace = laid_over(trace, options.against, _trigger(options))
     elif options.trigger:
         raise UsageError("--trigger belongs to --against")
+    if options.keep is not None:
+        _keep(options, tried.file, trace)
     for message in messages:
         print_remark(message)
     if options.output:
@@ -228,6 +238,16 @@ def run(options: Options) -> int:
     else:
         print(trace_text(trace))
     return 1 if trace.alarms else 0
+
+
+def _keep(options: Options, file: ParameterFile, trace: Trace) -> None:
+    """Add what `tune` found to the tuning record of the file."""
+    from amp_studio.sim import add_tuning, recorded_tuning
+
+    if options.scenario != "tune":
+        raise UsageError(f"--keep belongs to tune, not to {options.scenario}")
+    machine, aim = _given_machine(options), options.aim or "normal"
+    add_tuning(options.path, recorded_tuning(file, options.path, trace, aim, machine, options.keep))
 
 
 def _write(options: Options, file: ParameterFile, trace: Trace, before: Trace | None) -> None:
