@@ -29,7 +29,7 @@ from amp_studio.sim.command.changes import change_time, change_way, peaks, reach
 from amp_studio.sim.command.pieces import change, length
 from amp_studio.sim.law import law_of
 from amp_studio.sim.path.contour import distances
-from amp_studio.sim.path.planner import ProgramPlan, plan_program
+from amp_studio.sim.path.planner import ProgramPlan, lowest_sums, plan_program
 from amp_studio.sim.path.profiles import axis_profiles
 from amp_studio.sim.path.program import ProgramRun, run_program
 from amp_studio.sim.path_rules import Corners, PathLimit
@@ -378,3 +378,18 @@ def test_a_moment_is_on_the_path_with_the_speed_of_its_ramp(router: ParameterFil
     assert np.abs(gone - 0.5 * (speeds[1:] + speeds[:-1])).max() < 1.0
     assert places[0].tolist() == [0.0, 0.0, 0.0]
     assert places[-1].tolist() == pytest.approx([-60.0, -30.0, 0.0])
+
+
+@pytest.mark.parametrize("count", [1, 2, 511, 512, 513, 3000])
+def test_the_passes_of_straight_ramps_are_those_of_a_loop(count: int) -> None:
+    """Rows without a way, speeds of 0 and gains without an end included; the loop is what they mean."""
+    chance = np.random.default_rng(count)
+    bound = chance.uniform(0.0, 2e4, count) * (chance.random(count) > 0.2)
+    gain = chance.uniform(0.0, 900.0, max(count - 1, 0)) * (chance.random(max(count - 1, 0)) > 0.1)
+    expected = bound.tolist()
+    for n in range(1, count):
+        expected[n] = min(expected[n], expected[n - 1] + gain[n - 1])
+    found = lowest_sums(bound, gain)
+    assert found == pytest.approx(expected, rel=1e-9, abs=1e-6)
+    free = np.array(expected) == bound
+    assert (found[free] == bound[free]).all()

@@ -6,15 +6,18 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QSize, Qt
+from PySide6.QtWidgets import QStyledItemDelegate, QStyleOptionViewItem
 from pytestqt.qtbot import QtBot
 
 from amp_studio.assignments import read_assignments
+from amp_studio.drawing import Picture
 from amp_studio.files import SavedVersion, open_file
 from amp_studio.schema import Address, Value
 from amp_studio.ui.base.task import Task
-from amp_studio.ui.motion.program_page import ProgramPage
+from amp_studio.ui.motion.program_page import FIRST, ProgramPage
 from amp_studio.ui.motion.program_play import STEPS
+from amp_studio.ui.motion.program_tables import TableLook, fill, read_table
 
 from .conftest import WAIT_MS
 
@@ -140,13 +143,13 @@ def test_a_path_is_coloured_by_its_feed_and_by_its_error_too(
         assert words in window.plot.picture.above.subtitle
 
 
-def test_what_cannot_be_read_is_a_sentence(window: ProgramPage, tmp_path: Path) -> None:
+def test_what_cannot_be_read_is_a_sentence(window: ProgramPage, tmp_path: Path, qtbot: QtBot) -> None:
     (tmp_path / "a.nc").write_bytes(bytes(10))
     window.open_program(tmp_path / "a.nc")
-    assert "is no text" in window.summary.text()
+    qtbot.waitUntil(lambda: "is no text" in window.summary.text(), timeout=WAIT_MS)
     enter(window, "zero", "here")
     window.open_program(ROUTER / "plate.nc")
-    assert "places of axes" in window.summary.text()
+    qtbot.waitUntil(lambda: "places of axes" in window.summary.text(), timeout=WAIT_MS)
 
 
 def test_an_empty_block_shows_what_is_active_after_power_up(window: ProgramPage) -> None:
@@ -174,3 +177,56 @@ def test_a_moment_of_a_program_is_shown_where_the_axes_are_then(
     assert window.play.button.text() == "&Pause"
     window.play.button.click()
     assert window.play.button.text() == "&Play"
+
+
+def test_a_long_program_shows_its_beginning_first(window: ProgramPage, tmp_path: Path, qtbot: QtBot) -> None:
+    path = tmp_path / "long.nc"
+    path.write_text(
+        "G20 G90 G1 F100\n" + "".join(f"X-{1 + n % 7}. Y-{1 + n % 5}.\n" for n in range(3 * FIRST))
+    )
+    titles: list[str] = []
+    draw = window.plot.draw
+
+    def seen(picture: Picture) -> None:
+        titles.append(window.title.text())
+        draw(picture)
+
+    window.plot.draw = seen  # type: ignore[method-assign]
+    window.open_program(path)
+    qtbot.waitUntil(lambda: window.outcome is not None, timeout=WAIT_MS)
+    assert titles[0] == f"long.nc: the first {FIRST} blocks"
+    assert window.title.text().startswith(f"long.nc: {3 * FIRST + 1} blocks")
+
+
+def test_a_beginning_that_needs_the_rest_is_left_out(
+    window: ProgramPage, tmp_path: Path, qtbot: QtBot
+) -> None:
+    path = tmp_path / "long.nc"
+    path.write_text("G20 G90 G1 F100\nGOTO 9\n" + "X-1.\nX-2.\n" * FIRST + "N9 X-3.\n")
+    window.open_program(path)
+    qtbot.waitUntil(lambda: window.outcome is not None, timeout=WAIT_MS)
+    assert window.title.text().startswith("long.nc: 3 blocks")
+
+
+class CountingDelegate(QStyledItemDelegate):
+    """Counts how often a text is measured."""
+
+    count = 0
+
+    def sizeHint(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> QSize:  # noqa: N802  # Qt's own name
+        self.count += 1
+        return super().sizeHint(option, index)
+
+
+def test_a_table_is_measured_once_for_all_its_texts(qtbot: QtBot) -> None:
+    """Filled again while it was seen, 5000 rows took minutes: each text measured a thousand others."""
+    table = read_table("blocks", ("Block", "s"), TableLook(figures=(1,)))
+    qtbot.addWidget(table)
+    counting = CountingDelegate(table)
+    table.setItemDelegate(counting)
+    with qtbot.waitExposed(table):
+        table.show()
+    for _ in range(2):
+        fill(table, [(f"N{n}", "1") for n in range(400)])
+        qtbot.wait(1)
+    assert counting.count < 4000

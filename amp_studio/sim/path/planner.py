@@ -369,26 +369,47 @@ def _straight_passes(
     most: PathRows, length: PathRows, slopes: tuple[PathRows, PathRows], progress: Callable[[float], None]
 ) -> PathRows:
     """Return the speeds at which rows begin, as `_curved_passes`, with straight ramps."""
-    count, speeds = len(most), most.tolist()
-    with np.errstate(invalid="ignore"):  # a ramp without an end times no way lowers nothing
-        faster, slower = ((2.0 * slope * length).tolist() for slope in slopes)
-    after, sqrt = 0.0, math.sqrt
-    # Calls of functions would take most of the time of these loops, which are most of that of the planning.
-    for n in range(count - 1, -1, -1):
-        can = sqrt(after * after + slower[n])
-        after = speeds[n]
-        if can < after:
-            after = speeds[n] = can
-        if n % EVERY == 0:
-            progress(0.3 + 0.3 * (count - n) / count)
-    for n in range(count - 1):
-        can = sqrt(after * after + faster[n])
-        after = speeds[n + 1]
-        if can < after:
-            after = speeds[n + 1] = can
-        if n % EVERY == 0:
-            progress(0.6 + 0.3 * n / count)
-    return np.array(speeds)
+    bound = most * most
+    # More than the greatest square lowers nothing: so is a ramp without an end, whatever its way is.
+    with np.errstate(invalid="ignore"):
+        faster, slower = (
+            np.nan_to_num(
+                np.minimum(2.0 * slope * length, bound.max(initial=0.0)), nan=bound.max(initial=0.0)
+            )
+            for slope in slopes
+        )
+    # Backward from rest at the end, then forward.
+    square = lowest_sums(np.append(0.0, bound[::-1]), slower[::-1])[:0:-1]
+    progress(0.6)
+    square = lowest_sums(square, faster[:-1])
+    progress(0.9)
+    return np.where(square < bound, np.sqrt(square), most)
+
+
+CHUNK = 512
+"""Rows whose sums are taken together: few enough to keep them exact, many enough to be fast."""
+
+
+def lowest_sums(bound: PathRows, gain: PathRows) -> PathRows:
+    """Return the highest values of which none is above its ``bound`` (n), nor above the one before it by more
+    than ``gain`` (n - 1). A value at its bound is that bound, bit for bit.
+
+    Each is the lowest of all bounds before it plus the gains from there on, so that no loop is needed.
+    """
+    count = len(bound)
+    chunks = max(-(-count // CHUNK), 1)
+    most, step = np.full((2, chunks * CHUNK), [[math.inf], [0.0]])
+    most[:count], step[1:count] = bound, gain
+    most, step = most.reshape(chunks, CHUNK), step.reshape(chunks, CHUNK)
+    way = np.cumsum(step, axis=1)
+    low = np.minimum.accumulate(most - way, axis=1)
+    before, last = np.empty(chunks), math.inf
+    for n, (own, whole) in enumerate(zip(low[:, -1].tolist(), way[:, -1].tolist(), strict=True)):
+        before[n] = last
+        last = min(own, last) + whole
+    earlier = np.minimum(np.hstack([before[:, None], low[:, :-1]]), before[:, None])
+    found: PathRows = np.minimum(most, earlier + way).ravel()[:count]
+    return found
 
 
 def _curved_passes(

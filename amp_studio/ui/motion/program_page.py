@@ -70,6 +70,9 @@ _LEFT = 210
 _SHARES = (5, 11, 7)
 """Of the width: the program, its path, what limits it."""
 MOST_LINES = 5000
+FIRST = 2000
+"""Blocks of a long program that are drawn before all of it is computed: in a twentieth of a second."""
+JobProgress = Callable[[str, float], None]
 """Lines of a program that are listed; the rest is computed too."""
 Apply = Callable[[Mapping[Address, Value]], bool]
 
@@ -284,10 +287,8 @@ class ProgramPage(PageOfFile):
 
     def open_program(self, path: Path) -> None:
         """Run a program from a file."""
-        try:
-            self.start(ProgramJob(read_program(path)), path.name)
-        except (ProgramBlockError, OSError) as error:
-            self._say(self._worded(str(error)))
+        self.outcome = None
+        self._begin(lambda _show: ProgramJob(read_program(path)), lambda job: self.start(job, path.name))
 
     def start(self, job: ProgramJob, name: str) -> None:
         """Run a program under the file of now."""
@@ -301,6 +302,27 @@ class ProgramPage(PageOfFile):
             return
         self._job, self._name = replace(job, zero=zero), name
         job = self._job
+        if self.outcome is None and len(job.lines) > FIRST:
+            self._begin(lambda show: self._beginning(job, show), self._run_all)
+        else:
+            self._run_all(None)
+
+    def _beginning(self, job: ProgramJob, show: JobProgress) -> ProgramRun | None:
+        """Return the beginning of a long program; None where it cannot be run without the rest."""
+        try:
+            return replace(job, lines=job.lines[:FIRST], with_contour=False).run(self._file, show)
+        except (ProgramBlockError, SimulationError):
+            return None
+
+    def _run_all(self, beginning: ProgramRun | None) -> None:
+        """Run all of the program, with its beginning in the picture so far."""
+        job = self._job
+        assert job is not None
+        if beginning is not None:
+            self.title.setText(
+                self.tr("{name}: the first {count} blocks").format(name=self._name, count=FIRST)
+            )
+            self._draw_run(beginning, None)
         self._begin(lambda show: job.run(self._file, show), self._show)
 
     def _try(self, text: str) -> None:
@@ -379,9 +401,7 @@ class ProgramPage(PageOfFile):
         self.tries.show_together(try_summary(self._file, self.outcome, tried))
         self._say("; ".join(map(self._worded, tried.not_allowed)))
 
-    def _begin(
-        self, work: Callable[[Callable[[str, float], None]], object], show: Callable[..., None]
-    ) -> None:
+    def _begin(self, work: Callable[[JobProgress], object], show: Callable[..., None]) -> None:
         """Do work in a thread; what was going on before is stopped."""
         self._stop()
 
@@ -457,11 +477,14 @@ class ProgramPage(PageOfFile):
         if self.outcome is None:
             return None
         moment = moment_at(self.outcome.plan, self.play.moment)
+        self._draw_run(self.outcome, moment)
+        return moment
+
+    def _draw_run(self, run: ProgramRun, moment: PathMoment | None) -> None:
         colours = cast("PathColours", self.colours.choice or "limit")
-        picture = path_picture(self._file, self.outcome, moment, colours)
+        picture = path_picture(self._file, run, moment, colours)
         above = picture.close if self.view.choice == "tilted" else picture.above
         self.plot.draw(replace(picture, above=above, close=None))
-        return moment
 
     def _show_tries(
         self, values: Sequence[Mapping[Address, Value]], tries: Sequence[WhatIf], *, is_ticked: bool

@@ -109,6 +109,10 @@ def read_table(name: str, heads: Sequence[str], look: TableLook) -> QTableWidget
 def fill(table: QTableWidget, rows: Sequence[Sequence[str]], *, add: bool = False) -> None:
     """Show rows of texts, or ``add`` them."""
     first = table.rowCount() if add else 0
+    head = table.horizontalHeader()
+    modes = [head.sectionResizeMode(column) for column in range(head.count())]
+    # A column as wide as its texts would be measured again, over a thousand rows, with each text that is set.
+    head.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
     table.setRowCount(first + len(rows))
     for n, row in enumerate(rows, first):
         for column, text in enumerate(row):
@@ -117,3 +121,5 @@ def fill(table: QTableWidget, rows: Sequence[Sequence[str]], *, add: bool = Fals
             table.setItem(n, column, item)
         if any("\n" in text for text in row):
             table.resizeRowToContents(n)
+    for column, mode in enumerate(modes):
+        head.setSectionResizeMode(column, mode)
