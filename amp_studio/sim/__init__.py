@@ -66,7 +66,7 @@ if TYPE_CHECKING:
     from .model import assumptions
     from .motion_check import MotionCheck, check_motion
     from .parameter_roles import ParameterRoles
-    from .path.job import ProgramJob, ProgramVersion, WhatIf, versions, what_if
+    from .path.job import JobProgress, ProgramJob, ProgramVersion, WhatIf, versions, what_if
     from .path.moment import PathMoment, moment_at
     from .path.picture import PathColours, limit_sort, path_picture
     from .path.program import ProgramRun

@@ -179,7 +179,9 @@ def test_a_moment_of_a_program_is_shown_where_the_axes_are_then(
     assert window.play.button.text() == "&Play"
 
 
-def test_a_long_program_shows_its_beginning_first(window: ProgramPage, tmp_path: Path, qtbot: QtBot) -> None:
+def test_a_long_program_shows_its_beginning_first(
+    window: ProgramPage, tmp_path: Path, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
     path = tmp_path / "long.nc"
     path.write_text(
         "G20 G90 G1 F100\n" + "".join(f"X-{1 + n % 7}. Y-{1 + n % 5}.\n" for n in range(3 * FIRST))
@@ -191,7 +193,7 @@ def test_a_long_program_shows_its_beginning_first(window: ProgramPage, tmp_path:
         titles.append(window.title.text())
         draw(picture)
 
-    window.plot.draw = seen  # type: ignore[method-assign]
+    monkeypatch.setattr(window.plot, "draw", seen)
     window.open_program(path)
     qtbot.waitUntil(lambda: window.outcome is not None, timeout=WAIT_MS)
     assert titles[0] == f"long.nc: the first {FIRST} blocks"
@@ -208,12 +210,15 @@ def test_a_beginning_that_needs_the_rest_is_left_out(
     assert window.title.text().startswith("long.nc: 3 blocks")
 
 
+AnyIndex = QModelIndex | QPersistentModelIndex
+
+
 class CountingDelegate(QStyledItemDelegate):
     """Counts how often a text is measured."""
 
     count = 0
 
-    def sizeHint(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> QSize:  # noqa: N802  # Qt's own name
+    def sizeHint(self, option: QStyleOptionViewItem, index: AnyIndex) -> QSize:  # noqa: N802  # Qt's own name
         self.count += 1
         return super().sizeHint(option, index)
 

@@ -29,6 +29,7 @@ from amp_studio.files import ParameterFile, SavedVersion, day_and_time
 from amp_studio.programs import BlockReader, ProgramBlockError, power_up, read_program
 from amp_studio.schema import Address, Value, read_address
 from amp_studio.sim import (
+    JobProgress,
     PathColours,
     PathMoment,
     ProgramJob,
@@ -72,7 +73,6 @@ _SHARES = (5, 11, 7)
 MOST_LINES = 5000
 FIRST = 2000
 """Blocks of a long program that are drawn before all of it is computed: in a twentieth of a second."""
-JobProgress = Callable[[str, float], None]
 """Lines of a program that are listed; the rest is computed too."""
 Apply = Callable[[Mapping[Address, Value]], bool]
 
