@@ -3,15 +3,9 @@
 from __future__ import annotations
 
 import subprocess
-import sys
-from pathlib import Path
 
+from amp_studio.child_process import child_command
 from amp_studio.errors import AmpStudioError
-
-_CHILD = (
-    "import sys; sys.path.insert(0, sys.argv.pop()); from {module} import answer; answer(sys.stdin.buffer,"
-    " sys.stdout.buffer)"
-)
 
 
 class ReportNotMadeError(AmpStudioError, RuntimeError):
@@ -23,8 +17,8 @@ def run_apart(module: str, question: bytes, patience_s: float | None = None) -> 
 
     Raises ReportNotMadeError.
     """
-    command = [sys.executable, "-P", "-c", _CHILD.format(module=module), str(Path(__file__).parents[2])]
     try:
+        command = child_command(module, "answer")
         done = subprocess.run(command, input=question, capture_output=True, timeout=patience_s, check=False)
     except subprocess.TimeoutExpired:
         raise ReportNotMadeError("works without end") from None

@@ -11,8 +11,10 @@ from types import FunctionType
 import numpy as np
 import pytest
 
+from amp_studio.sim.engine import machine_code
 from amp_studio.sim.engine.arrays import Vector
-from amp_studio.sim.engine.compiled import compiled, kernel_name, plain
+from amp_studio.sim.engine.compiled import code_of, compiled, kernel_name, plain
+from amp_studio.sim.engine.machine_code import VECTOR
 from tests.sim import tiny as law
 
 LIMIT = 5.0
@@ -62,19 +64,26 @@ def test_the_environment_can_ask_for_plain_python(monkeypatch: pytest.MonkeyPatc
 
 KEPT = """
 import sys, tests.sim.tiny as law
+from amp_studio.sim.axis.motion import Until, run_axis
+from amp_studio.sim.command.ramps import move
 from amp_studio.sim.engine import machine_code
-from amp_studio.sim.engine.compiled import compiled
-assert not OTHER or setattr(machine_code, "_makers", lambda: "another version") is None
-assert compiled(law.position_sample, law.velocity_sample) is not None
+from amp_studio.sim.engine.signals import POSITION_LOOP
+CHANGE
+axis = law.tiny()
+profile = move(1.0, 100.0, axis.ramps["linear"], 1e-3)
+runs = [run_axis(axis, profile, Until(0.1), mode=POSITION_LOOP, engine="compiled") for _ in range(2)]
+assert all((runs[0].columns[name] == runs[1].columns[name]).all() for name in runs[0].columns)
 print("numba" in sys.modules)
 """
+OTHER_VERSION = 'machine_code._makers = lambda: "another version"'
+ENDED = "machine_code.child_command = lambda *_: [sys.executable, '-c', 'import os; os.abort()']"
 
 
-def kept(caches: Path, other: bool = False) -> bool:
+def kept(caches: Path, change: str = "") -> bool:
     """Return whether a process had to make the machine code."""
     own = {"XDG_CACHE_HOME": str(caches / "user"), "PYTHONPYCACHEPREFIX": str(caches / "python")}
     done = subprocess.run(
-        [sys.executable, "-c", KEPT.replace("OTHER", str(other))],
+        [sys.executable, "-c", KEPT.replace("CHANGE", change)],
         capture_output=True,
         text=True,
         check=True,
@@ -83,14 +92,41 @@ def kept(caches: Path, other: bool = False) -> bool:
     return done.stdout == "True\n"
 
 
+def codes(caches: Path) -> list[Path]:
+    return [*caches.glob("python/**/run_*.json")]
+
+
+def doubled(values: Vector, result: Vector, _: Vector) -> None:
+    result[0] = 2.0 * values[0]
+
+
+def test_only_code_is_kept_that_comes_to_the_same_numbers_apart(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("numba")
+    stored: list[str] = []
+    monkeypatch.setattr(machine_code, "_keep", lambda name, _: stored.append(name))
+    monkeypatch.setattr(machine_code, "_read", lambda _: None)
+    apart = machine_code._apart
+    for answer, is_kept in ((lambda _: b"other numbers", False), (apart, True)):
+        monkeypatch.setattr(machine_code, "_apart", answer)
+        code = code_of(doubled, {}, (VECTOR,) * 3, result=False)
+        assert code is not None
+        for _ in range(2):
+            result = np.zeros(1)
+            code(np.full(1, 4.5), result, np.zeros(1))
+            assert result[0] == 9.0
+        assert len(stored) == is_kept
+
+
 def test_machine_code_is_made_once_and_found_without_numba(tmp_path: Path) -> None:
     pytest.importorskip("numba")
+    assert kept(tmp_path, ENDED)
+    assert not codes(tmp_path), "LLVM alone does not run it here"
     assert kept(tmp_path)
     assert not kept(tmp_path)
-    (code,) = tmp_path.glob("python/**/run_*.json")
+    (code,) = codes(tmp_path)
     code.write_bytes(code.read_bytes()[:-1])
     assert kept(tmp_path), "what is damaged is made again"
-    assert kept(tmp_path, other=True), "and so is that of another version"
+    assert kept(tmp_path, OTHER_VERSION), "and so is that of another version"
     # Where compiled modules cannot be kept it is kept in the user's cache.
     (tmp_path / "python").rename(tmp_path / "gone")
     (tmp_path / "python").write_text("no folder")

@@ -5,6 +5,10 @@ a plain function over pointers and sizes, which asks for exp and sin of the C li
 
 What is kept lies where Python keeps its compiled modules, as numba's own does; who can write there
 can change the program itself. Only where that cannot be written it lies in the user's cache.
+
+How numba passes arguments (``CPUCallConv`` of its ``core/callconv.py``) is no promise of it, and LLVM alone
+is not tried on every system. So new code is kept only once a process apart has loaded it and come to the
+numbers of numba, bit for bit, for the first run that it was made for; else numba makes it in each process.
 """
 
 from __future__ import annotations
@@ -13,11 +17,16 @@ import ctypes
 import hashlib
 import importlib.util
 import json
+import logging
+import pickle
+import subprocess
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, BinaryIO, Literal
 
+from amp_studio.child_process import child_command
 from amp_studio.schema import cache_folder, read_cached, write_cached
 from amp_studio.version import __version__
 
@@ -36,8 +45,7 @@ NUMBER: ArgumentKind = "float64"
 _DIMENSIONS = {VECTOR: 1, ROWS: 2}
 _DONE, _NOTHING = 0, -2
 """What numba's code ends with: with a result, or without one."""
-_OPTIONS: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-"""What Python or C would call it by is made here."""
+_log = logging.getLogger(__name__)
 
 
 class MachineCode:
@@ -78,7 +86,54 @@ class MachineCode:
         return returned.value if self._result else None
 
 
-def machine_code(name: str, kinds: Sequence[ArgumentKind], result: bool, make: Make) -> MachineCode | None:
+class NewCode:
+    """A function that numba has just made, and whose first call proves the code that is to be kept."""
+
+    def __init__(self, name: str, kinds: Sequence[ArgumentKind], result: bool, function: Any) -> None:
+        from llvmlite import binding
+
+        (made,) = function.overloads.values()
+        module = binding.parse_assembly(function.inspect_llvm(function.signatures[0]))
+        self._code = made.fndesc.llvm_func_name, _target().emit_object(module)
+        self._name, self._kinds, self._result, self._function = name, tuple(kinds), result, function
+        self._is_tried = False
+
+    def __call__(self, *arguments: Any) -> int | None:
+        """Call it. Raises TypeError for an array that it cannot read."""
+        before = None if self._is_tried else pickle.dumps((*self._code, self._kinds, self._result, arguments))
+        returned: int | None = self._function(*arguments)
+        if before is not None:
+            self._is_tried = True
+            if _apart(before) == _numbers(returned, arguments):
+                _keep(self._name, self._code)
+            else:
+                _log.warning("%s is made again in each process: LLVM alone does not run it here", self._name)
+        return returned
+
+
+def _apart(question: bytes) -> bytes:
+    """Return what a process apart comes to; empty where it was ended, or took too long."""
+    command = child_command(__name__, "try_code")
+    with suppress(OSError, subprocess.SubprocessError):
+        return subprocess.run(command, input=question, capture_output=True, timeout=60, check=True).stdout
+    return b""
+
+
+def try_code(asked: BinaryIO, out: BinaryIO) -> None:
+    """Call machine code once, in the process apart, and write what it returned and its arrays."""
+    *code, arguments = pickle.load(asked)  # noqa: S301  # the program itself has written it
+    out.write(_numbers(MachineCode(*code)(*arguments), arguments))
+
+
+def _numbers(returned: int | None, arguments: Sequence[Any]) -> bytes:
+    """Return every bit of what a call returned and left in its arrays."""
+    arrays = (each.tobytes() for each in arguments if hasattr(each, "tobytes"))
+    return b"".join((str(returned).encode(), *arrays))
+
+
+def machine_code(
+    name: str, kinds: Sequence[ArgumentKind], result: bool, make: Make
+) -> MachineCode | NewCode | None:
     """Return the machine code of a name: what was kept under it, or what numba makes of the function that
     ``make`` returns, with the options of numba; None where numba is missing or cannot be imported.
 
@@ -86,29 +141,15 @@ def machine_code(name: str, kinds: Sequence[ArgumentKind], result: bool, make: M
     """
     if not _makers():
         return None
-    kept = _read(name)
-    if kept is None:
-        kept = _made(kinds, result, make)
-        if kept is None:
-            return None
-        _keep(name, kept)
-    return MachineCode(*kept, kinds, result)
-
-
-def _made(kinds: Sequence[ArgumentKind], result: bool, make: Make) -> tuple[str, bytes] | None:
-    """Return the name in the code, and the code, of what numba compiles."""
+    if (kept := _read(name)) is not None:
+        return MachineCode(*kept, kinds, result)
     try:
         import numba
     except ImportError:  # with the numpy that is here
         return None
-    from llvmlite import binding
-
     function, options = make()
     signature = f"{'int64' if result else 'void'}({', '.join(kinds)})"
-    compiled: Any = numba.njit(signature, **_OPTIONS, **options)(function)
-    (found,) = compiled.overloads.values()
-    module = binding.parse_assembly(compiled.inspect_llvm(compiled.signatures[0]))
-    return found.fndesc.llvm_func_name, _target().emit_object(module)
+    return NewCode(name, kinds, result, numba.njit(signature, **options)(function))
 
 
 def _target() -> Any:

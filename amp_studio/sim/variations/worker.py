@@ -1,8 +1,4 @@
-"""A process apart that makes parts of a sweep.
-
-It runs nothing of the program that asks. A process of multiprocessing runs the script of a library's caller
-once more, with whatever that script does at a control.
-"""
+"""A process apart that makes parts of a sweep."""
 
 from __future__ import annotations
 
@@ -11,18 +7,12 @@ import os
 import pickle
 import signal
 import subprocess
-import sys
-from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
+from amp_studio.child_process import child_command
 from amp_studio.sim.tuning.sampled import Matrix
 
 from .job import SweepJob, figures_of
-
-_CHILD = (
-    "import sys; sys.path.insert(0, sys.argv.pop()); from amp_studio.sim.variations.worker import serve;"
-    " serve()"
-)
 
 
 class WorkerEndedError(Exception):
@@ -33,7 +23,7 @@ class SweepWorker:
     """One process apart, which has its job before the first part."""
 
     def __init__(self, job: SweepJob) -> None:
-        command = [sys.executable, "-P", "-c", _CHILD, str(Path(__file__).parents[3])]
+        command = child_command(__name__, "serve")
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         self._before = pickle.dumps(job)
 
@@ -58,22 +48,22 @@ class SweepWorker:
         self._process.communicate()
 
 
-def serve() -> None:
+def serve(asked: BinaryIO, out: BinaryIO) -> None:
     """Make parts until nobody asks, in the process apart."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the process that waits for this one ends it
     gc.freeze()
     # What a library prints goes to the errors: the output is for the figures alone.
-    out = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)
-    job = pickle.load(sys.stdin.buffer)  # noqa: S301  # the program itself has written it
+    figures = os.fdopen(os.dup(out.fileno()), "wb")
+    os.dup2(2, out.fileno())
+    job = pickle.load(asked)  # noqa: S301  # the program itself has written it
     while True:
         try:
-            points = pickle.load(sys.stdin.buffer)  # noqa: S301  # the same
+            points = pickle.load(asked)  # noqa: S301  # the same
         except EOFError:
             return
         try:
             answer: Matrix | Exception = figures_of(job, points)
         except Exception as error:  # it is raised where the part was asked for
             answer = error
-        pickle.dump(answer, out)
-        out.flush()
+        pickle.dump(answer, figures)
+        figures.flush()
