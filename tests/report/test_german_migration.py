@@ -34,3 +34,13 @@ def test_a_migration_states_nothing_in_english(example: str, target: str) -> Non
     assert len(words) > 20
     assert [text for text in words if FUNCTION_WORDS.search(known.sub("", text.replace("−", "-")))] == []
     assert [table.title for table in tables] == OF_WORDS
+
+
+def test_formulas_and_figures_stay_as_the_controls_write_them_and_words_beside_them_do_not() -> None:
+    file = open_file(examples_folder() / "acromill-router/ROUTER.amp").file
+    paper = migration_paper(migrate(file, "linuxcnc", {}), language="de")
+    cells = [cell for table in paper.tables for row in table.rows for cell in row]
+    assert "band > 0.0 ? band : null" in cells
+    assert "806.299213, Vorzeichen offen" in cells
+    assert "geschrieben" in cells
+    assert {"written", "left out"} & set(cells) == set()

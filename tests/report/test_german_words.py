@@ -170,3 +170,21 @@ def test_the_names_of_curves_have_room_in_german() -> None:
     names += ["gain (dB)", "phase (°)", "command", "actual", "before"]
     wide = {text: measured(sentence(text), False) / measured(text, False) for text in names}
     assert {text: share for text, share in wide.items() if share > 1.3} == {}
+
+
+def test_the_figures_of_motions_have_german_names() -> None:
+    sentence = language_of("de").sentence
+    figures = (
+        "step rate",
+        "increments per sample",
+        "pulses per interpolation time",
+        "time constant following error",
+    )
+    assert [name for name in figures if sentence(name) == name] == []
+    assert sentence("phase margin p5") == "Phasenreserve, 5. Perzentil"
+    assert (
+        sentence(
+            "With the other gains as they are none is safe: here servo.a_gain is 92.5, servo.b_gain is 3, as tune recommends."
+        ).count(" ist ")
+        == 3
+    )

@@ -7,7 +7,7 @@ from datetime import datetime
 from pathlib import Path
 
 from amp_studio.meaning import Migration, less_safe, write_migration
-from amp_studio.report.language import language_of
+from amp_studio.report.language import Language, language_of
 
 from .paper import Paper, PaperTable, write_paper
 
@@ -71,7 +71,7 @@ def migration_paper(migration: Migration, language: str = "en") -> Paper:
     ]
     for outcome, (title, heads, keys) in _HEADS.items():
         rows = tuple(
-            (e.param, *(_cell(key, str(e.facts.get(key) or ""), worded) for key in keys))
+            (e.param, *(_cell(key, str(e.facts.get(key) or ""), words) for key in keys))
             for e in migration.of(outcome)
         )
         tables.append(PaperTable(worded(title), tuple(map(worded, heads)), rows))
@@ -95,6 +95,8 @@ def migration_paper(migration: Migration, language: str = "en") -> Paper:
     )
 
 
-def _cell(key: str, text: str, worded: Callable[[str], str]) -> str:
-    """Return a cell: what is written at either control as it is, words in the language."""
-    return text if key in ("raw", "key", "value", "id", "answer") else worded(text)
+def _cell(key: str, text: str, words: Language) -> str:
+    """Return a cell: what is written at either control, and a formula, as it is, words in the language."""
+    if key in ("raw", "key", "id", "answer"):
+        return text
+    return words.title(text) if key in ("value", "formula") else words.sentence(text)
