@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import pickle
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from datetime import datetime
 from pathlib import Path
@@ -218,12 +217,16 @@ def motion_apart(file: ParameterFile) -> tuple[PrintedFigure, ...]:
     """Return ``motion_figures`` from a process apart: the simulator takes 150 MB. Raises
     ReportNotMadeError.
     """
+    import pickle
+
     figures: tuple[PrintedFigure, ...] = pickle.loads(run_apart(__name__, content_of(file)))  # noqa: S301  # the program itself has written it
     return figures
 
 
 def answer(asked: BinaryIO, out: BinaryIO) -> None:
     """Draw what ``motion_apart`` asks for, in the process apart."""
+    import pickle
+
     pickle.dump(tuple(motion_figures(read_content(Path("the file"), asked.read()))), out)
 
 

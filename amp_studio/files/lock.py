@@ -8,9 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import errno
-import getpass
 import os
-import socket
 import sys
 from datetime import UTC, datetime
 from pathlib import Path
@@ -122,6 +120,8 @@ class EditLock:
         """Write who has the lock into a file of his own: a link that was put there is removed,
         not followed.
         """
+        import socket  # only what edits a file holds its lock
+
         who = f"{user()} on {socket.gethostname()}, process {os.getpid()}, since {now()}"
         with contextlib.suppress(OSError):
             self._holder_path().unlink(missing_ok=True)
@@ -197,6 +197,8 @@ def _is_sound(place: Path) -> bool:
 
 def user() -> str:
     """Return who is at work; a system may have no name for him."""
+    import getpass
+
     try:
         return getpass.getuser()
     except (KeyError, OSError, ImportError):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import re
-import shutil
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
@@ -295,6 +294,8 @@ def _move(source: Path, target: Path) -> None:
     if is_link(source):  # what belongs to the file lies beside it, not beside the link
         source.rename(target)
         return
+    import shutil  # with all of Python's compressions
+
     sides = [(place(source), place(target)) for place in (history_path, backup_path)]
     copied = []
     try:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import json
-import pickle
 from pathlib import Path
 from typing import BinaryIO, Literal
 
@@ -34,6 +33,8 @@ def made_apart(what: What, report: Report, own: Path | None, ppi: int = 0) -> li
 
     def failed(why: str) -> AmpStudioError:
         return TemplateMistakeError(own, why) if own else ReportNotMadeError(f"The report {why}")
+
+    import pickle
 
     try:
         question = pickle.dumps((_MOST_MEMORY if own else None, what, report, own, ppi))
@@ -74,6 +75,8 @@ def answer(asked: BinaryIO, out: BinaryIO) -> None:
     """Make what the program asks for, in the process apart: a line with mistake and lengths, then the
     files.
     """
+    import pickle
+
     most_memory, *wanted = pickle.load(asked)  # noqa: S301  # the program itself has written it
     if most_memory:
         _bound_memory(most_memory)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-
 from amp_studio.child_process import child_command
 from amp_studio.errors import AmpStudioError
 
@@ -17,6 +15,8 @@ def run_apart(module: str, question: bytes, patience_s: float | None = None) -> 
 
     Raises ReportNotMadeError.
     """
+    import subprocess  # most reports are made without one
+
     try:
         command = child_command(module, "answer")
         done = subprocess.run(command, input=question, capture_output=True, timeout=patience_s, check=False)

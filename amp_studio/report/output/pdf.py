@@ -11,7 +11,6 @@ import contextlib
 import json
 import os
 import re
-import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import datetime
@@ -175,6 +174,8 @@ def set_pages(report: Report, ppi: int, own: Path | None = None) -> SetReport:
     """Return each page as PNG, ``ppi`` pixels to the inch; ``own`` is a template of the project.
     Raises TemplateMistakeError.
     """
+    import tempfile
+
     import typst
 
     source = typst_source(report, own, places=True)

@@ -8,7 +8,6 @@ import io
 import math
 import re
 import textwrap
-import zipfile
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -143,6 +142,8 @@ def _set_up_print(page: Any, title: str, paper: PaperSize, *, has_heads: bool) -
 
 def _without_times(content: io.BytesIO) -> bytes:
     """Return an archive whose parts have no time of their own, so that equal workbooks have equal bytes."""
+    import zipfile
+
     stream = io.BytesIO()
     with zipfile.ZipFile(content) as packed, zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as again:
         for part in packed.infolist():

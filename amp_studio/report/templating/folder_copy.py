@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import contextlib
 import stat
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -27,6 +26,8 @@ def copied_template(own: Path) -> Iterator[Path]:
     template that is one itself, or lies in a folder that is one, is refused.
     What goes wrong inside names the template itself.
     """
+    import tempfile  # most reports have no template of their own
+
     with tempfile.TemporaryDirectory(prefix="amp-studio-templates-") as folder:
         try:
             links = _copy(own.parent, Path(folder)) if not own.parent.is_symlink() else [own.parent]
