@@ -120,7 +120,7 @@ class EditLock:
         """Write who has the lock into a file of his own: a link that was put there is removed,
         not followed.
         """
-        import socket  # only what edits a file holds its lock
+        import socket  # only what edits a file has its lock
 
         who = f"{user()} on {socket.gethostname()}, process {os.getpid()}, since {now()}"
         with contextlib.suppress(OSError):
