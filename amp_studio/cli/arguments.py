@@ -22,6 +22,15 @@ def path_of(text: str) -> Path:
     return path
 
 
+def axes_of(text: str) -> str:
+    """Return the axes that are asked for; an empty text, as of a variable that is not set, is not the first
+    one.
+    """
+    if not text.strip():
+        raise ValueError("the axis is empty")
+    return text
+
+
 def file_or_address(text: str) -> str:
     """Return the path of a file, or the address of a control."""
     if "://" not in text:
@@ -67,7 +76,10 @@ OUTPUT = VerbArgument("-o", "--output", type=path_of, required=True, help="file 
 FAMILY = VerbArgument("family", help="control family", completes=candidates.families)
 MACHINE = VerbArgument("--machine", help="machine type: mill, lathe, …", completes=candidates.machines)
 AXIS = VerbArgument(
-    "--axis", help="axis by its letter or number (default: the first)", completes=candidates.axes
+    "--axis",
+    type=axes_of,
+    help="axis by its letter or number (default: the first)",
+    completes=candidates.axes,
 )
 
 # -- how results are printed

@@ -14,6 +14,9 @@ from .codes import Call, ControlCodes
 from .formats import Justified, NumberFormat, WordNumber, digits_of, number_of
 from .words import TypedWord, words_of
 
+FED = ("line", "arc-cw", "arc-ccw")
+"""What a code does that moves at the feed."""
+
 
 @dataclass(frozen=True)
 class BlockWord:
@@ -136,7 +139,7 @@ class BlockReader:
         if word.letter in ("G", "M"):
             return self._code(word)
         use = self.use(word.letter, here)
-        read = self._of_use(word, use) if use else self._of_axis(word)
+        read = self._of_use(word, use, here) if use else self._of_axis(word)
         calls = self.codes.facts.word_calls
         if calls and word.letter in calls.programs:
             address = (calls.param, word.letter)
@@ -212,11 +215,13 @@ class BlockReader:
         units = self.codes.facts.units
         return units is not None and self.file.evaluation.canonical((units.param, "")) in units.inch
 
-    def _of_use(self, word: TypedWord, use: WordUse) -> BlockWord:
+    def _of_use(self, word: TypedWord, use: WordUse, here: set[str]) -> BlockWord:
         unit = use.unit if isinstance(use.unit, str) else use.unit["in" if self.is_inch() else "mm"]
         number = self.number(word, (use.format, "") if use.format else None, use.whole)
         if use.bounds and number.value is not None and not use.bounds[0] <= number.value <= use.bounds[1]:
             number = replace(number, fault=f"{use.bounds[0]:g} to {use.bounds[1]:g} are printed")
+        if use.role == "feed" and number.value is not None and self._is_no_feed(number.value, here):
+            number = replace(number, fault="it is no feed: it must be above 0")
         named = (*((use.format,) if use.format else ()), *use.params)
         params = (*self.codes.whole(named), *self._justifying(word, use.format is None))
         return BlockWord(
@@ -230,6 +235,11 @@ class BlockReader:
             number.fault,
             number.assumed,
         )
+
+    def _is_no_feed(self, feed: float, here: set[str]) -> bool:
+        """Return whether a feed is below 0, or 0 in a block that moves at it."""
+        moves = (self.codes.known[code].facts.does in FED for code in here if code in self.codes.known)
+        return feed < 0.0 or (feed == 0.0 and any(moves))
 
     def _of_axis(self, word: TypedWord) -> BlockWord | None:
         axes = self.codes.facts.axes

@@ -34,8 +34,6 @@ class PathMoves:
         if roles.get("move-time", 0.0) > 0.0:
             feed = 60.0 / roles["move-time"]  # as moves a minute, in which other controls count it
         if feed is not None:
-            if feed <= 0.0:
-                raise BlockError(f"F{feed:g} is no feed: it must be above 0", "no-feed")
             self._feed = feed
         self.speed = roles.get("spindle", self.speed)
 

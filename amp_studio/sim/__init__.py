@@ -104,7 +104,7 @@ if TYPE_CHECKING:
     from .trace import Alarm, Figure, Recommendation, Trace, titled
     from .tuning.linear import linear_model
     from .tuning.record import add_tuning, read_tunings, recorded_tuning, value_at
-    from .tuning.trial import address_of, named_parameter
+    from .tuning.trial import address_of, called_parameter, named_parameter
     from .unit_system import length_unit, path_error_text, path_error_unit
     from .variations.scenario import Way as SweepWay
     from .write import trace_summary, trace_text, with_uncertainty, write_trace

@@ -44,7 +44,7 @@ def _errors(findings: Iterable[Finding]) -> list[Finding]:
 def _states(file: ParameterFile, addresses: Iterable[Address]) -> Iterator[str]:
     not_set = []
     for address in addresses:
-        name = _named(file, address)
+        name = file.machine_schema.named(address)
         state = file.evaluation.state(address)
         if address not in file.values:
             if state.is_active and not file.schema.parameters[address[0]].optional:
@@ -54,8 +54,3 @@ def _states(file: ParameterFile, addresses: Iterable[Address]) -> Iterator[str]:
             yield f"{name} is inactive, and the simulation used it{why}"
     if not_set:
         yield f"Not set, and simulated as if there were none: {', '.join(not_set)}"
-
-
-def _named(file: ParameterFile, address: Address) -> str:
-    parameter, instance = address
-    return f"{file.schema.parameters[parameter].name} ({parameter}{'@' + instance if instance else ''})"

@@ -60,11 +60,13 @@ def number(settings: ScenarioSettings, name: str) -> float | None:
     return float(setting)
 
 
-def above_zero(settings: ScenarioSettings, name: str) -> float | None:
-    """Return a setting that must be above 0."""
+def above_zero(settings: ScenarioSettings, name: str, most: float = math.inf) -> float | None:
+    """Return a setting that must be above 0, and ``most`` at most."""
     value = number(settings, name)
     if value is not None and value <= 0.0:
         raise SimulationError(f"{name} is {value:g}; it must be above 0", name)
+    if value is not None and value > most:
+        raise SimulationError(f"{name} is {value:g}; simulated is {most:g} at most", name)
     return value
 
 

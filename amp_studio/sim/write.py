@@ -64,8 +64,10 @@ def plot_png(trace: Trace, before: Trace | None = None, chart: str = CHARTS[0]) 
     return image
 
 
-def trace_text(trace: Trace) -> str:
-    """Return the result as text for the terminal: alarms, figures, recommendations, assumptions."""
+def trace_text(trace: Trace, named: Callable[[str], str] = str) -> str:
+    """Return the result as text for the terminal: alarms, figures, recommendations, assumptions;
+    ``named`` names a parameter by its id.
+    """
     lines = [f"{trace.scenario}{', axis ' + trace.axis_title if trace.axis else ''}: {trace.model}"]
     lines += [f"DOUBTFUL: {doubt}" for doubt in trace.doubts]
     lines += [
@@ -83,7 +85,7 @@ def trace_text(trace: Trace) -> str:
         (
             "Recommendations",
             [
-                f"{a.parameter} = {value_text(a.value, a.unit, 9)}:"
+                f"{named(a.parameter)} = {value_text(a.value, a.unit, 9)}:"
                 f" {a.why}{f' Price: {a.price}' if a.price else ''}"
                 for a in trace.recommendations
             ],

@@ -45,6 +45,9 @@ class TinyTrial:
     def range_of(self, _parameter: str) -> tuple[float | None, float | None]:
         return 0.0, 20_000.0
 
+    def called(self, parameter: str) -> str:
+        return parameter
+
     def decimals(self, _parameter: str) -> int | None:
         return 3
 

@@ -100,7 +100,7 @@ def test_a_file_with_errors_elsewhere_is_shown_too(mill: ParameterFile) -> None:
 def test_a_value_that_is_not_set_is_shown_where_the_axis_would_have_used_it(mill: ParameterFile) -> None:
     mill.set(mill.find("servo.torque_offset@1"), None)
     (doubt,) = simulate(mill, "step", "1", {"move.duration": 0.05}).doubts
-    assert doubt.startswith("Not set, and simulated as if there were none: Torque Offset Percentage")
+    assert doubt.startswith("Not set, and simulated as if there were none: 1690 Torque Offset Percentage")
 
 
 @pytest.mark.parametrize(

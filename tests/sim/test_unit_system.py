@@ -68,7 +68,7 @@ def test_an_alarm_and_a_recommendation_are_in_inches_too(mill: ParameterFile) ->
     tight = mill.copy()
     tight.set(("servo.excess_error", "1"), Value(5.08, "mm"))
     trace = simulate(tight, "step", "1", system="inch")
-    assert "above 0.2 in (servo.excess_error@1)" in trace.alarms[0].message
+    assert "above 0.2 in (1750 Excess Error)" in trace.alarms[0].message
     wanted = next(each for each in trace.recommendations if each.parameter == "servo.excess_error")
     assert wanted.unit == "in"
     assert wanted.value == pytest.approx(11.0 / 25.4, rel=1e-5)

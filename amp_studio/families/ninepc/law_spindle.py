@@ -14,7 +14,7 @@ from amp_studio.sim import (
     Tapping,
 )
 
-from .law_facts import ids
+from .law_facts import MOTION, ids
 
 GEARS = 8
 PER_GAIN = 1000.0 / 60.0
@@ -39,7 +39,10 @@ SIGN = {"clockwise": 1.0, "counterclockwise": -1.0}
 
 
 def spindle(read: AxisParameters, number: str) -> Spindle:
-    """Return a spindle; raises SimulationError where it is not set."""
+    """Return a spindle; raises SimulationError where no axis is it, or it is not set."""
+    fitted = (axis for axis in MOTION.axes if read.value(ids.axis_type, at=axis) == "spindle")
+    if not any(read.value(ids.spindle_type, at=axis) == f"s{number}" for axis in fitted):
+        raise SimulationError(f"No axis is spindle {number} (3-5, 7-82)", ids.axis_type)
     count = read.optional(ids.gear_count, at=number)
     if count is None:
         raise SimulationError(f"Number of Gears Used of spindle {number} is not set", ids.gear_count)

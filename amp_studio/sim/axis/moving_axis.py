@@ -25,7 +25,7 @@ from amp_studio.sim.engine.signals import COMMAND, COMMAND_ACCELERATION, COMMAND
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, Ramp
 
-from .motion import AFTER, BEFORE, IO, STATE, TIMING, Engine, Motion, Until, prepared, steps
+from .motion import AFTER, BEFORE, IO, MOST_ROWS, STATE, TIMING, Engine, Motion, Until, prepared, steps
 
 LAGS = 5.0
 """Time constants of the position loop by which a command goes on beyond the farthest place of an event."""
@@ -310,12 +310,18 @@ class MovingAxis:
         pieces = change(order.ramp, abs(self.velocity), speed)
         # The axis is behind the command, which does not end before the axis is there.
         far = max(order.farthest + self.behind(speed) - length(pieces), 0.0) / speed
-        if not far < LONGEST:
+        self._refuse_longer(far)
+        return [*pieces, Piece(far, speed)]
+
+    def _refuse_longer(self, lasts: float) -> None:
+        """Raise SimulationError for a command of more s than are simulated, or than there is room for."""
+        room = MOST_ROWS * self.axis.servo_period / self._samples if self._keep else math.inf
+        longest = min(LONGEST, room)
+        if not lasts < longest:
             raise SimulationError(
-                f"The move of axis {self.axis.axis} takes more than {LONGEST:g} s: give a shorter distance or"
+                f"The move of axis {self.axis.axis} takes more than {longest:g} s: give a shorter distance or"
                 " a higher speed"
             )
-        return [*pieces, Piece(far, speed)]
 
     def _resting(self, order: StopOrder | MoveOrder | PauseOrder) -> tuple[list[Piece], float]:
         if isinstance(order, PauseOrder):
@@ -324,7 +330,10 @@ class MovingAxis:
             distance = order.position - self.position
             if distance == 0.0:
                 return [], 1.0
-            return way(distance, order.feedrate, order.ramp, self.axis), math.copysign(1.0, distance)
+            pieces = way(distance, order.feedrate, order.ramp, self.axis)
+            if self._keep:  # one that lives in a control goes as far as it is sent
+                self._refuse_longer(sum(piece.duration for piece in pieces))
+            return pieces, math.copysign(1.0, distance)
         pieces = change(order.ramp, abs(self.velocity), 0.0)
         if order.ramp.kind == "exponential" and pieces:
             pieces = [replace(pieces[0], duration=self._fades(order.ramp))]

@@ -37,6 +37,8 @@ RATED = 100.0
 """%: the range of a drive with a velocity loop, and of an output in %."""
 SHORTEST, LONGEST, LAGS = 0.1, 3.0, 12.0
 """s, s, and time constants of the slowest pole: the time with the torque."""
+LONGEST_PUSH = 60.0
+"""s: the most that can be asked for."""
 BACK = 0.05
 """Share of the largest way within which the load is back, a count at least."""
 PHASES = (0.0, 1.0, 0.0, -1.0, 0.0)
@@ -84,7 +86,7 @@ def run_load(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     refuse_unknown(settings, SETTINGS)
     load = above_zero(settings, "move.load") or SHARE * _range(axis)
     loops = Loops(axis)
-    lasts = above_zero(settings, "move.duration") or _time(loops)
+    lasts = above_zero(settings, "move.duration", LONGEST_PUSH) or _time(loops)
     each = max(2, round(lasts / axis.servo_period))
     push = np.repeat(np.array(PHASES) * load, each).tolist()
     standing = [0.0, math.inf, 0.0, 0.0, 0.0, 0.0, POLYNOMIAL, 0.0]

@@ -37,6 +37,8 @@ DRIVE_TIME = 0.05
 """s"""
 STEP = 0.001
 """s from row to row."""
+SLOWEST = 60.0
+"""s: the largest time constant of a drive."""
 AFTER = 5.0
 """Time constants of the drive that are shown after the ramp."""
 LONGEST = 600.0
@@ -58,9 +60,9 @@ def run_spindle(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
     before = number(settings, "move.from") or 0.0
     speed = _programmed(spindle, settings)
     gear, notes, alarms = _geared(spindle, settings, speed)
-    lag = above_zero(settings, "move.drive_time") or DRIVE_TIME
+    lag = above_zero(settings, "move.drive_time", SLOWEST) or DRIVE_TIME
     reached = number(settings, "move.reached")
-    estop = above_zero(settings, "move.estop_time")
+    estop = above_zero(settings, "move.estop_time", LONGEST)
     commanded = before if gear is None else math.copysign(min(abs(speed), gear.full), speed)
     lasts = ramp_time(before, commanded, gear) if gear else 0.0
     if lasts > LONGEST:

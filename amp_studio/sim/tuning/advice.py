@@ -82,20 +82,20 @@ def gain_recommendations(trial: Tried, solved: Solved, why: str = "") -> tuple[R
         if number is None or old is None:
             continue
         page = trial.axis.sources[gain.name].page
-        reason = _reason(f"{why}{gives}", found, page, solved)
+        reason = _reason(trial, f"{why}{gives}", found, page, solved)
         found.append(Recommendation(gain.parameter, number, old.unit, reason, _price(trial, solved, gain)))
     pages = {each.parameter: each.page for each in trial.axis.sources.values()}
     for parameter, before in solved.filters:
         number = solved.to_change.get(parameter)
         if number is not None:
-            reason = _reason(f"{why}{gives}", found, pages.get(parameter, ""), solved)
+            reason = _reason(trial, f"{why}{gives}", found, pages.get(parameter, ""), solved)
             price = _filter_price(trial, before, number)
             found.append(Recommendation(parameter, number, trial.unit(parameter), reason, price))
     return tuple(found)
 
 
-def _reason(first: str, found: Sequence[Recommendation], page: str, solved: Solved) -> str:
-    reason = first if not found else f"together with {found[0].parameter}"
+def _reason(trial: Tried, first: str, found: Sequence[Recommendation], page: str, solved: Solved) -> str:
+    reason = first if not found else f"together with {trial.called(found[0].parameter)}"
     return f"{reason} ({f'page {page}, ' if page else ''}aim {solved.aim.name})."
 
 

@@ -30,6 +30,12 @@ def named_parameter(file: ParameterFile, parameter: str, axis: str) -> str:
     return file.machine_schema.short(address) if address else parameter
 
 
+def called_parameter(file: ParameterFile, parameter: str, axis: str) -> str:
+    """Return what a parameter that a result for an axis names is called: its number and name."""
+    address = address_of(file, parameter, axis)
+    return file.machine_schema.named(address) if address else parameter
+
+
 class Trial:
     """One axis of a file, bound with other values one after the other."""
 
@@ -75,6 +81,10 @@ class Trial:
         """Return the unit in which a number of a parameter is written."""
         value = self.value(parameter)
         return value.unit if value else next(iter(self._file.schema.parameters[parameter].ranges or {}), "")
+
+    def called(self, parameter: str) -> str:
+        """Return what a sentence calls a parameter: its number and name."""
+        return called_parameter(self._file, parameter, self.axis.axis)
 
     def _written(self, parameter: str, number: float, old: Value | None) -> Value:
         """Return a number as the value of a parameter: whole where the present one is."""

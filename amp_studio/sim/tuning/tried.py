@@ -26,5 +26,8 @@ class Tried(Protocol):
     def unit(self, parameter: str) -> str:
         """Return the unit in which a number of a parameter is written."""
 
+    def called(self, parameter: str) -> str:
+        """Return what a sentence calls a parameter: its number and name."""
+
     def decimals(self, parameter: str) -> int | None:
         """Return the decimals that the control keeps of a parameter."""

@@ -193,6 +193,7 @@ SETTING_GROUPS = ("move", "model", "tune", "sweep", "gear", "cam")
 def run(options: Options) -> int:
     """Move the machine; 1 where it raised an alarm."""
     from amp_studio.sim import (
+        called_parameter,
         laid_over,
         machine_for,
         named_parameter,
@@ -236,7 +237,7 @@ def run(options: Options) -> int:
     if options.json:
         print_json(trace_summary(trace, lambda parameter: named_parameter(file, parameter, trace.axis)))
     else:
-        print(trace_text(trace))
+        print(trace_text(trace, lambda parameter: called_parameter(file, parameter, trace.axis)))
     return 1 if trace.alarms else 0
 
 
