@@ -278,6 +278,7 @@ CAMPAIGNS = (
     Campaign("damaged part programs", partial(_damaged, part_programs.fuzz_programs), MANY, 7, 5_000),
     Campaign("damaged records of a drive", partial(_damaged, records.fuzz_records), MANY, 105, 5_000),
     Campaign("damaged frequency responses", partial(_damaged, records.fuzz_responses), MANY, 105, 5_000),
+    Campaign("damaged tunings and recordings", partial(_damaged_in, records.fuzz_tunings), MANY, 70, 5_000),
     Campaign("damaged parts of a sweep", partial(_damaged_in, records.fuzz_sweep_parts), MANY, 70, 3_000),
     Campaign("damaged machines of an axis", partial(_damaged_in, records.fuzz_machines), MANY, 4, 2_000),
     Campaign("damaged ticks of a sheet", partial(_damaged_in, sheets.fuzz_ticks), MANY, 35, 5_000),

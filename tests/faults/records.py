@@ -4,17 +4,21 @@ or gives finite figures.
 
 from __future__ import annotations
 
+import json
 import math
+from dataclasses import asdict
 from functools import cache
 from pathlib import Path
 
 import numpy as np
 
-from amp_studio.files import ParameterFile, ParameterFileError, open_file
+from amp_studio.files import TUNINGS, ParameterFile, ParameterFileError, open_file
 from amp_studio.sim import SimulationError, machine_for, read_machine, simulate
 from amp_studio.sim.identification.drive_record import drive_record_of, speed_factor
 from amp_studio.sim.identification.friction import fit_friction
+from amp_studio.sim.identification.recording import read_recording
 from amp_studio.sim.identification.response import response_of_text
+from amp_studio.sim.tuning.record import RecordedTuning, add_tuning, read_tunings
 from amp_studio.sim.variations.job import SweepJob
 from amp_studio.sim.variations.running import DoneChunks
 
@@ -122,3 +126,41 @@ def fuzz_machines(folder: Path, seed: int, count: int) -> list[str]:
         simulate(_mill(), "velocity", axis, {**settings, "move.duration": 0.02}, advise=count > ADVISED)
 
     return violations(mutants(MACHINES, seed, count), look, (SimulationError, ParameterFileError))
+
+
+TUNING = RecordedTuning(
+    when="2026-11-29T12:00:00Z",
+    who="a fitter",
+    file="x.amp",
+    axis="1 (X)",
+    aim="stiff",
+    gains=(("1340@1", "Initial Gain of Position Loop", "1 1/s", "2 1/s"),),
+    figures=(("Ms", 1.2, None, ""),),
+    plant=(("inertia", "0.002 kg m2", "assumed"),),
+)
+
+
+def fuzz_tunings(folder: Path, seed: int, count: int) -> list[str]:
+    """Damage a record of tunings and append one more to it, which is found; damage a recording of signals,
+    which has finite numbers and a rising time where it is taken.
+    """
+    path, table = folder / "x.amp", folder / "recording.csv"
+    path.write_bytes(b"")
+    record = json.dumps(asdict(TUNING)) + "\n"
+    signals = "time (s),position (mm),following error (mm)\n" + "".join(
+        f"{n / 100},{n * 0.1},{0.01 * n}\n" for n in range(30)
+    )
+
+    def look(text: str) -> None:
+        content = text.encode("utf-8", "surrogatepass")
+        (folder / TUNINGS).write_bytes(content)
+        add_tuning(path, TUNING)
+        assert read_tunings(path)[-1] == TUNING
+        table.write_bytes(content)
+        found = read_recording(table)
+        assert (np.diff(found.time) > 0).all()
+        assert all(np.isfinite(each).all() for each in found.signals.values())
+
+    figures = record.replace("1.2", "1" + "0" * 400)
+    texts = [record, record + record, signals, figures, "[" * 200_000, '{"gains": ' * 100_000]
+    return violations(mutants(texts, seed, count), look, (SimulationError,))

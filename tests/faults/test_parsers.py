@@ -137,6 +137,8 @@ READERS = {
     "sim/identification/drive_record.py": "damaged records of a drive",
     "sim/identification/overlay.py": "damaged records of a drive",  # by the same reader of columns
     "sim/identification/response.py": "damaged frequency responses",
+    "sim/identification/recording.py": "damaged tunings and recordings",
+    "sim/tuning/record.py": "damaged tunings and recordings",
     "sim/variations/job.py": "",  # the file that is open already, written by the program
     "sim/variations/running.py": "damaged parts of a sweep",
     "sim/one_thread.py": "",  # sets a variable that is not there, reads none

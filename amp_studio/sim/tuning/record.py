@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from math import isfinite
 from pathlib import Path
 
 from amp_studio.files import TUNINGS, ParameterFile, append_line, now, real_path, text_of_name, user
@@ -138,13 +139,13 @@ def _tuning(line: str) -> RecordedTuning | None:
         if not all(isinstance(text, str) for text in texts.values()):
             return None
         return RecordedTuning(**texts, gains=gains, figures=figures, plant=plant)
-    except (ValueError, TypeError, LookupError, RecursionError):
+    except (ValueError, TypeError, LookupError, RecursionError, OverflowError):
         return None
 
 
 def _number(value: object) -> float | None:
     if value is None:
         return None
-    if isinstance(value, (int, float)) and not isinstance(value, bool):
+    if isinstance(value, (int, float)) and not isinstance(value, bool) and isfinite(value):
         return float(value)
-    raise ValueError("a figure is a number or none")
+    raise ValueError("a figure is a finite number or none")
