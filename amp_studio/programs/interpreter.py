@@ -63,7 +63,9 @@ class Interpreter:
         self.blocks = self.line = 0
         codes = self.reader.codes
         self._modal = ModalCodes(file, self.reader, path, self.notes)
-        self._numbers = WordNumbers(self.reader, self.axes, self.parameters, self.notes)
+        self._numbers = WordNumbers(
+            self.reader, self.axes, self.parameters, self.notes, number_first=path.number_first
+        )
         self._at = ProgramCoordinates(file, path, self.axes, self.letters, self.start, zero, self.notes)
         self._moves = PathMoves(file, path, self._at)
         self._cycles = CycleRuns(file, path, codes, self._moves, retract)

@@ -47,14 +47,25 @@ class WordNumbers:
     """Reads them by the file's formats."""
 
     def __init__(
-        self, reader: BlockReader, axes: Sequence[str], parameters: Mapping[int, float], notes: list[str]
+        self,
+        reader: BlockReader,
+        axes: Sequence[str],
+        parameters: Mapping[int, float],
+        notes: list[str],
+        *,
+        number_first: bool,
     ) -> None:
-        """``parameters`` are those that the program sets; ``notes`` gets what is assumed."""
+        """``parameters`` are those that the program sets; ``notes`` gets what is assumed; ``number_first`` is
+        whether the number of a block stands at its beginning alone.
+        """
+        self._number_first = number_first
         self._reader, self._axes, self._parameters, self._notes = reader, axes, parameters, notes
 
     def read(self, pairs: Sequence[tuple[str, str]], codes: BlockCodes) -> BlockNumbers:
         words = BlockNumbers()
         readings = codes.readings
+        if any(letter == "N" for letter, _ in pairs[1:]):
+            self._check_numbers(pairs)
         for letter, text in pairs:
             if letter in "GMN":
                 continue
@@ -74,6 +85,12 @@ class WordNumbers:
                 raise BlockError(f"{letter}{text[:20]} is beyond every machine", "out-of-range")
             words.put(letter, value, reading)
         return words
+
+    def _check_numbers(self, pairs: Sequence[tuple[str, str]]) -> None:
+        if sum(letter == "N" for letter, _ in pairs) > 1:
+            raise BlockError("N is given twice in a block", "repeated")
+        if self._number_first:
+            raise BlockError("N is not at the beginning of its block")
 
     def _number(self, letter: str, text: str, reading: WordReading) -> float:
         if "(" in text or text[:1] in ("P", "#"):
@@ -95,6 +112,8 @@ class WordNumbers:
         if use is not None:
             return self._reading_of_role(use, codes)
         axis, meaning, _ = next(self._reader.axis_words(letter), ("", "", ()))
+        if axis not in self._axes and letter == "O":
+            raise BlockError("O: numbers of programs and subroutines are not simulated", "unknown-word")
         if axis not in self._axes:
             raise BlockError(f"{letter}: no page here names such a word", "unknown-word")
         facts = self._reader.codes.facts

@@ -43,6 +43,7 @@ REFUSED = [
     ("X-5 /X-6", "is no word"),
     ("X-5 %", "is no word"),
     ("X-5 X-6", "given twice"),
+    ("N1 X-5 N2", "given twice"),
     ("G123.4", "no page here names"),
     ("X", "a letter without a number"),
     ("X1e3", "such a word"),
@@ -114,3 +115,21 @@ def test_blocks_behind_the_percent_are_not_run_where_it_ends_the_program(
 def test_a_skipped_block_is_among_what_is_assumed(files: dict[str, ParameterFile]) -> None:
     found = tool_path(files["grblhal"], ["/G1 X-1 F100"])
     assert any("/ in front are run" in note for note in found.assumptions)
+
+
+def test_a_number_inside_a_block_is_refused_where_the_source_refuses_it(
+    files: dict[str, ParameterFile],
+) -> None:
+    fault = tool_path(files["linuxcnc"], ["N1 G1 X-1 F100", "X-2 N3"]).fault
+    assert fault is not None
+    assert (fault.line, fault.message) == (2, "N is not at the beginning of its block")
+    assert tool_path(files["grblhal"], ["G1 X-1 F100", "X-2 N3"]).fault is None
+
+
+def test_the_number_of_a_program_is_read_where_a_page_names_it(files: dict[str, ParameterFile]) -> None:
+    lines = ["O1234 (PART)", "G0 X-1"]
+    faults = {family: tool_path(file, lines).fault for family, file in files.items()}
+    assert {family for family, fault in faults.items() if fault is None} == {"9pc", "grblhal"}
+    assert {fault.message for fault in faults.values() if fault is not None} == {
+        "O: numbers of programs and subroutines are not simulated"
+    }
