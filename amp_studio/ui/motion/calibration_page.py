@@ -194,6 +194,7 @@ class CalibrationPage(TuningPart):
             table = self.present()
             fault = " ".join(form.remarks(file, axis, table))
         except CalibrationError as error:
+            # A text that is no table is shown as none, with the reason: it can still be deleted.
             table, fault = CalibrationTable("mm", ()), str(error)
         try:
             lines = (*form.limits(file, axis), form.switching)
@@ -309,6 +310,7 @@ class CalibrationPage(TuningPart):
         form = self._offered(self._file()).table
         assert form is not None
         error = form.error(table, at, figure)
+        # Measured with the table at work, a figure is what is left: it goes on top of what the table has.
         return left_over(table, at, error) if self.was_on.isChecked() else error
 
     def _file(self) -> ParameterFile:
@@ -322,6 +324,7 @@ class CalibrationPage(TuningPart):
             self.table.editItem(item)
 
     def _typed(self, item: QTableWidgetItem) -> None:
+        # Qt emits itemChanged for what the program writes too.
         if self._filling or item.column() != _FIGURE:
             return
         row, text = item.row(), item.text()

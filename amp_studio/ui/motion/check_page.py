@@ -164,6 +164,7 @@ class CheckPage(PageOfFile):
     def stop(self) -> None:
         """Cancel the check that is under way."""
         if self._task is not None and self._checking is not None:
+            # Cut off first: the thread may emit one more check before it sees that it is cancelled.
             self._checking.checked.disconnect(self.show_check)
             self._task.done.disconnect(self._over)
             self._task.failed.disconnect(self._over)

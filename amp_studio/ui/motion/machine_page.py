@@ -91,6 +91,7 @@ class MachinePage(QWidget):
 
     def _fill(self, settings: Mapping[str, str]) -> None:
         """Fill the fields of a machine and simulate with it."""
+        # Before the fields: where one is not used, those already filled can be emptied again.
         self._filled_in = self._present()[1], dict(settings)
         for name, text in settings.items():
             field = self.form.editors.get(name)
@@ -109,6 +110,7 @@ class MachinePage(QWidget):
             return
         for name, text in settings.items():
             field = self.form.editors.get(name)
+            # What the user has typed over is his: only what was filled in goes.
             if isinstance(field, QLineEdit) and field.text() == text:
                 field.clear()
         self._filled_in = axis, {}

@@ -171,6 +171,7 @@ class MeasuredDialog(QDialog):
         given = self.form.answers()
         answers = MeasurementAnswers(given["unit"], given["error_unit"], given["sign"], given["decimal"])
         wish = Wish(
+            # Not chosen is not off: the proposal asks for it.
             None if given["was_on"] == _ASK else given["was_on"] == "on",
             given["input"] or "",
             given["start"] or "",

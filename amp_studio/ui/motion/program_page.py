@@ -292,6 +292,7 @@ class ProgramPage(PageOfFile):
 
     def start(self, job: ProgramJob, name: str) -> None:
         """Run a program under the file of now."""
+        # A copy of now: the run and its tries are of the same file, whatever is edited meanwhile.
         self._file = self._read()
         self.tries.show_lengths_in(length_unit(self._file))
         try:
@@ -408,6 +409,7 @@ class ProgramPage(PageOfFile):
         def run(progress: TaskProgress, cancelled: threading.Event) -> object:
             def step(what: str, share: float) -> None:
                 if cancelled.is_set():
+                    # Work asks through its progress: there is no other point at which it can stop.
                     raise StoppedError("stopped")
                 progress(what, int(100.0 * share), 100)
 

@@ -61,6 +61,7 @@ class TimeBar(QWidget):
         left = 0.0
         for part in self.parts:
             wide = self.width() * part.seconds / whole
+            # Less a pixel, so that two parts of one colour are seen as two; but never less than one.
             box = QRectF(left, 0.0, max(wide - 1.0, 1.0), self.height())
             painter.fillRect(box, colour(TOKENS[part.sort]))
             painter.setPen(colour("base"))
@@ -133,6 +134,7 @@ class PlayBar(QWidget):
         self.button.setText(self.tr("&Play"))
 
     def _pass(self) -> None:
+        # By the clock, not by counting ticks: a slow picture must not slow the program down.
         now = self._begun + self._clock.elapsed() / 1000.0
         self.slider.setValue(min(round(STEPS * now / self._whole), STEPS))
         if now >= self._whole:

@@ -208,6 +208,7 @@ class RecorderPage(QWidget):
             self.live.emit(recording_picture(self._recorder.recording(axis.axis)))
 
     def _axis_of(self, status: ControlStatus) -> AxisStatus:
+        # By number or letter: controls name their axes one way or the other.
         names = [each.casefold() for each in self._axis() if each]
         for axis in status.axes:
             if axis.axis.casefold() in names:
@@ -237,15 +238,18 @@ class RecorderPage(QWidget):
     def _finish(self) -> None:
         """End a live record and keep it beside the file."""
         recorder, readings = self._recorder, self._readings
+        # Before anything else: readings that are still on their way are not of this record any more.
         self._recorder = self._readings = None
         if readings is not None:
             readings.stop()
+        # One reading is no record: it has no rate.
         if recorder is None or recorder.count < 2:
             self._show_state()
             return
         now = datetime.now().astimezone()
         letter = next(filter(None, reversed(self._axis())), "")
         path = self._path().with_name(f"{self._path().stem}-{letter}-{now:%Y%m%d-%H%M%S}.csv")
+        # Kept in the window first: a disk that is full must not lose the record.
         self.recording = recorder.recording(path.name)
         self._show_state()
         try:
@@ -332,16 +336,19 @@ class RecorderPage(QWidget):
             if item_at(self.channels, row, _NAME).checkState() == Qt.CheckState.Checked:
                 per, middle = (_number(item_at(self.channels, row, n).text()) for n in (_PER, _MIDDLE))
                 panels.append(on_divisions(panel, per, middle or 0.0) if per else panel)
+        # With no channel ticked there is still one: an empty picture has no scale to come back from.
         return replace(picture, panels=linked(panels or picture.panels[:1]))
 
     def _offer(self, channels: list[tuple[str, str]]) -> None:
         """Show a row for each channel; scales of those that stay are kept."""
+        # The same channels: what the user ticked and typed stays.
         if [self._channel(row) for row in range(self.channels.rowCount())] == channels:
             return
         before = {
             self._channel(row): tuple(item_at(self.channels, row, n).text() for n in (_PER, _MIDDLE))
             for row in range(self.channels.rowCount())
         }
+        # Qt emits itemChanged for what the program writes too: each cell would draw the picture again.
         self.channels.blockSignals(True)
         self.channels.setRowCount(len(channels))
         for row, (title, unit) in enumerate(channels):

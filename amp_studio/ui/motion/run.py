@@ -66,6 +66,7 @@ def run_motion(asked: AskedMotion, progress: TaskProgress, cancelled: threading.
             raise SimulationError("Stopped; the same sweep goes on from here")
         progress(stage, done, total)
 
+    # On disk, so that a stopped sweep goes on where it was, also after the program was left.
     way = SweepWay(progress=step, output=cache_folder() / "sweep")
     if asked.scenario == "sweep":
         trace = sweep(asked.file, asked.axis, asked.settings, way=way)
@@ -73,6 +74,7 @@ def run_motion(asked: AskedMotion, progress: TaskProgress, cancelled: threading.
         trace = simulate(asked.file, asked.scenario, asked.axis, asked.settings)
     why = ""
     try:
+        # A record that does not fit is a message: the simulation itself is good.
         trace = laid_over(trace, asked.record, asked.trigger) if asked.record else trace
     except SimulationError as error:
         why = str(error)
@@ -82,6 +84,7 @@ def run_motion(asked: AskedMotion, progress: TaskProgress, cancelled: threading.
 def _same_move(asked: AskedMotion, trace: Trace, way: SweepWay) -> Trace | None:
     """Return the trace of the values before with the move of ``trace``; None where they cannot make it."""
     before = asked.before
+    # The saved file changes seldom: its trace is simulated once for each move.
     if asked.file_before is None or (before is not None and before.move == trace.move):
         return before
     try:

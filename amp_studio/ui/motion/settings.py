@@ -103,6 +103,7 @@ def _read(name: str, text: str, unit: str) -> str:
         raise ValueError(
             f"Give the {_title(name).lower()} of this axis in {unit_text(unit)}, not in {unit_text(named)}."
         )
+    # With all its digits: the text is read again by the simulation.
     return f"{number!r} {named}"
 
 
@@ -118,6 +119,7 @@ class _FormArea(QScrollArea):
         return QSize(self.widget().minimumSizeHint().width() + _SCROLL, super().minimumSizeHint().height())
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        # Fields that are offered later make the form wider: a scroll area asks its size once only.
         if event.type() == QEvent.Type.LayoutRequest:
             self.updateGeometry()
         return super().eventFilter(watched, event)

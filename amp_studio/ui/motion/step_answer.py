@@ -98,6 +98,7 @@ class StepAnswer(QWidget):
         """Simulate in the background; once more where something changed meanwhile."""
         if self._target is None or not self.isVisible():
             return
+        # One run at a time: while one is on its way, the newest values are what the next one takes.
         if self._task is not None:
             self._again = True
             return
@@ -117,6 +118,7 @@ class StepAnswer(QWidget):
         self._timer.start()
 
     def _done(self, trace: Trace) -> None:
+        # In other units the old curve would lie wrong in the picture.
         if self.before is None or self.before.units != trace.units:
             self.before = trace
         self.trace = trace

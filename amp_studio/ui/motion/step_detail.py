@@ -122,6 +122,7 @@ class StepDetail(QWidget):
     def _typed(self, address: Address) -> None:
         assert self._target is not None
         file, text = self._target.file, self.fields[address].text()
+        # Leaving a field is no edit: a rounded text must not be written back.
         if text == show_value(file.schema.parameters[address[0]], file.get(address)):
             return
         try:

@@ -165,10 +165,12 @@ class MachineTestsPage(PageOfFile):
 
     def _follow_tick(self, item: QTreeWidgetItem, column: int) -> None:
         """Keep a tick in the file, as one step to undo."""
+        # Qt emits itemChanged for what the program writes too.
         if self._is_filling or column != TEST:
             return
         test = self.tests[self.list.indexOfTopLevelItem(item)]
         is_done = item.checkState(TEST) == Qt.CheckState.Checked
+        # Another change of the item, its text for instance, is no tick.
         if is_done == bool(test.ticked):
             return
         by = self.tr("{now} by {user}").format(now=now(), user=user()) if is_done else None

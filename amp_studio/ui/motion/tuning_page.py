@@ -120,6 +120,7 @@ class TuningView(PageOfFile):
             holder = _empty_page()
             self._later[holder] = partial(self._make_calibration, holder)
             keys = [page.key for page in offered.pages]
+            # Before what is tuned by it: gains are tried on an axis whose scale is right.
             at = next((n for n, key in enumerate(keys) if key in ("servo", "filters", "steps")), len(titles))
             titles.insert(at, (self.tr("Axis Calibration"), holder))
         for guide in self._workspace.file.schema.guides:
@@ -237,6 +238,7 @@ class TuningView(PageOfFile):
             self._show(self.file_target)
             return
         if self.control is None:
+            # Until the control is read the file is what is tuned: connecting may fail or be cancelled.
             self.switch.show_choice("file")
             live = self._connect()
             if live is None:
@@ -244,6 +246,7 @@ class TuningView(PageOfFile):
             try:
                 self.run_exchange(self.tr("Read Control"), live.look)
                 self._demand_family(live)
+            # Cancelling too: a line that nobody uses must be closed, or the control stays occupied.
             except BaseException:
                 live.close()
                 raise
@@ -337,6 +340,7 @@ class TuningView(PageOfFile):
         assert self.control is not None
         changes = self.control.live.changes().differences
         known = self.file_target.file.schema.parameters
+        # A control of another build may have parameters that this file has no place for.
         values = {d.address: d.b for d in changes if d.address[0] in known}
         self._workspace.edit(self.tr("Take from control"), values)
         self.message.say(self.tr("%n values taken into the file, which is not saved yet.", "", len(values)))
@@ -384,9 +388,12 @@ class TuningView(PageOfFile):
             keep = self.tr("&Forget Them")
             answer = ask(self, self.tr("Tuning"), text, keep, self.tr("Cancel"), default=1)
             return answer == keep
+        # Putting back comes first, and is what Enter does: values that nobody decided to keep are not left
+        # at a machine.
         answer = ask(self, self.tr("Tuning"), text, back, keep, self.tr("Cancel"))
         if answer == back:
             self.guarded(control.put_back)
+            # Only when it is proven that they are back.
             return control.may_edit and not control.differences()
         return answer == keep
 

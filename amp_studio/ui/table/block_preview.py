@@ -46,6 +46,7 @@ class BlockPreview(QDialog):
         self.list.setRootIsDecorated(False)
         self.list.setUniformRowHeights(True)
         self.list.setAccessibleName(self.tr("Changes"))
+        # Refusals first: they must not be beyond the end of a list that is cut.
         for cell in [*entry.refused, *(c for c in entry.cells if c.changes)][:_MOST_LISTED]:
             self._add(cell)
         head = self.list.header()

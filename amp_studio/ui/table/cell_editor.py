@@ -73,6 +73,7 @@ class CellEditor(QLineEdit):
             view = self.parentWidget().parentWidget()
             assert isinstance(view, QWidget)
             if self._frame is None:
+                # On the view, not in the cell: a child of the editor would be cut at its edges.
                 self._frame = RefusalFrame(view)
                 self.destroyed.connect(self._frame.deleteLater)
             self._frame.fill(refusal, self.keys if refusal.can_force else self.keys[:-1])
@@ -81,6 +82,7 @@ class CellEditor(QLineEdit):
             if self.bits is not None:
                 self.bits.hide()
             self.setAccessibleDescription(f"{refusal.problem}. {refusal.allowed}")
+            # A frame that appears without the focus is not read out by itself.
             QAccessible.updateAccessibility(QAccessibleEvent(self, QAccessible.Event.Alert))
         self.update()
 
@@ -150,6 +152,7 @@ class RefusalFrame(QFrame):
         super().__init__(parent)
         self.setObjectName("refusal")
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        # A click goes to the cell below: the frame must not be in the way of leaving.
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self.setAutoFillBackground(True)
         layout = QGridLayout(self)

@@ -95,6 +95,7 @@ def _kept_apart(before: dict[str, str], after: dict[str, str]) -> dict[str, str]
         label: text if count[text.casefold()] == 1 and text else before[label]
         for label, text in after.items()
     }
+    # A text that went back to what it was may be like another one that got shorter.
     return found if len({text.casefold() for text in found.values()}) == len(found) else before
 
 
@@ -164,6 +165,7 @@ def as_written(default: Value) -> Value:
     if not isinstance(number, float) or not math.isfinite(number) or number == 0:
         return default
     simple = float(f"{number:.{_DIGITS_OF_DEFAULT}g}")
+    # By two digits at least: 0.12345 is no worse a number than 0.1234.
     is_simpler = len(repr(simple)) < len(repr(number)) - 1
     return (
         Value(simple, default.unit)
@@ -223,6 +225,7 @@ class ShownValues(Translated):
         if unit == value.unit:
             return value
         try:
+            # Nine digits: a conversion must not show the last bits of a float.
             return Value(float(f"{convert(float(value.value), value.unit, unit):.9g}"), unit)
         except UnitError:
             return value

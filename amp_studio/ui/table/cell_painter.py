@@ -111,6 +111,7 @@ class CellPainter:
         found = self._widths.get(key)
         if found is None:
             if len(self._widths) > _MOST_REMEMBERED:
+                # Rather all at once than one after the other: it refills in a frame.
                 self._widths.clear()
             found = self._widths[key] = self._metrics[id(letters)].horizontalAdvance(text)
         return found
@@ -155,6 +156,7 @@ class CellPainter:
         elif is_hovered:
             painter.fillRect(place, colours["hover"])
         if look.is_inactive:
+            # From the cell on: otherwise the hatch would jump while the table scrolls.
             painter.setBrushOrigin(place.topLeft())
             painter.fillRect(place, self._hatch)
         if look.is_changed:

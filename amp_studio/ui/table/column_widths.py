@@ -106,6 +106,7 @@ def column_widths(content: ContentWidths, room: int) -> ColumnWidths:
     room = max(room, 0)
     number, short = content.number, content.short
     wanted = min(number + content.names, int(room * MOST_FROZEN))
+    # The columns have their short widths first, but names keep a width at which they can be read.
     frozen = max(min(wanted, room - sum(short)), min(wanted, number + LEAST_NAMES))
     return ColumnWidths(
         number, frozen, _shared(content.full, short, room - frozen), content.slots, content.block
@@ -150,6 +151,7 @@ def _widest(painter: CellPainter, looks: list[CellLook], slot: int, *, is_short:
 
 def _widest_text(texts: list[str], kind: FontRole = "text") -> int:
     metrics = QFontMetrics(font(kind))
+    # Only the eight longest are measured: letters differ in width, but hardly by more than that.
     return max(map(metrics.horizontalAdvance, nlargest(8, set(texts), len)), default=0)
 
 

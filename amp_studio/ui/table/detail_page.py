@@ -202,6 +202,7 @@ class DetailPage(Translated):
             lines.append(f'<p><a href="{FOLD}rules">{more}</a></p>')
         title = self.tr("Rules")
         if rules or broken:
+            # A finding may be of a rule that reads other values: it counts too.
             number = len({r.id for r in rules} | unmet)
             text = self.tr("{unmet} of {number} not met") if unmet else self.tr("all {number} met")
             count = text.format(unmet=len(unmet), number=number)

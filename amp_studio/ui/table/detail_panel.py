@@ -157,6 +157,7 @@ class DetailPanel(QWidget):
         if self._is_stale:  # written when it can be seen
             return
         address, file = self._address, self._workspace.file
+        # The selection moves on: what the rules allow is asked only where it rests.
         self._pause.stop()
         if address is None:
             self.number.clear()
@@ -236,6 +237,7 @@ class DetailPanel(QWidget):
         if address is None or found is None:
             return
         search = self._workspace.validator.allowed(address, found.unit)
+        # The search begins where a value is most likely allowed.
         near = [x for x in (found.value, found.default) if x is not None]
         task = Task(lambda *_: (address, found, search.around(found.low, found.high, near)))
         task.done.connect(self._take_allowed)
@@ -243,6 +245,7 @@ class DetailPanel(QWidget):
 
     def _take_allowed(self, answer: tuple[Address, ValueInRange, tuple[float, float] | None]) -> None:
         address, found, allowed = answer
+        # Another address, or another range of it, may be on the screen by now.
         if self._address == address and self._in_range(address) == found:
             self.bar.show_allowed(allowed)
 
@@ -274,6 +277,7 @@ class DetailPanel(QWidget):
         from amp_studio.files import day_and_time
         from amp_studio.transfer.client import NoDownloadError, last_download
 
+        # A copy: the thread reads it while the file may be edited.
         file, path = self._workspace.file.copy(), self._workspace.path
 
         not_known = self.tr("not known")

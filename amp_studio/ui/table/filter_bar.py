@@ -163,6 +163,7 @@ class FilterBar(QWidget):
         """
         self.marks.forget(addresses)
         for address in addresses:
+            # Taken out first: so it comes to the end, as the latest.
             self._recent.pop(address, None)
             self._recent[address] = None
         for old in list(self._recent)[: -_RECENT or None]:
@@ -186,6 +187,7 @@ class FilterBar(QWidget):
 
     def _count_later(self) -> None:
         self._is_stale = True
+        # A bar that is not seen counts when it is shown: every page has one, and counting takes time.
         if self.isVisible():
             self._later.start(0)
 

@@ -58,6 +58,7 @@ class MoreColumns(QWidget):
     def uncover(self, column: int) -> None:
         """Scroll a column out from under the strip."""
         bar = self._view.horizontalScrollBar()
+        # Step by step: after each the strip has moved, and with it what it covers.
         while self.isVisible() and column >= self._next and bar.value() < bar.maximum():
             bar.setValue(bar.value() + 1)
 

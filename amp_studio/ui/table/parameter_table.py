@@ -180,6 +180,7 @@ class ParameterTable(QAbstractTableModel):
         if not self.shows_every_axis and file.schema.family.fits_axes:
             listed = set(shown_axes(file))
             columns = [c for c in columns if c == CONTROL or c in listed]
+        # The sort is stable: the column of the control comes first, the axes keep their order.
         return sorted(columns, key=lambda column: column != CONTROL)
 
     def _rows(self, columns: list[str]) -> list[TableRow]:
@@ -283,6 +284,7 @@ class ParameterTable(QAbstractTableModel):
         found = self._looks.get(address)
         if found is None:
             here = set(self.columns)
+            # The whole row at once: which axis is unlike the others needs all of them.
             looks = self.values.row_looks([a for c, a in self.rows[row].cells.items() if c in here])
             if len(self.columns) > 1 and CONTROL not in self.rows[row].cells:
                 say_unit_once(looks.values())
@@ -442,6 +444,7 @@ class ParameterTable(QAbstractTableModel):
             or any(map(decides, addresses))
         ):
             rows = self._rows(columns)
+            # A reset loses scroll place, selection and open editor: only where rows or columns are others.
             if columns != self.columns or rows != self.rows:
                 self._lay_out(columns, rows)
                 return

@@ -61,6 +61,7 @@ class RangeBar(QWidget):
             return
         self._allowed, self.words = allowed, ""
         if allowed is not None:
+            # Less than a pixel of the bar: no limit that a person should be shown.
             least = (found.high - found.low) * 2e-3
             low, high = allowed[0] - found.low > least, found.high - allowed[1] > least
             texts = [written(write_number(_inwards(allowed[n], 1 - 2 * n))) for n in (0, 1)]
@@ -137,6 +138,7 @@ class RangeBar(QWidget):
         painter.setBrush(colour(colour_name))
         painter.drawPolygon(QPolygonF([QPointF(x - 5, _TOP - 7), QPointF(x + 5, _TOP - 7), QPointF(x, _TOP)]))
         painter.drawRect(QRectF(x - 0.5, _TOP, 1, _BAR))
+        # Both at one place would be written over each other.
         if found.value != found.default:
             self._above(painter, x + 9, written(write_number(found.value)), metrics, colour_name, right=False)
 
@@ -170,4 +172,6 @@ def _inwards(end: float, towards: int) -> float:
     rounded = float(f"{end:.5g}")
     if (rounded - end) * towards >= 0 or end == 0:
         return rounded
+    # One more in the fifth digit: a shown limit that is itself not allowed would be worse than a coarse
+    # one.
     return rounded + towards * 10.0 ** (math.floor(math.log10(abs(end))) - 4)

@@ -29,6 +29,7 @@ class SelectedCells:
         """Whether the selected cells are one block without gaps; cells that Ctrl+click added may be
         anywhere.
         """
+        # Qt has a range for each Ctrl+click.
         return self._view.selectionModel().selection().count() < 2
 
     def block(self) -> list[list[Address | None]]:

@@ -28,6 +28,7 @@ class RowHeads(QHeaderView):
         self._fonts = {
             colour_name: (letters, QFontMetrics(letters)) for colour_name, letters in fonts.items()
         }
+        # Eliding measures a text several times: once for each text and width, not in every frame.
         self._elided: dict[tuple[str, str, int], str] = {}
         self.number_width = 0
         """Width of the column of numbers; 0 where no row has one."""

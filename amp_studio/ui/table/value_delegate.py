@@ -113,6 +113,7 @@ class ValueDelegate(QStyledItemDelegate):
             box.activated.connect(self._choose)
             box.left.connect(self._close_later)
             box.tabbed.connect(self._tab)
+            # After Qt has placed the editor: the list opens below it, not at the corner of the table.
             QTimer.singleShot(0, box, box.showPopup)
             return box
         field = CellEditor(parent, lambda text: self._preview(address, text))
@@ -200,6 +201,7 @@ class ValueDelegate(QStyledItemDelegate):
         refused, self.to_mend = self.to_mend, None
         if refused is not None and refused[0] == index.data(AddressRole):
             editor.setText(refused[1])
+            # After Qt has placed the editor, below which the frame is.
             QTimer.singleShot(0, editor, lambda: editor.show_refusal(refused[2]))
         else:
             editor.setText(str(index.data(Qt.ItemDataRole.EditRole) or ""))
@@ -254,6 +256,7 @@ class ValueDelegate(QStyledItemDelegate):
                 self.ended.emit(event.modifiers().value, editor)
                 return True
             if event.key() in (Qt.Key.Key_Tab, Qt.Key.Key_Backtab):
+                # Qt goes on to the next cell only where the text was taken.
                 return not self.take(editor) or super().eventFilter(editor, event)
         return super().eventFilter(editor, event)
 

@@ -45,6 +45,7 @@ class ValueDrag(QObject):
         except RangeError as error:
             self.refused = str(error)
             return False
+        # Not restarted by the next place: the views follow during a long drag too.
         if changes and not self._follow.isActive():
             self._follow.start()
         return bool(changes)
@@ -66,6 +67,7 @@ class ValueDrag(QObject):
 
     def drop(self, text: str) -> bool:
         """Keep the values as one undo step; returns whether there is one."""
+        # First the old values, then the new ones as an edit: so the undo step has both.
         wanted = self.values
         self._put_back()
         changed = wanted != self.before and self.workspace.edit(text, wanted)

@@ -59,10 +59,12 @@ class DiskWatch(QObject):
 
     def _check_disk(self) -> None:
         workspace = self._page.workspace
+        # Own saves are no news, and under a question the bar could not be answered: later.
         if workspace.is_saving or QApplication.activeModalWidget() is not None:
             self._timer.start(4 * SETTLE_MS)
             return
         if is_there(workspace.path) and str(workspace.path) not in self._watcher.files():
+            # A file that was replaced by renaming is another one: Qt has stopped to watch its name.
             self._watcher.addPath(str(workspace.path))
         state = workspace.disk_state()
         if state is None or state == self._refused:

@@ -92,6 +92,7 @@ class Docks(Translated):
         self.docks: list[QDockWidget] = []
         for title, area, _ in _PANELS:
             dock, stack, head = QDockWidget(_name(title), window), QStackedWidget(), _Heads()
+            # Qt keeps arrangements by object names: they are the same in every language.
             dock.setObjectName(title)
             dock.setWidget(stack)
             head.setAccessibleName(_name(title))
@@ -352,6 +353,7 @@ class Docks(Translated):
         only the user opens them.
         """
         below = self._dock("Findings")
+        # The height of a folded dock is no height to come back to.
         if wanted and not self._is_folded and below.height() > HEAD + 2:
             self._open_sizes["Findings"] = below.height()
         self._is_folded = wanted
@@ -370,8 +372,10 @@ class Docks(Translated):
     def _make_way(self, title: str) -> None:
         """Take a dock away that is seen; the parameter comes beside the findings."""
         dock = self._dock(title)
+        # What the user has closed or taken out takes no room from the table.
         if dock.isHidden() or dock.isFloating():
             return
+        # Before it is hidden: hiding lays the window out, which asks again what there is room for.
         self._closed_for_room.add(title)
         dock.hide()
         if title == "Parameter":

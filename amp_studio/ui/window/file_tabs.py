@@ -182,6 +182,7 @@ class FileTabs(QSplitter):
 
     def _emit_front(self) -> None:
         page = self.current
+        # Several paths lead here for one change: the window follows each page once.
         if page is not self._front:
             self._front = page
             self.current_changed.emit(page)

@@ -81,6 +81,7 @@ class Menus(Mapping[str, QAction], Generic[W]):
         action.setToolTip(row.tip or tip_of(action))
         name = plain_name(row.text)
         action.triggered.connect(lambda *_: self._do(row, action, name))
+        # On the window too: the keys of a menu that is closed would not work everywhere.
         self._window.addAction(action)
         return action
 
@@ -115,6 +116,7 @@ class Menus(Mapping[str, QAction], Generic[W]):
         """Fill the menu of a choice where it has other rows now, and check the present one."""
         offers = choice.offers(self._window)
         if offers is not None:
+            # Not filled in vain: a menu that is open would close.
             if [(row.data(), row.text()) for row in group.actions()] != list(offers):
                 for row in group.actions():
                     menu.removeAction(row)

@@ -30,6 +30,7 @@ class RecentFiles(Translated):
     def paths(self) -> list[Path]:
         """Return the recent files that still exist, the pinned ones first."""
         settings = self._window.settings
+        # A dictionary keeps the order and takes each path once: a pinned one is recent too.
         paths = dict.fromkeys((*settings.pinned(), *settings.recent()[:_KEPT]))
         return [path for path in paths if is_there(path)]
 

@@ -54,6 +54,7 @@ class ReportOptions(QObject):
                 "sort": contents.sort,
                 "units": contents.units,
                 "paper": contents.paper,
+                # The language of the window is not stored: with another window language reports follow it.
                 "language": "" if contents.language == of_window else contents.language,
                 "changed": "yes" if contents.changed_only else "no",
                 "inactive": "yes" if contents.inactive else "no",

@@ -166,6 +166,7 @@ class UserSettings:
         """Restore position and size of the window on a screen that exists now."""
         before = window.geometry()
         kept = self._value("geometry")
+        # Damaged bytes may have moved the window before they are refused.
         if isinstance(kept, QByteArray) and not window.restoreGeometry(kept):
             window.setGeometry(before)
         if not window.isMaximized() and not window.isFullScreen():

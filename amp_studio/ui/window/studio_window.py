@@ -146,6 +146,7 @@ class StudioWindow(QMainWindow):
 
     def guarded(self, act: Callable[[], object], title: str = "AMP Studio") -> object:
         """Run an action and return its result; an error is shown as a message, and the result is None."""
+        # A value that is being typed is taken first; while it is refused, no action works on the old one.
         if self.table_view is not None and not self.table_view.finish():
             return None
         try:
@@ -224,8 +225,10 @@ class StudioWindow(QMainWindow):
             return page is None
         if not page.may_leave():
             return False
+        # Without the lock nothing can be saved here: asking would be in vain.
         if not page.workspace.is_dirty or not page.workspace.may_edit:
             return True
+        # The question is about a file that is seen.
         self.tabs.bring(page)
         question = self.tr("Save the changes to {name}?").format(name=page.workspace.path.name)
         answer = ask(

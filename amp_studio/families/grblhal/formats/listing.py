@@ -199,6 +199,7 @@ def _fit(schema: Schema, log: Log, listing: LoggedListing, machine: str) -> _Fit
         is_masked = parameter.secret and not texts[n].strip("*")
         return bool(parameter.needs) and (n in unreadable or is_masked or known[n] in outside)
 
+    # Bounds depend on other settings: all are in a file before any of them is checked.
     file = ParameterFile(schema)
     file.header.machine = machine
     file.take(values)
@@ -231,6 +232,7 @@ def _readable(
 ) -> tuple[dict[Address, Value], dict[int, str]]:
     """Return the values of the settings whose text is one, and why the others are none."""
     unreadable: dict[int, str] = {}
+    # Each round finds one text that is no value: the reader stops at the first.
     while True:
         try:
             return values_of_settings(schema, _without(texts, unreadable), machine)[0], unreadable
@@ -250,8 +252,10 @@ def _axes(schema: Schema, log: Log, settings: Iterable[int], machine: str) -> di
     named = re.fullmatch(r"\d:([A-Z]{1,9})", log.facts.get("AXS", [""])[-1])
     fact = named[1] if named else ""
     most = declared.most.get(machine, len(letters))
+    # Steps, rates, accelerations and travels: $100 to $139, the last digit is the axis.
     have = [n % 10 for n in settings if n // 10 * 10 in range(_STEPS, _STEPS + 40, 10) and n % 10 < _OF_AXES]
     count = len(fact) or max(have, default=-1) + 1
+    # Letters in another order are not those of this schema: no axes are better than wrong ones.
     if not "".join(letters).startswith(fact) or not declared.least <= count <= most:
         return {}
     return {(declared.letters, ""): Value("".join(letters[:count]))}

@@ -173,6 +173,7 @@ def _has_settings(text: str, anywhere: bool) -> bool:
     for n, _, line, pieces in _lines(text, anywhere):
         found += len(pieces)
         others += not pieces and _is_other(line)
+        # A text of any length may be offered: it is not read through to know that it is no listing.
         if found >= _LEAST or n > _LOOKED_AT:
             break
     return found >= _LEAST or (found > others and not anywhere)
@@ -232,6 +233,7 @@ class _Reader:
         if "$N" in line and (startup := _STARTUP.fullmatch(_plain(line))):
             self.log.startup[startup[1]] = startup[2].strip()
             return
+        # The error belongs to the line right before it, as the control answers line by line.
         if _REFUSED.match(line) and self.before[1] == n - 1:
             _refuse(self.log, self.parts, *self.before)
             return
@@ -247,6 +249,7 @@ class _Reader:
         """Take a setting of a line."""
         number, value, remark, rest, is_bare = piece
         part = self.parts[-1]
+        # Behind sentences a smaller number is another example, not the same listing going on.
         begins = number in part.settings or (self.is_apart and number < self.before[0])
         if begins and part.settings and len(self.parts) < _MOST_LISTINGS:
             part = LoggedListing(is_apart=self.is_apart)
@@ -302,6 +305,7 @@ def _settings(whole: str, line: str, anywhere: bool) -> Iterator[_Piece]:
         return  # most lines of a text that is made to cost time
     if match := _BARE.fullmatch(line):
         if line == whole:
+            # Only at the start of a line: behind a time stamp 110=500 may be anything.
             yield int(match[1]), match[2], "", "", True
         return
     if line.startswith("$ "):
@@ -321,6 +325,7 @@ def _settings_with_sign(whole: str, line: str, anywhere: bool) -> Iterator[_Piec
     begins_plainly = line[:1] == "$" and whole[:1] not in "\"'`|*{[,"
     while ahead:
         number, sign, behind = int(ahead[1]), ahead[3], line[ahead.end() :][:_LONGEST_VALUE]
+        # Words that name the setting may come before the value, in the language of any sender.
         if sign in _CELLS and (cell := _cell(behind, sign)):
             yield number, cell, "", "", False
             return
@@ -412,6 +417,7 @@ def _refuse(log: Log, parts: list[LoggedListing], number: int, line: int) -> Non
 
 def _whole(parts: list[LoggedListing]) -> list[LoggedListing]:
     """Return whole listings, each with the changes that come after it; those that are the same once."""
+    # Half of the largest: the listings of one text are of one control, and so about as long.
     least = max(_LEAST, max((len(part.settings) for part in parts), default=0) / 2)
     listings: list[LoggedListing] = []
     for part in parts:

@@ -166,6 +166,7 @@ def read_older(listing: LoggedListing, greeting: str) -> tuple[LoggedListing, Ol
     today = LoggedListing(heading=listing.heading)
     for n, text in listing.settings.items():
         if n in then.numbers:
+            # Without its remark, which belongs to the number of then.
             today.put(then.numbers[n], figure(text), listing.lines[n], "", "")
         else:
             then.kept[f"{then.name} ${n}"] = " ".join(filter(None, (text, _in_brackets(listing.remarks[n]))))
@@ -207,6 +208,7 @@ def _by_layout(listing: LoggedListing, release: str) -> dict[int, str]:
         return {}
     layouts = [dict(enumerate(_LAYOUTS[key])) for key in ([named] if named else _LAYOUTS)]
     fits = [names for names in layouts if _fits(texts, names)]
+    # All numbers present is the stronger sign; where figures have their points decides between the rest.
     for is_likelier in (
         lambda names: names.keys() == texts.keys(),
         lambda names: all(("." in texts[n]) != (names[n] in _WHOLE) for n in texts),
@@ -231,6 +233,7 @@ def _is_odd(listing: LoggedListing, texts: Mapping[int, str]) -> bool:
     if any(name and _TODAY.get(name) != n for n, name in names.items()):
         return True
     odd = sum("." in texts[n] for n in _BYTES & texts.keys())
+    # One such point may be a slip of a person; a short listing may be a part of anything.
     return odd > 1 and len(texts) >= _LEAST_SETTINGS and texts.keys() >= {0, 1, 2}
 
 

@@ -141,6 +141,7 @@ def read_relative(text: str) -> Relative:
 
 def _marlin(text: str) -> Relative:
     """Return the settings of a text of Marlin (M503) or RepRapFirmware (config.g) as Grbl numbers them."""
+    # ``echo:`` is Marlin alone, whose remarks may name mm/min of another code.
     is_per_minute = bool(_PER_MINUTE.search(text)) and not re.search(r"\becho:", text)
     is_known = is_per_minute or bool(_PER_SECOND.search(text))
     found = Relative("RepRapFirmware (config.g)" if is_per_minute else "Marlin (M503)")
@@ -156,6 +157,7 @@ def _marlin(text: str) -> Relative:
         is_doubtful = not is_known and any(float(figure or 0) > _FASTEST for figure in words.values())
         if code[1] != _RATES:
             _take_words(found, code[1], words, 1)
+        # A rate that may be 60 times too large is kept as text rather than set.
         elif not is_doubtful:
             _take_words(found, code[1], words, 1 if is_per_minute else 60)
         if words and code[1] != "G21":
@@ -254,6 +256,7 @@ class _OfAxes:
         texts = {text.casefold() for _, _, text in entries}
         if name == _DIRECTION:
             return _directions(entries) if texts <= {"true", "false"} else None
+        # One axis without it, whose default is off, and Grbl's setting for all would be wrong.
         if texts == {"true"}:
             return "1" if {axis for axis, _, _ in entries} == self._axes else None
         if texts == {"false"}:
