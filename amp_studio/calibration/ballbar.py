@@ -49,12 +49,14 @@ def _step(run: MeasuredRun, turn: float) -> float | None:
     below: list[tuple[float, float]] = []
     above: list[tuple[float, float]] = []
     for at, by in run.points:
+        # Within half a turn of it: 359 degrees is 1 before the turn at 0.
         distance = (float(at) - turn + 180.0) % 360.0 - 180.0
         if NEAR <= abs(distance) <= FAR:
             (above if distance > 0 else below).append((distance, float(by)))
     low, high = _at_zero(below), _at_zero(above)
     if low is None or high is None:
         return None
+    # A clockwise circle comes from above the turn.
     return high - low if run.rising else low - high
 
 

@@ -16,7 +16,10 @@ LONGEST_LINE = 10_000
 _COMMENT = re.compile(r"\s*(#|//|!|%|;|'|\*)")
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,2})?")
 _LONGEST_NUMBER = 40
+# Two decimal commas with blanks between: as cells that commas separate, the middle one would be two
+# numbers.
 _COMMA_PAIR = re.compile(r"\s*[+-]?[0-9]+,[0-9]+(?:\s+[+-]?[0-9]+,[0-9]+)+\s*")
+# 0,005 read as two cells gives 005: no program writes a number so.
 _LEADING_ZERO = re.compile(r"[+-]?0[0-9]+")
 _COMMA_NUMBER = re.compile(r"[+-]?[0-9]+,[0-9]+")
 ASK_COMMA = "name the decimal sign (a decimal comma is not guessed)"
@@ -34,12 +37,14 @@ def lines_of(text: str) -> list[tuple[int, str]]:
         if len(line) > LONGEST_LINE:
             raise MeasurementError(f"the line has more than {LONGEST_LINE} characters", n)
         if line.strip() and not _COMMENT.match(line):
+            # Word processors and web pages put the typographic minus sign in place of the hyphen.
             kept.append((n, line.replace("\u2212", "-")))
     return kept
 
 
 def separator_of(line: str, decimal: str) -> str:
     """Return what separates the cells of a line: a character, or "" for blanks."""
+    # First: where the comma is the decimal sign, spreadsheets separate by semicolons.
     if ";" in line:
         return ";"
     if "\t" in line.strip():

@@ -28,6 +28,7 @@ class ErrorCurve:
         n = bisect_left(self._positions, position)
         if not self.points:
             return Fraction(0)
+        # Beyond its ends a table goes on with its last value: no control extrapolates.
         if n == 0 or n == len(self.points):
             return self.points[min(n, len(self.points) - 1)][1]
         (low, before), (high, after) = self.points[n - 1], self.points[n]
@@ -36,6 +37,7 @@ class ErrorCurve:
     def less(self, other: ErrorCurve, positions: Iterable[Fraction] = ()) -> ErrorCurve:
         """Return this curve less another, at all points of both and at ``positions``."""
         at = sorted({*self._positions, *(p for p, _ in other.points), *positions})
+        # Both are straight between these points, so their difference is exact there and in between.
         return ErrorCurve(tuple((p, self.at(p) - other.at(p)) for p in at))
 
     @property
@@ -55,6 +57,7 @@ def mean_curve(measurement: Measurement, rising: bool | None = None) -> ErrorCur
     if rising is not None:
         sides = [measurement.errors(rising=rising)]
     sides = [side for side in sides if side]
+    # A mean with a target of one direction would put half of the lost motion into the table.
     common = set.intersection(*(set(side) for side in sides)) if sides else set()
     return ErrorCurve(
         tuple(

@@ -134,6 +134,7 @@ def _range_of_means(targets: Iterable[tuple[float, float | None]]) -> float | No
 def _largest(values: Iterable[float | None]) -> float | None:
     """Return the largest; None where one of them is not known."""
     known = list(values)
+    # The largest of some targets only would promise more than was measured.
     return max((v for v in known if v is not None), default=None) if None not in known else None
 
 
@@ -155,6 +156,7 @@ def _repeatability(target: TargetFigures) -> float | None:
 def _accuracy(side: list[tuple[float, float | None]]) -> float | None:
     """Return the accuracy of a direction, or of both: the span of mean ± 2 standard deviations."""
     bands = [(mean - 2 * s, mean + 2 * s) for mean, s in side if s is not None]
+    # One target without a spread, and the accuracy of the axis is not known.
     if not bands or len(bands) < len(side):
         return None
     return max(high for _, high in bands) - min(low for low, _ in bands)

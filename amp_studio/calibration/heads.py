@@ -66,6 +66,7 @@ def read_head(text: str, column: int) -> Head:
     unit = _UNITS[found[1]] if found else ""
     plain = words[: found.start()].strip() if found else words
     plain = plain.removesuffix(" in").replace(" _", " ").strip()
+    # The first that fits: columns of spreads come first, since "standard deviation" has a word of errors.
     kind: HeadKind = next((kind for kind, pattern in _KINDS if re.fullmatch(pattern, plain)), "")
     rising = direction_in(plain)
     if kind in ("", "run") and column and (rising is not None or re.search(r"\d", plain)):
@@ -82,6 +83,7 @@ def unit_of(cell: str) -> str | None:
 def direction_in(text: str) -> bool | None:
     """Return whether a text names the rising direction (True), the falling one (False), or none of them."""
     rising, falling = _RISING.search(text), _FALLING.search(text)
+    # Words of both directions, as "pos. reverse", name none for certain.
     return None if bool(rising) == bool(falling) else bool(rising)
 
 

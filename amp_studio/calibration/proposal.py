@@ -100,6 +100,7 @@ def _left_over(
     """Return the errors that are left of the measured ones: what was compensated already comes on top, what
     will be compensated is taken off; half of the lost motion is missing in each direction.
     """
+    # A rising run is behind by half of the lost motion: compensated, it is that much further ahead.
     shifts = {True: lost / 2, False: -lost / 2}
     return {
         side: ErrorCurve(
@@ -144,7 +145,9 @@ def propose(file: ParameterFile, axis: str, measurement: Measurement, wish: Wish
         table = _table(file, offered, axis, _plus(raw, added), wish, present, settings, notes)
     if wish.reversal:
         reversal = _reversal(file, offered, axis, measurement, on, settings, notes)
+    # Without a new table the present one goes on working.
     removed = _curve_of(table or present)
+    # The change against the measurement: what was compensated then is in the measured errors already.
     lost = (reversal[1] if reversal else old) - on
     if len(sides) == 1:
         notes.append("measured in one direction only: the lost motion is not known")
@@ -345,6 +348,7 @@ def _reversal_of(
     if not state.is_active:
         notes.append(f"no reversal error is proposed: {state.why}")
         return None
+    # An amount without a sign cannot express motion that is gained: 0 is the nearest that can be set.
     if total < 0 and not offered.is_signed:
         if on:
             total = Fraction(0)

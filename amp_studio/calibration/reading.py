@@ -64,6 +64,7 @@ def read_measurement(text: str, answers: MeasurementAnswers, usual_unit: str = "
     raw = renishaw.read(text, usual_unit) if renishaw.recognises(text) else _read_columns(text, answers)
     used, assumed = _settled(raw, answers, usual_unit)
     runs = tuple(_in_base(run, raw.kind, used) for run in _with_directions(raw.runs))
+    # The positions of a circle are angles; what is set is a length.
     base = "mm" if raw.is_circle else _BASE[used.unit]
     return Measurement(runs, base, used, assumed, raw.notes, is_circle=raw.is_circle)
 
@@ -135,6 +136,7 @@ def _in_base(run: MeasuredRun, kind: str, used: MeasurementAnswers) -> MeasuredR
 
 def _read_columns(text: str, answers: MeasurementAnswers) -> RawTable:
     lines = lines_of(text)
+    # Titles, dates and serial numbers may come before the columns in any number.
     first = next((n for n, (_, line) in enumerate(lines) if _is_data(line, answers.decimal)), None)
     if first is None:
         raise MeasurementError("there is no line of numbers")
@@ -164,6 +166,7 @@ def _is_data(line: str, decimal: str) -> bool:
     except MeasurementError:
         return False
     begins = bool(cells) and (is_number(cells[0]) or direction_of(cells[0]) is not None)
+    # One number may be a title, as "Axis 1"; a point has a position and an error.
     return begins and sum(is_number(cell) for cell in cells) > 1
 
 
@@ -172,6 +175,7 @@ def _heads(
 ) -> tuple[list[Head] | None, tuple[str, ...]]:
     """Return the heads of the columns, None where there are none, and what was passed over as a title."""
     heads, titles, units = None, list(before), [""] * width
+    # Many instruments write the units in a line of their own below the heads.
     if titles and (found := _units(titles[-1], separator, width)):
         units = found
         titles.pop()
@@ -327,6 +331,7 @@ def parted(points: Sequence[tuple[Fraction, Fraction]]) -> list[RawRun]:
         step = (pile[0] > last) - (pile[0] < last)
         if direction not in (None, step):
             runs.append([pile])
+            # The new run has one point: its direction is known with the next.
             direction = None
             continue
         direction = step
@@ -339,6 +344,7 @@ def parted(points: Sequence[tuple[Fraction, Fraction]]) -> list[RawRun]:
 def _later(points: Sequence[tuple[Fraction, Fraction]]) -> list[Fraction | None]:
     """Return for each point the next position that is another one; None behind the last."""
     found: list[Fraction | None] = [None] * len(points)
+    # From behind, so that each point takes over what the next one found.
     for n in range(len(points) - 2, -1, -1):
         found[n] = points[n + 1][0] if points[n + 1][0] != points[n][0] else found[n + 1]
     return found
@@ -346,8 +352,10 @@ def _later(points: Sequence[tuple[Fraction, Fraction]]) -> list[Fraction | None]
 
 def _turns(piles: Sequence[tuple[Fraction, list[Fraction]]], at: Fraction, later: Fraction | None) -> bool:
     """Return whether a target that comes twice in a row is the turning point between two runs."""
+    # Read three times or more, it is a target with several readings, as all others are.
     if len(piles) < 2 or later is None or len(piles[-1][1]) > 1:
         return False
+    # Before and behind it the axis moves in opposite directions.
     return (later - at) * (at - piles[-2][0]) < 0
 
 

@@ -44,6 +44,7 @@ def read(text: str, usual_unit: str) -> RawTable:
     units, notes = (("mm", "um"), (note,)) if linear else (("", ""), ())
     return RawTable(
         tuple(
+            # The file names no direction: the order of its targets gives it.
             RawRun(None, tuple((targets[target - 1], by) for target, by in points.items()))
             for _, points in sorted(runs.items())
         ),
@@ -95,6 +96,7 @@ def _point(words: str, n: int) -> tuple[int, int, Fraction]:
 def _check_counts(facts: dict[str, str], targets: int, runs: int) -> None:
     """Notice a file that was cut off: it names how many targets and runs it has."""
     for key, found in (("target-count", targets), ("run-count", runs)):
+        # Nine digits are enough for any count, and keep int() short on a damaged file.
         if key in facts and facts[key].isdecimal() and int(facts[key][:9]) != found:
             raise MeasurementError(f"the file names {facts[key][:9]} as its {key} and contains {found}")
     if not runs:

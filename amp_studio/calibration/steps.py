@@ -46,9 +46,11 @@ def stepped(file: ParameterFile, address: Address, by: Fraction) -> Value:
     label = file.machine_schema.label(address)
     if present is None or isinstance(present.value, (str, bool)):
         raise CalibrationError(f"{label} is not set: give it a value first")
+    # By its text: 0.1 as a binary fraction would show digits that nobody entered after ten steps.
     number = Fraction(repr(present.value) if isinstance(present.value, float) else present.value)
     if present.unit != unit and dimension(present.unit) == dimension(unit):
         number *= UNITS[present.unit][1] / UNITS[unit][1]
+    # A unit that cannot be converted, as turns to mm without a pitch: the step counts in the value's own.
     elif present.unit != unit:
         unit = present.unit
     number = bounded(file, address, number, number + by, unit)
@@ -62,6 +64,7 @@ def bounded(file: ParameterFile, address: Address, old: Fraction, new: Fraction,
     if allowed is None:
         return new
     low, high = (None if bound is None else Fraction(repr(bound)) for bound in (allowed.low, allowed.high))
+    # Only a bound that the step crosses: a value outside of its range already can still be moved.
     if high is not None and new > high >= old:
         return high
     return low if low is not None and new < low <= old else new
@@ -77,6 +80,7 @@ def with_followers(
         if address[0] in follow and file.get(address) != values[address]:
             name, text = follow[address[0]]
             for instance in file.machine_schema.instances(file.schema.parameters[name]):
+                # What a person sets at the same time counts more than what would follow.
                 if instance in ("", address[1]) and (name, instance) not in values:
                     found[name, instance] = file.read((name, instance), text)
     return found

@@ -149,6 +149,8 @@ def searched_words(where: Where, text: str) -> set[str]:
     if where in ("number", "code"):
         for word in tuple(words):
             parts = parts_of(word)
+            # The letters of a parameter number are those of thousands; those of a code name the module.
             words.update(parts if where == "code" else ())
+            # Displays and manuals differ in leading zeros: MOT-022 is looked for as 22.
             words.update(part.lstrip("0") or "0" for part in parts[-1:] if part.isdigit())
     return words

@@ -38,6 +38,7 @@ def asked_number(query: str) -> Number | None:
     else.
     """
     if _HEX.fullmatch(query.strip()):
+        # Without a unit, not with any: nobody asks for a length in hexadecimal.
         return Number(int(query, 16), "")
     try:
         value, rest = read_number(query.strip())
@@ -58,6 +59,7 @@ class FileValues:
         parameters = file.schema.parameters
         for address, value in file.values.items():
             parameter = parameters[address[0]]
+            # A search that finds a password by its value would confirm a guess.
             if parameter.secret:
                 continue
             if isinstance(value.value, str) and parameter.choices:
@@ -78,6 +80,7 @@ class FileValues:
                 if dimension(unit) != dimension(number.unit):
                     continue
                 sought = convert(number.value, number.unit, unit)
+            # Not equal: a conversion, as from inches, rounds in the last bits.
             if abs(value - sought) <= 1e-9 * abs(sought):
                 matching += addresses
         return matching

@@ -89,6 +89,7 @@ class Finder:
     def find(self, query: str, most: int = 40) -> list[Hit]:
         """Return the best hits, the best first."""
         query = " ".join(query.split())[:_LONGEST]
+        # Before the axis is parted from it: the letter behind @ is part of the address.
         hits = self._addressed(query)
         query, axis = self._axis(query)
         hits += self._numbered(query) + self._valued(query)
@@ -98,6 +99,8 @@ class Finder:
             hits += [self._hit(m) for m in match if m.entry.kind != "choice" or "choice" in m.where]
         hits += self._found_by_synonym(query, most)
         best = _best_of_each(hits)
+        # A number that fits exactly does not count here: beside its score every hit by words would be cut
+        # off.
         least = _TAIL * max((hit.score for hit in best if hit.score < _EXACT - 1), default=0.0)
         return [self._of_axis(hit, axis) for hit in best if hit.score >= least][:most]
 
@@ -155,6 +158,7 @@ class Finder:
         claims = self._here.addressed_by(query) or self._here.words(query)
         found: dict[str, Hit] = {}
         for n, address in enumerate(claims):
+            # The small difference keeps the manual's order among equal hits.
             found.setdefault(address[0], self._of_number(address, _EXACT - n / 100))
         return list(found.values())
 
@@ -183,6 +187,7 @@ class Finder:
         parameter = file.schema.parameters[first[0]]
         title = show_value(parameter, file.get(first))
         detail = f"{parameter.name} {', '.join(self._place(a) for a in ordered)}".rstrip()
+        # A value that somebody chose is more likely meant than one of many defaults.
         score = _VALUE if own else _DEFAULT
         return Hit("value", title, detail, why, first[0], score, ordered[0], tuple(ordered[1:]))
 
@@ -196,12 +201,15 @@ class Finder:
             why = f"'{meaning.typed}' as '{meaning.means}'"
             all_words = len(index.asked(meaning.means))
             questions = {meaning.query: worth}
+            # Where the manuals do not have the words around it, a search with them finds nothing.
             if not index.knows(meaning.rest):
                 questions[meaning.means] = worth * _WITHOUT_THE_REST
             hits += [
                 replace(self._hit(match), score=match.score * likely, why=why)
                 for question, likely in questions.items()
                 for match in index.search(question, most)
+                # A part of the meaning is another thing: of "limit switch" neither every limit nor every
+                # switch.
                 if len(match.words) >= all_words and match.entry.kind != "choice"
             ]
         return hits
@@ -239,6 +247,7 @@ class Finder:
         key = next((c.key for c in parameter.choices or () if c.label == entry.title), "")
         addresses = self._values.choices.get((entry.key, key), []) if self._values and key else []
         if addresses:
+            # A choice that the file has comes before one with the same words that it has not.
             return replace(self._value_hit(addresses, why), score=match.score * 1.1)
         return Hit(
             "choice", entry.title, self._label((entry.key, ""), span=True), why, entry.key, match.score
@@ -268,6 +277,7 @@ class Finder:
 def _best_of_each(hits: Iterable[Hit]) -> list[Hit]:
     """Return the hits, the best first, each parameter, choice and note once."""
     best: dict[tuple[str, str, str], Hit] = {}
+    # The best first, so that setdefault keeps it; a stable sort keeps the order of equal ones.
     for hit in sorted(hits, key=lambda hit: -hit.score):
         best.setdefault((hit.kind, hit.key, hit.title if hit.kind in ("choice", "note") else ""), hit)
     return list(best.values())

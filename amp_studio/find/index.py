@@ -83,17 +83,23 @@ class SearchIndex:
         total = sum(weights.values())
         asked = " ".join(words_of(query))
         best = []
+        # Where one entry has all words, others may lack few of them; where none has, up to half may be
+        # missing.
         whole = any(len(hits) == len(words) for hits in found.values())
         for n, hits in found.items():
             missing = [word for word in words if word not in hits]
+            # A number is never forgotten: who types 1300 does not mean another parameter.
             if len(missing) > (len(words) // _FORGOTTEN if whole else len(words) // 2) or any(
                 map(_has_digit, missing)
             ):
                 continue
             score = sum(weights[word] * hit.worth for word, hit in hits.items()) / total
             score = (score + self._phrase(asked, n)) * KINDS[self.entries[n].kind] * _MISSING ** len(missing)
+            # The place as a negative number: of equal scores the one that is earlier in the manual sorts
+            # first.
             best.append((score, -n))
         best.sort(reverse=True)
+        # All texts of all matches would take too long at every key; only these can still come to the top.
         best = [(score + self._elsewhere(asked, -n), n) for score, n in best[: most + _LOOKED_AT]]
         best.sort(reverse=True)
         return [self._match(score, -n, found[-n]) for score, n in best[:most]]
@@ -123,6 +129,7 @@ class SearchIndex:
         n = 0
         while n < len(typed):
             joined = "".join(typed[n : n + 2])
+            # Two numbers in a row are two numbers, even where both together are a third one.
             if n + 1 < len(typed) and joined in self.vocabulary and not joined.isdigit():
                 words.append(joined)
                 n += 2
@@ -137,6 +144,7 @@ class SearchIndex:
         parts = parts_of(word)
         if len(parts) > 1 and "." not in word and all(part in self.vocabulary for part in parts):
             return parts
+        # From three letters on each side: shorter parts, as of "in", are in nearly every word.
         for n in range(3, len(word) - 2):
             if word[:n] in self.vocabulary and word[n:] in self.vocabulary:
                 return [word[:n], word[n:]]
@@ -158,6 +166,7 @@ class SearchIndex:
 
     def _weight(self, count: int) -> float:
         """Return how much a word decides: one that few entries have more than one that all have."""
+        # From 1 to 2: a rare word counts twice as much as one that all entries have, never more.
         return 1.0 + math.log((len(self.entries) + 1) / (count + 1)) / math.log(len(self.entries) + 2)
 
     def _phrase(self, asked: str, n: int) -> float:
@@ -168,6 +177,7 @@ class SearchIndex:
 
     def _elsewhere(self, asked: str, n: int) -> float:
         """Return what the whole question is worth that is in another text than the title."""
+        # One word was scored by its places already.
         if " " not in asked:
             return 0.0
         texts = self._plain.get(n)

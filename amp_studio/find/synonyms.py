@@ -43,6 +43,7 @@ def meanings(query: str) -> Iterator[Meaning]:
     The longest group of words counts; what is around it stays in the question.
     """
     words = [word.translate(_UMLAUTS) for word in words_of(query)]
+    # The longest group first: two words together mean something narrower than each alone.
     for length in range(len(words), 0, -1):
         for start in range(len(words) - length + 1):
             typed = tuple(words[start : start + length])
@@ -64,6 +65,7 @@ def _known(typed: tuple[str, ...], *, is_last: bool) -> tuple[str, ...] | None:
         return None
     same_length = [words for words in _table() if len(words) == len(typed)]
     if is_last and len(typed[-1]) >= _BEGUN and (begun := _begun(typed, same_length)):
+        # The shortest that begins so is the nearest to what was typed.
         return min(begun, key=lambda words: len(words[-1]))
     return next((w for w in same_length if all(map(_is_like, typed, w))), None)
 

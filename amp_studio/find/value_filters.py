@@ -62,6 +62,7 @@ class ValueFilters:
         or where they decide what else is active.
         """
         decides = self.file.evaluation.decides_states
+        # A choice makes other values active or inactive: everything that is remembered may be wrong.
         if not addresses or any(map(decides, addresses)):
             self._own.clear()
             self._differ.clear()
@@ -110,6 +111,7 @@ class ValueFilters:
 
     def _compared(self, row: Sequence[Address]) -> bool:
         file, profile = self.file, self.file.schema.family.axes
+        # What makes an axis another one differs by its nature.
         if profile is not None and row[0][0] in (profile.name, profile.type, profile.fitted_by):
             return False
         if not file.machine_schema.kin(file.machine_schema.scopes[row[0][0]], "axis"):
@@ -119,6 +121,8 @@ class ValueFilters:
             if file.get(address) is not None and file.evaluation.state(address).is_active:
                 unit = file.evaluation.unit(address, file.header.units)
                 key = file.evaluation.keys[address]
+                # By unit: mm/min of X and deg/min of A are no difference, only two axes of one kind can
+                # differ.
                 if keys.setdefault(unit, key) != key:
                     return True
         return False

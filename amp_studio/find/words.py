@@ -81,6 +81,8 @@ def _slips(word: str) -> int:
 
 
 def _pairs(word: str) -> set[str]:
+    # The frame gives a word of n letters n + 1 pairs: first and last letter count, and short words have
+    # enough of them.
     framed = f"^{word}$"
     return {framed[n : n + 2] for n in range(len(framed) - 1)}
 
@@ -95,6 +97,7 @@ class Vocabulary:
         self._with: dict[str, list[int]] = {}
         """Pair of letters -> the places of the words that may be mistyped and have it."""
         for n, word in enumerate(self.words):
+            # One letter shorter than a mistyped word may be: a letter too many is a slip too.
             if len(word) >= _SHORTEST - 1 and word.isalpha():
                 for pair in _pairs(word):
                     self._with.setdefault(pair, []).append(n)
@@ -105,6 +108,7 @@ class Vocabulary:
     def begun(self, start: str) -> list[str]:
         """Return the words that begin with these letters and go on."""
         first = bisect_left(self.words, start)
+        # The last character of all: behind every word that begins so.
         end = bisect_left(self.words, start + "\U0010ffff")
         return [word for word in self.words[first:end] if word != start]
 
@@ -120,8 +124,10 @@ class Vocabulary:
     def _similar_words(self, word: str) -> dict[str, float]:
         found = {word: 1.0} if word in self._at else {}
         for longer in self.begun(word):
+            # The less is still to be typed, the likelier; never as much as the whole word.
             found[longer] = PREFIX + (1 - PREFIX) * len(word) / (len(longer) + 1)
         most = _slips(word)
+        # Slips are looked for only where nothing fits: beside a right word they are noise.
         if most and not found:
             for near, slips in self._near(word, most):
                 found.setdefault(near, ONE_SLIP if slips == 1 else TWO_SLIPS)
@@ -138,6 +144,7 @@ class Vocabulary:
         for pair in _pairs(word):
             shared.update(self._with.get(pair, ()))
         found = []
+        # A word that shares few pairs is not within two slips, and measuring is slow.
         for n, _ in shared.most_common(_MEASURED):
             known = self.words[n]
             slips = distance(word, known, most)

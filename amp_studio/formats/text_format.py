@@ -124,8 +124,10 @@ def plain_content(content: bytes) -> bytes:
     """Return the bytes of a text as its control wrote them, whatever wrote them down since: 16-bit characters
     (a terminal or an editor of Windows), lines that end with a carriage return alone.
     """
+    # "replace" at both ends: a character that is damaged costs one value, an error the whole text.
     if content.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
         content = content.decode("utf-16", "replace").encode("utf-8", "replace")
+    # Only where there is no line feed at all: beside one, a lone carriage return is part of a line.
     return content if b"\n" in content else content.replace(b"\r", b"\n")
 
 
@@ -135,4 +137,5 @@ def text_to_recognise(content: bytes) -> str:
     """
     for mark in WRITTEN_AROUND:
         content = content.removeprefix(mark).removesuffix(mark)
+    # Latin-1 has a character for every byte: this never fails on a text of another encoding.
     return content.replace(b"\xc2\xa0", b" ").decode("latin-1")

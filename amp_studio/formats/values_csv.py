@@ -32,6 +32,7 @@ _MARK = "\ufeff"
 
 
 def _recognises(text: str) -> bool:
+    # The mark as latin-1 has it, in which texts are recognised.
     heads = text.removeprefix(_MARK).removeprefix("ï»¿").partition("\n")[0].strip().casefold().split(",")
     return {"id", "value"} <= {head.strip('" ') for head in heads}
 
@@ -46,6 +47,7 @@ def _write(file: ParameterFile) -> str:
         if value is not None:
             parameter = file.schema.parameters[address[0]]
             number = file.machine_schema.number(address) or ""
+            # Without its unit, which has a column: a spreadsheet computes with the number.
             plain = write_value(parameter, Value(value.value))
             cells = (number, *address, parameter.name, plain, value.unit)
             noted = (value_note(file, address),) if has_notes else ()
@@ -91,12 +93,14 @@ def _read_row(
     result: TextRead, schema: Schema, heads: list[str], cells: list[str], line: int, keep_unknown: bool
 ) -> None:
     """Take one row of a table; raises FormatError with line and column."""
+    # A decimal comma that is not quoted adds a cell: every value behind it would be in the wrong column.
     if len(cells) != len(heads):
         raise FormatError(f"{len(cells)} cells below {len(heads)} columns", line)
     row = dict(zip(heads, map(cell_text, cells), strict=True))
     address: Address = (row["id"].strip(), row.get("instance", "").strip())
     parameter = schema.parameters.get(address[0])
     is_text = parameter is not None and parameter.type == "text"
+    # A text has no unit, and its blanks are its own.
     text = row["value"] if is_text else f"{row['value']} {row['unit']}".strip()
     column = heads.index("id") + 1
     if parameter is None or not _has_instance(schema, parameter, address[1]):
@@ -106,6 +110,7 @@ def _read_row(
         return
     if address in result.values:
         raise FormatError(f"{written(address)} occurs twice", line, column)
+    # An empty cell sets nothing; an empty text is a value.
     if not row["value"].strip() and not is_text:
         return
     if is_mask(parameter, row["value"]):

@@ -45,6 +45,7 @@ class AxisParameters:
 
     def of(self, axis: str) -> AxisParameters:
         """Return the values of another axis of the same file."""
+        # The overrides are of one axis; for another one they would be wrong values.
         return AxisParameters(self._value, axis, {}, self.tables, self.machine, self.application, self._label)
 
     def is_overridden(self, parameter: str) -> bool:
@@ -62,6 +63,7 @@ class AxisParameters:
         if parameter in self._overrides:
             self._used.add(parameter)
             return self._overrides[parameter]
+        # The figures of the machine are in no file: without an override there is none.
         if parameter.startswith("model."):
             return None
         return self._value(*self._address(parameter, everywhere=everywhere, at=at))
@@ -136,6 +138,7 @@ class AxisParameters:
 
     def refuse_unused(self) -> None:
         """Raise SimulationError for an override that was not used, so that a typing error is noticed."""
+        # Only known after the axis is bound: which parameters a law reads depends on the values of others.
         for parameter in self._overrides:
             if parameter not in self._used:
                 raise SimulationError(
@@ -143,6 +146,7 @@ class AxisParameters:
                 )
 
     def _float(self, parameter: str, figure: ParameterValue) -> float:
+        # A bool is an int in Python: yes would go on as 1.0.
         if isinstance(figure, (bool, str)) or figure is None:
             raise SimulationError(
                 f"{self.called(parameter)} of axis {self.axis} is {figure!r}, not a number", parameter

@@ -54,6 +54,7 @@ def parameter_names(file: ParameterFile) -> Callable[[Address], str]:
 
     def name(address: Address) -> str:
         number, plain = schema.number(address), schema.parameters[address[0]].name
+        # A disputed number really belongs to another parameter: it would name that one.
         return f"{number} {plain}" if number and not schema.is_disputed(address[0]) else plain
 
     return name

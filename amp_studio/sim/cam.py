@@ -88,6 +88,7 @@ def derivatives(cam: CamProfile) -> tuple[Series, Series]:
     """Return speed between the points and acceleration at the points between, over time or the master."""
     step = np.diff(cam.x)
     speed = np.diff(cam.position) / step
+    # The points are equally far apart, so either of two neighbouring steps is right.
     return speed, np.diff(speed) / step[1:]
 
 
@@ -97,6 +98,7 @@ def cam_picture(cam: CamProfile) -> Picture:
     x = ("time", "s") if cam.over == "time" else ("master", "counts")
     per, unit = ("s", "s²") if cam.over == "time" else ("count", "count²")
     position = panel_of("position counts", (Curve("", cam.x, cam.position, "now", dots=False),), x)
+    # One speed less than points: a stepped curve needs a value at the last one too.
     steps = Curve("", cam.x, np.append(speed, speed[-1]), "now", is_stepped=True)
     panels = [position, panel_of(f"speed counts/{per}", (steps,), x, levels=_levels(cam, "speed"))]
     if acceleration.size:

@@ -40,4 +40,5 @@ def read_cam_points(path: Path) -> CamPoints:
         if column in places and places[column][1] not in ("", "counts"):
             raise SimulationError(f"{name}: the {column} is in {places[column][1]}; it must be in counts")
     factor = seconds_of(name, places["time"][1]) if over == "time" else 1.0
+    # A table may begin anywhere; the control's cam begins at 0 of both.
     return CamPoints(over, (x - x[0]) * factor, position - position[0])

@@ -22,12 +22,14 @@ def doubts(file: ParameterFile, read: Iterable[Address], overridden: Iterable[st
     ``read`` are the addresses that the axis was made of; those in ``overridden`` came from elsewhere.
     """
     replaced = frozenset(overridden)
+    # An overridden value is not the file's: what is wrong with the file's does not matter to the result.
     own_ids = file.schema.parameters.keys() - replaced
     addresses = dict.fromkeys(address for address in read if address[0] in own_ids)
     validator = Validator(file)
     own = [f for f in _errors(validator.run()) if not addresses.keys().isdisjoint(f.addresses)]
     doubts_of_findings = [finding.message for finding in own[:MOST]]
     left = _errors(present(validator, validator.findings()).findings)
+    # Those that are shown, as `validate` counts them: most that follow from an earlier error are not.
     others = len(own[MOST:]) + sum(finding not in own for finding in left)
     if others:
         doubts_of_findings.append(
@@ -47,6 +49,7 @@ def _states(file: ParameterFile, addresses: Iterable[Address]) -> Iterator[str]:
         name = file.machine_schema.named(address)
         state = file.evaluation.state(address)
         if address not in file.values:
+            # An optional one that is not set is a choice: the control has a meaning for it.
             if state.is_active and not file.schema.parameters[address[0]].optional:
                 not_set.append(name)
         elif not state.is_active:

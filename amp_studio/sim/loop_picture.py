@@ -66,9 +66,11 @@ def nichols(trace: Trace, before: Trace | None) -> Picture:
         phase = np.degrees(np.unwrap(np.angle(loop)))
         # Near the highest gain a position loop has -90 deg: the turn in which it is drawn.
         phase -= 360.0 * np.round((phase[0] + 90.0) / 360.0) if phase.size else 0.0
+        # The smallest addend keeps the logarithm finite where the loop is 0.
         return phase, 20.0 * np.log10(np.abs(loop) + 1e-300)
 
     def around(loop: Response) -> tuple[Series, Series]:
+        # Not unwrapped: the whole area around -1 lies between -360 and 0 deg, the turn of the chart.
         return np.degrees(np.angle(loop)) % 360.0 - 360.0, 20.0 * np.log10(np.abs(loop) + 1e-300)
 
     across = Scale("phase", "deg", *NICHOLS_PHASE, step=90.0)
@@ -136,6 +138,7 @@ def _sensitivity(trace: Trace, before: Trace | None) -> Scene:
     for each, loop_name, words, sort in sides:
         if each is not None and f"{loop_name}_gain_db_model" in each.columns:
             frequency, loop = _loop(each, "_model", loop_name)
+            # Minus, because it is the reciprocal in dB; where 1 + L is 0 the addend keeps it finite.
             size = np.maximum(-20.0 * np.log10(np.abs(1.0 + loop) + 1e-300), LEAST_SENSITIVITY)
             curves.append(Curve(words, frequency, size, sort))
     at = trace.result.get("Ms_frequency", (None, ""))[0]
@@ -164,6 +167,7 @@ def tuned(trace: Trace) -> Picture:
         known = np.isfinite(way)
         if known.any():
             ways.append(Curve(words, time[known], way[known], sort))
+        # In pieces: a line through the inertias without a stable loop would show Ms where there is none.
         stable = np.isfinite(ms) & (ms < MOST_MS)
         edges = np.flatnonzero(np.diff(np.concatenate([[0], stable.astype(np.int8), [0]])))
         for n, (first, last) in enumerate(zip(edges[::2], edges[1::2], strict=True)):

@@ -88,6 +88,7 @@ def with_model(axis: AxisLaw, read: AxisParameters) -> AxisLaw:
     _refuse_of_velocity(axis, changes)
     assumed = {figure: why for figure, why in axis.assumed.items() if figure not in changes}
     machine = replace(axis.machine, **changes)  # type: ignore[arg-type]  # none of them is the flag
+    # Refused, not passed over: without a second mass the ratio has no effect, and that looks like a result.
     if "inertia_ratio" in changes and not machine.two_masses:
         name = "model.inertia_ratio"
         raise SimulationError(
@@ -98,6 +99,8 @@ def with_model(axis: AxisLaw, read: AxisParameters) -> AxisLaw:
     if machine.two_masses:
         machine = _coupled(machine, assumed)
     found = replace(axis, machine=machine, assumed=assumed)
+    # Rates and predicted figures depend on gains and machine together: those of the old machine are wrong
+    # now.
     return found if axis.settled is None else axis.settled(found)
 
 

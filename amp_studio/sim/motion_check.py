@@ -96,6 +96,7 @@ def _is_checked(law: Law, scenario: Scenario) -> bool:
 def _of_spindle(file: ParameterFile, law: Law, scenario: Scenario) -> MotionCheck | None:
     """Return the check of the first spindle at its highest speed; None for a file without one."""
     checked = _checked(file, law, scenario, None)
+    # Not possible without a parameter to blame means that the machine has no spindle: nothing to report.
     return None if checked.verdict == "not possible" and not checked.params else checked
 
 
@@ -109,6 +110,7 @@ def _checked(file: ParameterFile, law: Law, scenario: Scenario, axis: str | None
         runs = _ends(file, scenario, axis)
     except SimulationError as error:
         return _not_possible(file, scenario.name, axis, error)
+    # The worse end of the travel decides.
     verdict, why = max((_verdict(trace) for trace, _, _ in runs), key=lambda found: WORSE.index(found[0]))
     if verdict == "good" and scenario.name in SHOWN_BY:
         verdict, why = _of_loops(file, law, runs[0][0])
@@ -139,6 +141,7 @@ def _ends(
     error = SimulationError("")
     for settings, end in ((None, ""), (scenario.opposite, "_minus")):
         try:
+            # Recommendations are a third of the time, and a check shows none.
             found.append((simulate(file, scenario.name, axis, settings, advise=False), (), end))
         except SimulationError as other:
             error = other
@@ -154,6 +157,7 @@ def _run(file: ParameterFile, scenario: Scenario, axis: str | None) -> tuple[Tra
     try:
         return simulate(file, scenario.name, axis, advise=False), ()
     except SimulationError as error:
+        # Only what a program would give is filled in; a value that the file lacks must be reported.
         if error.parameter not in scenario.programmed:
             raise
     given = ", ".join(f"{name} {value}" for name, value in scenario.programmed.items())

@@ -44,6 +44,7 @@ def picture_of(trace: Trace, before: Trace | None = None, chart: str = CHARTS[0]
 
     ``chart`` is how an open loop is drawn, one of CHARTS; every other trace has one picture.
     """
+    # Another first column is another kind of picture: time beside frequency has no common axis.
     if before is not None and next(iter(before.columns)) != next(iter(trace.columns)):
         before = None
     return replace(
@@ -234,6 +235,7 @@ def _error(trace: Trace, before: Trace | None, alarms: Sequence[NamedPlace]) -> 
         return None
     low, high = float(error.min(initial=0.0)), float(error.max(initial=0.0))
     peak, sign, unit = max(-low, high), (-1.0 if -low > high else 1.0), trace.units.get("following_error", "")
+    # A limit far above the curve would flatten it; it is named in words instead.
     near = [
         NamedPlace(f"{name} {value_text(level, unit)}", sign * level)
         for name, (level, _) in trace.limits.items()
@@ -268,6 +270,7 @@ def settling_span(trace: Trace) -> tuple[float, float] | None:
         return None
     time, command = columns["time_s"], columns["command_position"]
     moving = np.flatnonzero(command != command[-1])
+    # The command must end two rows before the trace does: else there is nothing of the settling to show.
     if not moving.size or moving[-1] + 2 >= len(time):
         return None
     end, last = float(time[moving[-1] + 1]), float(time[-1])
@@ -276,7 +279,9 @@ def settling_span(trace: Trace) -> tuple[float, float] | None:
     band = trace.limits.get("inposition band", (None, ""))[0]
     far = np.flatnonzero(np.abs(columns["position"] - command[-1]) > CLOSE * band) if band else moving
     start = float(time[far[-1]]) if far.size else end
+    # Where it is far away once more behind the settling, the picture begins at the end of the command.
     start = min(start, end if start >= close else start)
+    # At least four samples: an axis that settles at once would give a picture without width.
     close = max(close, start + 4.0 * (time[1] - time[0]))
     return max(0.0, start - 0.05 * (close - start)), min(last, close)
 

@@ -9,6 +9,7 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
 def _rounded(value: float, digits: int, way: str) -> float:
     if value == 0.0 or not math.isfinite(value):
         return value
+    # From the shortest text: the binary value of 0.1 is above 0.1, and rounding up would give 0.101.
     exact = Decimal(repr(float(value)))
     return float(exact.quantize(Decimal(1).scaleb(exact.adjusted() - digits + 1), rounding=way))
 

@@ -61,6 +61,7 @@ def simulate(
     given, written = read_settings(rest, known_settings(law, scenario), unit)
     model, own = _parted({**given, **texts}, lambda name: name.startswith("model."))
     if like:
+        # What is set counts more than the move of the trace that is made again.
         own = {**like.move, **own}
     read: list[Address] = []
     whole = _whole_run(law, scenario, axis)
@@ -69,6 +70,7 @@ def simulate(
         letter = _letters(file, trace.axis)
     else:
         bound = bind_axis(file, law, axis, model, read.append)
+        # Not before it is bound: whether the axis turns is in the file.
         refuse_other_unit(written, bound.axis, bound.unit)
         letter = axis_name(file.evaluation, bound.axis)
         trace = _of_one_axis(scenario, file, law, bound, model, own, way, advise=advise)
@@ -127,6 +129,7 @@ def _of_one_axis(
         return replace(trace, recommendations=(*trace.recommendations, *law.advise(bound, trace)))
     chosen = SCENARIOS[scenario]
     if chosen.tried:
+        # Gains of axes that make contours together must give the same following error on all.
         others = _alike(file, law, bound, model)
         return chosen.run(_trial(file, law, bound.axis, model), own, others, *([way] if way else []))
     second = (_second(file, law, bound, own.get(SECOND), model),) if chosen.second else ()
@@ -240,6 +243,7 @@ def _second(
         return second
     axes = tuple(law.axes(file))
     place = axes.index(first.axis)
+    # The next axis is the usual partner in a plane: Y to X; behind the last it goes on with the first.
     for other in (*axes[place + 1 :], *axes[:place]):
         try:
             second = bind_axis(file, law, other, model)

@@ -55,6 +55,7 @@ def number(settings: ScenarioSettings, name: str) -> float | None:
         return None
     if isinstance(setting, (bool, str)):
         raise SimulationError(f"{name} is {setting!r}, not a number", name)
+    # float() takes "nan" and "inf" as numbers; no motion can be computed with them.
     if not math.isfinite(setting):
         raise SimulationError(f"{name} is {setting:g}; it must be finite", name)
     return float(setting)

@@ -22,6 +22,7 @@ _ANGULAR = {"mm": "deg", "mm/min": "deg/min", "mm/s2": "deg/s2"}
 def units_of(description: str) -> tuple[str, ...]:
     """Return the units that a description names."""
     units = [part for found in _BRACKETS.findall(description) for part in found.split(" or ")]
+    # Brackets of a description hold other words too; the unit of the torque is the law's own.
     return tuple(unit for part in units if (unit := part.removesuffix(" per torque")) in UNITS)
 
 
@@ -44,6 +45,7 @@ def read_settings(
         values[name] = number
         if rest.strip():
             values[name], written[name] = _converted(name, number, rest, units, unit)
+        # A bare number is in the length of the person's unit system; inside everything is in mm.
         elif unit == "in" and units and units[0] in _ANGULAR:
             values[name] = canonical(number, own_unit(units[0], unit))
     return values, written
@@ -51,6 +53,7 @@ def read_settings(
 
 def _number_and_unit(value: ParameterValue) -> tuple[ParameterValue, str]:
     """Return the number that a text begins with, and the rest; the value itself where it has none."""
+    # With an equals sign it is what a sweep varies, and is read there.
     if not isinstance(value, str) or "=" in value:
         return value, ""
     try:

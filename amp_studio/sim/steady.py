@@ -24,6 +24,7 @@ def error_at_speed(trace: Trace) -> float | None:
     even = np.flatnonzero(np.abs(np.abs(speed) / feedrate - 1.0) <= SPEED)
     if even.size == 0:
         return None
+    # In the first half the error still settles: the loop lags behind the ramp that has just ended.
     late = even[even.size // 2 :]
     return float((trace.columns["following_error"][late] * np.sign(speed[late])).mean())
 

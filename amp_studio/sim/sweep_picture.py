@@ -22,6 +22,7 @@ def sweep_picture(trace: Trace) -> Picture:
     """Return the picture of a sweep, by what it varied."""
     sides = [np.unique(trace.columns[name]) for name in trace.over]
     sizes = [len(side) for side in sides]
+    # Of several values sampled at random hardly one repeats: the product is far above the rows.
     is_grid = math.prod(sizes) == trace.rows and min(sizes, default=0) > 1
     if is_grid and len(sides) == 2 and max(sizes) <= WIDEST:
         return _map(trace, sides[0], sides[1])
@@ -56,6 +57,7 @@ def _map(trace: Trace, x: Series, y: Series) -> Picture:
         safe,
         points,
     )
+    # The present value is seldom one of the grid.
     nearest = int(np.argmin(np.abs(y - (y[len(y) // 2] if at[1] is None else at[1]))))
     cut = f"{_words(trace.figure)} at {_words(two)} {value_text(float(y[nearest]), trace.units[two])}"
     panel = _panel(trace, cut, one, x, values[nearest], safe[nearest], at[0])
@@ -88,6 +90,7 @@ def _distribution(trace: Trace) -> Picture:
     values = np.sort(trace.columns[trace.figure][np.isfinite(trace.columns[trace.figure])])
     if not values.size:
         values = np.zeros(1)
+    # The middle of each step: n samples do not show where 0 and 100 % are.
     share = 100.0 * (np.arange(len(values)) + 0.5) / len(values)
     marks = tuple(NamedPlace(f"{part} %", float(np.percentile(values, part))) for part in (5, 50, 95))
     curve = Curve("share", values, share)

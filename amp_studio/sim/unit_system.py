@@ -99,6 +99,7 @@ def in_unit(trace: Trace, length: str) -> Trace:
 
 def _factor(unit: str, length: str) -> float:
     """Return how much of a unit the same unit with another length is."""
+    # One factor for mm, mm/min and mm/s2: the time in a unit does not change.
     return MM_PER_INCH if own_unit(unit, length) != unit else 1.0
 
 
