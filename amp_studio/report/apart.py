@@ -37,6 +37,8 @@ def made_apart(what: What, report: Report, own: Path | None, ppi: int = 0) -> li
     import pickle
 
     try:
+        # Only a project's template is bounded: the program's own is known to end, and a large report takes
+        # long.
         question = pickle.dumps((_MOST_MEMORY if own else None, what, report, own, ppi))
         answered = run_apart(__name__, question, _PATIENCE_S if own else None)
     except ReportNotMadeError as error:
@@ -47,6 +49,7 @@ def made_apart(what: What, report: Report, own: Path | None, ppi: int = 0) -> li
         raise failed(mistake)
     files, at = [], 0
     for length in lengths:
+        # By length: a PDF or PNG may contain any byte that would part them.
         files.append(rest[at : at + length])
         at += length
     return files
@@ -90,6 +93,7 @@ def answer(asked: BinaryIO, out: BinaryIO) -> None:
 
 
 def _bound_memory(most: int) -> None:
+    # Windows has no such limit; there the patience alone ends a template.
     with contextlib.suppress(ImportError, OSError, ValueError):
         import resource
 

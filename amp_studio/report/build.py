@@ -77,6 +77,7 @@ def build_report(
     anchors = {row.anchor for row in printed}
     validator = validator_of(file, source, own)
     now = present(validator, validator.run())
+    # All rows, not only the printed ones: the summary counts what the axis has.
     heads, axes = _axes(file, found.rows, now.findings)
     family = file.schema.family
     name = source.name if source else ""
@@ -185,6 +186,7 @@ def _machine(file: ParameterFile, of_project: ProjectInfo | None) -> list[tuple[
         ("Options", project.options),
         ("People", project.people),
     ]
+    # The file's name counts; a project of several files may be called something else.
     if header.name and project.name.strip() not in ("", header.name):
         facts.insert(1, ("Project", project.name))
     if family.fits_axes:
@@ -225,6 +227,7 @@ def _checksum(file: ParameterFile, source: Path | None, content: bytes) -> tuple
     except ParameterFileError:
         return title, "the file on disk cannot be read"
     on_disk = without_secrets(opened)
+    # Without secrets it is the file byte for byte, so that anybody can check it with another program.
     digest = _digest(stored if on_disk is opened else content_of(on_disk))
     if on_disk.values != file.values:
         return title, digest + " – but this report contains unsaved changes"
@@ -303,7 +306,9 @@ def _severity(findings: Sequence[Finding], severity: str) -> int:
 def _forced(file: ParameterFile, rows: Sequence[ReportRow]) -> tuple[ReportRow, ...]:
     """Return all forced values, also those that are not printed otherwise."""
     printed = {(r.id, r.instance): r for r in rows}
+    # In the manual's order, not that in which they were forced.
     forced = (a for a in file.addresses() if a in file.forced)
+    # Axes that are not fitted have no row, and their forced values are still in the file.
     return tuple(printed.get(a) or row_of(file, a) for a in forced)
 
 

@@ -45,6 +45,7 @@ def _grouped(
     for parameter, anchor, name, place in values:
         for danger in schema.parameters[parameter].help.danger:
             about = found.setdefault((language.sentence(danger.says), danger.page), {})
+            # One statement with all its axes: printed for each of them, nobody would read it.
             about.setdefault(parameter, (anchor, name, []))[2].append(language.text(place))
     return tuple(
         Danger(

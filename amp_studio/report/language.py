@@ -134,6 +134,7 @@ class Language:
         if finding.is_own:
             return finding.message
         message = self.facts.messages.get(finding.rule)
+        # Without its figures the words of the rule cannot be filled; the English message has them.
         if message is None or finding.figures is None:
             return self.quantity(self.message(finding.message))
         return message.format_map({name: self._given(text) for name, text in finding.figures})
@@ -213,6 +214,7 @@ def _behind_a_number(*others: str) -> re.Pattern[str]:
     """Return what finds a unit behind a number, with the space before it: as it is printed, or as facts and
     parameter files spell it; ``others`` are no units of a parameter.
     """
+    # The longest first: of "mm/min" a pattern that begins with "mm" would take that alone.
     spelled = sorted({*UNITS, *map(unit_text, UNITS), *others} - {"", "%"}, key=len, reverse=True)
     return re.compile(rf"(?<=\d) ({'|'.join(map(re.escape, spelled))})(?![\w/])")
 
@@ -254,6 +256,7 @@ def _sentences(texts: dict[str, str]) -> tuple[SentencePattern, ...]:
         words = parts[::2]
         pattern = ""
         for n, part in enumerate(parts):
+            # A name that comes twice must be the same text both times, and a group may be named once only.
             again = part in parts[1:n:2]
             name = f"(?P={part})" if again else f"(?P<{part}>.+?)"
             pattern += name if n % 2 else re.escape(part)

@@ -179,6 +179,7 @@ class GridLine:
 
     def cell_text(self, row: ReportRow) -> str:
         """Return the text of a cell."""
+        # The unit is printed once a line; a cell in another one would be read wrongly without it.
         return row.bare_text if row.shown_unit == self.shown_unit else row.text
 
 
@@ -269,6 +270,7 @@ def _decoded(rows: Sequence[ReportRow]) -> Iterator[DecodedWord]:
 
 def _reasons(rows: Iterable[ReportRow]) -> tuple[tuple[str, str], ...]:
     reasons = {row.state_mark: row.why for row in rows if row.state_mark}
+    # By the number: as texts i10 comes before i2.
     return tuple(sorted(reasons.items(), key=lambda item: (item[0][0], int(item[0][1:]))))
 
 

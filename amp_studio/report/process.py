@@ -25,6 +25,7 @@ def run_apart(module: str, question: bytes, patience_s: float | None = None) -> 
     except OSError as error:
         raise ReportNotMadeError(f"needs a process, which cannot be started: {error.strerror}") from error
     if done.returncode:
+        # MemoryError of Python, or the message with which Typst ends: the exit code does not name it.
         lacks_memory = b"memory" in done.stderr.lower()
         raise ReportNotMadeError(
             "needs too much memory" if lacks_memory else "ended the process that sets it"

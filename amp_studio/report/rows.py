@@ -52,6 +52,7 @@ def rows_of(file: ParameterFile, units: UnitChoice = "file", language: Language 
     Of optional entries (those of a tool table) there are only rows for the values that are set.
     """
     axes = printed_axes(file)
+    # Once for all rows: a label looks through all axes for the same letter.
     labels = {axis: axis_label(file, axis) for axis in axes}
     rows, hidden, unfitted = [], 0, 0
     marks: dict[tuple[str, str], str] = {}
@@ -176,6 +177,7 @@ def _figure(parameter: Parameter, value: Value | None, unit: str) -> str:
         return _bare(parameter, other or value)
     for digits in range(1, _EXACT + 1):
         rounded = float(f"{other.value:.{digits}g}")
+        # The fewest digits that come back to the entered value: all others are of the conversion.
         if convert(rounded, unit, value.unit) == value.value:
             return _bare(parameter, Value(rounded))
     return f"≈ {_bare(parameter, Value(float(f'{other.value:.{_ROUNDED}g}')))}"

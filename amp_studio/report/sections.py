@@ -45,6 +45,7 @@ def number_key(row: ReportRow) -> tuple[tuple[int, int, str], ...]:
     if not row.number:
         return ((2, 0, ""),)
     parts = re.findall(r"\d+|\D+", row.number)
+    # Numbers by size and letters apart: int and str cannot be compared.
     return tuple((0, int(p), "") if p.isdecimal() else (1, 0, p) for p in parts)
 
 
@@ -140,6 +141,7 @@ def _group_parts(
     grids: list[Listing | Grid] = []
     for start in range(0, len(axes), _WIDEST_GRID):
         listed = axes[start : start + _WIDEST_GRID]
+        # Values without an axis only in the first grid, else they would be printed once for each.
         lines = tuple(_lines(file, rows, listed, with_others=start == 0))
         if lines:
             grids.append(Grid(title, tuple(heads[axis] for axis in listed), lines))
@@ -182,6 +184,7 @@ def _axis_line(present: list[ReportRow], cells: tuple[ReportRow | None, ...]) ->
 def _line_unit(present: list[ReportRow]) -> str:
     """Return the unit of most cells, of those of linear axes if there are any."""
     units = [r.shown_unit for r in present]
+    # Most machines have few axes that turn; their cells have their unit with them.
     straight = [u for u in units if not u.startswith(("°", "deg"))]
     return Counter(straight or units).most_common(1)[0][0]
 
@@ -204,5 +207,6 @@ def numbers_of(rows: Sequence[ReportRow]) -> str:
 
 def _goes_on(run: list[str], number: str) -> bool:
     """Return whether a number follows a run of numbers in the same step."""
+    # The last two decide the step that the third must keep.
     heads, counts = zip(*map(split_count, [*run[-2:], number]), strict=True)
     return len(set(heads)) == 1 and len({b - a for a, b in pairwise(counts)}) == 1

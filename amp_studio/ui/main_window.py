@@ -271,6 +271,7 @@ class MainWindow(PartsWindow):
             event.ignore()
             return
         self.finder.box.setEnabled(False)  # else Qt gives it the focus while the window is taken apart
+        # Before the pages are closed: what is kept is how the window is now.
         self.settings.keep_place(self)
         self.docks.keep()
         self.files.keep_session()
@@ -281,6 +282,7 @@ class MainWindow(PartsWindow):
         self.summaries.stop()
         if Task.running:
             self.hide()  # pages that are being set cannot be interrupted: the user need not watch that
+        # Qt ends the program at a thread that is still running when its object is deleted.
         Task.end_all()
         event.accept()
 

@@ -66,6 +66,7 @@ class FindingsDelegate(QStyledItemDelegate):
     def _layout(self, rect: QRect, index: ModelIndex) -> _Layout:
         small, text = QFontMetrics(self._small), QFontMetrics(self._text)
         is_rule = not index.internalId()
+        # Buttons keep the height of one line at the top, however many lines the words need.
         right, line = rect.right() - GAP, min(rect.height(), FINDING_ROW if is_rule else ROW)
         top = rect.top()
         parts: dict[Part, QRect] = {}
@@ -86,9 +87,11 @@ class FindingsDelegate(QStyledItemDelegate):
                     0, (line - SMALL_CONTROL) // 2, 0, (SMALL_CONTROL - line) // 2
                 )
         else:
+            # Rows of findings have no such button; their links end where those of the rules do.
             right -= _MORE
             for part in ("go", "why"):
                 parts[part] = take(small.horizontalAdvance(self._names[part]))
+            # The first finding of a rule has its title, for all of them.
             if index.row() == 0:
                 title = worded(self._model.group(index).title)
                 rule = take(min(small.horizontalAdvance(title) + 2, _WIDEST_RULE, rect.width() // 4))
@@ -108,6 +111,7 @@ class FindingsDelegate(QStyledItemDelegate):
         """Return the height that the words need in the present width of the list."""
         is_rule = not index.internalId()
         width = self._view.viewport().width() - _INDENT * (1 if is_rule else 2)
+        # Any height that is more than a line: only the width that is left for the words counts.
         place = self._layout(QRect(0, 0, width, 1000), index).text
         metrics = QFontMetrics(self._text if is_rule else self._small)
         words = metrics.boundingRect(QRect(0, 0, place.width(), 10_000), _WRAP, self._model.text_of(index))
@@ -187,6 +191,7 @@ class FindingsDelegate(QStyledItemDelegate):
 
     def part_at(self, index: QModelIndex, place: QPoint) -> Part | None:
         """Return the button or link of a row at a place of the list."""
+        # Computed again from the same layout as painted, so that a click meets what is seen.
         found = self._layout(self._view.visualRect(index), index).parts
         return next((part for part, rect in found.items() if rect.contains(place)), None)
 

@@ -66,6 +66,7 @@ class WhyDialog(QDialog):
             ):
                 cell = f"<code>{cell}</code>"
             if address is not None:
+                # The number of the address, not its text: instances may have characters that a URL changes.
                 cell = f'<a href="seen:{len(self._linked)}">{cell}</a>'
                 self._linked.append(address)
             lines.append(f"<tr><td><b>{'' if title == before else title}</b>&nbsp;</td><td>{cell}</td></tr>")
@@ -115,6 +116,7 @@ class FixSeveralDialog(QDialog):
         for group in finding_groups(workspace.validator, findings):
             if group.fixable:
                 self._add(workspace, group)
+        # After the rows are filled: each check that is set would count them again.
         self.list.itemChanged.connect(self._count)
         note = QLabel(
             self.tr("Checked at first: fixes that cannot change motion. All of them are one step of Undo.")

@@ -29,11 +29,13 @@ class FindingsModel(QAbstractItemModel):
     def show_findings(self, findings: Iterable[Finding]) -> bool:
         """List these findings; returns whether anything is new."""
         groups = finding_groups(self._workspace.validator, findings)
+        # A reset folds everything and drops the selection: only where there is something new.
         if groups == self.groups:
             return False
         self.beginResetModel()
         self.groups = groups
         file = self._workspace.file
+        # Made once: the list asks for it at every paint and every move of the mouse.
         self._fixes = {group.key: fix_text(file, group.fixable) for group in groups}
         self.endResetModel()
         return True

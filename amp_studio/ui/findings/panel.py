@@ -69,6 +69,7 @@ class _View(QTreeView):
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
+        # The heights of the rows depend on the width; Qt asks for them once and keeps them.
         self.scheduleDelayedItemsLayout()
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
@@ -234,6 +235,7 @@ class FindingsPanel(QWidget):
         if (shown_ids, axis, name) == (self._shown_ids, self._axis, self.shown_name):
             return
         self.shown_name = name
+        # A cell of no axis leaves the last one, so that the filter does not empty the list.
         self._shown_ids, self._axis = shown_ids, axis or self._axis
         self._offer_scopes()
         if self.scope.choice != "file":
@@ -262,6 +264,7 @@ class FindingsPanel(QWidget):
             name=suppressed.suppression.by,
             reason=suppressed.suppression.reason,
         )
+        # Without figures the message is taken as it is, not made again from the words of the rule.
         return replace(suppressed.finding, fix=(), figures=None, message=message)
 
     def _refresh(self, *_: object) -> None:
@@ -283,6 +286,7 @@ class FindingsPanel(QWidget):
         if current.isValid():
             group, finding = self.model.group(current).key, self.model.finding(current)
         row = (current.parent() if current.parent().isValid() else current).row()
+        # Read before the reset, which sets it to 0.
         scrolled = self.view.verticalScrollBar().value()
         if self.model.show_findings(listed):
             self._restore(opened, group, finding, row, current.row())
@@ -319,6 +323,8 @@ class FindingsPanel(QWidget):
     def _count(self, reached: list[Finding], waiting: int, suppressed: int) -> None:
         for severity, made in self.chips.items():
             number = sum(f.severity == severity for f in reached) - (
+                # The finding of values that are not set has its own line, and is not counted as a
+                # recommendation.
                 severity == "advice" and bool(addresses_not_set(reached))
             )
             made.setText(str(number))
@@ -380,6 +386,7 @@ class FindingsPanel(QWidget):
             if finding in group.findings:
                 rule = self.model.index(n, 0)
                 own = self.model.index(group.findings.index(finding), 0, rule)
+                # Of a rule with one finding the row of the rule has all of it.
                 self.view.setCurrentIndex(own if len(group.findings) > 1 else rule)
 
     def step(self, by: int) -> None:
@@ -407,6 +414,7 @@ class FindingsPanel(QWidget):
             self.suppression_requested.emit(finding)
 
     def _may_suppress(self, finding: Finding) -> bool:
+        # A finding about rules.yaml itself cannot be suppressed in that file.
         return finding in self._workspace.findings and not finding.rule.startswith("rules.")
 
     def _activate(self, *_: object) -> None:

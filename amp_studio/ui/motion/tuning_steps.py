@@ -260,10 +260,12 @@ class TuningSteps(QWidget):
         """Simulate the step, and seek the gains, in threads; once more where something changed meanwhile."""
         if self._target is None or not self.isVisible() or self.axis.currentData() is None:
             return
+        # A copy: the file may be edited while the threads read it.
         file, axis = self._target.file.copy(), str(self.axis.currentData())
         shows = self.guide.steps[self.steps.currentRow()].shows
         if shows is not None:
             scenario, settings = shows.scenario, dict(shows.settings)
+            # Tapping is of the machine: it finds the spindle and the axis that taps itself.
             on = None if scenario == "tap" else axis
             self._begin("step", lambda: _simulated(file, scenario, on, settings), self._stepped)
         else:
@@ -271,9 +273,11 @@ class TuningSteps(QWidget):
         aim = self._aim
         if self._chart == _MAP:
             self._begin(_MAP, lambda: _simulated(file, "sweep", axis, {}), self._mapped)
+        # Also beside the map: the gains and their figures are always shown.
         self._begin(_TUNE, lambda: _simulated(file, "tune", axis, {"tune.for": aim}), self._tuned)
 
     def _begin(self, key: str, work: Callable[[], Trace], done: Callable[[Trace], None]) -> None:
+        # One task of a kind at a time: else an older result could be shown over a newer one.
         if key in self._tasks:
             self._again.add(key)
             return
@@ -291,6 +295,7 @@ class TuningSteps(QWidget):
             self._timer.start()
 
     def _stepped(self, trace: Trace) -> None:
+        # The first run of a step is how the axis was before anything was changed.
         if self.before is None or self.before.scenario != trace.scenario:
             self.before = trace
         self.now = trace
@@ -309,6 +314,7 @@ class TuningSteps(QWidget):
         self._propose(trace.recommendations, self._figures_text(trace))
         assumed = [text for text in trace.assumptions if text.startswith("ASSUMED: model.")]
         family = schema.family.family
+        # The first sentence has setting and value; the reasons behind it have no room here.
         self.assumed.setText("\n".join(sentenced(text.split(". ")[0] + ".", family) for text in assumed))
 
     def _figures_text(self, trace: Trace) -> str:

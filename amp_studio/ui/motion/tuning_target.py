@@ -159,6 +159,7 @@ class ControlTarget(TuningTarget):
     def set(self, text: str, values: Mapping[Address, Value | None]) -> None:
         """Change values in the control, or collect them where it takes none singly."""
         wanted = with_followers(self.file, values)
+        # Taken before it is sent: the control is read again after that.
         before = {a: self.file.get(a) for a in wanted}
         wanted = {a: v for a, v in wanted.items() if v != before[a]}
         if not wanted:
@@ -171,6 +172,7 @@ class ControlTarget(TuningTarget):
         """Send the values of before the last step."""
         if self._done:
             text, before, wanted = self._done[-1]
+            # Before the step is moved: it stays where it is when the control refuses.
             self._apply(text, before)
             self._undone.append(self._done.pop())
             _ = wanted
@@ -189,6 +191,7 @@ class ControlTarget(TuningTarget):
             self._waiting |= wanted
             present = self.live.file
             assert present is not None
+            # What was changed back to the control's own value has nothing to be sent.
             self._waiting = {a: v for a, v in self._waiting.items() if present.get(a) != v}
             self._show(list(wanted))
             return
@@ -205,8 +208,11 @@ class ControlTarget(TuningTarget):
         """Have the control contain what it contained at the first look; raises TransferError."""
         self._waiting = {}
         if self.differences():
+            # Before it is put back: there are no differences after that, and the message names their
+            # effect.
             changed = [difference.address for difference in self.live.changes().differences]
             self._exchange(self.tr("Put Back"), self.live.put_back, changed)
+        # The steps lead from values that the control has no more.
         self._done.clear()
         self._undone.clear()
         self._show([])
@@ -219,6 +225,7 @@ class ControlTarget(TuningTarget):
     def _exchange(self, text: str, work: ControlWork, changed: Iterable[Address]) -> None:
         try:
             outcome: Outcome = self._run(text, work)
+        # Also after an error: some of the values may have been sent, and what is shown must follow.
         finally:
             if self.live.file is not None:
                 self._show([])

@@ -126,6 +126,7 @@ class ValuesPage(TuningPart):
             for instance in file.machine_schema.instances(file.schema.parameters[name])
             if self._is_of_use(file, (name, instance))
         ]
+        # In the order of the schema, which a sort of names would break: axis 10 behind axis 9.
         order = list(dict.fromkeys(instance for _, instance in found))
         return sorted(found, key=lambda address: order.index(address[1]))  # one axis after the other
 
@@ -149,6 +150,7 @@ class ValuesPage(TuningPart):
         self.table.setRowCount(len(addresses))
         for n, address in enumerate(addresses):
             self._fill_row(n, address)
+        # The same row again, where the list has become shorter the last one.
         self.table.setCurrentCell(max(0, min(row, len(addresses) - 1)), _VALUE)
         self._filling = False
         page = self.tr("Page {page}.").format(page=self.page.page)
@@ -204,6 +206,7 @@ class ValuesPage(TuningPart):
         file = self.target.file
         steps, unit = steps_of(file, address), file.evaluation.unit(address, file.header.units)
         texts = [f"{written(write_number(float(step)))} {unit_in_words(unit)}".strip() for step in steps]
+        # Only for other steps: filling the box again would undo the person's choice at each change.
         if texts != [self.step.itemText(n) for n in range(self.step.count())]:
             self.step.clear()
             for text, step in zip(texts, steps, strict=True):
@@ -216,6 +219,7 @@ class ValuesPage(TuningPart):
         """Take the keys + and - for steps and A for an addition, which the table would take for a search."""
         if watched is self.table and isinstance(event, QKeyEvent) and event.type() == QEvent.Type.KeyPress:
             ten = event.modifiers() & Qt.KeyboardModifier.ControlModifier
+            # By text on every keyboard layout, by key with Ctrl, where there is no text.
             if sign := _SIGNS.get(event.text()) or _SIGNS.get(event.key()):
                 self._guarded(lambda: self._change(sign * (10 if ten else 1)))
                 return True
@@ -250,6 +254,7 @@ class ValuesPage(TuningPart):
         text, accepted = QInputDialog.getText(self, self.tr("Add to Value"), question)
         if not accepted or not text.strip():
             return
+        # As a fraction: an addition must not leave digits that nobody typed.
         number, rest = read_exact(text)
         if rest.strip():
             raise CalibrationError(
@@ -276,6 +281,7 @@ class ValuesPage(TuningPart):
     def _set(self, address: Address, value: Value, what: str) -> None:
         assert self.target is not None
         state = self.target.file.evaluation.state(address)
+        # Also here: the keys and buttons reach values whose cell cannot be edited.
         if not state.is_active:
             label = self.target.file.machine_schema.label(address)
             why = worded(state.why, self.target.file.schema.family.family)

@@ -279,6 +279,7 @@ class MotionView(PageOfFile):
                 return self._reference_values.get(self._what)
             case "saved" if self._workspace.document.saved != file.values:
                 saved = self._workspace.document.as_saved()
+                # In the same units, or both curves would not share a scale.
                 saved.header.units = file.header.units
                 return saved
         return None
@@ -316,6 +317,7 @@ class MotionView(PageOfFile):
         file, axis = self._workspace.file.copy(), self.axis.currentData()
         scenario = str(self.scenario.currentData() or "step")
         asked, file_before = (scenario, axis, tuple(settings.items())), self._compared(file)
+        # The trace before is made again only where its values or the settings are others.
         is_same = (self._file_before and self._file_before.values) == (file_before and file_before.values)
         before = self.before if is_same and asked == self._asked else None
         self._asked, self._file_before = asked, file_before
@@ -375,6 +377,7 @@ class MotionView(PageOfFile):
         self.recorder.show_trace(trace, ran.record_error)
         self.before = ran.before if ran.before and ran.before.units == trace.units else None
         counts = trace.units.get("position") == "counts"
+        # That an axis moves in counts is known only from its trace: the units of the settings follow it.
         if counts != self._counts:
             self._counts = counts
             self._fill(str(self.axis.currentData()))
@@ -415,6 +418,7 @@ class MotionView(PageOfFile):
         if self._file_ran is not None:
             self._reference_values[self._what] = self._file_ran
         self._offer_reference()
+        # Chosen already, the box emits nothing: the run has to be asked for.
         if self.against.currentData() == "kept":
             self.run()
         self.against.setCurrentIndex(self.against.findData("kept"))
@@ -451,6 +455,7 @@ class MotionView(PageOfFile):
                 self._workspace.file.schema.parameters[parameter]
             )
             axis = str(self.axis.currentData())
+            # A link to a parameter of the machine or of another kind of instance leads to its first value.
             address = (parameter, axis if axis in instances else instances[0])
         self._show_parameter(address)
 
@@ -481,6 +486,7 @@ class MotionView(PageOfFile):
         self._workspace.changed.disconnect(self._after_edit)
         self.recorder.end()
         if self._task is not None:
+            # The thread goes on: what it emits must not reach widgets that are being deleted.
             self._task.done.disconnect(self._show_result)
             self._task.failed.disconnect(self._stop)
             self._task.finished.disconnect(self._ended)

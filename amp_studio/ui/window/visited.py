@@ -44,6 +44,7 @@ class VisitedPlaces(Translated):
 
     def forget(self, page: FilePage) -> None:
         """Drop the places of a page that closes: they, and the menu, would keep its whole file."""
+        # Counted before they are dropped: as many places as are left up to the present one.
         self._at = sum(place.page is not page for place in self._places[: self._at + 1]) - 1
         self._places = [place for place in self._places if place.page is not page]
         self.menu.clear()
@@ -58,6 +59,7 @@ class VisitedPlaces(Translated):
         if self._at >= 0 and self._is_same(place, self._places[self._at]):
             self._places[self._at] = replace(self._places[self._at], address=address)
             return
+        # What lay ahead is dropped, as in a browser.
         self._places = [*self._places[: self._at + 1], place][-_KEPT:]
         self._at = len(self._places) - 1
 
