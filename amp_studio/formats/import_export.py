@@ -156,6 +156,7 @@ def _beside(path: Path) -> Callable[[str], str | None]:
 
     def text_of(name: str) -> str | None:
         try:
+            # Resolved, so that neither ".." nor a link leads out of the folder.
             place = (folder / name).resolve()
             return read_file(place, _MOST_BYTES).decode("latin-1") if place.is_relative_to(folder) else None
         except (OSError, ValueError):
@@ -232,6 +233,7 @@ def export_of(
         ) from None
     try:
         included = chosen.included(file) if chosen.included else {}
+        # Unknown entries are kept, so that the account has them: all that is written must come back.
         options = ReadOptions(True, file.machine, beside=included.get)
         read = chosen.read(content.decode(chosen.encoding), file.schema, options)
     except FormatError as error:
@@ -268,6 +270,7 @@ def _format_for_reading(content: bytes, family: str | None, format_key: str | No
     found = next((f for f in offered if f.recognises(text)), None)
     if found is None:
         known = f"Known: {', '.join(f.key for f in offered)}"
+        # A text of another family is the usual mistake: its name helps more than a list of formats.
         other = next((f for f in all_formats() if f.recognises(text)), None) if family else None
         if other is None:
             raise FormatError(f"Unrecognised file format. {known}")

@@ -56,6 +56,7 @@ def lines_kept(file: ParameterFile, kind: str) -> list[str] | None:
         if match is None:
             rows.append(str(line))
         elif match[1] in unknown:
+            # Taken away: what is left at the end has no place in the script.
             rows.append(unknown.pop(match[1]))
     if unknown:
         lost = f"{start}{next(iter(unknown))}"

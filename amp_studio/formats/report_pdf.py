@@ -35,6 +35,7 @@ def _attached(content: bytes) -> Iterator[bytes]:
             return
         packed = content[found.end() : content.find(b"endstream", found.end())]
         try:
+            # Bounded while it unpacks: a few kilobytes can become gigabytes.
             unpacked = zlib.decompressobj().decompress(packed, _MOST_BYTES)
         except zlib.error:
             unpacked = packed[:_MOST_BYTES]

@@ -53,6 +53,7 @@ def read_block(text: str, markup: str = "") -> list[list[str]]:
         markup = ""
     if len(text) > LONGEST:
         raise BlockError("The clipboard has more than 4 million characters. Copy fewer cells.")
+    # HTML first: it has the numbers themselves, the text only what the spreadsheet shows.
     rows = (_rows_of_html(markup) if "<td" in markup.lower() else []) or _rows_of_text(text)
     width = max(map(len, rows), default=0)
     if width * len(rows) > MOST_CELLS:
@@ -75,6 +76,7 @@ def two_ways(rows: Sequence[Sequence[str]]) -> set[str]:
     ``1.234`` alone is one and a bit; in a table that also has ``0,5`` it may be a thousand.
     """
     texts = {cell.strip() for row in rows for cell in row}
+    # Without a decimal comma anywhere a point can only be decimal.
     if not any(_DECIMAL_COMMA.match(text) for text in texts):
         return set()
     return {text for text in texts if _LIKE_GROUPS.match(text) and "," not in text}
@@ -177,6 +179,7 @@ class _TableReader(HTMLParser):
         self._cell = []
         self._number = attributes.get("sdval") or attributes.get("x:num")
         self._span = _span(attributes.get("colspan")), _span(attributes.get("rowspan"))
+        # Counted while it is read: spans of 1000 make many cells of few characters.
         if sum(map(len, self.rows)) > MOST_CELLS:
             raise BlockError(f"The clipboard has more than {MOST_CELLS:,} cells. Copy fewer.")
 
@@ -220,6 +223,7 @@ def _cell_text(cell: str, number: str | None) -> str:
     if match is None:
         return cell
     unit = cell[match.end() :].strip()
+    # A date, a time or a percentage: its number counts days, or hundredths.
     if re.match(r"[%\d:/.-]", unit):
         return cell
     return f"{number} {unit}" if unit else number

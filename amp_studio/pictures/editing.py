@@ -25,6 +25,7 @@ def stepped(file: ParameterFile, handle: Handle, right: int, up: int, times: int
     for drag in handle.drags:
         count = (right if drag.along == "x" else up) if len(handle.drags) > 1 else right + up
         if count:
+            # A value that falls along the picture, as a scaling, still follows the arrow that is pressed.
             value = _stepped(file, handle, drag, count * times if drag.rises else -count * times)
             if value is not None:
                 found[drag.address] = value

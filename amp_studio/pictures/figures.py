@@ -134,6 +134,7 @@ class ValueReader:
         if dimension(real.unit) != dimension(unit) or isinstance(real.value, (str, bool)):
             return None
         number = convert(float(real.value), real.unit, unit)
+        # Beyond these a picture has no scale.
         return number if number == 0.0 or LEAST <= abs(number) <= MOST else None
 
     def _in_file(self, address: Address, value: Value | None) -> Value | None:
@@ -213,6 +214,8 @@ class ValueReader:
         if in_entry is None or not math.isfinite(in_entry):
             return None
         definition = self.file.schema.parameters[address[0]]
+        # The coarser of both: nobody drags finer than a thousandth of the picture, and nothing below a
+        # decimal is stored.
         rounded = multiple(in_entry, max(self.resolution(address), grain))
         return Value(int(rounded) if definition.type == "integer" else rounded, entry)
 

@@ -205,6 +205,7 @@ def drawn_in(pictures: Iterable[FilePicture], address: Address) -> tuple[str, st
     """Return the picture and the part with a handle of a value; None where no handle moves it."""
     for picture in pictures:
         keys = [key for key, _ in picture.parts]
+        # Instances of gears are parts of their spindle: before the point is what a picture is of.
         own = next((key for key in keys if address[1].partition(".")[0] in key.split("+")), keys[0])
         scene = picture.scene(own)
         if any(drag.address == address for handle in scene.handles for drag in handle.drags):

@@ -50,6 +50,7 @@ def _draw_limit(shapes: SceneShapes, each: DrawnValue, n: int, scales: tuple[Sca
     x, y = scales
     place, level = each.number or 1.0, y.high * (0.24 + 0.12 * (n % 4))
     shapes.limit(((place, y.low), (place, y.high)), each)
+    # The geometric mean is the middle of a logarithmic scale.
     side: Literal["left", "right"] = "right" if place * place > x.low * x.high else "left"
     shapes.texts.append(Text((place, level), each.label, each.text, side, each.address, "dim"))
     if all(handle.drags[0].address != each.address for handle in shapes.handles):  # the break has one already

@@ -115,6 +115,7 @@ def _gear(figures: ValueReader, roles: GearRoles, instance: str) -> _Gear | None
         return None
     bottom = number_of(output_low)
     if bottom is None:
+        # Without an output of its low end the output is in proportion to the speed.
         bottom = top * (lowest / highest if highest else 0.0)
     name = f"gear {instance.partition('.')[2]}" if "." in instance else "spindle"
     at_standstill = bottom if roles.output_low else 0.0
@@ -186,5 +187,6 @@ def _output_handles(
         level = gear.output_low + share * (gear.output - gear.output_low)
         other = gear.output_low if figure is output else gear.output
         weight = share if figure is output else 1.0 - share
+        # Extended from the handle to the end of the line: the other end stays where it is.
         drag = figures.drag(figure, "y", top, lambda y, o=other, w=weight: o + (y - o) / w)  # type: ignore[misc]  # the defaults bind the figures of this turn
         yield figures.handle(figure, (place, level), drag, second=True)

@@ -62,9 +62,11 @@ def read_home(figures: ValueReader, roles: TravelRoles, axis: str, file: Paramet
     pull_off = figures.figure(role.pull_off, axis)
     back = number_of(pull_off)
     if roles.reach and back is not None and towards:
+        # Measured from the switch at 0: the axis pulls off it against the direction of the search.
         place = -towards * back
     speed = figures.figure(role.speed, axis)
     _note_way_off(figures, axis, off or -towards, speed)
+    # Left in one direction, the switch lies on the other side of the marker.
     return Home(position, marker, calibration, switch, place, -off or towards, off, speed, pull_off)
 
 

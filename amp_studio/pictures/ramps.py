@@ -56,6 +56,7 @@ def draw_ramps(file: ParameterFile, roles: RampRoles, axis: str, like: Scene | N
         return shapes.scene("ramps", axis, "Ramps", figures.axis(axis), x, y)
     base = feed.unit.split("/")[0]
     kinds = [found for role in roles.kinds if (found := _drawn(figures, role, axis, speed, base))]
+    # While it is dragged the move stays as long as it was: only the ramp changes.
     distance = like.fixed if like and like.fixed else _distance(kinds, speed)
     end = _draw_moves(shapes, roles, kinds, axis, (feed.number, speed, distance))
     bounds = [feed, *_bounds(figures, roles, feed, axis)]
@@ -279,6 +280,7 @@ def _pieces(ramp: Ramp, speed: float, distance: float) -> list[Piece]:
 def _way(ramp: Ramp, speed: float) -> float:
     """Return how far the axis goes while its speed changes."""
     if ramp.kind == "exponential":
+        # An exponential has no end: after five time constants 0.7 % of the speed is left.
         return 5.0 * ramp.time * speed
     return length(change(ramp, 0.0, speed)) + length(change(ramp, speed, 0.0))
 
@@ -354,6 +356,7 @@ def _handles(
             inverse = _deceleration_at(speed, distance / speed + 0.5 * risen)
             yield handle(each.deceleration, (end, 0.0), inverse, 2.0 * ramp.deceleration)
         if each.jerk and is_s_curve:
+            # Where the speed is too low the acceleration is never reached, and the jerk turns before it.
             slope = min(ramp.acceleration / ramp.jerk, math.sqrt(top / ramp.jerk))
             at, inverse = (slope, 0.5 * ramp.jerk * slope**2), _jerk_at(ramp)
             yield handle(each.jerk, at, inverse, 2.0 * ramp.jerk, second=True)
@@ -374,9 +377,11 @@ def _acceleration_at(ramp: Ramp, top: float) -> Callable[[float], float | None]:
         return top / t if t > 0.0 else None
 
     def sine(t: float) -> float | None:
+        # A sine-squared ramp has its greatest acceleration in the middle, twice the mean.
         return 2.0 * top / t if t > 0.0 else None
 
     def curved(t: float) -> float | None:
+        # From t = v/a + a/j: below twice the root of v/j no acceleration is quick enough.
         square = (ramp.jerk * t) ** 2 - 4.0 * top * ramp.jerk
         return (
             0.5 * (ramp.jerk * t - math.sqrt(square))

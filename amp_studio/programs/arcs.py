@@ -79,11 +79,13 @@ def arc_by_radius(x0: float, y0: float, x1: float, y1: float, radius: float, *, 
         raise ProgramBlockError("An arc by R has to end somewhere else", "arc-radius")
     size = abs(radius)
     inside = size * size - 0.25 * chord * chord
+    # A half circle of rounded figures is a little below 0: that is no fault of the program.
     if inside < -1e-9 * size * size:
         raise ProgramBlockError(
             f"The ends of the arc are {chord:.6g} mm apart: no circle of R {size:.6g}", "arc-radius"
         )
     height = math.sqrt(max(inside, 0.0))
+    # Two circles of this radius go through both points: R below 0 takes the one with the longer arc.
     side = -1.0 if clockwise == (radius > 0.0) else 1.0
     first = 0.5 * (x0 + x1) - side * height * (y1 - y0) / chord
     second = 0.5 * (y0 + y1) + side * height * (x1 - x0) / chord
@@ -94,5 +96,6 @@ def arc_by_radius(x0: float, y0: float, x1: float, y1: float, radius: float, *, 
 def _turned(sweep: float, *, clockwise: bool) -> float:
     whole = 2.0 * math.pi
     if clockwise:
+        # A sweep of 0 is a full circle here: an arc that goes nowhere is not programmed.
         return sweep % whole - whole if sweep % whole > 0.0 else -whole
     return sweep % whole or whole

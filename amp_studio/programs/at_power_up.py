@@ -52,6 +52,7 @@ def _active_codes(codes: ControlCodes) -> Iterator[PowerUpLine]:
             continue
         key = code_at_power_up(codes, group.key)
         known = codes.known[key] if key else None
+        # A choice that is set and names no code of the group means that none is active.
         is_set = not group.power_up or file.get(address[0]) is not None
         if known:
             yield PowerUpLine(group.name, known.code, known.facts.meaning, address, group.page)

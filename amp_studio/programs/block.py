@@ -80,9 +80,11 @@ class BlockReader:
         words = tuple(words_of(block, self.codes.facts.expressions))
         if (call := self._macro_call(words)) is not None:
             return ReadBlock(line, call)
+        # All codes before any word: a G behind a word decides how that word is read too.
         here = {word.code for word in words if word.letter in "GM"}
         for code in sorted(here):
             known = self.codes.known.get(code)
+            # A code that calls a program of the builder is no more the control's own: it switches nothing.
             if known and known.group and code not in self.codes.calls and not known.facts.only_amp:
                 self.active[known.group.key] = code
         return ReadBlock(line, tuple(self._read_words(words, here)))
@@ -107,6 +109,7 @@ class BlockReader:
     def _macro_call(self, words: tuple[TypedWord, ...]) -> tuple[BlockWord, ...] | None:
         """Return a call whose other words are values of variables; None for another block."""
         numbers = self.codes.facts.variables
+        # Only the first word behind the block number: a call whose words are variables begins its block.
         begin = 1 if words and words[0].letter == "N" else 0
         head = self.codes.known.get(words[begin].code) if begin < len(words) else None
         if head is None or head.facts.does not in ("subroutine", "modal-subroutine"):
@@ -116,6 +119,7 @@ class BlockReader:
             if word.letter not in numbers:
                 found.append(self._word(word, {words[begin].code}))
                 continue
+            # Without a format: the values of variables have none of a word.
             number = self.number(word, None, False)
             meaning = f"value of #{numbers[word.letter]} in the subroutine"
             found.append(
@@ -157,6 +161,7 @@ class BlockReader:
         number = float(word.number) if word.number and not word.is_expression else None
         if number is None:
             return BlockWord(word.text, word.letter, None, "", "no number", fault="a code without its number")
+        # First: a call of the builder takes the place of the control's own code.
         if (call := self.codes.calls.get(word.code)) is not None:
             return self._call(word, number, call)
         known = self.codes.known.get(word.code)
@@ -212,6 +217,7 @@ class BlockReader:
         for code in self.active.values():
             if (known := self.codes.known.get(code)) and known.facts.mode in ("inch", "metric"):
                 return known.facts.mode == "inch"
+        # No code of the unit is active: the parameter of power-up decides.
         units = self.codes.facts.units
         return units is not None and self.file.evaluation.canonical((units.param, "")) in units.inch
 

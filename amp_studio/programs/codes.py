@@ -60,6 +60,7 @@ class ControlCodes:
     def known(self) -> dict[str, KnownCode]:
         """Code without zeros -> what it is."""
         found: dict[str, KnownCode] = {}
+        # Those of groups last: a code of a group counts more than the same one without.
         for group in (None, *self.groups):
             for facts in group.codes if group else self.facts.codes:
                 for code in self._written(facts):

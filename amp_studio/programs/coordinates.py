@@ -55,6 +55,7 @@ class ProgramCoordinates:
 
     def set_shift(self, name: str, shift: Sequence[float]) -> None:
         self._work[name] = list(shift)
+        # Summed here once: every move needs the sum, and shifts are rare.
         self._shift = [sum(parts) for parts in zip(*self._work.values(), strict=True)]
         self.programmed = self.to_program(self.position)
 
@@ -66,6 +67,7 @@ class ProgramCoordinates:
         if does in OFF:
             self._switch_off(OFF[does])
             return
+        # The zero that was asked for stays, whatever work system the program selects.
         if self._has_zero:
             return
         self._system = code.code if does == "work-system" else ""
@@ -138,6 +140,7 @@ class ProgramCoordinates:
 
     def set_system(self, code: KnownCode, values: Mapping[int, float]) -> None:
         """Give a work system another zero."""
+        # What the program itself has set counts more than the file.
         shift = self._systems.get(code.code) or self.positions(code.facts.params[:1], "work coordinate")
         for place, value in values.items():
             shift[place] = value
@@ -176,6 +179,7 @@ class ProgramCoordinates:
 
     def to_machine(self, point: Sequence[float]) -> list[float]:
         if self.has_map:
+            # Scaled first, then turned; the way back undoes them in the opposite order.
             point = [
                 middle + (value - middle) * scale
                 for value, middle, scale in zip(point, self._around, self._scale, strict=True)
@@ -219,6 +223,7 @@ class ProgramCoordinates:
 
     def in_machine(self, words: BlockNumbers) -> list[float]:
         """Return the programmed end of a block whose words are places of the machine."""
+        # From the position in the machine: axes without a word stay where they are there.
         end = list(self.position)
         for place, value in words.axes.items():
             end[place] = value

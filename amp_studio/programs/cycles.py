@@ -64,6 +64,7 @@ class CycleHole:
         for n, step in enumerate(steps):
             if step == "feed by Q":
                 yield from self._pecks(steps[n + 1 :])
+            # Only the approach: a later "rapid to R" is between pecks, and those are made in `_pecks`.
             elif step != "rapid to R" or n < 2:
                 yield from self._moves_of(step)
 
@@ -95,6 +96,7 @@ class CycleHole:
         between = [*takewhile(lambda step: step != "again to the depth", steps)]
         at = self.level
         while True:
+            # The last peck is what is left: a feed never goes below the depth.
             at = max(at - peck, self.depth)
             yield CycleMove(at)
             if at <= self.depth:
@@ -106,6 +108,7 @@ class CycleHole:
             if step == "rapid to R":
                 yield CycleMove(self.level, is_rapid=True)
             elif step == "rapid back by the retract distance":
+                # Not above R: the first pecks may be shorter than the distance of the retract.
                 yield CycleMove(min(at + _length(self.retract), self.level), is_rapid=True)
             elif step == "rapid to D before the depth reached":
                 yield CycleMove(min(at + _length(self.clearance), self.level), is_rapid=True)
@@ -148,15 +151,19 @@ class CycleRuns:
         if not 1 <= repeats <= MOST_REPEATS:
             raise ProgramBlockError(f"L{repeats}: a cycle is repeated 1 to {MOST_REPEATS} times")
         hole = self._hole(words, modal, known.facts.steps, third, begins=begins)
+        # Once for all repeats, and before the first: a word that is missing is refused before anything
+        # moves.
         moves = tuple(hole.moves(known.facts.steps))
         for _ in range(repeats):
             target = list(self._moves.at.programmed)
             for place, value in words.axes.items():
+                # The word along the tool is the depth, no position of the hole.
                 if place != third:
                     target[place] = value if modal.is_absolute else target[place] + value
             self._moves.go(target, RAPID, modal.corner, modal)
             for move in moves:
                 self._do(move, third, modal)
+            # Repeats of pecks make many rows of one block, and the interpreter counts only between blocks.
             if len(self._moves.rows.kind) > MOST_ROWS:
                 raise ProgramBlockError(f"The program has more than {MOST_ROWS} moves")
 
@@ -177,6 +184,7 @@ class CycleRuns:
         self.has_run, initial = True, self._initial
         if "shift by Q in X" in steps and third == self._moves.at.axis("X"):
             raise ProgramBlockError(f"{modal.cycle} shifts in X, along which it bores in this plane")
+        # Incremental: R counts from the first level, and the depth from R.
         level = stored.level if modal.is_absolute else initial + stored.level
         depth = stored.depth if modal.is_absolute else level + stored.depth
         if not depth < level:

@@ -91,6 +91,7 @@ class _ExpressionReader:
             raise ProgramBlockError(f"{quoted(self._text)} is deeper than {DEEPEST} parentheses")
         sign = self._next()
         if sign in _SIGNS:
+            # Counted as a level: a thousand signs in a row would end Python's stack.
             return _SIGNS[sign] * self._single(depth + 1)
         if sign == "(":
             value = self.level(0, depth)

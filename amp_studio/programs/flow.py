@@ -81,6 +81,7 @@ class ProgramFlow:
         """Do a branch, an assignment or a call; return whether the line is one. ``at`` is behind it."""
         if not self._facts.statements:
             return False
+        # A plain search first: nearly all lines are moves, and the patterns are slow.
         if ("=" in line or "GO" in line or "RET" in line or "$" in line) and self._take_statement(line):
             return True
         if self._macros and self._macro.match(line):
@@ -165,6 +166,7 @@ class ProgramFlow:
         if assumed := self._codes.known[head.code].facts.assumed:
             self._notes.append(sentence(assumed))
         call = self._call_of(head.text, words)
+        # Refused now, where the call is, and not at the first move that would call it.
         self._place(call.label)
         if does == "modal-subroutine":
             self._modal = call
@@ -194,6 +196,7 @@ class ProgramFlow:
         assert level.call is not None
         level.left -= 1
         self._push(level)
+        # At each repeat: the subroutine may have changed its variables.
         self._parameters.update(level.call.values)
         self.at = self._place(level.call.label)
 
@@ -202,6 +205,7 @@ def _labels(lines: Sequence[str]) -> dict[int, int]:
     """Return number of a block -> its line from 0, the first of each number."""
     labels: dict[int, int] = {}
     for n, line in enumerate(lines):
+        # Longer ones are no block numbers, and Python refuses to convert a very long one.
         if (label := _LABEL.match(line.upper())) is not None and len(label[1]) < 12:
             labels.setdefault(int(label[1]), n)
     return labels

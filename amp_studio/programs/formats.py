@@ -59,6 +59,7 @@ def number_of(typed: str, form: NumberFormat) -> WordNumber:
         return WordNumber(float(typed))
     before, behind = form.digits
     if point:
+        # Zeros outside of the format change no number: they are taken, and named as assumed.
         if len(whole.lstrip("0")) > before or len(decimals.rstrip("0")) > behind:
             return _too_many(figures, form.digits)
         return WordNumber(float(typed), assumed=_zeros_assumed(whole, decimals, form.digits))
@@ -68,7 +69,10 @@ def number_of(typed: str, form: NumberFormat) -> WordNumber:
             f"{quoted(figures)} has more than the {before + behind} digits of the format {before}.{behind}",
         )
     if form.justified:
+        # Leading zeros left out: the last digit is the last decimal. Trailing ones: the first is the
+        # highest.
         placed = figures if form.justified == "right" else figures.ljust(before + behind, "0")
+        # By the text, so that 12345 with three decimals is 12.345 and no product that is off by a bit.
         return WordNumber(float(f"{'-' * typed.startswith('-')}{placed}e-{behind}"))
     if len(figures.lstrip("0")) > before:
         return _too_many(figures, form.digits)

@@ -144,12 +144,14 @@ class Interpreter:
             self.blocks += 1
             if self.blocks % EVERY == 0 and progress is not None:
                 progress(self.blocks)
+            # Only what is repeated counts: a long program without a loop is as long as it is.
             if max(self.blocks - len(lines) - MOST_REPEATED, len(rows.kind) - MOST_ROWS) > 0:
                 raise BlockError(f"The program has no end within {self.blocks - 1} blocks")
             if flow.take(line):
                 continue
             before = len(rows.kind)
             self._block(line)
+            # A dwell is a row and no move: after it nothing is called.
             if flow.calls_after_moves and len(rows.kind) > before and rows.kind[-1] != DWELL:
                 flow.call_after_move()
 
@@ -164,9 +166,12 @@ class Interpreter:
         pairs = self._letters_and_numbers(line)
         if not pairs:
             return
+        # Before the block's codes: M3 beside S must not count as a spindle that turns already.
         turns = self._modal.now.turns
+        # Codes first, wherever they are in the block: they decide how its other words are read.
         codes = self._modal.take(tuple([letter + number for letter, number in pairs if letter in "GM"]))
         for code in codes.selects:
+            # Before the move of the same block, whose end is in the new coordinates.
             self._at.select(str(code.facts.does), code)
         words = self._numbers.read(pairs, codes)
         waits = codes.waits or self._waits_for_speed(words.roles, turns=turns)
@@ -187,6 +192,7 @@ class Interpreter:
         return self._path.speed_waits == "always" or (turns and roles["spindle"] != self._moves.speed)
 
     def _letters_and_numbers(self, line: str) -> Sequence[tuple[str, str]]:
+        # Most lines are plain words, for which two patterns are faster than the reader of words.
         if _PLAIN.fullmatch(line):
             return _PAIRS.findall(line)
         if self._refused and line.lstrip()[:1] == self._refused:

@@ -124,6 +124,7 @@ class ModalCodes:
 
     def take(self, written: tuple[str, ...]) -> BlockCodes:
         """Return what the codes of a block do in the present state, which becomes that of the block."""
+        # A program has few shapes of blocks: what codes do in a state is worked out once for each.
         codes = self._known_blocks.get((written, self.now.key))
         if codes is None:
             if len(self._known_blocks) > MOST_SHAPES:
@@ -135,6 +136,7 @@ class ModalCodes:
     def _codes_of(self, written: tuple[str, ...]) -> BlockCodes:
         """Return what the codes of a block do in the present modal state."""
         codes: list[KnownCode] = []
+        # A copy: the states are kept, and a later block may come back to this one.
         active = dict(self.now.active)
         groups: set[str] = set()
         for each in written:
@@ -153,6 +155,7 @@ class ModalCodes:
             codes.append(known)
         modal = self._state_of(active)
         self._refuse_motion_in_cycle(codes, modal)
+        # Where a control takes the feed before it switches units, the F of that block is in the old one.
         is_inch = self.now.is_inch if self._path.feed_first else modal.is_inch
         return BlockCodes(tuple(codes), modal, is_inch, _once(codes), **_effects(codes))
 

@@ -50,6 +50,7 @@ class PathMoves:
         """Go in a straight line to a programmed point."""
         end = self.at.to_machine(target)
         self.at.programmed = target
+        # A block to where the axes are is no row: without a length it has no direction for its corners.
         if end == self.at.position:
             return
         feed = 0.0
@@ -65,6 +66,7 @@ class PathMoves:
             if not self._feed:
                 raise BlockError("A block of G93 has no F", "no-feed")
             feed = self._feed
+            # Each block of inverse time needs its own F, for it is the time of this block.
             self._feed = 0.0
             return way * feed / 60.0
         if not self._feed and self._path.feed:
@@ -85,6 +87,7 @@ class PathMoves:
         """Go along an arc of the plane to a programmed point."""
         first, second, _ = (self.at.axis("XYZ"[n]) for n in PLANES[modal.plane])
         scale = self.at.scale_of(first, second)
+        # In the machine's coordinates: a scale or a turn may lie between both.
         begin, end = self.at.position, self.at.to_machine(target)
         ends = begin[first], begin[second], end[first], end[second]
         if words.roles.get("turns", 1.0) != 1.0:
@@ -141,6 +144,7 @@ class PathMoves:
         """
         times = [self._file.evaluation.canonical((param, "")) for param in pauses]
         seconds = 1e-3 * sum(time for time in times if isinstance(time, float | int))
+        # Behind a dwell, or before the first move, everything is at rest already.
         if seconds or (len(self.rows.kind) and self.rows.kind[-1] != DWELL):
             self.dwell(seconds)
 

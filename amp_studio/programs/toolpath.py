@@ -100,6 +100,7 @@ class RowsWriter:
     """The rows of a path while a program is read."""
 
     axes: tuple[str, ...]
+    # Arrays of numbers, not lists: a float as an object takes four times the memory.
     ends: array[float] = field(default_factory=lambda: array("d"))
     kind: array[int] = field(default_factory=lambda: array("B"))
     line: array[int] = field(default_factory=lambda: array("i"))

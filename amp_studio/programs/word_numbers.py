@@ -69,6 +69,7 @@ class WordNumbers:
         for letter, text in pairs:
             if letter in "GMN":
                 continue
+            # Kept with the codes: the next block of the same shape reads its letters in the same way.
             reading = readings.get(letter)
             if reading is None:
                 reading = readings[letter] = self._reading(letter, codes)
@@ -121,6 +122,7 @@ class WordNumbers:
         return WordReading(
             self._axes.index(axis),
             meaning.startswith("center"),
+            # Under incremental codes every number of an axis is a distance already.
             meaning.startswith("distance") and codes.modal.is_absolute,
             scale=INCH if self._reader.unit_of(axis) == "in" else 1.0,
             plain=form is None and facts.zeros is None,
@@ -136,5 +138,6 @@ class WordNumbers:
             scale=scale,
             plain=use.format is None and self._reader.codes.facts.zeros is None and not use.whole,
             form=self._reader.number_format((use.format, "") if use.format else None, use.whole),
+            # In the unit in which the number then is: the printed bounds are in that of the word.
             bounds=use.bounds and (scale * use.bounds[0], scale * use.bounds[1]),
         )

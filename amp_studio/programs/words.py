@@ -87,6 +87,7 @@ def words_of(block: str, expressions: bool = False) -> Iterator[TypedWord]:
     deleted = _BLOCK_DELETE.match(text)
     place = deleted.end() if deleted else 0
     while place < len(text):
+        # Expressions first: for the other pattern their parentheses would begin a remark.
         found = (_WITH_EXPRESSION.match(text, place) if expressions else None) or _PART.match(text, place)
         if found is None:
             raise ProgramBlockError(_unreadable(block[place : place + 12], expressions=expressions))
