@@ -135,7 +135,6 @@ READERS = {
     "sim/identification/machine_file.py": "damaged machines of an axis",
     "sim/cam_reading.py": "damaged records of a drive",  # by the same reader of columns
     "sim/identification/drive_record.py": "damaged records of a drive",
-    "sim/identification/overlay.py": "damaged records of a drive",  # by the same reader of columns
     "sim/identification/response.py": "damaged frequency responses",
     "sim/identification/recording.py": "damaged tunings and recordings",
     "sim/tuning/record.py": "damaged tunings and recordings",
