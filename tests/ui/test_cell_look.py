@@ -6,7 +6,8 @@ from __future__ import annotations
 
 import pytest
 
-from amp_studio.schema import family_ids, load_schema
+from amp_studio.schema import Value, family_ids, load_schema
+from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.table.cell_look import grouped, short_labels
 
 
@@ -15,7 +16,7 @@ from amp_studio.ui.table.cell_look import grouped, short_labels
     [
         ("1234", "1234"),
         ("12345", "12\u202f345"),
-        ("-2097152", "-2\u202f097\u202f152"),
+        ("−2097152", "−2\u202f097\u202f152"),
         ("123456.789012", "123\u202f456.789012"),
         ("0.0000254", "0.0000254"),
         ("1e-07", "1e-07"),
@@ -24,6 +25,16 @@ from amp_studio.ui.table.cell_look import grouped, short_labels
 )
 def test_digits_are_in_groups_from_five_on(figure: str, displayed: str) -> None:
     assert grouped(figure) == displayed
+
+
+def test_a_minus_is_as_wide_as_a_digit_where_it_is_shown_and_plain_where_it_is_typed(
+    window: MainWindow,
+) -> None:
+    address = ("zone.overtravel_negative", "1")
+    assert window.table.cell_text(address) == "−500 mm"
+    assert window.table.typed_value(address) == "-500 mm"
+    window.edits.commit(address, "−400 mm")
+    assert window.workspace.file.get(address) == Value(-400.0, "mm")
 
 
 def test_a_short_choice_is_a_code_that_no_other_has() -> None:

@@ -10,8 +10,9 @@ from pytestqt.qtbot import QtBot
 
 from amp_studio.files import Document, ParameterFile
 from amp_studio.schema import Value
-from amp_studio.sim import MotionCheck
+from amp_studio.sim import Alarm, MotionCheck
 from amp_studio.ui.base.task import Task
+from amp_studio.ui.base.theme import colour, scheme
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.motion.check_page import CheckPage
 
@@ -88,3 +89,24 @@ def test_what_is_bad_comes_first_and_a_row_stays_its_own_check(router: Workspace
     assert [page.table.item(row, 2).text() for row in range(5)] == ["Y", "Z", "X", "Z", "S"]
     assert [check.letter for check in page.checks] == ["Y", "Z", "X", "Z", "S"]
     assert page.summary.text() == "2 bad, 2 good, 1 not possible"
+
+
+def test_what_is_below_the_checks_is_german_and_its_links_follow_the_theme(
+    router: Workspace, qtbot: QtBot, german: None
+) -> None:
+    """An alarm was English, and a link of a light window stayed dark blue in a dark one."""
+    page = CheckPage(router, print)
+    qtbot.addWidget(page)
+    alarm = Alarm("ALARM:17", 1.0, "A motor driver reports a fault (A34)")
+    page.show_check(MotionCheck("travel", "X", "X", "bad", alarms=(alarm,), params=("axis.max_rate",)))
+    page.table.setCurrentCell(0, 0)
+    assert "<b>ALARM:17</b> Ein Motortreiber" in page.detail.text()
+    page.show_check(MotionCheck("jog", "X", "X", "bad", why="too fast", params=("axis.max_rate",)))
+    page.table.setCurrentCell(1, 0)
+    assert "too fast" in page.detail.text(), "a reason that is cut in the table is whole here"
+    seen = set()
+    for theme in ("dark", "light"):
+        scheme().choose(theme)
+        assert f"color:{colour('sel').name()}" in page.detail.text()
+        seen.add(page.detail.text())
+    assert len(seen) == 2

@@ -30,6 +30,21 @@ def test_both_sides_are_seen_and_numbers_are_not_below_the_branches(qtbot: QtBot
     assert min(table.columnWidth(column) for column in (NAME, CONTROL, FILE)) >= 96
 
 
+def test_the_names_of_both_sides_are_read_whole_where_there_is_room(qtbot: QtBot) -> None:
+    file, other = new_file("9pc", "mill", ["X"]), new_file("9pc", "mill", ["X"])
+    file.set(("home.calibration", "1"), Value(1.5, "mm"))
+    table = DifferenceTable()
+    qtbot.addWidget(table)
+    found = compare(file.schema, file.values, other.values).differences
+    table.show_differences(file, found, to_control=True, secrets=False)
+    table.show_sides("CNC_1 (192.168.100.20:44547)", "mill.amp")
+    for width, is_whole in ((1400, True), (555, False)):
+        table.resize(width, 300)
+        table.show()
+        assert (table.columnWidth(CONTROL) >= table.header().sectionSizeHint(CONTROL)) is is_whole
+        assert table.columnWidth(CONTROL) == table.columnWidth(FILE)
+
+
 def test_conditions_leave_their_details_out_before_a_word_is_cut(qtbot: QtBot) -> None:
     line = ConditionLine()
     qtbot.addWidget(line)

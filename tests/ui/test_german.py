@@ -17,6 +17,7 @@ from amp_studio.schema.units import UNITS
 from amp_studio.ui.base.figures import sentence, written
 from amp_studio.ui.base.time_words import in_words
 from amp_studio.ui.base.translated import unit_in_words, worded
+from amp_studio.ui.motion.tuning_page import TuningView
 from amp_studio.ui.table.value_delegate import allowed_text
 from amp_studio.validate.plausible.experience import TITLES
 
@@ -51,6 +52,21 @@ def test_numbers_are_shown_with_a_comma_and_typed_with_either_sign(german: None,
     assert window.table.typed_value(address) == "12.8 mm", "editors and the clipboard have a point"
     assert written("10.0.0.21") == "10,0,0,21", "which is why only values go through it"
     assert [button.text() for button in window.tools.units.buttons.values()] == ["mm", "Zoll"]
+
+
+def test_why_a_family_has_no_such_axis_and_what_a_build_needs_is_german(german: None, window_with) -> None:
+    """A walk through every page of a German window found these in English."""
+    window = window_with("grblhal-router")
+    window.enable()
+    tips = {window.menus[key].toolTip() for key in ("axis.name", "axis.type")}
+    assert tips == {
+        "grblHAL and Grbl hat feste Namen für ihre Achsen",
+        "grblHAL and Grbl hat keinen Parameter für die Art einer Achse",
+    }
+    window.menus["view.tuning"].trigger()
+    tuning = window.findChildren(TuningView)[-1]
+    backlash = next(part for part in tuning.values if part.page.key == "reversal")
+    assert "Nur in Firmware mit Umkehrspielkompensation." in backlash.hint.text()
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from amp_studio.pictures import LiveLimits
 from amp_studio.transfer import AxisStatus, ControlStatus, known_fault
+from amp_studio.transfer.errors import NoConnectionError
 from amp_studio.ui.control import readings as live
 from amp_studio.ui.control.live import LivePage
 from amp_studio.ui.control.readings import StatusReadings
@@ -119,6 +120,12 @@ def test_a_fault_comes_with_cause_cure_parameters_and_page_and_stops_the_reading
     assert page.state.text() == "Stopped: the control has a fault."
     page.faults.linkActivated.emit("setup.max_position_error")
     assert followed == ["setup.max_position_error"]
+
+
+def test_readings_that_fail_are_no_exchange_that_replaces_anything(page: LivePage, german: None) -> None:
+    """It ended in English, with "nothing was replaced in the control"."""
+    page._over(NoConnectionError("no connection to the control (tcp://127.0.0.1:1: nothing listens there)"))
+    assert page.state.text() == "Keine Verbindung zur Steuerung (tcp://127.0.0.1:1: dort antwortet nichts)"
 
 
 def test_a_control_without_a_following_error_is_drawn_by_its_position(page: LivePage) -> None:

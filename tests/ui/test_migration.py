@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from PySide6.QtGui import QFontMetrics
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
@@ -53,6 +54,17 @@ def test_each_parameter_is_listed_once_with_its_meaning_and_what_it_becomes(wind
         for _, meaning, new in rows(window)
     ), rows(window)
     assert window.losses.text()
+
+
+def test_the_old_values_are_read_whole_while_there_is_room(window: MigrationWindow) -> None:
+    """They were cut at 360 pixels beside two empty columns."""
+    tree = window.tree
+    metrics = QFontMetrics(tree.font())
+    longest = max(metrics.horizontalAdvance(old) for old, _, _ in rows(window))
+    assert tree.columnWidth(0) >= min(460, longest)
+    tree.setColumnWidth(0, 200)
+    answer(window)
+    assert tree.columnWidth(0) == 200, "what a person has made of it stays"
 
 
 def test_nothing_but_a_draft_is_written_while_a_question_is_open(window: MigrationWindow) -> None:

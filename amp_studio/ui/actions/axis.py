@@ -23,7 +23,7 @@ from amp_studio.files import (
 )
 from amp_studio.schema import AxisProfile
 from amp_studio.ui.base.modal import run_dialog
-from amp_studio.ui.base.translated import tr
+from amp_studio.ui.base.translated import message_in_words, tr
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.window.studio_window import StudioWindow
 
@@ -36,12 +36,13 @@ if TYPE_CHECKING:
 def why_no_name(workspace: Workspace) -> str:
     """Return why the axes have their names for good; empty where they can have others, as in all of these."""
     schema = workspace.file.schema
-    return why_letters_are_fixed(schema) if axis_instances(workspace.file) else why_axes_are_fixed(schema)
+    why = why_letters_are_fixed(schema) if axis_instances(workspace.file) else why_axes_are_fixed(schema)
+    return message_in_words(why)
 
 
 def why_no_type(workspace: Workspace) -> str:
     """Return why the types of axes are fixed."""
-    return why_types_are_fixed(workspace.file.schema)
+    return message_in_words(why_types_are_fixed(workspace.file.schema))
 
 
 def why_no_servo(workspace: Workspace) -> str:
@@ -55,14 +56,14 @@ def why_no_servo(workspace: Workspace) -> str:
 def why_full(workspace: Workspace) -> str:
     """Return why no axis can be added."""
     if fixed := why_axes_are_fixed(workspace.file.schema):
-        return fixed
+        return message_in_words(fixed)
     full = tr("All {count} axes are there")
     return "" if places_offered(workspace.file) else full.format(count=len(axis_instances(workspace.file)))
 
 
 def why_none_less(workspace: Workspace) -> str:
     """Return why no axis can be deleted."""
-    return why_axes_are_fixed(workspace.file.schema)
+    return message_in_words(why_axes_are_fixed(workspace.file.schema))
 
 
 def why_no_other(workspace: Workspace) -> str:

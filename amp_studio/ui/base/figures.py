@@ -15,12 +15,16 @@ from .translated import message_in_words, tr, unit_in_words
 _NUMBER = re.compile(r"(?<![\w.$@])(?<!figure )[-−]?\d+\.\d+(?![\w]|\.\d)")
 """A number in a sentence; no address (``P3N0.5``, ``$22.0``), version, network address, printed figure."""
 _POINT = re.compile(r"(?<=\d)\.(?=\d)")
+_MINUS = re.compile(r"^-(?=\d)")
 _POWER = re.compile(r"(?<=\d)e([+-]?)0*(\d+)")
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def written(figure: str) -> str:
-    """Return a number with the decimal sign of the language; ``1e-07`` is 1 × 10⁻⁷."""
+    """Return a number with the decimal sign of the language and a minus as wide as a digit;
+    ``1e-07`` is 1 × 10⁻⁷.
+    """
+    figure = _MINUS.sub("−", figure)
     return _POWER.sub(_power, _POINT.sub(tr(".", "decimal sign"), figure))
 
 

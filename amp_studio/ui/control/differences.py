@@ -25,7 +25,7 @@ NUMBER, NAME, AXIS, CONTROL, FILE, MIND = range(6)
 _NAME, _LEAST_NAME, _SIDE, _LEAST_SIDE = 260, 130, 150, 96
 _MOST_NUMBER = 84
 """Widths in pixels of the names and of a side, where there is room and where there is not; and of a number at
-most."""
+most. A side whose name needs more has more where there is room."""
 _ADDRESS = Qt.ItemDataRole.UserRole + 1
 
 
@@ -90,6 +90,7 @@ class DifferenceTable(QTreeWidget):
         """Name the two sides in the head."""
         self.headerItem().setText(CONTROL, f"A  {control}")
         self.headerItem().setText(FILE, f"B  {file}")
+        self._share_room()
 
     def show_nothing(self) -> None:
         """Forget what differed, and the choices."""
@@ -153,7 +154,8 @@ class DifferenceTable(QTreeWidget):
                 column, min(_MOST_NUMBER, max(map(metrics.horizontalAdvance, set(texts))) + least)
             )
         room = self.viewport().width() - self.columnWidth(NUMBER) - self.columnWidth(AXIS)
-        side = min(_SIDE, max(_LEAST_SIDE, room // 4))
+        names = [self.header().sectionSizeHint(column) for column in (CONTROL, FILE)]
+        side = min(max(_SIDE, *names), max(_LEAST_SIDE, room // 4))
         mind = max(_LEAST_SIDE, self.header().sectionSizeHint(MIND))
         for column, width in (
             (NAME, max(_LEAST_NAME, min(_NAME, room - 2 * side - mind))),

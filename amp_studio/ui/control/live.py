@@ -31,6 +31,7 @@ from amp_studio.ui.base.emulated_control import EmulatedControl
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.theme import GAP2, GAP3, font
+from amp_studio.ui.base.translated import message_in_words
 from amp_studio.ui.forms.table_items import item_at
 
 from .limit_bar import LimitBar
@@ -221,8 +222,11 @@ class LivePage(QDialog):
     def _over(self, error: object) -> None:
         self._silence.stop()
         self.toggle.setText(self.tr("&Start"))
-        # Without an error it was stopped here, which has its own reason.
-        self.state.setText(str(error) if error is not None else self._why)
+        text = self._why  # without an error it was stopped here
+        if isinstance(error, Exception):  # of an exchange without what the control contains: this reads only
+            what = message_in_words(getattr(error, "what", "") or str(error))
+            text = f"{what[:1].upper()}{what[1:]}"
+        self.state.setText(text)
         self._grey(True)
 
     def _silent(self) -> None:

@@ -128,7 +128,7 @@ class MergeDetail(QFrame):
         self.facts = QLabel()
         self.facts.setFont(font("small"))
         self.facts.setAlignment(Qt.AlignmentFlag.AlignTop)
-        layout = QHBoxLayout(self)
+        layout = self._row_of_parts = QHBoxLayout(self)
         layout.setContentsMargins(12, 10, 12, 8)
         layout.setSpacing(24)
         layout.addLayout(left, 2)
@@ -152,6 +152,7 @@ class MergeDetail(QFrame):
         ]
         for widget in widgets:
             widget.setVisible(can)
+        self._row_of_parts.setStretch(1, 5 if can else 0)  # else a text alone would be narrow beside nothing
         if row is None:
             self.title.setText("")
             self.words.setText(

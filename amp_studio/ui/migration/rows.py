@@ -12,8 +12,8 @@ from amp_studio.meaning import MigratedParameter, Migration
 from amp_studio.ui.base.theme import Token, font, icon
 from amp_studio.ui.base.translated import tr
 
-_OLD, _MEANING = 360, 190
-"""Widths of the columns as the window opens."""
+_MOST_OLD, _MOST_MEANING, _LEAST = 460, 280, 120
+"""Widths of the columns as the window opens: at most, and at least."""
 _AS_WRITTEN = ("key", "value", "raw", "id", "page", "answer")
 """Facts of an entry that are no words: they stay as file and control have them."""
 
@@ -120,9 +120,8 @@ class MigrationTree(QTreeWidget):
         self.setAccessibleName(tr("Parameters and what becomes of them"))
         self.setUniformRowHeights(True)
         self.setAlternatingRowColors(True)
-        self.header().resizeSection(0, _OLD)
-        self.header().resizeSection(1, _MEANING)
         self._folded = {"exact", "old_hardware"}
+        self._is_sized = False
 
     def show_migration(
         self, migration: Migration, label: Callable[[MigratedParameter], str], sentence: Callable[[str], str]
@@ -138,6 +137,11 @@ class MigrationTree(QTreeWidget):
             own = [row for entry, row in rows if entry.outcome == outcome]
             if own:
                 self._add(outcome, f"{title} ({len(own)})", mark, shade, own)
+        if not self._is_sized and rows:
+            self._is_sized = True  # once: what a person has made of the columns stays
+            for column, most in ((0, _MOST_OLD), (1, _MOST_MEANING)):
+                self.resizeColumnToContents(column)
+                self.setColumnWidth(column, min(most, max(_LEAST, self.columnWidth(column))))
         self.verticalScrollBar().setValue(place)
 
     def _heads(self) -> Iterator[QTreeWidgetItem]:

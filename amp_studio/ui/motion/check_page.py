@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Callable
 
 from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtGui import QShowEvent
+from PySide6.QtGui import QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QHBoxLayout,
     QHeaderView,
@@ -26,7 +26,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import unit_text
 from amp_studio.sim import MotionCheck, SimulationError, check_motion, value_text
 from amp_studio.ui.base.task import Task, TaskProgress
-from amp_studio.ui.base.theme import GAP2, GAP3, ROW, Token, font, icon
+from amp_studio.ui.base.theme import GAP2, GAP3, ROW, Token, colour, font, icon, scheme
 from amp_studio.ui.base.translated import scenario_in_words, sentenced, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.page.page_of_file import PageOfFile
@@ -40,6 +40,8 @@ MARKS: dict[str, tuple[str, Token]] = {
     "not possible": ("circle-dashed", "dim"),
 }
 """Verdict -> its icon."""
+_LEAST_REASON = 240
+"""Pixels for a reason at least, however narrow the window is."""
 
 
 class _Checking(QObject):
@@ -109,6 +111,7 @@ class CheckPage(PageOfFile):
         head.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         head.setStretchLastSection(True)
         self.table.currentCellChanged.connect(lambda *_: self._show_detail())
+        scheme().changed.connect(self._show_detail)  # a link keeps the colour in which it was written
         self.detail = QLabel()
         self.detail.setWordWrap(True)
         self.detail.setTextFormat(Qt.TextFormat.RichText)
@@ -230,12 +233,24 @@ class CheckPage(PageOfFile):
             return
         check = self.checks[row]
         self.motion.setEnabled(check.verdict != "not possible")
-        parts = [f"<b>{alarm.code}</b> {alarm.message}" for alarm in check.alarms]
+        parts = [
+            f"<b>{alarm.code}</b> {html.escape(sentenced(alarm.message, self._family))}"
+            for alarm in check.alarms
+        ] or [html.escape(sentenced(check.why, self._family))]
         if check.params:
             names = {each: name_of(self._workspace.file.schema, each) for each in check.params}
-            links = ", ".join(f'<a href="{each}">{html.escape(name)}</a>' for each, name in names.items())
+            shade = colour("sel").name()
+            links = ", ".join(
+                f'<a href="{each}" style="color:{shade}">{html.escape(name)}</a>'
+                for each, name in names.items()
+            )
             parts.append(f"{self.tr('Parameters:')} {links}")
-        self.detail.setText("<br>".join(parts))
+        self.detail.setText("<br>".join(filter(None, parts)))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Leave room for the figures beside a long reason, which is whole below the table."""
+        super().resizeEvent(event)
+        self.table.horizontalHeader().setMaximumSectionSize(max(_LEAST_REASON, self.width() * 9 // 20))
 
 
 def _figure(name: str, value: float | None, unit: str) -> str:

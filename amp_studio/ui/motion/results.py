@@ -93,7 +93,7 @@ def _is_beside(name: str, kinds: Sequence[str], result: Container[str]) -> bool:
 
 
 def _number(value: float | None) -> str:
-    return "–" if value is None else written(value_text(value, digits=5)).replace("-", "−")
+    return "–" if value is None else written(value_text(value, digits=5))
 
 
 class RecommendationsPage(QScrollArea):

@@ -15,7 +15,7 @@ from amp_studio.schema import Address, GuideStep, Value, unit_text
 from amp_studio.sim import Trace, address_of, value_text
 from amp_studio.ui.base.figures import show_value, written
 from amp_studio.ui.base.theme import GAP, GAP2, SMALL_CONTROL, colour, font
-from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.translated import sentenced, worded
 
 from .tuning_target import TuningTarget
 from .tuning_values import usual_step
@@ -149,7 +149,8 @@ class StepDetail(QWidget):
         if now is None or step.shows is None:
             self.shows.setText(why)
             return
-        lines = [f"{alarm.code}: {worded(alarm.message)}" for alarm in now.alarms]
+        family = self._target.file.schema.family.family if self._target is not None else ""
+        lines = [f"{alarm.code}: {sentenced(alarm.message, family)}" for alarm in now.alarms]
         for name in step.shows.figures:
             value, unit = now.result.get(name, (None, ""))
             if value is None:

@@ -155,7 +155,8 @@ class ValuesPage(TuningPart):
         self._filling = False
         page = self.tr("Page {page}.").format(page=self.page.page)
         none = self.tr("No axis of this file has any of these values.") if not addresses else ""
-        self.hint.setText(" ".join(filter(None, (none, worded(self.page.note), page))))
+        note = worded(self.page.note, self.target.file.schema.family.family)
+        self.hint.setText(" ".join(filter(None, (none, note, page))))
         may = self.target.may_edit and bool(addresses)
         for widget in (self.decrease, self.increase, self.replace, self.add, self.step, self.read):
             if widget is not None:

@@ -37,7 +37,7 @@ _BRACKETS = re.compile(r"\s*\([^()]*\)")
 _DIGITS_OF_DEFAULT, _CONVERTED = 5, 1e-5
 """Digits of a default that a person wrote, and how far the printed conversion
 to another unit is from it at most."""
-_WHOLE = re.compile(r"(-?)([0-9]{5,})(.*)")
+_WHOLE = re.compile(r"([-−]?)([0-9]{5,})(.*)")
 
 
 @dataclass(slots=True)
