@@ -95,7 +95,7 @@ def test_a_program_shows_its_time_what_limits_it_and_another_value(
     window.view.buttons["tilted"].click()
     enter(window, "change", "speeds.rapid=150; speeds.min_corner=+20%")
     qtbot.waitUntil(lambda: window.tries.table.rowCount() == 1, timeout=10 * WAIT_MS)
-    assert window.tries.table.item(0, 2).text().startswith("-")
+    assert window.tries.table.item(0, 2).text().startswith("−")
     window.tries.apply_button.click()
     assert applied == [
         {("speeds.rapid", ""): Value(150.0, "in/min"), ("speeds.min_corner", ""): Value(6.0, "in/min")}
