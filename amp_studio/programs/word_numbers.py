@@ -56,7 +56,7 @@ class WordNumbers:
         number_first: bool,
     ) -> None:
         """``parameters`` are those that the program sets; ``notes`` gets what is assumed; ``number_first`` is
-        whether the number of a block stands at its beginning alone.
+        whether the number of a block has to be its first word.
         """
         self._number_first = number_first
         self._reader, self._axes, self._parameters, self._notes = reader, axes, parameters, notes

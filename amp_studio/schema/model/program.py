@@ -308,7 +308,7 @@ class ProgramPath(Model):
     """What a % alone in a line does that is not the first one: it ends the program, one that begins with a %
     alone, or nothing."""
     number_first: bool = False
-    """Whether the number of a block (N) stands at its beginning alone."""
+    """Whether the number of a block (N) has to be its first word."""
     feed_first: bool = False
     """Whether a feed in a block that changes the unit of length is read in the unit before it."""
     speed_waits: Literal["", "always", "turning"] = ""
