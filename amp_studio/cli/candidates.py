@@ -155,6 +155,7 @@ def assignments(named: str, current: str) -> Iterator[str]:
         parameter = file.schema.parameters[address[0]]
         for choice in (parameter.choices or ()) if bit is None else ():
             label = label_of(parameter, choice.key)
+            # A label with blanks would have to be quoted, which shells do in different ways.
             yield f"{name}={label if ' ' not in label else choice.code or choice.key}"
 
 

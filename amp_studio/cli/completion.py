@@ -20,6 +20,7 @@ def answer(words: Sequence[str], breaks: str) -> None:
     the answer there.
     """
     typed = list(words)
+    # bash parts words at its own breaks (: and =), so it gives the line as a whole.
     if typed[:1] == ["--line"]:
         typed = _words_of(typed[1] if len(typed) > 1 else "")[1:]
     if not typed:
@@ -39,6 +40,7 @@ def _words_of(line: str) -> list[str]:
     """Part a line that may end inside a word or a quote; the last word is the one that is typed,
     perhaps empty.
     """
+    # A line that is still typed may end inside a quote.
     for closing in ("", "'", '"'):
         try:
             words = shlex.split(line + closing)

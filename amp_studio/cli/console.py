@@ -64,6 +64,7 @@ def progress(of: str = "") -> Callable[[str, int, int], None]:
     each stage is a line, and what is waited for.
     """
     last: dict[str, int] = {}
+    # Of several controls at once each would write over the line of the others.
     changes = sys.stderr.isatty() and not of
     before = f"{of}: " if of else ""
 

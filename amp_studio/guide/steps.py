@@ -49,6 +49,7 @@ def _by_facts(schema: Schema, order: Commissioning) -> Iterator[_Part]:
     for step in order.steps:
         of_groups = chain.from_iterable(groups[key].parameters for key in step.groups if key in groups)
         wanted = (*step.params, *(p.id for p in of_groups if p.id not in named))
+        # Taken out as they are given: a parameter that several steps name is in the first of them.
         ids = [name for name in wanted if name in left]
         again = tuple(schema.parameters[name] for name in step.again if name in schema.parameters)
         yield step.id, step.title, step.what, step.page, tuple(left.pop(name) for name in ids), again

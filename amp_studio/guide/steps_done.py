@@ -142,6 +142,7 @@ class _StepFindings:
         self.errors = Counter[int]()
         self.deferred: list[tuple[Finding, int]] = []
         for finding, number, is_own in belongs:
+            # Once a step, however many of its values cause it.
             its = {places[name].number for name, _ in finding.causes if name in places}
             if finding.severity == "error":
                 self.errors.update(its)
@@ -159,8 +160,10 @@ def progress(validator: Validator, findings: Sequence[Finding] | None = None) ->
     counts = _StepCounts(validator, places)
     belongs = [(f, *_belongs_to(file, f)) for f in findings if f.rule != NOT_SET]
     reached = min({*counts.open} | _steps_with_errors(belongs), default=len(steps) + 1)
+    # In a fresh file nothing is reached: every finding is about printed defaults.
     come_to = len(steps) if not validator.not_set else 0 if _is_fresh(file) else reached
     ticked = (step.number for step in steps if step.id in file.header.done)
+    # A tick is a person's word that the steps up to it are done: their findings count at once.
     found = _StepFindings(belongs, places, max(come_to, *ticked, 0))
     each = tuple(
         StepProgress(
@@ -213,6 +216,7 @@ def _belongs_to(file: ParameterFile, finding: Finding) -> tuple[int, bool]:
 
     untouched = [places[a[0]].number for a in finding.addresses if a[0] in places and is_untouched(a)]
     causes = [places[a[0]].number for a in finding.causes if a[0] in places]
+    # The last step with an untouched value: before that one is set nobody can have compared them.
     return max(untouched or causes[:1], default=0), not all(map(is_untouched, finding.causes))
 
 
@@ -235,6 +239,7 @@ def next_open(now: GuideProgress, after: Address | None = None) -> Address | Non
     place = {p.id: n for n, p in enumerate(parameters)}
     here = place.get(after[0], -1)
     at = now.places.get(after, -1)
+    # First the other axes of the same parameter, then what comes behind it, then from the top again.
     own = [a for a in opened if a[0] == after[0] and now.places[a] > at]
     behind = [a for a in opened if place[a[0]] > here]
     return next(iter([*own, *behind, *opened]), None)

@@ -103,6 +103,7 @@ def _unit(concept: str, *, turns: bool) -> str:
 
 def _is_same(first: ConceptValue, other: ConceptValue) -> bool:
     if isinstance(first, float) and isinstance(other, float):
+        # An absolute part too: beside 0 nothing is relatively close.
         return math.isclose(first, other, rel_tol=_SAME, abs_tol=_SAME)
     return first == other
 

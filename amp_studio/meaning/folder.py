@@ -26,6 +26,7 @@ def write_migration(migration: Migration, folder: Path) -> list[str]:
     nobody knows what in it is of another machine.
     """
     if folder.suffix:
+        # "x" fails where the file exists: a check before it could be overtaken.
         with folder.open("x", encoding="utf-8", newline="\n") as file:
             file.write(next(iter(migration.written.texts.values())))
         return [next(iter(migration.written.texts))]
@@ -37,6 +38,7 @@ def write_migration(migration: Migration, folder: Path) -> list[str]:
     if folder.exists():
         raise FileExistsError(17, "it is there already; name a new folder", str(folder))
     parent = folder.resolve().parent
+    # Beside the goal: a rename is whole or not at all only within one file system.
     made = Path(tempfile.mkdtemp(prefix=f".{folder.name}.", dir=parent))
     try:
         for name, text in texts.items():
@@ -44,6 +46,7 @@ def write_migration(migration: Migration, folder: Path) -> list[str]:
                 file.write(text)
                 file.flush()
                 os.fsync(file.fileno())
+        # mkdtemp makes it for its owner alone.
         made.chmod(0o755)
         made.rename(folder)
     except BaseException:

@@ -147,6 +147,7 @@ def _graded(
     address: Address, param: str, raw: str, found: list[tuple[tuple[str, ConceptFigure], Graded]]
 ) -> MigratedParameter:
     """Return a parameter with the worst grade of what comes from it; all keys that it went to are named."""
+    # A parameter that went to several keys is as good as the worst of them.
     (_, figure), worst = min(found, key=lambda pair: _WORST.index(pair[1].outcome))
     keys = list(dict.fromkeys(g.key for _, g in found if g.key))
     facts: dict[str, Any] = {

@@ -96,6 +96,8 @@ class _Reader:
         )
         for fact in concepts:
             sources = tuple(self.sources(fact.reads, instance))
+            # A concept none of whose parameters is active is not known; an expression might still give a
+            # constant.
             if fact.reads and not sources:
                 continue
             value = self.value(fact.reads, fact.value, instance, derived)
@@ -131,6 +133,7 @@ class _Reader:
             found: ConceptValue = compiled.execute(context)
         except EVALUATION_ERRORS:
             return _NOTHING
+        # CEL keeps whole numbers apart; concepts are compared as floats.
         return float(found) if isinstance(found, int) and not isinstance(found, bool) else found
 
     def questions(self, axes: list[AxisMeaning]) -> Iterator[MigrationQuestion]:
@@ -151,6 +154,7 @@ class _Reader:
         try:
             return self.file.evaluation.reference(text, instance, scope).addresses
         except UnknownParameterError:
+            # Raises for a name that the family does not have: then the facts are wrong, not the file.
             self.file.schema.parameter(read_address(text)[0])
             return ()
 

@@ -107,6 +107,7 @@ class WrittenMachine:
 
 def inwards_high(value: float) -> str:
     """Return a greatest position, never beyond the old one: rounded down to a millionth."""
+    # By the shortest text: the binary value may lie below it, and would lose a whole step.
     return _text(Decimal(repr(value)).quantize(_STEP, ROUND_FLOOR))
 
 

@@ -97,6 +97,7 @@ def _points(
 def _scales(points: Sequence[Point], unit: str) -> tuple[Scale, Scale]:
     """Return the scales of position and compensation, with room around the points."""
     low, high = (f([y for _, y in points] or [0.0]) for f in (min, max))
+    # Equal points have no height of their own; a scale without length cannot be drawn.
     margin = 0.25 * (high - low) or abs(high) or 0.01
     first, last = 0.0, 1.0
     if points:
@@ -126,6 +127,7 @@ def _handle(
         return Value(form.write(letter, changed, text, ""))
 
     try:
+        # Tried now, so that a point that must stay is not offered for removal.
         without = address, Value(form.write(letter, form.take_out(points, n), text, ""))
     except ValueError:
         without = None

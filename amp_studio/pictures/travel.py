@@ -55,6 +55,8 @@ def draw_travel(
     """
     back = axes[::-1]
     if like is not None:
+        # While it is dragged the picture keeps the way it lies, even where the travel becomes the shorter
+        # one.
         is_turned = len(axes) == 2 and like.x.label == ValueReader(file).axis(back[0])
         return replace(_drawn(file, roles, back if is_turned else axes, like), part="+".join(axes))
     scene = _drawn(file, roles, axes, None)
@@ -157,6 +159,7 @@ def _reach(figures: ValueReader, roles: TravelRoles, axis: str, file: ParameterF
     sign = figures.direction(roles.home.towards if roles.home else None, axis, letters(file))
     if found is None or found.number is None or not sign:
         return _Ends(-math.inf, math.inf)
+    # The switch is at 0, and the axis moves away from it against the direction of the search.
     far = -sign * found.number
     figures.add_note("Coordinates are counted from the home switch.", is_remark=True)
     return _Ends(far, 0.0, (found, None), sign) if far <= 0.0 else _Ends(0.0, far, (None, found), sign)
@@ -185,6 +188,7 @@ def _boxes(
             _span(figures, zone, axis) if axis in members else _Ends(*travel[n])
             for n, axis in enumerate(axes)
         ]
+        # With one end missing a zone has no body to draw.
         if all(ends.is_finite for ends, axis in zip(box, axes, strict=True) if axis in members):
             boxes.append(box)
     return boxes

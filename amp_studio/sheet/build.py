@@ -54,6 +54,7 @@ def make_sheet(
     of different families or machine types.
     """
     _check_sides(wanted, present)
+    # A control may describe itself: its values are compared under the schema of the file.
     there, present = present.schema, by_schema(present, wanted.schema)
     keying = keying_of(wanted.schema.family.family)
     found = compare(wanted.schema, wanted.values, present.values)
@@ -71,6 +72,7 @@ def make_sheet(
             left_out.append(made)
         else:
             same += 1
+    # Before the order is searched: lines that are taken out are no steps of it.
     lines, otherwise = _same_in_control(keying, lines, wanted, present)
     left_out += otherwise
     lines = _in_order(lines, wanted, present, own, message)
@@ -171,6 +173,7 @@ def _same_in_control(
         ]
         if not wrong:
             return lines, otherwise
+        # Once more: without these lines others may mean something else too.
         lines = [line for line in lines if line not in wrong]
         otherwise += [
             LeftOut(
@@ -256,6 +259,7 @@ def _ask_why(
     """Note why a line comes after another, which is about to be keyed in: what it would break before."""
     old = NewValue(late.step.address, interim.file.get(late.step.address))
     stopped = bad(interim.set(late.step), allowed, ("error", "warning"))
+    # Taken back: this was a trial on the state from which the walk goes on.
     interim.set(old)
     if stopped:
         after = _number_and_name(wanted, first.step.address)[0]

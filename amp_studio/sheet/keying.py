@@ -50,6 +50,7 @@ class Keyed:
         unit_text = text.strip()
         if self.base == 16:
             return Fraction(int(unit_text, 16)) if re.fullmatch("[0-9A-Fa-f]{1,16}", unit_text) else None
+        # Who reads a screen may type the decimal comma of his own keyboard.
         plain = unit_text.replace(",", ".", 1) if "." not in unit_text else unit_text
         return (
             Fraction(plain)

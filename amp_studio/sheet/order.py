@@ -39,6 +39,8 @@ def safe_order(start: Interim, steps: Sequence[NewValue], allowed: Collection[Ha
     queues = [_ordered(start, group, allowed, budget) for group in _groups(start, steps)]
     values: list[NewValue] = []
     while queues:
+        # Groups do not matter to each other, so they are merged as near to the given order as their own
+        # allows.
         first = min(queues, key=lambda queue: place[queue[0]])
         values.append(first.pop(0))
         queues = [queue for queue in queues if queue]
@@ -59,6 +61,7 @@ def _groups(start: Interim, steps: Sequence[NewValue]) -> list[list[NewValue]]:
 
     def led(n: int) -> int:
         while leader[n] != n:
+            # Union-find with halved paths: checks connect thousands of values in about linear time.
             leader[n] = n = leader[leader[n]]
         return n
 
@@ -97,6 +100,7 @@ def _without_new(
     # which nothing went on is hopeless however it is reached, and is not tried again.
     everything = (1 << len(steps)) - 1
     done, path, nexts, hopeless = 0, list[int](), [0], set[int]()
+    # Half of what is left for each search, so that the later, weaker ones still have some.
     tries = most = budget.left // 2
     while done != everything and nexts and tries:
         at = nexts[-1]
@@ -133,6 +137,7 @@ def _least_bad(
     before = {step: NewValue(step.address, start.file.get(step.address)) for step in steps}
     left, path = list(steps), list[NewValue]()
     while left:
+        # More than any step can cost, so that the first one tried is taken.
         best, least = left[0], (len(steps) ** 3, 0)
         for step in left if budget.left > 0 else ():
             budget.left -= 1
@@ -146,6 +151,7 @@ def _least_bad(
         start.set(best)
         left.remove(best)
         path.append(best)
+    # The state is left as it was found: the next group is searched from it.
     for step in reversed(path):
         start.set(before[step])
     return path

@@ -173,6 +173,7 @@ class ValueTable(QTableView):
         if self._delegate.take(editor):
             self.closeEditor(editor, ValueDelegate.EndEditHint.NoHint)
             move = self.CursorAction.MoveUp if pressed & shift else self.CursorAction.MoveDown
+            # A value that changes the rows has moved the current cell already.
             if self.currentIndex() == here:
                 self.setCurrentIndex(self.moveCursor(move, Qt.KeyboardModifier.NoModifier))
 
@@ -197,6 +198,7 @@ class ValueTable(QTableView):
             editor.is_gone = True
             if refusal is not None and hint == ValueDelegate.EndEditHint.NoHint and address is not None:
                 text = editor.text()
+                # Only when this one is closed: a cell has one editor.
                 QTimer.singleShot(0, self, lambda: self._mend(address, text, refusal))
             editor.close_frame()
         self._delegate.refusal = None
@@ -273,6 +275,7 @@ class ValueTable(QTableView):
         here, there = self.currentIndex(), self.moveCursor(move, Qt.KeyboardModifier.NoModifier)
         if not here.isValid() or not there.isValid() or here == there:
             return True
+        # Qt begins again at the other end: a next cell that lies before this one means the end.
         is_before = (there.row(), there.column()) < (here.row(), here.column())
         return is_before == (move == self.CursorAction.MoveNext)
 

@@ -141,6 +141,7 @@ class WordPanel(QScrollArea):
             editor = QSpinBox()
             half = 1 << bit.width - 1
             editor.setRange(*((-half, half - 1) if bit.signed else (0, 2 * half - 1)))
+            # Else each digit that is typed would be a step of Undo.
             editor.setKeyboardTracking(False)
             editor.valueChanged.connect(lambda number, b=bit: self._set(b, number))
         editor.setToolTip(
@@ -201,6 +202,8 @@ class WordPanel(QScrollArea):
         if self._is_filling or self._address is None:
             return
         mask = (1 << bit.width) - 1
+        # The mask makes a negative field its two's complement of that width.
         word = self._word() & ~(mask << bit.bit) | (number & mask) << bit.bit
+        # Refused: the boxes must show what the file has, not what was clicked.
         if not self._commit(self._address, f"0x{word:X}"):
             self.refresh()

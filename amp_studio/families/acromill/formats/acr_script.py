@@ -93,6 +93,7 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     found = TextRead()
     system = _read_system(lines, schema, found)
     _check_letters(lines, schema.family.scopes["axis"].instances if "axis" in schema.family.scopes else ())
+    # Before repeats are looked for: the forms of programs set one value in several lines by design.
     _keep_unequal(lines, of_programs, schema, system)
     if options.keep_unknown:
         _set_aside_repeated(lines)
@@ -102,6 +103,7 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     keep_lines(found, _KIND, [_layout(line) for line in lines], always=not _is_ours(text, found, schema))
     script = found.extra.get(f"{_KIND}_script")
     if isinstance(script, dict) and "\r" not in text:
+        # Only kept where it is not the controller's own line end, which a new script gets.
         script["newline"] = "lf"
     return found
 
@@ -153,6 +155,7 @@ def _check_letters(lines: list[ScriptLine], letters: Sequence[str]) -> None:
     given = {found["letter"].upper(): (int(found["axis"]), at) for found, at in attached if found}
     other = {x: at for x, at in given.items() if x in letters and letters.index(x) != at[0]}
     for line in lines:
+        # By the number of its axis a setting means the same axis, whatever letter the program gives it.
         by_letter = [each for each in line.arguments if "{i}" in each.setting.template]
         for argument in by_letter:
             letter = argument.setting.instance
@@ -247,6 +250,7 @@ def _recognises(text: str) -> bool:
         return False
     machine = schema.family.default_machine
     commands = [*commands_of(schema, machine), *program_commands_of(schema, machine)]
+    # The beginning shows what it is; a file of another kind may be long.
     lines = script_lines(text[:20_000], commands, set())
     return any(line.arguments for line in lines)
 
@@ -378,6 +382,7 @@ def _with_values(file: ParameterFile, line: ScriptLine, system: str) -> str:
     empty where none of them is set.
     """
     text, is_any = line.text, False
+    # From the end, so that the columns before it stay where they were read.
     for argument in reversed(line.arguments):
         if not _row(file, argument.setting, system):
             text = text[: argument.column - 1] + text[argument.end :]
@@ -387,6 +392,7 @@ def _with_values(file: ParameterFile, line: ScriptLine, system: str) -> str:
             list(zip(argument.setting.addresses, argument.figures, strict=True))
         ):
             parameter, value = file.schema.parameters[address[0]], file.values[address]
+            # An equal value keeps its spelling: 4096.0 stays 4096.0.
             if not same_value(value, read_figure(file.schema, parameter, figure, system)):
                 new, begin = write_figure(file.schema, parameter, value, system), column - 1
                 if new.startswith("-") and text[begin - 1 : begin] == "-":  # the other side of a band
