@@ -284,7 +284,7 @@ def run_backlash(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
         raise SimulationError(
             f"The distance is {distance:g}; it must be 1 count to {2**31 - 1}", "move.distance"
         )
-    play = module.needed(ids.output_backlash, "the compensation (page 4-21)")
+    play = module.needed(ids.output_backlash, "backlash compensation moves by it (page 4-21)")
     moves = backlash_moves(round(distance), round(play))
     rows: list[float] = []
     start = position = 0.0
