@@ -49,6 +49,8 @@ def homing(read: AxisParameters, turn: float) -> Homing:
     window = read.optional(ids.zero_speed_window)
     return Homing(
         approach=0.0 if alone else sign * read.above_zero(ids.first_speed) / 60.0,
+        # Without a dog the index is searched in the direction of homing; with one the axis goes back off it
+        # (2.2).
         leave=sign * second * (1.0 if alone else -1.0),
         marker="none" if method == "dog-only" else "next",
         turn=turn,

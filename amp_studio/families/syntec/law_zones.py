@@ -35,6 +35,7 @@ def zones(machine: BoundMachine, _axes: Sequence[str]) -> Iterator[Zone]:
         sides = dict(_sides(machine, name))
         if not sides:
             continue
+        # The scope names the side that is forbidden; a zone names the side on which the axis may be.
         keeps_in = read.value(ids[f"limit_{name}_scope"], everywhere=True) == "outside"
         yield Zone(
             f"software stroke limit {number}",

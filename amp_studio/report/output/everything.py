@@ -131,4 +131,5 @@ def _number(text: str, row: ReportRow) -> WorkbookCell:
         number = float(text)
     except ValueError:
         return text
+    # A float has 15 digits for certain: a longer figure would be another number in the cell.
     return number if write_figure(number) == text else text

@@ -34,9 +34,11 @@ def _drawing(svg: str) -> str:
     """Return a drawing as the address of an image that is in the page itself:
     what it names stays apart from the page.
     """
+    # As an image no script in it runs, and its ids and styles meet none of the page.
     return f"data:image/svg+xml;base64,{b64encode(svg.encode()).decode()}"
 
 
 def _cleaned(value: object) -> object:
     """Return a text of the file without control characters; text of the template is not changed."""
+    # Exactly str: Markup is a text of the template, already escaped.
     return printable(value) if type(value) is str else value

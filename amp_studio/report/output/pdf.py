@@ -125,6 +125,7 @@ def typst_source(report: Report, own: Path | None = None, *, places: bool = Fals
         marks=MARKS,
         places=places,
     )
+    # In what it has written, not in the template: an expression could write the import.
     if own is not None and _PACKAGE.search(source):
         raise TemplateMistakeError(own, "imports a package of Typst, which would be loaded from the network")
     return source
@@ -159,6 +160,7 @@ def render_pdf(report: Report, own: Path | None = None) -> PdfContent:
     apart. Raises TemplateMistakeError, ReportNotMadeError.
     """
     source = typst_source(report, own)
+    # With the machine in it the PDF can be opened as a file again years later.
     attached = {"machine": report.machine_file, "report": render_json(report).decode("utf-8")}
     if own is None:
         return PdfContent.with_remark(

@@ -235,6 +235,7 @@ def _columns(heads: Sequence[str], lines: Sequence[Sequence[str]]) -> Iterator[s
     """Yield a small table; the width of a column depends on its content."""
     wanted = [max(len(text) for text in column) for column in zip(heads, *lines, strict=True)]
     while sum(wanted) + len(wanted) - 1 > WIDTH:
+        # From the widest, so that short columns stay whole.
         wanted[wanted.index(max(wanted))] -= 1
     for line in (heads, *lines):
         yield from _beside(line, wanted)

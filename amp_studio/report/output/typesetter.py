@@ -34,6 +34,7 @@ def set_pdf(source: str, options: dict[str, Any]) -> tuple[bytes, str]:
 def answer(asked: BinaryIO, out: BinaryIO) -> None:
     """Set what ``set_pdf`` asks for, in the process apart."""
     pdf, remark = compiled(*json.load(asked))
+    # The remark first and in ASCII on one line: what follows the first line end is the PDF byte for byte.
     out.write(json.dumps(remark).encode("ascii") + b"\n" + pdf)
 
 
@@ -56,6 +57,7 @@ def compiled(source: str, options: dict[str, Any]) -> tuple[bytes, str]:
     try:
         return typst.compile(content, pdf_standards=standards, **given), ""
     except typst.TypstError as error:
+        # Better a PDF without the standards than none: a name in Chinese must not stop the report.
         plain = typst.compile(content, **given)
         lacks = _NO_FONT.search(str(error))
         why = f"no font here has the character {lacks[1]}" if lacks else str(error.message)

@@ -149,6 +149,7 @@ def _without_times(content: io.BytesIO) -> bytes:
         for part in packed.infolist():
             text = packed.read(part)
             if part.filename == "docProps/core.xml":
+                # openpyxl writes the time of saving into the properties.
                 text = _TIME.sub(b"2000-01-01T00:00:00Z", text)
             again.writestr(zipfile.ZipInfo(part.filename), text, zipfile.ZIP_DEFLATED)
     return stream.getvalue()
@@ -158,6 +159,7 @@ def _name(title: str, names: set[str]) -> str:
     """Return a name that a workbook allows and does not have yet."""
     name = _FORBIDDEN.sub(" ", title).strip("' ")[:_MOST_NAME] or "Sheet"
     chosen, n = name, 1
+    # Excel takes "Axes" and "AXES" for one name, and refuses the file.
     while chosen.casefold() in names:
         n += 1
         chosen = f"{name[: _MOST_NAME - len(str(n)) - 1]} {n}"

@@ -108,6 +108,7 @@ class BoundedEnvironment(ImmutableSandboxedEnvironment):
         template = super()._parse(source, name, filename)
         for loop in template.find_all(nodes.For):
             tick = nodes.ExprStmt(nodes.Call(nodes.Name(_TICK, "load"), [], [], None, None))
+            # With the line of its loop, so that the mistake names it.
             loop.body.insert(0, tick.set_lineno(loop.lineno))
         template.set_environment(self)
         return template
@@ -119,6 +120,7 @@ def _made(operator: str, left: Any, right: Any) -> int:
         return _MOST_MADE + 1 if isinstance(left, str) and _WIDE.search(left) else 0
     if isinstance(right, int) and isinstance(left, int):
         bits = left.bit_length()
+        # In bits: 2 ** 10 ** 9 would take all memory before the clock is read again.
         return bits * abs(right) if operator == "**" else bits + right.bit_length()
     times, many = (left, right) if isinstance(left, int) else (right, left)
     if isinstance(times, int) and isinstance(many, str | bytes | list | tuple):

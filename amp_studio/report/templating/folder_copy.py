@@ -53,6 +53,7 @@ def _copy(source: Path, target: Path) -> list[Path]:
     while folders:
         here, there = folders.pop()
         for path in sorted(here.iterdir()):
+            # Of the link itself, not of what it leads to.
             mode = path.lstat().st_mode
             if stat.S_ISLNK(mode):
                 links.append(path)
@@ -60,6 +61,7 @@ def _copy(source: Path, target: Path) -> list[Path]:
                 (there / path.name).mkdir()
                 folders.append((path, there / path.name))
             elif stat.S_ISREG(mode):
+                # A file may have become a link since it was listed.
                 content = read_file(path, _MOST_BYTES, follow=False)
                 files, size = files + 1, size + len(content)
                 if files > _MOST_FILES or size > _MOST_BYTES:

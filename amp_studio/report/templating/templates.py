@@ -167,6 +167,7 @@ def _bounded(environment: Environment, own: Path, values: Mapping[str, object]) 
     """Return what a template writes, up to a size; its environment bounds the time."""
     _check_blocks(environment, own)
     parts, size = [], 0
+    # Part by part: a template without an end is stopped before its text fills the memory.
     for part in environment.get_template(own.name).generate(values):
         parts.append(part)
         size += len(part)
@@ -209,6 +210,7 @@ def line_of_source(own: Path, source: str, diagnostic: str) -> str:
     for number in map(int, _COMPLAINT.findall(diagnostic)):
         text = written[number - 1].strip() if 0 < number <= len(written) else ""
         found = [n for n, parts in enumerate(lines, 1) if _can_write(parts, text)]
+        # A line that several could have written would be named at random.
         if len(found) == 1:
             return f"line {found[0]}: "
     return ""
