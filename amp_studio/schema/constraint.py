@@ -8,6 +8,7 @@ inch range and the printed metric range differ in the last digit.
 from __future__ import annotations
 
 import math
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 from typing import NamedTuple
 
 from .address import Address
@@ -38,10 +39,17 @@ class Limits(NamedTuple):
         if self.low is None and self.high is None:
             return "no printed range"
         if self.low is None:
-            return f"at most {write_number(self.high or 0.0)}{unit}"
+            return f"at most {_bound_text(self.high or 0.0, ROUND_FLOOR)}{unit}"
         if self.high is None:
-            return f"at least {write_number(self.low)}{unit}"
-        return f"{write_number(self.low)} to {write_number(self.high)}{unit}"
+            return f"at least {_bound_text(self.low, ROUND_CEILING)}{unit}"
+        return f"{_bound_text(self.low, ROUND_CEILING)} to {_bound_text(self.high, ROUND_FLOOR)}{unit}"
+
+
+def _bound_text(bound: float, inwards: str) -> str:
+    """Return a bound for a person; one that was converted has ten digits, and is allowed itself."""
+    if not math.isfinite(bound):
+        return write_number(bound)
+    return write_number(float(Context(prec=10, rounding=inwards).create_decimal(repr(bound))))
 
 
 def ranges_of(evaluation: Evaluation, address: Address) -> dict[str, Range]:

@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from amp_studio.schema import Value, clip, fault, limits
+from amp_studio.schema.constraint import Limits
 
 LINEAR = {"axis.type@1": Value("linear"), "axis.type@2": Value("rotary"), "axis.type@3": Value("spindle")}
 
@@ -170,3 +171,14 @@ def test_a_lower_bound_of_another_parameter_forgives_no_more_either(
     """Jog speeds increase or stay the same (page 8-1)."""
     here = machine(ninepc, LINEAR | {"jog.speed_lowest@1": Value(100.0, "mm/s")})
     assert allowed(here, "jog.speed_second@1", value) is inside
+
+
+def test_a_converted_bound_is_read_by_a_person_and_may_be_typed(here) -> None:
+    """It was 169.33333333333334 mm/s, and rounded up it would have been refused."""
+    speed = ("home.speed_off_switch", "1")
+    found = limits(here.evaluation, speed, "mm/s")
+    assert found is not None
+    assert found.text() == "0.0001 to 169.3333333 mm/s"
+    assert fault(here.evaluation, speed, Value(169.3333333, "mm/s")) is None
+    assert Limits(-0.1 / 3, 0.1 / 3, "mm").text() == "-0.03333333333 to 0.03333333333 mm"
+    assert Limits(0.0, 2097152.0, "").text() == "0 to 2097152"
