@@ -82,7 +82,7 @@ def test_the_picture_has_position_speed_and_acceleration_with_its_limit(press: P
     assert [panel.title for panel in picture.panels] == [
         "position counts",
         "speed counts/s",
-        "acceleration counts/s2",
+        "acceleration counts/s²",
     ]
     assert picture.panels[2].levels
 
