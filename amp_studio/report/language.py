@@ -88,6 +88,12 @@ class Language:
         """Return the title of a part of a parameter's help: its Note is the manual's, not a person's."""
         return self.phrases.get(f"help: {title}") or self.text(title)
 
+    def of_place(self, name: str, place: str) -> str:
+        """Return a name that stays, with the axis or instance behind it in this language."""
+        if not place or self.code == "en":
+            return name
+        return f"{name.removesuffix(place).rstrip()}, {self.title(place)}"
+
     def listed(self, places: Iterable[str]) -> str:
         """Return the places of a value (axes, spindles) in one line."""
         return joined_places(map(self.text, places))

@@ -111,7 +111,7 @@ def _check_sides(wanted: ParameterFile, present: ParameterFile) -> None:
 
 
 def _missing(wanted: ParameterFile, difference: Difference) -> LeftOut:
-    return LeftOut(*_number_and_name(wanted, difference.address), "this control does not have it")
+    return _left_out(wanted, difference.address, "this control does not have it")
 
 
 def _line(
@@ -124,14 +124,14 @@ def _line(
     parameter = wanted.schema.parameters.get(address[0])
     if parameter is None:
         return None
-    number, name = _number_and_name(wanted, address)
     if value is None:
-        return LeftOut(number, name, "the file does not set it: the control keeps its own value")
+        return _left_out(wanted, address, "the file does not set it: the control keeps its own value")
     if obstacle := _why_not_keyed(keying, wanted, address, secrets):
-        return LeftOut(number, name, obstacle)
+        return _left_out(wanted, address, obstacle)
     new = keying.text(wanted, address, value)
     if new is None:
-        return LeftOut(number, name, f"no code is printed for {show_value(parameter, value)}: {NOT_OFFERED}")
+        why = f"no code is printed for {show_value(parameter, value)}: {NOT_OFFERED}"
+        return _left_out(wanted, address, why)
     old = None if difference.b is None else keying.text(present, address, difference.b)
     if old == new:  # a finer difference than the control shows
         return None
@@ -176,8 +176,9 @@ def _same_in_control(
         # Once more: without these lines others may mean something else too.
         lines = [line for line in lines if line not in wrong]
         otherwise += [
-            LeftOut(
-                *_number_and_name(wanted, line.step.address),
+            _left_out(
+                wanted,
+                line.step.address,
                 "the control is configured otherwise than the file, so that it would mean something else"
                 " there",
             )
@@ -307,7 +308,12 @@ def _entry(line: _Line, wanted: ParameterFile, secrets: bool) -> SheetEntry:
         line.order,
         tuple(line.until),
         is_label=parameter.type not in ("integer", "real"),
+        place=wanted.machine_schema.instance_label(address),
     )
+
+
+def _left_out(file: ParameterFile, address: Address, why: str) -> LeftOut:
+    return LeftOut(*_number_and_name(file, address), why, file.machine_schema.instance_label(address))
 
 
 def _number_and_name(file: ParameterFile, address: Address) -> tuple[str, str]:

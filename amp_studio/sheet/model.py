@@ -19,6 +19,7 @@ class SheetEntry:
                  nothing needs that
     ``until``    what is broken from here on, and until which entry
     ``is_label`` whether ``meaning`` is a word of the control
+    ``place``    the axis or instance with which ``name`` ends; "" for none
     """
 
     address: Address
@@ -32,6 +33,7 @@ class SheetEntry:
     order: str = ""
     until: tuple[str, ...] = ()
     is_label: bool = False
+    place: str = ""
 
     @property
     def old(self) -> str:
@@ -56,6 +58,8 @@ class LeftOut:
     number: str
     name: str
     why: str
+    place: str = ""
+    """The axis or instance with which the name ends."""
 
 
 @dataclass(frozen=True)

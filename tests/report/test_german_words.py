@@ -188,3 +188,11 @@ def test_the_figures_of_motions_have_german_names() -> None:
         ).count(" ist ")
         == 3
     )
+
+
+def test_a_sheet_keeps_the_name_of_a_parameter_that_is_a_word_of_the_program_too() -> None:
+    wanted = open_file(EXAMPLES["linuxcnc-mill"]).file
+    sheet = make_sheet(wanted, new_file("linuxcnc"))
+    lines = [*text_lines(PrintedSheet(sheet, language="de", date=DATE))]
+    assert any("Axes (" in line for line in lines), "[TRAJ]COORDINATES"
+    assert not any("Achsen (" in line for line in lines)

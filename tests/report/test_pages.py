@@ -11,7 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import ParameterFile
+from amp_studio.files import ParameterFile, open_file
+from amp_studio.files.example_files import examples_folder
 from amp_studio.files.notes import set_value_note
 from amp_studio.files.storage import save_file
 from amp_studio.report import Contents, PrintedFigure, print_report
@@ -166,3 +167,12 @@ def test_numbers_with_dots_between_them_go_on_in_equal_steps(mill: ParameterFile
     assert of("R3", "R2051") == "R3, R2051"
     assert of("Pr21", "Pr22", "Pr23", "Pr24") == "Pr21, Pr22 … Pr24"
     assert of("") == ""
+
+
+@poppler
+def test_a_number_that_is_a_name_has_a_column_in_which_it_ends(tmp_path: Path) -> None:
+    mill = open_file(examples_folder() / "linuxcnc-mill" / "MILL.amp").file
+    print_report(mill, tmp_path / "r.pdf", Contents(without=BARE))
+    text = output_of("pdftotext", "-layout", tmp_path / "r.pdf", "-")
+    assert re.search(r"\[KINS\]JOINTS {2,}Joints", text)
+    assert re.search(r"\[JOINT_0\]MAX_VELOCITY {2,}Greatest Speed", text)

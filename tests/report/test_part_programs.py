@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,8 @@ from amp_studio import dossier
 from amp_studio.files import open_file
 from amp_studio.programs import ProgramBlockError
 from amp_studio.report import Contents, PrintedProgram, ProgramLimit
+
+from .test_pdf import output_of, poppler
 
 LIMITS = (
     ProgramLimit("B", "Rapid Speed", "speeds.rapid", 1.5, 0.75),
@@ -77,3 +80,14 @@ def test_a_real_program_has_its_path_and_its_time(checkout: Path, tmp_path: Path
     path.write_bytes(bytes(4))
     with pytest.raises(ProgramBlockError):
         list(dossier.programs_of(file, [path]))
+
+
+@poppler
+def test_a_pdf_has_it_too(checkout: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(dossier, "programs_of", lambda _file, _paths: iter([FOUND]))
+    file = open_file(checkout / "examples" / "acromill-router" / "ROUTER.amp").file
+    contents = Contents(without=BARE, changed_only=True, programs=(Path("plate.nc"),))
+    dossier.write_report(file, tmp_path / "r.pdf", contents)
+    text = output_of("pdftotext", "-layout", tmp_path / "r.pdf", "-")
+    assert re.search(r"plate\.nc\n+.*What limits the feed", text)
+    assert re.search(r"B +Rapid Speed", text)

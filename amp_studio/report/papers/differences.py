@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from itertools import groupby
@@ -29,6 +29,7 @@ from .paper import Paper, PaperTable
 
 _DANGER_SHARES = (8.0, 1.2, 6.0)
 _SHARES = (2.2, 5.0, 2.0, 3.4, 3.4)
+_LONG_NUMBER = 12
 SIDE_BY_SIDE = 6
 """Machines that have a column each; more of them are grouped."""
 
@@ -113,7 +114,7 @@ def _by_group(file: ParameterFile, differences: Sequence[Difference], language: 
             title,
             ("Number", "Parameter", "Belongs to", "A", "B"),
             tuple(rows),
-            _SHARES,
+            _shares(row[0] for row in rows),
             values_from=3,
             labels=frozenset(labels),
         )
@@ -341,6 +342,12 @@ def _named(file: ParameterFile, address: Address, language: str) -> tuple[str, s
     number = "" if here.is_disputed(address[0]) else here.number(address) or ""
     place = language_of(language).text(place_of(file, address))
     return number, file.schema.parameters[address[0]].name, place
+
+
+def _shares(numbers: Iterable[str]) -> tuple[float, ...]:
+    """Return the widths of the columns; a number that is a name (``[TRAJ]SPINDLES``) needs more."""
+    is_name = any(len(number) > _LONG_NUMBER for number in numbers)
+    return (4.6, 4.0, 1.6, 2.9, 2.9) if is_name else _SHARES
 
 
 def _is_label(file: ParameterFile, address: Address) -> bool:

@@ -153,7 +153,8 @@ def text_lines(printed: PrintedSheet) -> Iterator[str]:
         yield words.text("Not on this sheet").upper()
         for left in sheet.left_out:
             yield from _wrapped(
-                f"{words.text(left.name)}: {words.sentence(left.why)}", f"  {left.number:<12} "
+                f"{words.of_place(left.name, left.place)}: {words.sentence(left.why)}",
+                f"  {left.number:<12} ",
             )
 
 
@@ -163,7 +164,7 @@ def _step_lines(step: Step, words: Language) -> Iterator[str]:
         f"[{'x' if step.is_ticked else ' '}] {step.at:>4}  {entry.number:<12}{entry.new:>16}"
         f" {words.unit(entry.unit):<8}{entry.old or '?':>14}  "
     )
-    about = words.text(entry.name) + (f" = {step.meaning(words)}" if entry.meaning else "")
+    about = words.of_place(entry.name, entry.place) + (f" = {step.meaning(words)}" if entry.meaning else "")
     about += f" ({words.text(f'page {entry.page}')})"
     if step.screen_text:
         about += f"; {words.text('read back')} {step.screen_text}"

@@ -107,6 +107,7 @@ def filled(
         worded=language.drawing,
         titled=language.title,
         listed=language.listed,
+        of_place=language.of_place,
         unit=language.unit,
         stated=language.sentence,
         lines=note_lines,
