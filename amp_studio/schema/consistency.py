@@ -95,6 +95,8 @@ def faults_of_experience(plausible: Plausible, groups: tuple[Group, ...]) -> Ite
             yield place, f"there is no parameter {quoted(name)}"
     for name in plausible.usual:
         for n, choice in enumerate(plausible.usual[name].choices):
+            # A parameter that does not exist was named above; its choices would be a second fault of one
+            # slip.
             if choice not in known.get(name, {choice}):
                 yield ("usual", name, "choices", n), f"{quoted(name)} has no choice {quoted(choice)}"
 
@@ -285,6 +287,7 @@ def _in_commands(parameter: Parameter, ids: set[str]) -> Iterator[tuple[KeyPath,
         commands.insert(0, (("storage", "command"), parameter.storage.command or ""))
     for place, command in commands:
         for named in re.findall(r"{(.*?)}", command):
+            # One letter is filled in by the format itself: instance, place, number and value.
             if named not in ("i", "k", "n", "v") and named not in ids:
                 yield place, f"there is no parameter {quoted(named)} for its command"
 

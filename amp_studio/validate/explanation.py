@@ -83,6 +83,7 @@ def explain(validator: Validator, finding: Finding) -> Explanation:
         _plain(rule.check),
         "" if rule.when == "true" else _plain(rule.when),
         _with_values(validator, check, rule),
+        # A side that is worked out would give a secret away, even where its value is masked.
         () if any(_is_secret(validator, address) for _, address in named) else tuple(_sides(rule, context)),
         seen,
         _errata(validator, {address[0] for _, address in named}),
@@ -185,6 +186,7 @@ def _sides(rule: Rule, context: Context) -> list[tuple[str, str]]:
         return []
     found = []
     for side in parts:
+        # A name or a number alone is beside the values already.
         if not re.fullmatch(r"[\w.]+|'[^']*'", side):
             try:
                 worth = program(side).execute(context)
@@ -198,6 +200,7 @@ def _sides(rule: Rule, context: Context) -> list[tuple[str, str]]:
 def _split(text: str) -> tuple[str, str] | None:
     """Return the two sides of an expression that is a single comparison and nothing else."""
     depth, places = 0, []
+    # Of several comparisons it is not known which one failed.
     if "&&" in text or "||" in text or "?" in text:
         return None
     for found in re.finditer(r"'[^']*'|[()\[\]]|<=|>=|==|!=|<|>", text):

@@ -187,11 +187,13 @@ class _ExpressionParser:
 
     def _expression(self) -> Node:
         self._brackets += 1
+        # Refused while it is read: the parser itself calls itself for each bracket.
         if self._brackets > DEEPEST_BRACKETS:
             raise ExpressionError(f"has more than {DEEPEST_BRACKETS} brackets or alternatives in each other")
         start = self._next.start
         node = self._either()
         if self._accept("?"):
+            # No alternative before the colon without brackets, as in the engine's grammar.
             one = self._either()
             self._need(":", " behind '?'")
             node = self._node("?:", start, (node, one, self._expression()))
@@ -209,6 +211,7 @@ class _ExpressionParser:
         parts = [operand()]
         while self._accept(operator):
             parts.append(operand())
+        # One node for a whole chain: its depth does not grow with its length.
         return parts[0] if len(parts) == 1 else self._node(operator, start, tuple(parts))
 
     def _relation(self) -> Node:
@@ -230,6 +233,7 @@ class _ExpressionParser:
     def _unary(self) -> Node:
         start, count = self._next.start, 0
         operator = self._next.text
+        # Only one kind of sign in a row: the grammar of the engine has no "!-".
         while operator in ("!", "-") and self._accept(operator):
             count += 1
         node = self._member()
@@ -252,6 +256,7 @@ class _ExpressionParser:
 
     def _method(self, start: int, of: Node) -> Node:
         name = self._next
+        # A point is for calls alone: the values of rules have no parts.
         if name.kind != "name" or self._tokens[self._at + 1].text != "(":
             raise ExpressionError(f"{quoted(of.text + '.' + name.text)}: a value has no parts")
         self._at += 1
@@ -331,6 +336,7 @@ class _ExpressionParser:
 def _literal(token: _Token) -> float | int | str:
     if token.kind == "text":
         text = re.sub(r"\\(.)", lambda m: _ESCAPED.get(m[1], m[1]), token.text[1:-1])
+        # Half a character of UTF-16 cannot be encoded when the finding is printed.
         if not text.isascii() and any("\ud800" <= c <= "\udfff" for c in text):
             raise ExpressionError(f"{quoted(token.text)} is no text")
         return text
@@ -339,6 +345,7 @@ def _literal(token: _Token) -> float | int | str:
         if not math.isfinite(number):
             raise ExpressionError(f"{quoted(token.text)} is too large a number")
         return number
+    # Twenty characters are more than 64 bits have; int() of a very long text is slow.
     number = int(token.text, 16 if token.text.startswith("0x") else 10) if len(token.text) <= 20 else math.inf
     if number > LARGEST_WHOLE:
         raise ExpressionError(f"{quoted(token.text)} is too large a whole number; write it with a point")

@@ -69,6 +69,8 @@ class Trials:
         if self._file is not None:
             for address in addresses:
                 self._file.set(address, self._original.values.get(address))
+                # The mark of a forced value is taken over too: without it a trial would find the value out
+                # of range.
                 self._file.forced.pop(address, None)
                 if address in self._original.forced:
                     self._file.forced[address] = self._original.forced[address]
@@ -84,6 +86,7 @@ class Trials:
         """Return a finding of those that are ``filed`` with its fix, or without if that is not good."""
         if not finding.fix:
             return finding
+        # Before it is tried: no rule would be against it.
         if any(map(self._is_leap, finding.fix)):
             return replace(finding, fix=(), safe=False)
         tried = self._tried.get(place)
@@ -127,6 +130,7 @@ class Trials:
             return frozenset()
         steps, beyond = 0, set()
         wanting = [place for place, (_, finding) in filed.items() if finding.fix]
+        # Values by themselves first; checks of rules have numbers, the manual's lower than a builder's.
         for place in sorted(wanting, key=lambda place: (isinstance(place, int), place)):
             if steps <= MOST_STEPS:
                 steps += sum(map(self._steps, self._plan.asked_by(r.address for r in filed[place][1].fix)))
@@ -164,6 +168,7 @@ class Trials:
         filed: Mapping[FindingPlace, tuple[object, Finding]],
         changes: list[Change],
     ) -> _Tried:
+        # The fix made another machine type of the file: the plan of checks is of the old one.
         if not self._checks.fit:
             return _Tried(self._is_good_on_another_machine(finding, filed), None)
         asked = self._plan.asked_by((*(c.address for c in changes), *(s.address for s in finding.fix)))

@@ -165,6 +165,7 @@ class Alike:
         row.pop(name, None)
         if new is not None:
             row[name] = new
+        # The number of values that can be compared changes only where one comes or goes.
         change = (new is not None) - (old is not None)
         for other in rows.keys() - {instance}:
             if name in rows[other]:
@@ -216,6 +217,7 @@ class Alike:
             yield self._finding(scope, name, pairs)
         several = Counter((scope, *odd) for (scope, _), odd in self._odd.items())
         for (scope, name), odd in self._odd.items():
+            # The same factor in several values is another motor or screw, and no slip of the keyboard.
             if several[scope, *odd] == 1 and (scope, name) not in asked:
                 yield from self._alone(scope, name, odd.instance)
 

@@ -83,6 +83,7 @@ class AxisRelations:
         odd = []
         for number, one in numbers:
             least, nearest = self._nearest(number, one, numbers)
+            # The small part more: a quotient of exactly the bound may be rounded above it.
             if least > fact.within * (1 + 1e-9):
                 odd.append((one, nearest))
         if len(numbers) > 2 and len(odd) > 1:
@@ -123,6 +124,7 @@ class AxisRelations:
     def _travels(self, fact: TravelEnds) -> list[Finding]:
         ends = [*self._ends(fact)]
         found = [] if fact.is_zone else self._table(ends, fact.side)
+        # Of two ends nobody knows which is the odd one.
         if fact.low and len(ends) > 2:
             found += [f for n in range(len(ends)) for f in self._near(ends[n], ends[:n] + ends[n + 1 :])]
         return [*found, *self._one_sided(fact)]
@@ -148,6 +150,7 @@ class AxisRelations:
         lows, highs = self._values[fact.low], self._values[fact.high]
         for low, high in ((lows[i], highs[i]) for i in highs if i in lows):
             none = [self._is_beyond(unlimited, one) for one in (low, high)]
+            # Both far out, one on each side, are switched off on purpose.
             if any(none) and not (all(none) and _side(low) < 0 < _side(high)):
                 odd, other = (high, low) if none[0] else (low, high)
                 yield self._finding(TRAVEL, TRAVEL_REASON, odd, other)
@@ -193,6 +196,7 @@ class AxisRelations:
         """Compare X and Y of a table: the motors, screws and ramps of both are of one kind."""
         compared = [pair for name in names if (pair := self._x_and_y(name))]
         differing = [(x, y) for x, y in compared if x.number != y.number]
+        # Only where all else is the same: a table with unlike sides differs in several values.
         if len(compared) < 3 or len(differing) != 1:
             return []
         x, y = differing[0]

@@ -102,6 +102,8 @@ class Relations:
     def _odd_of_row(self, row: Sequence[ActiveValue]) -> Finding | None:
         """Return the finding about the one value that differs from all others, or about two by a slip."""
         counts = Counter(one.number for one in row)
+        # Of three or more the one that differs is odd; of two nobody knows which, unless a slip explains
+        # it.
         if len(row) > 2 and sorted(counts.values()) == [1, len(row) - 1]:
             alone = next(one for one in row if counts[one.number] == 1)
             return self._unequal([alone], next(one for one in row if one is not alone))
@@ -128,6 +130,7 @@ class Relations:
         found = []
         for row in self._rows(names):
             numbers = [one.number for one in row if isinstance(one.number, float) and one.number > 0]
+            # A ladder with a step that is not set, or 0, has a gap, over which no factor is known.
             if len(numbers) != len(names):
                 continue
             if (n := misfit(numbers)) is not None:
@@ -140,11 +143,13 @@ class Relations:
         limits, found = self._values[limit], []
         for one in (one for name in names for one in self._values[name].values()):
             own = limits.get(one.address[1])
+            # A value of the whole machine is compared with its fastest axis.
             all_of = [own] if own is not None else list(limits.values())
             greatest = [each for each in all_of if each.measures == one.measures]
             if not greatest or isinstance(one.number, bool | str):
                 continue
             most = max(greatest, key=lambda each: float(each.number))
+            # A rapid of 0 is no speed to compare with.
             if 0 < float(most.number) < abs(one.number):
                 found.append(self._too_fast(one, most))
         return found
@@ -287,6 +292,7 @@ def _factor_without(n: int, numbers: Sequence[float]) -> float | None:
     steps = [numbers[m + 1] / numbers[m] for m in range(last) if n not in (m, m + 1)]
     if len(steps) < 2 or max(steps) > _AGREE * min(steps) or min(steps) <= 1:
         return None
+    # The geometric mean: factors multiply.
     usual = (max(steps) * min(steps)) ** 0.5
     # Over the gap that the value leaves, two steps have to fit.
     across = numbers[n + 1] / numbers[n - 1] if 0 < n < last else usual**2

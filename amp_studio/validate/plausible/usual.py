@@ -117,6 +117,7 @@ def _printed_default(parameter: Parameter) -> tuple[str, float, int]:
     if default is None:
         return "", 0.0, 0
     measures = dimension(default.unit)
+    # Where instances have different defaults no slip of one can be known.
     if default.instances or not isinstance(default.value, (int, float)):
         return measures, 0.0, 0
     return measures, canonical(default.value, default.unit), significant_digits(default.value)
@@ -136,6 +137,7 @@ class UsualValues:
         facts, state = self._facts, self._file.evaluation.state
         for address, value in self._file.values.items():
             known = facts.get(address[0])
+            # Most files have the same few values: what was found fine once is not worked out again.
             if known is None or (value.value, value.unit) in known.fine:
                 continue
             what = _doubt(known, value)
@@ -171,6 +173,7 @@ def _not_usual(facts: _Known, usual: Usual, number: float, unit: str) -> str:
     """Return what is usual instead of a number; "" where it is one of the usual."""
     if usual.bits:
         return _doubt_of_bits(usual, int(number))
+    # Values outside of the span with a meaning, as 0 for off.
     if number in usual.also:
         return ""
     if usual.among:
