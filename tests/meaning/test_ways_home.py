@@ -109,6 +109,12 @@ def test_work_offsets_reference_points_and_tools_go_along() -> None:
     assert texts["tool.tbl"].startswith("T1 P1 D85.801200\nT2 P2 D83.725004\n")
 
 
+def test_no_speed_is_asked_for_an_axis_that_searches_nothing() -> None:
+    found = migrate(other("num-1060-mill", {"P34N0": "0x02000000"}), "linuxcnc")  # Z has a coded scale
+    speeds = {question.id for question in found.written.asked if question.id.startswith("home.speed.")}
+    assert speeds == {"home.speed.Y", "home.speed.B"}
+
+
 PRESS = {"R0": "0x0404", "R11": "400000", "R13": "-40000", "R8": "8000"}
 
 

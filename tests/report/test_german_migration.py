@@ -44,3 +44,10 @@ def test_formulas_and_figures_stay_as_the_controls_write_them_and_words_beside_t
     assert "806.299213, Vorzeichen offen" in cells
     assert "geschrieben" in cells
     assert {"written", "left out"} & set(cells) == set()
+
+
+@pytest.mark.parametrize(("target", "rows"), [("linuxcnc", 1), ("grblhal", 0)])
+def test_the_paper_names_hal_where_there_is_one(target: str, rows: int) -> None:
+    file = open_file(examples_folder() / "mill-1394" / "MILL_1394.amp").file
+    paper = migration_paper(migrate(file, target, {}))
+    assert sum(name == "HAL" for name, _ in paper.facts) == rows

@@ -427,7 +427,7 @@ class _Migration:
     def _home(self, axis: AxisMeaning, j: str, step: int | None) -> None:
         kind, search, leave = axis.choice("home.kind"), axis.number("home.search"), axis.number("home.leave")
         towards = axis.number("home.towards")
-        if search is None and towards is not None:
+        if search is None and towards is not None and kind not in (*_NOT_HOMED, "absolute"):
             search, leave = self._asked_speed(axis, towards)
         if kind == "absolute":
             for concept in ("home.coordinate", "home.offset"):

@@ -51,7 +51,7 @@ def write_migration_folder(
 
 
 def migration_paper(migration: Migration, language: str = "en") -> Paper:
-    """Return the paper in a language; HAL is a template on it, and nothing is claimed of the wiring."""
+    """Return the paper in a language; a HAL is a template on it, and nothing is claimed of the wiring."""
     written = migration.written
     words = language_of(language, migration.target, migration.machine.family)
     worded = words.sentence
@@ -83,8 +83,10 @@ def migration_paper(migration: Migration, language: str = "en") -> Paper:
             (worded(title), words.counted(len(migration.of(outcome)), "parameter"))
             for outcome, (title, _, _) in _HEADS.items()
         ),
-        ("HAL", worded("a template: it moves nothing, and nothing of the old wiring is in it")),
     )
+    if any(name.endswith(".hal") for name in migration.written.texts):
+        template = worded("a template: it moves nothing, and nothing of the old wiring is in it")
+        facts = (*facts, ("HAL", template))
     return Paper(
         worded("Migration"),
         migration.machine.name,
