@@ -49,7 +49,7 @@ def tool_table(machine: MachineMeaning, out: WrittenMachine) -> str:
             rows.append(f"T{n + 1} P{n + 1} D{2.0 * (radius + loss):.6f}\n")
     for concept in ("tool.radius", "tool.wear"):
         ways = ("a radius and its wear", "a diameter with the wear in it", "neither")
-        out.graded.append(Graded("", concept, "approximate", "tool.tbl", f"{len(rows)} diameters", *ways))
+        out.graded.append(Graded("", concept, "approximate", "tool.tbl", f"{len(rows)} × D", *ways))
     return "".join(rows)
 
 
