@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QFileDialog
 
-from amp_studio.files import ParameterFile, describe, write_atomic
+from amp_studio.files import ParameterFile, describe
 from amp_studio.schema import Value
 from amp_studio.ui.base.theme import scheme
 from amp_studio.ui.base.translated import message_in_words, worded
@@ -466,17 +465,8 @@ class ControlPage(ControlPageParts):
         session, workspace = self.session, self.workspace
         if session is None or session.outcome is None or workspace is None:
             return
-        path = workspace.path.with_name(f"{workspace.path.stem}-proof.txt")
-        text, _ = QFileDialog.getSaveFileName(self, self.tr("Save Proof"), str(path), "Text (*.txt)")
-        if not text:
-            return
         lines = [text_of_proof(session, self.name, self._kept_names()), "", *self.table.changes_in_words()]
-        try:
-            write_atomic(Path(text), ("\n".join(lines) + "\n").encode())
-        except OSError as error:
-            self.bar.say(message_in_words(str(error)), "error")
-        else:
-            self.hint.setText(self.tr("{name} is saved.").format(name=Path(text).name))
+        self.write_proof(workspace.path.with_name(f"{workspace.path.stem}-proof.txt"), lines)
 
     def _keep_current(self) -> None:
         if (row := self.table.current()) is not None:

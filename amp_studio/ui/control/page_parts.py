@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from html import escape
+from pathlib import Path
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QApplication,
     QCheckBox,
+    QFileDialog,
     QHBoxLayout,
     QLabel,
     QLineEdit,
@@ -23,8 +25,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from amp_studio.files import write_atomic
 from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, font, icon
-from amp_studio.ui.base.translated import tr
+from amp_studio.ui.base.translated import message_in_words, tr
 from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.forms.message_bar import MessageBar
 from amp_studio.ui.forms.segment import Segment
@@ -207,6 +210,18 @@ class ControlPageParts(QWidget):
         self.empty.setTextFormat(Qt.TextFormat.RichText if is_proof else Qt.TextFormat.PlainText)
         self.empty.setText(text)
         self.middle.setCurrentWidget(self.empty)
+
+    def write_proof(self, near: Path, lines: Sequence[str]) -> None:
+        """Ask for a file and write a proof into it; an error is shown above the table."""
+        text, _ = QFileDialog.getSaveFileName(self, self.tr("Save Proof"), str(near), "Text (*.txt)")
+        if not text:
+            return
+        try:
+            write_atomic(Path(text), ("\n".join(lines) + "\n").encode())
+        except OSError as error:
+            self.bar.say(message_in_words(str(error)), "error")
+        else:
+            self.hint.setText(self.tr("{name} is saved.").format(name=Path(text).name))
 
     def show_progress(self, stage: str, done: int, total: int) -> None:
         """Show how far an exchange is."""
