@@ -13,7 +13,7 @@ LOCK := build/lock/bin/uv pip compile pyproject.toml --quiet --universal --pytho
 	$(if $(UPGRADE),--upgrade)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test durations mutants campaign tunings slips faults monkey peers peer-grblhal peer-linuxcnc check format schema docs lock bench screenshots man translations wheel bundle windows clean setup setup-run
+.PHONY: help run test durations mutants campaign tunings judged slips faults monkey peers peer-grblhal peer-linuxcnc check format schema docs lock bench screenshots man translations wheel bundle windows clean setup setup-run
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-11s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -36,6 +36,9 @@ campaign: setup ## generated cases that no run has tried: every property 25 time
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q tests/families/linuxcnc/test_paths.py tests/families/linuxcnc/test_homing.py
 	@! command -v linuxcnc >/dev/null || PYTHONPATH=. $(BIN)/python -m tests.families.linuxcnc.mutated_migrations
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) tests/ui/test_memory.py tests/ui/test_screens.py tests/bench tests/test_package.py tests/drawing tests/pictures tests/report tests/examples tests/docs tests/cli tests/formats/test_spreadsheet_block.py tests/schema/test_json_schemas.py
+
+judged: setup ## compare the figures of tune for random machines with python-control: JUDGED=30
+	@PYTHONPATH=. $(BIN)/python -m tests.sim.tuning_judge $(or $(JUDGED),30)
 
 tunings: setup ## tune 300 random machines and search each on a grid: TUNINGS="300 1" (machines, seed)
 	@PYTHONPATH=. $(BIN)/python -m tests.sim.tuning_campaign $(or $(TUNINGS),300 1)
