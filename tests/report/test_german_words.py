@@ -63,7 +63,7 @@ def printed(file: ParameterFile, name: str, language: str) -> Iterator[str]:
     )
     page = re.sub(r"<(script|style|code)\b.*?</\1>", "", render_html(report).decode(), flags=re.DOTALL)
     drawn = language_of(language, file.schema.family.family).drawing
-    drawings = [drawn(figure.svg) for figure in (*report.motion, *report.pictures)]
+    drawings = [drawn(figure.svg) for figure in (*report.motion, *report.pictures, *report.program_figures)]
     for text in (page, *drawings):
         yield from (html.unescape(" ".join(found.split())) for found in _TEXT.findall(text))
 
@@ -153,6 +153,8 @@ def test_signs_units_and_powers_are_german() -> None:
         "position (counts)": "Position (Ink)",
         "phase (°)": "Phase (°)",
         "frequency, Hz": "Frequenz, Hz",
+        "X, in": "X, Zoll",
+        "contour error (in)": "Konturfehler (Zoll)",
         "above the plot: excess error 11 mm, feedrate suppression 11.5 mm": (
             "über dem Bild: Schleppfehlergrenze 11 mm, Vorschubabsenkung 11,5 mm"
         ),
