@@ -153,6 +153,14 @@ def test_a_click_in_the_map_proposes_its_gains(
     assert (workspace.file.get((names[0], "1")).value, workspace.file.get(GAIN).value) == (1.5, 4000)
     assert workspace.undo_stack.count() == 1
     assert "1.9" in guided.figures.text()
+    other = Recommendation("servo.velocity_integral_gain", 92.0, "", "why", "price")
+    guided.tuned = replace(
+        guided.now, scenario="tune", recommendations=(other,), result={"Ms_before": (2.8, "")}
+    )
+    guided.mapped = replace(trace, assumptions=("With the other gains as they are none is safe: here x.",))
+    guided._pointed(0.5, 2000.0)
+    assert len(guided.proposed.buttons) == 4  # the map is of an axis with that gain too
+    assert "2.8" in guided.figures.text()
 
 
 def test_what_the_steps_of_a_family_show_are_scenarios_that_it_has() -> None:

@@ -59,6 +59,8 @@ _ROWS = 9
 """Steps that are seen at once."""
 _FIGURES = ("Ms", "phase_margin", "gain_margin", "bandwidth", "stiffness", "velocity_loop_Ms")
 _TUNE, _MAP = "tune", "sweep"
+_OTHERS_TUNED = "With the other gains as they are none is safe"
+"""Begins the sentence of a map in which other gains than its two are not the present ones."""
 _DONE, _OPEN = "check-circle-fill", "circle"
 
 
@@ -359,14 +361,20 @@ class TuningSteps(QWidget):
             )
             for name in trace.over
         ]
-        before = _nearest_row(trace, [trace.limits[name][0] or 0.0 for name in trace.over])
-        result = {
-            f"{name}{key}": (None if np.isnan(value) else float(value), trace.units.get(name, ""))
-            for name in _FIGURES
-            if name in trace.columns
-            for key, value in (("_before", trace.columns[name][before]), ("", trace.columns[name][row]))
-        }
-        self._propose(found, self._figures_text(replace(trace, result=result)))
+        figures = {name: trace.columns[name][row] for name in _FIGURES if name in trace.columns}
+        there = {name: None if np.isnan(each) else float(each) for name, each in figures.items()}
+        result = {name: (each, trace.units.get(name, "")) for name, each in there.items()}
+        # The figures of the file are not those of a cell near it.
+        known = self.tuned.result if self.tuned else {}
+        result |= {f"{name}_before": known[f"{name}_before"] for name in there if f"{name}_before" in known}
+        text = self._figures_text(replace(trace, result=result))
+        if any(each.startswith(_OTHERS_TUNED) for each in trace.assumptions):
+            # The map is of the axis with its other gains as tune has them: they belong to the point.
+            is_known = self.tuned is not None and self._aim == "normal"
+            others = self.tuned.recommendations if self.tuned is not None and is_known else ()
+            found += [each for each in others if each.parameter not in trace.over]
+            text = text if is_known else ""
+        self._propose(found, text)
 
     def _settable(self, parameter: str, value: float) -> float:
         """Return a gain as it can be set: whole where it is, else with three digits."""
