@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from .bit_fields import field_at, field_value, labels_of_word, with_field
     from .catalog import Schema, load_schema
     from .cel_engine import WORD_FUNCTIONS, Context, Program, functions_called
-    from .compiled_cache import read_cached, write_cached
     from .conditions import ACTIVE, Reference, StateInfo
     from .constraint import Limits, bounding, clip, fault, limits
     from .described import DescriptionError, described_schema

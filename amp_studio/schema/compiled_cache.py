@@ -62,8 +62,8 @@ def report_unusable(path: Path, why: str) -> None:
     _log.warning("%s cannot be used and is made again: %s", path, why)
 
 
-def write_cached(path: Path, kept: bytes, name: str) -> bool:
-    """Keep compiled facts under a name, and remove what older ones of it left; return whether it was kept."""
+def write_cached(path: Path, kept: bytes, name: str) -> None:
+    """Keep compiled facts under a name, and remove what older ones of it left."""
     import tempfile  # most starts keep nothing
 
     temporary = ""
@@ -83,8 +83,6 @@ def write_cached(path: Path, kept: bytes, name: str) -> bool:
         if temporary:
             with contextlib.suppress(OSError):
                 os.unlink(temporary)
-        return False
-    return True
 
 
 def _digest(kept: bytes) -> bytes:

@@ -142,7 +142,6 @@ READERS = {
     "sim/variations/running.py": "damaged parts of a sweep",
     "sim/one_thread.py": "",  # sets a variable that is not there, reads none
     "sim/engine/compiled.py": "",  # one switch of numba, compared with "0"
-    "sim/engine/machine_code.py": "damaged cache",  # by the same reader, below the same digest
     "sim/variations/worker.py": "",  # a job, points and figures between two processes of the program itself
     "families/num/emulated/manual_keys.py": "",  # what the emulated control itself has written
     "families/ninepc/emulated/machine_keys.py": "odd commands at an emulated control",

@@ -18,8 +18,7 @@ from amp_studio.sim import law_of
 from amp_studio.sim.axis.motion import Until, run_axis
 from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.command.ramps import move
-from amp_studio.sim.engine.compiled import code_of
-from amp_studio.sim.engine.machine_code import VECTOR
+from amp_studio.sim.engine.compiled import _machine_code
 from amp_studio.sim.engine.signals import FEED_SHARE, MODE, MONITOR, POSITION_LOOP, STOP, VELOCITY_LOOP
 from amp_studio.sim.law import AxisLaw, simulated_families
 from tests.campaigns import CAMPAIGN
@@ -51,11 +50,11 @@ def axis_of(path: Path) -> AxisLaw:
 
 @pytest.mark.parametrize("path", ALONE, ids=lambda path: path.stem)
 def test_the_samples_of_a_law_agree_whatever_the_signals(path: Path) -> None:
-    pytest.importorskip("numba")
+    numba = pytest.importorskip("numba")
     axis, chance = axis_of(path), Random(path.stem)
+    signature = numba.void(*[numba.float64[::1]] * 3)
     for sample in filter(None, (axis.position_sample, axis.velocity_sample)):
-        fast = code_of(cast(Any, sample), {}, (VECTOR,) * 3, result=False)
-        assert fast is not None
+        fast = _machine_code(cast(Any, sample), {}, signature)
         plain = [[float(each) for each in axis.parameters], [0.0] * axis.state_size]
         arrays = [np.array(each) for each in plain]
         for n in range(200):

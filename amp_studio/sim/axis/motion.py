@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from amp_studio.sim.command.ramps import end_of
 from amp_studio.sim.engine import kernel
-from amp_studio.sim.engine.compiled import compiled, pays, plain
+from amp_studio.sim.engine.compiled import can_compile, compiled, pays, plain
 from amp_studio.sim.engine.machine import DELAY_SHARE, DELAY_STEPS, Machine, machine_array
 from amp_studio.sim.engine.signals import DIVERGED, FEED_SHARE, MODE, MONITOR, POSITION_LOOP, STOP
 from amp_studio.sim.errors import SimulationError
@@ -226,11 +226,10 @@ def run_prepared(
     the signals and the state at the end. Raises SimulationError where the numbers leave all bounds.
     """
     law = axis.position_sample, axis.velocity_sample
-    is_fast = engine == "compiled" or (engine == "auto" and pays(*law, expected))
-    machine_code = compiled(*law) if is_fast else None
-    if machine_code is not None:
+    machine_code = engine == "compiled" or (engine == "auto" and pays(*law, expected))
+    if machine_code and can_compile():
         arrays = [np.array(each, dtype=np.float64) for each in vectors]
-        filled = machine_code(*arrays, rows)
+        filled = compiled(*law)(*arrays, rows)
         return filled, arrays[IO].tolist(), arrays[STATE].tolist()
     try:
         filled = plain(*law)(*vectors, rows)

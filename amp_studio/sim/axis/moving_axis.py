@@ -18,7 +18,7 @@ import numpy.typing as npt
 from amp_studio.sim.command.pieces import Piece, change, length
 from amp_studio.sim.command.ramps import exponential_pieces, leg, profile_of
 from amp_studio.sim.engine import kernel
-from amp_studio.sim.engine.compiled import compiled, pays, plain
+from amp_studio.sim.engine.compiled import can_compile, compiled, pays, plain
 from amp_studio.sim.engine.machine import POSITION_COUNT, POSITION_COUNTS, TORQUE_NEGATIVE, TORQUE_POSITIVE
 from amp_studio.sim.engine.profiles import IN_POSITION, POLYNOMIAL, WIDTH, command, piece_at
 from amp_studio.sim.engine.signals import COMMAND, COMMAND_ACCELERATION, COMMAND_VELOCITY, STOP
@@ -437,15 +437,14 @@ class MovingAxis:
     def _call(self) -> None:
         law = self.axis.position_sample, self.axis.velocity_sample
         wanted = self._engine == "compiled" or (self._engine == "auto" and pays(*law, self._last_steps))
-        machine_code = compiled(*law) if wanted or self._is_compiled else None
-        if machine_code is not None and not self._is_compiled:
+        if not self._is_compiled and wanted and can_compile():
             # Once, when machine code begins to pay: lists are faster for the plain engine.
             self._vectors = [np.array(each, dtype=np.float64) for each in self._vectors]
             self._is_compiled = True
         x = self._vectors[STATE]
         before = x[kernel.SAMPLE]
         try:
-            filled = (machine_code or plain(*law))(*self._vectors, self._rows)
+            filled = (compiled if self._is_compiled else plain)(*law)(*self._vectors, self._rows)
         except OverflowError:  # a count of a position without bounds
             raise SimulationError(f"Axis {self.axis.axis} runs away: its loop is not stable") from None
         self._last_steps = float(x[kernel.SAMPLE] - before) * self._steps

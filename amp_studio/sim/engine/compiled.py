@@ -1,23 +1,23 @@
 """One kernel for each law: the same source as plain Python or as machine code, with equal results.
 
-numba cannot take the two functions of a law as arguments without a call through a pointer at every sample.
-So the functions of kernel and law are copied, with the ones they call in their globals, and the copy of
-``run`` has a name with a digest of all their code and constants: by it the machine code is found in later
-processes (`machine_code.py`), and never that of a law or a constant that has changed.
+numba cannot take the two functions of a law as arguments without a call through a pointer at every sample,
+and finds a function that was made in a closure in no process's cache again. So the functions of kernel and
+law are copied, with the ones they call in their globals, and the copy of ``run`` has a name with a digest of
+all their code and constants: numba's index on disk (file, name, line) then finds the machine code in later
+processes, and never that of a law or a constant that has changed.
 """
 
 from __future__ import annotations
 
 import hashlib
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import lru_cache
 from types import CodeType, FunctionType
 from typing import Any, cast
 
 from . import kernel
 from .arrays import Vector
-from .machine_code import NUMBER, ROWS, VECTOR, WHOLE, ArgumentKind, machine_code
 
 Sample = Callable[[Vector, Vector, Vector], None]
 """A sample function of a law: parameters, state, signals."""
@@ -26,9 +26,9 @@ Run = Callable[..., int]
 FiguresOfRows = Callable[..., None]
 """`batch.measure`."""
 
-PLAIN_STEPS = 30_000
-"""Physics steps after which machine code pays. Plain Python computes them in 0.12 s, three times as long as
-it takes to load what was kept (docs/simulation/inside.md): for one short move nothing is made."""
+PLAIN_STEPS = 100_000
+"""Physics steps that plain Python computes in about the time of loading numba
+and its cache (docs/simulation/inside.md)."""
 
 OPTIONS: dict[str, Any] = {"fastmath": False, "error_model": "numpy", "_nrt": False}
 """Sums are computed in the written order; a division does not look whether it is by 0; arrays are not counted
@@ -45,65 +45,52 @@ def plain(position_sample: Sample, velocity_sample: Sample | None) -> Run:
     return cast(Run, _copy(kernel.run, _own(position_sample, velocity_sample)))
 
 
-def compiled(position_sample: Sample, velocity_sample: Sample | None) -> Run | None:
+@lru_cache(maxsize=64)
+def compiled(position_sample: Sample, velocity_sample: Sample | None) -> Run:
     """Return the kernel of a law as machine code; its vectors are contiguous numpy arrays.
 
-    The first call on a machine compiles it and stores the result. None where there is no machine code.
+    The first call on a machine compiles it and stores the result. Only where `can_compile`.
     """
-    return _compiled(position_sample, velocity_sample) if _is_wanted() else None
+    import numba
 
-
-@lru_cache(maxsize=64)
-def _compiled(position_sample: Sample, velocity_sample: Sample | None) -> Run | None:
-    own = _own(position_sample, velocity_sample)
-    made = code_of(kernel.run, own, (*[VECTOR] * 11, ROWS), result=True)
-    if made is not None:
-        _loaded.add((position_sample, velocity_sample))
-    return made
-
-
-def compiled_figures(measure: FiguresOfRows) -> FiguresOfRows | None:
-    """Return what makes figures of rows (`variations/batch.py`) as machine code, the same for every law;
-    None where there is none.
-    """
-    return _compiled_figures(measure) if _is_wanted() else None
+    vector = numba.float64[::1]
+    signature = numba.int64(*[vector] * 11, numba.float64[:, ::1])
+    made = _machine_code(kernel.run, _own(position_sample, velocity_sample), signature)
+    _loaded.add((position_sample, velocity_sample))
+    return cast(Run, made)
 
 
 @lru_cache(maxsize=4)
-def _compiled_figures(measure: FiguresOfRows) -> FiguresOfRows | None:
-    return code_of(measure, {}, (ROWS, WHOLE, WHOLE, VECTOR, NUMBER, NUMBER, VECTOR), result=False)
+def compiled_figures(measure: FiguresOfRows) -> FiguresOfRows:
+    """Return what makes figures of rows (`variations/batch.py`) as machine code, the same for every law."""
+    import numba
+
+    vector, rows = numba.float64[::1], numba.float64[:, ::1]
+    signature = numba.void(rows, numba.int64, numba.int64, vector, numba.float64, numba.float64, vector)
+    return cast(FiguresOfRows, _machine_code(measure, {}, signature))
 
 
-def code_of(
-    entry: Callable[..., Any], own: dict[str, FunctionType], kinds: Sequence[ArgumentKind], *, result: bool
-) -> Callable[..., Any] | None:
-    """Return a function and all that it calls as machine code, the law's for two of the kernel; None where
-    there is none.
-    """
-    name = _name(entry, own)
-    return machine_code(name, kinds, result, lambda: _linked(entry, own, name))
-
-
-def _linked(
-    entry: Callable[..., Any], own: dict[str, FunctionType], name: str
-) -> tuple[FunctionType, dict[str, Any]]:
-    """Return a function that calls what numba has taken in, under a name, and the options for it."""
+def _machine_code(entry: Callable[..., Any], own: dict[str, FunctionType], signature: Any) -> Any:
+    """Return a function and all that it calls as machine code, the law's for two of the kernel."""
     import numba
 
     jitted: dict[FunctionType, Any] = {}
 
-    def taken_in(function: FunctionType) -> Any:
+    def machine_code(function: FunctionType) -> Any:
         if function not in jitted:
-            names = {name: taken_in(called) for name, called in _called(function, own).items()}
+            names = {name: machine_code(called) for name, called in _called(function, own).items()}
             # Only machine code calls them: what Python or C would call them by takes a tenth of the time.
             bare: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
             jitted[function] = numba.njit(_copy(function, names), forceinline=True, **bare, **OPTIONS)
         return jitted[function]
 
-    called = {name: taken_in(each) for name, each in _called(entry, own).items()}
+    called = {name: machine_code(each) for name, each in _called(entry, own).items()}
     run = _copy(entry, called)
-    run.__qualname__ = run.__name__ = name
-    return run, OPTIONS
+    run.__qualname__ = run.__name__ = _name(entry, own)
+    try:
+        return numba.njit(signature, cache=True, **OPTIONS)(run)
+    except RuntimeError:  # no folder can be written in which it would be found again
+        return numba.njit(signature, **OPTIONS)(run)
 
 
 def kernel_name(position_sample: Sample, velocity_sample: Sample | None) -> str:
@@ -119,9 +106,17 @@ def _name(entry: Callable[..., Any], own: dict[str, FunctionType]) -> str:
     return f"{entry.__name__}_{hashlib.sha256(chr(10).join(described).encode()).hexdigest()[:16]}"
 
 
-def _is_wanted() -> bool:
-    """Return whether NUMBA_DISABLE_JIT does not ask for plain Python."""
-    return os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0")
+def can_compile() -> bool:
+    """Return whether there is machine code: the extra ``fast`` is installed,
+    and NUMBA_DISABLE_JIT does not ask for plain Python.
+    """
+    if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
+        return False
+    try:
+        import numba  # noqa: F401  # whether it can be, with the numpy that is here
+    except ImportError:
+        return False
+    return True
 
 
 def pays(position_sample: Sample, velocity_sample: Sample | None, steps: float) -> bool:

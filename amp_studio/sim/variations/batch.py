@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from amp_studio.sim.axis.motion import TIMING, Engine, Until, prepared, run_prepared, steps
 from amp_studio.sim.engine.arrays import Vector
-from amp_studio.sim.engine.compiled import FiguresOfRows, compiled_figures, pays
+from amp_studio.sim.engine.compiled import FiguresOfRows, can_compile, compiled_figures, pays
 from amp_studio.sim.engine.kernel import (
     ALARM_ROW,
     ENDED,
@@ -113,8 +113,8 @@ def run_batch(
     samples, substeps = steps(axis)
     law = axis.position_sample, axis.velocity_sample
     expected = len(runs) * until.duration / axis.servo_period * samples * substeps
-    is_fast = pays(*law, expected) if machine_code is None else machine_code
-    figures = (compiled_figures(measure) if is_fast else None) or measure
+    is_fast = (pays(*law, expected) if machine_code is None else machine_code) and can_compile()
+    figures = compiled_figures(measure) if is_fast else measure
     out = np.full((len(runs), len(FIGURES)), np.nan)
     # One room for the rows of all: large arrays that come and go are a page fault for every 4 kB of each run,
     # above all in the worker of a cluster, which gives memory back at once.
