@@ -137,7 +137,7 @@ def _notes(solved: Solved, slowest: float, others: Sequence[Trial]) -> list[str]
     if delay_is_long(solved.after.axis):
         sentences.append(
             f"The delay is more than {LONG_DELAY} samples: the gains were sought with fewer tries and in"
-            " coarser steps, and may be a few per cent softer than possible."
+            " coarser steps, and may be much softer than possible."
         )
     if math.isfinite(slowest):
         names = ", ".join(other.axis.axis for other in others)
