@@ -41,6 +41,10 @@ class Zone:
     refuses: bool = False
     """Whether every motion that would break it is not begun."""
 
+    def has_number(self, number: str) -> bool:
+        """Return whether its name, without the group that it is of, has a number."""
+        return number in self.name.partition(",")[0].split()
+
     def contains(self, point: Mapping[str, float]) -> bool:
         """Return whether a point is in the box, its edges not;
         an axis that the point does not have counts as in it.

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -32,7 +34,9 @@ from amp_studio.sim.path.contour import distances
 from amp_studio.sim.path.planner import ProgramPlan, lowest_sums, plan_program
 from amp_studio.sim.path.profiles import axis_profiles
 from amp_studio.sim.path.program import ProgramRun, run_program
+from amp_studio.sim.path.result import limit_letters
 from amp_studio.sim.path_rules import Corners, PathLimit
+from amp_studio.sim.zones import Zone
 from tests.programs.test_block import example
 
 from .real_programs import BASE, OFF, PROGRAMS, RealProgram
@@ -393,3 +397,15 @@ def test_the_passes_of_straight_ramps_are_those_of_a_loop(count: int) -> None:
     assert found == pytest.approx(expected, rel=1e-9, abs=1e-6)
     free = np.array(expected) == bound
     assert (found[free] == bound[free]).all()
+
+
+def test_no_limit_has_the_letter_of_rapid() -> None:
+    times = np.array([9.0, *range(24, 0, -1)])
+    run = cast(ProgramRun, SimpleNamespace(plan=SimpleNamespace(time_by_cause=lambda: times)))
+    letters = limit_letters(run)
+    assert "".join(letters.values()) == "ABCDEFGHIJKLMNOPQSTUVWXYZ"
+
+
+def test_a_zone_has_its_number_and_not_one_that_begins_so() -> None:
+    zone = Zone("programmable zone 12, group 3", {}, "outside", is_on=True, code="")
+    assert [number for number in ("", "1", "12", "3", "2") if zone.has_number(number)] == ["12"]

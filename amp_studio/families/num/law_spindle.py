@@ -91,7 +91,7 @@ def _orient(read: AxisParameters, number: str) -> Orient | None:
         (read.optional(ids.spindle_origin, at=number) or 0.0) * unit,
         0.0,
         (read.optional(ids.spindle_window, at=number) or 0.0) * unit,
-        standstill=indexing_standstill(period if period > 1.0 else period * 1000.0),
+        standstill=indexing_standstill(period * 1000.0),  # ms to µs
         page="8-5, 8-6",
     )
 

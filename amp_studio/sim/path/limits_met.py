@@ -165,7 +165,7 @@ def _is_on(zone: Zone, numbers: tuple[str, ...] | None) -> bool:
     """Return whether a zone is on; without numbers of the program as at power-up."""
     if numbers is None:
         return zone.is_on
-    return any(f" {number}" in zone.name.partition(",")[0] for number in numbers)
+    return any(zone.has_number(number) for number in numbers)
 
 
 def _first_broken(

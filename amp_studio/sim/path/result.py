@@ -23,6 +23,8 @@ TRIED_SHARE, MOST_TRIES = 1.2, 5
 """By what a parameter that limits is multiplied to see what that brings, and how many are tried at most."""
 SMALL = 0.0005
 """Share of the time below which a limit is not listed."""
+_LETTERS = "BCDEFGHIJKLMNOPQSTUVWXYZ"
+"""Of the limits, by their time: A is the programmed feed and R rapid."""
 
 
 def limit_name(file: ParameterFile, limit: PathLimit) -> str:
@@ -38,7 +40,7 @@ def limit_letters(run: ProgramRun) -> dict[int, str]:
     """Return cause -> its letter in picture and list: A for the programmed feed, the others by their time."""
     times = run.plan.time_by_cause()
     order = sorted((n for n in range(1, len(times)) if times[n] > 0.0), key=lambda n: -times[n])
-    return {0: "A", **{n: chr(ord("B") + place) for place, n in enumerate(order[:24])}}
+    return {0: "A", **{n: letter for letter, n in zip(_LETTERS, order, strict=False)}}
 
 
 def main_cause(plan: ProgramPlan) -> Indices:

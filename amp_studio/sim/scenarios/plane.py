@@ -104,7 +104,7 @@ def _active(machine: BoundMachine, axes: Mapping[str, AxisLaw], settings: Scenar
 
 def _numbered(zones: Sequence[Zone], number: str) -> list[Zone]:
     """Return the zones with a number; raises SimulationError where there is none."""
-    found = [zone for zone in zones if f" {number}" in zone.name.partition(",")[0]]
+    found = [zone for zone in zones if zone.has_number(number)]
     if not found:
         raise SimulationError(f"Zone {number} is not set for these axes", "move.zone")
     return found

@@ -10,7 +10,7 @@ import pytest
 from amp_studio.families.num import law_sample as sample
 from amp_studio.families.num.law import LAW
 from amp_studio.schema import Value as StoredValue
-from amp_studio.sim import AxisLaw, SimulationError
+from amp_studio.sim import AxisLaw, SimulationError, simulate
 from amp_studio.sim.axis.motion import Motion, Until, run_axis
 from amp_studio.sim.axis_parameters import AxisParameters
 from amp_studio.sim.binding import bind_axis
@@ -338,3 +338,14 @@ def test_a_clamp_is_named_as_time_that_is_left_out() -> None:
     file.set(("axes.clamped", ""), StoredValue(0x2))
     clamped = [any("has a clamp" in note for note in bind_axis(file, LAW, axis).assumptions) for axis in "01"]
     assert clamped == [False, True]
+
+
+def test_an_indexed_spindle_is_in_position_at_a_standstill_alone() -> None:
+    """Page 8-5: 3/4096 of a turn in a sample of 5 ms are 8.8 rpm, 16 degrees of lag at a gain of 200."""
+    mill = example("num-1060-mill")
+    times = {}
+    for window in (11, 100, 200, 400):
+        mill.set(("spindle.window", "1"), StoredValue(window))
+        result = simulate(mill, "spindle", None, {"move.orient": 90.0}).result
+        times[window] = result["time"][0]
+    assert times[11] > times[100] > times[200] == times[400]
