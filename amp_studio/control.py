@@ -33,7 +33,6 @@ from amp_studio.transfer.client import (
     fetch_image,
     look_at,
     open_copy,
-    open_driver,
     open_driver_at,
     record_look,
     restore_copy,
@@ -84,7 +83,7 @@ class ConnectedControl:
         """Return what the control states of itself: name, revision, whether it is in E-stop,
         the digest of its content.
         """
-        with closing(open_driver(self.address, self.family)) as driver:
+        with closing(open_driver_at(self.address, self.family, self.exchange)) as driver:
             return driver.identify()
 
     def look(self) -> ControlLook:

@@ -7,7 +7,7 @@ from amp_studio.transfer.links import parse_endpoint
 from amp_studio.transfer.status import ControlStatus, ShowsStatus
 from amp_studio.transfer.ways import SCREEN
 
-from .drivers import open_driver
+from .drivers import open_driver_at
 from .screen import ScreenReader
 
 
@@ -17,7 +17,7 @@ class StatusReader:
     def __init__(self, address: str, family: str = "") -> None:
         place = parse_endpoint(address)
         self._asked: ControlDriver | ScreenReader = (
-            ScreenReader(place) if place.protocol == SCREEN else open_driver(place, family)
+            ScreenReader(place) if place.protocol == SCREEN else open_driver_at(address, family)
         )
 
     def read(self) -> ControlStatus:

@@ -7,13 +7,14 @@ from __future__ import annotations
 import socket
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import closing
+from contextlib import closing, suppress
 
 import pytest
 
+import amp_studio
 from amp_studio.transfer.client import drivers
 from amp_studio.transfer.client.drivers import open_driver_at
-from amp_studio.transfer.errors import CancelledError
+from amp_studio.transfer.errors import CancelledError, TransferError
 from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.progress import Stop
 
@@ -75,6 +76,16 @@ def test_a_grbl_is_known_by_its_status_report_or_its_greeting(
     with closing(open_driver_at(grbl.address)) as driver:
         assert type(driver).__name__ == "GrblDriver"
     assert set(grbl.heard) == set(b"?")
+
+
+@pytest.mark.parametrize("ask", ["status", "identify", "look"])
+def test_a_grbl_that_moves_is_asked_without_a_reset(machine: Callable[[bytes], Machine], ask: str) -> None:
+    """A frame of the house protocol contains 0x18, which stops the axes where they are."""
+    grbl = machine(b"<Jog|MPos:2.401,0.000,0.000|FS:415,0>\r\n")
+    with suppress(TransferError), amp_studio.connect(grbl.address) as control:
+        getattr(control, ask)()
+    assert grbl.heard.startswith(b"?")
+    assert not set(grbl.heard) & set(b"\x18!~\x84\x85\0")
 
 
 @pytest.mark.parametrize(
