@@ -218,10 +218,10 @@ def test_drawings_of_the_simulator_come_when_they_are_ready(
 ) -> None:
     figure = PrintedFigure("Step, axis 1", "", ("Not simulated: no machine",))
     monkeypatch.setattr("amp_studio.dossier.motion_apart", lambda _file: (figure,))
-    pages = len(panel.view.pages)
+    pages = [*panel.view.pages]
     window.report_options.contents = Contents(changed_only=True, without=SHORT.without - {"motion"})
     settled(panel)
-    assert len(panel.view.pages) == pages + 1
+    assert panel.view.pages != pages, "a short chapter shares the page of another"
     assert panel._known[window.workspace].motion == (figure,)
 
 
