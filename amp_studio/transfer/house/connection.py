@@ -20,7 +20,8 @@ from amp_studio.transfer.links import LinkError
 from amp_studio.transfer.progress import CUT, SILENT, Progress, Stop, quiet
 from amp_studio.transfer.waiting import OpenLink
 
-from .message import MAX_CHUNK, PROTOCOL_VERSION, Code, Hello, RefusalError, Welcome
+from .frame import encode_frame
+from .message import MAX_CHUNK, PROTOCOL_VERSION, Code, Hello, RefusalError, Welcome, pack
 from .retry_timer import RetryPolicy
 from .streaming import window_limit
 from .transaction import NoAnswerError, Transaction
@@ -33,6 +34,12 @@ SLICE = 0.1  # seconds a pause may last before the cancel event is read again
 SILENT_AFTER = 1.8  # seconds without an answer until the waiting caller is notified
 SILENT_EVERY = 1.0  # seconds until he is notified again
 LINGER = 5.0  # seconds a commit is seen through after a stop was asked for
+
+ACTS_ON_GRBL = frozenset((0x03, 0x05, 0x06, 0x14, 0x18, 0x19, *b"!%~", *range(0x80, 0x100)))
+"""Bytes that a Grbl or grblHAL obeys wherever they come, a reset and a cycle start among them (its grbl.h,
+``CMD_…``)."""
+_DRAWS = 500
+"""Tries for a frame without them: one in twenty has none, as its check sum falls."""
 
 # Patience starts again only with a step of so many bytes (fewer of a small image, on a slow line, or at the
 # end): a control cannot keep a client for ever by giving it a byte every few seconds.
@@ -99,7 +106,7 @@ class Connection:
     def _open_talk(self) -> Transaction:
         """Return the transactions of the line there is, or of a new one."""
         if self._talk is None:
-            first = int.from_bytes(self.random(2), "little")
+            first = int.from_bytes(_letters(self.random(2)), "little")
             link = self._open_link(self._poll)
             try:
                 self._talk = Transaction(link, self.now, self._policy, first=first, look=self._poll)
@@ -114,12 +121,11 @@ class Connection:
         Raises LinkError, NoAnswerError, RefusalError; WrongFamilyError and ProtocolMismatchError,
         after which the line is closed.
         """
-        nonce = self.random(4)
-        welcome = self._open_talk().request(
-            Hello(PROTOCOL_VERSION, nonce, self._client), Welcome, tries=tries
-        )
+        talk = self._open_talk()
+        hello = self._hello(talk.next_number)
+        welcome = talk.request(hello, Welcome, tries=tries)
         # The answer to an earlier Hello, still on its way, is not taken for the one to this.
-        if welcome.nonce != nonce:
+        if welcome.nonce != hello.nonce:
             raise NoAnswerError
         if welcome.version != PROTOCOL_VERSION or not 1 <= welcome.chunk <= MAX_CHUNK or welcome.window < 1:
             self.close()
@@ -136,6 +142,14 @@ class Connection:
             raise WrongFamilyError(f"the control is of the family {welcome.family}, not {self._family}")
         self.welcome = welcome
         return welcome
+
+    def _hello(self, number: int) -> Hello:
+        """Return a Hello whose frame acts on no Grbl: who is there is not known yet, and an axis may move."""
+        for _ in range(_DRAWS):
+            hello = Hello(PROTOCOL_VERSION, _letters(self.random(4)), self._client)
+            if not ACTS_ON_GRBL.intersection(encode_frame(pack(hello, number))):
+                break
+        return hello
 
     def persist(self, action: Callable[[Transaction], _T]) -> _T:
         """Run ``action`` to its end, on as many lines as it takes, until patience ends.
@@ -272,3 +286,8 @@ class Connection:
 
 def _identity(welcome: Welcome) -> tuple[str, str, str]:
     return welcome.family, welcome.signature, welcome.name
+
+
+def _letters(drawn: bytes) -> bytes:
+    """Return random bytes as letters and figures, which act on no control."""
+    return bytes(0x30 + byte % 0x40 for byte in drawn)

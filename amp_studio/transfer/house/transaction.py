@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
-from itertools import count
 
 from amp_studio.transfer.links import Link
 
@@ -42,7 +41,7 @@ class Transaction:
         self.pace = RetryTimer(policy)
         self._clock = clock
         self._poll = look
-        self._numbers = (1 + (first + n) % 65_535 for n in count())
+        self.next_number = 1 + first % 65_535
         self._decoder = FrameDecoder()
         self._received: deque[tuple[int, Message]] = deque()
         link.write(b"\x00")  # ends whatever the other end may have half received before
@@ -53,8 +52,13 @@ class Transaction:
 
     def send(self, message: Message) -> int:
         """Send a message under a new number and return the number; raises LinkError."""
-        number = next(self._numbers)
+        number = self._number()
         self.link.write(encode_frame(pack(message, number)))
+        return number
+
+    def _number(self) -> int:
+        number = self.next_number
+        self.next_number = 1 + number % 65_535
         return number
 
     def receive(self, timeout: float) -> tuple[int, Message] | None:
@@ -85,7 +89,7 @@ class Transaction:
         """
         # Only the answer to a request that was sent once is timed (Karn): after that nobody knows which
         # sending it answers, and a late answer to the first would make the timeouts too short for good.
-        number = next(self._numbers)
+        number = self._number()
         encoded = encode_frame(pack(message, number))
         for attempt in range(tries or self.pace.policy.tries):
             # The 00 in front parts a repeated request from one whose end was lost.

@@ -16,6 +16,7 @@ from amp_studio.transfer.client import drivers
 from amp_studio.transfer.client.drivers import open_driver_at
 from amp_studio.transfer.errors import CancelledError, TransferError
 from amp_studio.transfer.exchange import Exchange
+from amp_studio.transfer.house.connection import ACTS_ON_GRBL
 from amp_studio.transfer.progress import Stop
 
 
@@ -85,7 +86,18 @@ def test_a_grbl_that_moves_is_asked_without_a_reset(machine: Callable[[bytes], M
     with suppress(TransferError), amp_studio.connect(grbl.address) as control:
         getattr(control, ask)()
     assert grbl.heard.startswith(b"?")
-    assert not set(grbl.heard) & set(b"\x18!~\x84\x85\0")
+    assert not ACTS_ON_GRBL & set(grbl.heard)
+
+
+@pytest.mark.parametrize("ask", ["status", "identify", "look", "fetch"])
+def test_a_grbl_that_is_taken_for_another_family_goes_on(
+    machine: Callable[[bytes], Machine], ask: str
+) -> None:
+    grbl = machine(b"error:3\r\n")
+    with suppress(TransferError), amp_studio.connect(grbl.address, "9pc") as control:
+        getattr(control, ask)()
+    assert b"AMP Studio" in grbl.heard
+    assert not ACTS_ON_GRBL & set(grbl.heard)
 
 
 @pytest.mark.parametrize(
