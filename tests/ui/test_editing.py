@@ -245,6 +245,15 @@ def test_copy_and_paste_a_value(window: MainWindow, file: ParameterFile) -> None
     assert file.get(("servo.gain_break_point", "2")) == Value(3.5, "mm")
 
 
+def test_without_a_selected_value_the_clipboard_stays(window: MainWindow, user) -> None:
+    QGuiApplication.clipboard().setText("3,5 mm")
+    view = window.page_in_front.table_view
+    view.selectionModel().clear()
+    window.guarded(window.edits.range.copy)
+    assert user.reads() == "Select a value in the table first."
+    assert QGuiApplication.clipboard().text() == "3,5 mm"
+
+
 def test_one_key_fixes_the_selected_finding_and_undo_takes_it_back(
     window: MainWindow, workspace: Workspace
 ) -> None:

@@ -47,7 +47,8 @@ class RangeEdits:
     # -- copy --------------------------------------------------------------------
 
     def copy(self) -> None:
-        """Copy the selected values, exact and with their units."""
+        """Copy the selected values, exact and with their units; raises ValueError where there are none."""
+        self._selected()
         self._put(self.window.page_in_front.table_view.cells.block(), [])
 
     def copy_with_names(self) -> None:
@@ -79,9 +80,8 @@ class RangeEdits:
         is_one = len(cells) == 1 and len(cells[0]) == 1
         data.setText(cells[0][0].text if is_one else block_text(cells))
         one = cells[0][0]
-        if not is_one or (
-            one.number is not None and not one.unit
-        ):  # to a German spreadsheet 2.5 is a text, or 2 May
+        # To a German spreadsheet 2.5 is a text, or 2 May.
+        if not is_one or (one.number is not None and not one.unit):
             data.setHtml(block_html(cells, heads=bool(names)))
         QGuiApplication.clipboard().setMimeData(data)
 
