@@ -37,11 +37,14 @@ def axis_letters(file: ParameterFile) -> dict[str, str]:
 
 
 def matched_by_letter(file: ParameterFile, like: ParameterFile) -> MatchedAxes:
-    """Return a file with each axis at the number that its letter has in ``like``; both are of one schema.
+    """Return a file with each axis at the number that its letter has in ``like``; one of another family
+    stays as it is.
 
     An axis whose letter ``like`` does not have gets a number that is free there, its own if possible. Where a
     letter occurs twice in one of the files it is not known which axis is meant, and all stay where they are.
     """
+    if file.schema.family.family != like.schema.family.family:
+        return MatchedAxes(file, (), ())
     mine, theirs = axis_letters(file), axis_letters(like)
     wanted = dict(zip(theirs.values(), theirs, strict=True))
     if len(set(mine.values())) < len(mine) or len(wanted) < len(theirs):

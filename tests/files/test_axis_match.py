@@ -76,6 +76,13 @@ def test_axes_that_share_a_letter_stay_where_they_are() -> None:
     assert matched_by_letter(twice, mill).file is twice
 
 
+def test_a_machine_of_another_family_stays_as_it_is() -> None:
+    module, mill = new_file("57c422b"), new_file("num")
+    for file, like in ((module, mill), (mill, module)):
+        matched = matched_by_letter(file, like)
+        assert (matched.file, matched.moved, matched.left_out) == (file, (), ())
+
+
 def test_one_axis_is_compared_with_another_by_its_values_and_keeps_its_name() -> None:
     mill = with_rapid(new_file("9pc", "mill", ["X", "Y"]), X=1000, Y=2000)
     twin = as_axis(mill, "2", "1")
