@@ -139,6 +139,19 @@ def test_two_axes_are_compared_side_by_side_and_a_value_is_taken(opened) -> None
     displayed.close()
 
 
+def test_a_comparison_without_a_chosen_axis_takes_the_first(opened) -> None:
+    """A box loses its choice where the type of the control brings its axes anew."""
+    window = opened("num", "X,Y,B")
+    action(window, "Compare Axes").trigger()
+    displayed = window.findChild(AxisComparison)
+    displayed.second.blockSignals(True)
+    displayed.second.setCurrentIndex(-1)
+    displayed.second.blockSignals(False)
+    displayed.refresh()
+    assert displayed.axes() == ("0", "0")
+    displayed.close()
+
+
 def test_a_compared_parameter_is_shown_in_the_table(opened) -> None:
     window = opened("acromill", "X,Y")
     window.edits.commit(("axes.pulses_per_unit", "Y"), "2000")

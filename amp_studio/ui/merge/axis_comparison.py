@@ -114,7 +114,8 @@ class AxisComparison(QDialog):
             self.close()
             return
         for box in (self.first, self.second):
-            if [box.itemData(n) for n in range(box.count())] != fitted:  # axes came or went
+            is_other = [box.itemData(n) for n in range(box.count())] != fitted  # axes came or went
+            if is_other or box.currentIndex() < 0:
                 self._fill(box, box.currentData())
         first, second = self.axes()
         row = max(self.list.currentIndex().row(), 0)
