@@ -140,7 +140,7 @@ def test_two_axes_are_compared_side_by_side_and_a_value_is_taken(opened) -> None
 
 
 def test_a_comparison_without_a_chosen_axis_takes_the_first(opened) -> None:
-    """A box loses its choice where the type of the control brings its axes anew."""
+    """A box loses its choice where the type of the control changes."""
     window = opened("num", "X,Y,B")
     action(window, "Compare Axes").trigger()
     displayed = window.findChild(AxisComparison)
