@@ -7,12 +7,10 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 
 from amp_studio.meaning import (
     AxisMeaning,
     Graded,
-    GradeKind,
     MachineMeaning,
     MigrationQuestion,
     WrittenMachine,
@@ -22,38 +20,12 @@ from amp_studio.meaning import (
 )
 
 from .kinematics import LETTERS
+from .migrated_ini import MigratedIni, taken_from
+from .migration_home import NOT_HOMED, HomeKeys
 from .offsets import numbered_parameters, tool_table
 from .template import hal_template
 
 _TURNING = "ABC"
-_NOT_HOMED = ("", "none", "coded")
-_SIGNED = r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)"
-INSIDE = 0.01
-"""mm or deg by which the place of home has to be inside the limits."""
-
-
-@dataclass
-class _Ini:
-    """The lines of a configuration: section -> key, value and a remark above."""
-
-    sections: dict[str, list[tuple[str, str, str]]] = field(default_factory=dict)
-
-    def put(self, section: str, key: str, value: str, remark: str = "") -> None:
-        self.sections.setdefault(section, []).append((key, value, remark))
-
-    def text(self, name: str) -> str:
-        """Return the whole, with number and grade above each key."""
-        lines = [
-            (
-                f"# {name}, migrated. Above each key: the parameter of the old control and how well it was"
-                " taken over."
-            )
-        ]
-        for section, rows in self.sections.items():
-            lines += ["", f"[{section}]"]
-            for key, value, remark in rows:
-                lines += [f"# {remark}"] * bool(remark) + [f"{key} = {value}"]
-        return "\n".join((*lines, ""))
 
 
 def migrate(machine: MachineMeaning, answers: Mapping[str, str]) -> WrittenMachine:
@@ -64,7 +36,7 @@ def migrate(machine: MachineMeaning, answers: Mapping[str, str]) -> WrittenMachi
 class _Migration:
     def __init__(self, machine: MachineMeaning, answers: Mapping[str, str]) -> None:
         self.machine, self.answers = machine, answers
-        self.out, self.ini = WrittenMachine(), _Ini()
+        self.out, self.ini = WrittenMachine(), MigratedIni()
         self.name = re.sub(r"[^A-Za-z0-9_-]+", "_", machine.name).strip("_") or "machine"
         self.letters = {axis.instance: self._letter(axis) for axis in machine.axes}
         order = sorted(
@@ -118,7 +90,7 @@ class _Migration:
 
     def _home_order(self) -> dict[str, int]:
         """Return letter -> step of Home All; empty where it was not answered."""
-        homed = [a for a in self.ordered if a.choice("home.kind") not in _NOT_HOMED]
+        homed = [a for a in self.ordered if a.choice("home.kind") not in NOT_HOMED]
         if not homed:
             return {}
         steps = self.out.home_steps([self.letters[a.instance] for a in homed], self.answers)
@@ -260,12 +232,12 @@ class _Migration:
     def _joint(self, axis: AxisMeaning, sign: str, steps: Mapping[str, int]) -> None:
         joint, letter = self.axes[axis.instance], self.letters[axis.instance]
         j, a = f"JOINT_{joint}", f"AXIS_{letter}"
-        self.ini.put(j, "TYPE", "ANGULAR" if axis.turns else "LINEAR", self._of(axis, "kind", "exact"))
+        self.ini.put(j, "TYPE", "ANGULAR" if axis.turns else "LINEAR", taken_from(axis, "kind", "exact"))
         self.out.grade(axis, "kind", "exact", f"[{j}]TYPE", "ANGULAR" if axis.turns else "LINEAR")
         self._travel(axis, j, a)
         self._motion(axis, j, a)
         self._loop(axis, j, sign)
-        self._home(axis, j, steps.get(letter))
+        HomeKeys(self.out, self.ini, self.answers).write(axis, j, steps.get(letter))
         if axis.number("feed.ceiling") is not None:
             self.out.grade(
                 axis,
@@ -293,7 +265,7 @@ class _Migration:
             value = axis.number(concept)
             if kind == "limits" and value is not None:
                 for section in (j, a):
-                    self.ini.put(section, key, rounded(value), self._of(axis, concept, "exact"))
+                    self.ini.put(section, key, rounded(value), taken_from(axis, concept, "exact"))
                 self.out.grade(axis, concept, "exact", f"[{j}]{key}, [{a}]{key}", rounded(value))
             else:
                 self.out.grade(axis, concept, "exact", f"[{j}]{key}, [{a}]{key}", "left out")
@@ -306,7 +278,7 @@ class _Migration:
         )
         self._less_travel(axis, kind)
         if axis.turns and (axis.number("rollover") or kind == "modulo"):
-            self.ini.put(a, "WRAPPED_ROTARY", "1", self._of(axis, "rollover", "approximate"))
+            self.ini.put(a, "WRAPPED_ROTARY", "1", taken_from(axis, "rollover", "approximate"))
             self.out.grade(
                 axis,
                 "rollover",
@@ -334,7 +306,7 @@ class _Migration:
         if rapid:
             for section in (j, a):
                 self.ini.put(
-                    section, "MAX_VELOCITY", not_above(rapid / 60.0), self._of(axis, "rapid", "exact")
+                    section, "MAX_VELOCITY", not_above(rapid / 60.0), taken_from(axis, "rapid", "exact")
                 )
             self.out.grade(
                 axis, "rapid", "exact", f"[{j}]MAX_VELOCITY, [{a}]MAX_VELOCITY", not_above(rapid / 60.0)
@@ -347,7 +319,7 @@ class _Migration:
                     section,
                     "MAX_ACCELERATION",
                     not_above(ramp),
-                    self._of(axis, "acceleration", "approximate"),
+                    taken_from(axis, "acceleration", "approximate"),
                 )
             kind = axis.choice("ramp.kind") or "trapezoid"
             now = "a straight ramp with it in jogs, homing and G61; G64 has half of it"
@@ -390,7 +362,7 @@ class _Migration:
         if limit:
             # The old control has one limit at every speed; with both alike LinuxCNC has too.
             for key in ("FERROR", "MIN_FERROR"):
-                self.ini.put(j, key, not_above(limit), self._of(axis, "error.limit", "exact"))
+                self.ini.put(j, key, not_above(limit), taken_from(axis, "error.limit", "exact"))
             self.out.grade(axis, "error.limit", "exact", f"[{j}]FERROR, [{j}]MIN_FERROR", not_above(limit))
             self.out.measure.append(
                 f"{axis.letter}: greatest following error in a rapid move; then FERROR as narrow as it works"
@@ -400,14 +372,14 @@ class _Migration:
                 f"{axis.letter}: no limit of the following error is known; LinuxCNC takes 1 unit"
             )
         if gain:
-            self.ini.put(j, "P", not_above(gain), self._of(axis, "gain", "exact"))
+            self.ini.put(j, "P", not_above(gain), taken_from(axis, "gain", "exact"))
             self.out.grade(axis, "gain", "exact", f"[{j}]P", not_above(gain))
-        self.ini.put(j, "FF1", not_above(forward or 0.0), self._of(axis, "feed_forward", "exact"))
+        self.ini.put(j, "FF1", not_above(forward or 0.0), taken_from(axis, "feed_forward", "exact"))
         self.out.grade(axis, "feed_forward", "exact", f"[{j}]FF1", not_above(forward or 0.0))
         # 0 is no limit.
         self.ini.put(j, "MAX_OUTPUT", "0")
         if (play := axis.number("backlash")) is not None:
-            self.ini.put(j, "BACKLASH", not_above(play), self._of(axis, "backlash", "approximate"))
+            self.ini.put(j, "BACKLASH", not_above(play), taken_from(axis, "backlash", "approximate"))
             self.out.grade(
                 axis,
                 "backlash",
@@ -421,187 +393,5 @@ class _Migration:
         if (scale := axis.number("scale")) is not None:
             value = f"{'-' if sign.startswith('-') else ''}{scale:.9g}" if sign in ("+", "-") else ""
             if value:
-                self.ini.put(j, "ENCODER_SCALE", value, self._of(axis, "scale", "exact"))
+                self.ini.put(j, "ENCODER_SCALE", value, taken_from(axis, "scale", "exact"))
             self.out.grade(axis, "scale", "exact", f"[{j}]ENCODER_SCALE", value or f"{scale:.9g}, sign open")
-
-    def _home(self, axis: AxisMeaning, j: str, step: int | None) -> None:
-        kind, search, leave = axis.choice("home.kind"), axis.number("home.search"), axis.number("home.leave")
-        towards = axis.number("home.towards")
-        if search is None and towards is not None and kind not in (*_NOT_HOMED, "absolute"):
-            search, leave = self._asked_speed(axis, towards)
-        if kind == "absolute":
-            for concept in ("home.coordinate", "home.offset"):
-                self.out.grade(
-                    axis,
-                    concept,
-                    "not_possible",
-                    loses="the place where the old control took the position over: it kept it in its memory",
-                    do="measure what the encoder reports where the old control shows 0",
-                )
-        else:
-            self._home_place(axis, j)
-        if kind in _NOT_HOMED:
-            self._not_homed(axis, kind)
-            return
-        if step is not None:
-            self.ini.put(j, "HOME_SEQUENCE", str(step), "answered")
-        if kind == "absolute":
-            self._absolute(axis, j)
-            return
-        if search is not None and leave is not None:
-            self._home_speeds(axis, j, search, leave, alone=kind == "marker")
-        else:
-            for concept in ("home.search", "home.leave", "home.towards"):
-                self.out.grade(
-                    axis,
-                    concept,
-                    "approximate",
-                    f"[{j}]HOME_SEARCH_VEL",
-                    "left out",
-                    "a search of the switch",
-                    "no search until the question is answered",
-                    "neither",
-                )
-        index = "NO" if kind == "switch" else "YES"
-        self.ini.put(j, "HOME_USE_INDEX", index, self._of(axis, "home.kind", "approximate"))
-        nearest = kind == "switch-nearest-marker"
-        if nearest:
-            self.out.measure.append(
-                f"{axis.letter}: distance from the switch to the nearest marker; where it is behind, zero"
-                " moves by one turn of the encoder"
-            )
-        self.out.grade(
-            axis,
-            "home.kind",
-            "approximate" if nearest else "exact",
-            f"[{j}]HOME_USE_INDEX",
-            index,
-            "the marker nearest to the switch, on either side" if nearest else "the next marker",
-            "the next marker in the direction of the latch",
-            "neither: measure the distance from the switch to the marker",
-        )
-
-    def _not_homed(self, axis: AxisMeaning, kind: str) -> None:
-        """Grade the homing of an axis that LinuxCNC cannot home as the old control did."""
-        loses, do = "homing as it was", "choose a way of homing at the new control"
-        if kind == "coded":
-            loses = "homing over distance-coded markers"
-            do = "a home switch, or a card that reads the coded markers and gives the position"
-        for concept in ("home.kind", "home.search", "home.leave", "home.towards"):
-            self.out.grade(axis, concept, "not_possible", loses=loses, do=do)
-        self.out.measure.append(
-            f"{axis.letter}: how it homes; Home All leaves it out until then, and no program runs before"
-            " every joint is homed"
-        )
-
-    def _absolute(self, axis: AxisMeaning, j: str) -> None:
-        """Write and grade an axis whose encoder knows its position: what it reports at zero is in no file."""
-        question = MigrationQuestion(
-            f"home.encoder.{axis.name}",
-            f"Which position does the encoder of {axis.name} report at the new card where the old control"
-            f" shows 0, in {'deg' if axis.turns else 'mm'}?",
-        )
-        found = self.out.answer(question, self.answers, _SIGNED)
-        if found:
-            self.ini.put(j, "HOME_ABSOLUTE_ENCODER", "2", self._of(axis, "home.kind", "exact"))
-            # The encoder's reading and the offset add up to 0 there.
-            self.ini.put(j, "HOME_OFFSET", inwards_high(0.0 - float(found)), "answered")
-        self.out.grade(
-            axis,
-            "home.kind",
-            "exact",
-            f"[{j}]HOME_ABSOLUTE_ENCODER",
-            "2" if found else "left out until answered",
-        )
-        for concept in ("home.search", "home.leave", "home.towards"):
-            self.out.grade(axis, concept, "exact", f"[{j}]HOME_SEARCH_VEL", "left out: nothing moves")
-
-    def _asked_speed(self, axis: AxisMeaning, towards: float) -> tuple[float | None, float | None]:
-        unit = "deg/min" if axis.turns else "mm/min"
-        question = MigrationQuestion(
-            f"home.speed.{axis.name}",
-            f"With which speed does {axis.name} search its switch, in {unit}? The PLC of the old control"
-            " set it.",
-        )
-        speed = self.out.number(question, self.answers)
-        return (speed * towards, -speed * towards / 10.0) if speed else (None, None)
-
-    def _home_place(self, axis: AxisMeaning, j: str) -> None:
-        at, offset = axis.number("home.coordinate"), axis.number("home.offset")
-        if at is None:
-            return
-        low, high = (
-            axis.number(c) if axis.choice("travel.kind") == "limits" else None
-            for c in ("travel.low", "travel.high")
-        )
-        # The final move of homing ends within a micrometre of HOME, and beyond a limit by any amount is an
-        # error that ends the homing of the other joints (C1507; seen with 2.9.0~pre1).
-        room = INSIDE if low is None or high is None or high - low > 2.0 * INSIDE else 0.0
-        least, most = at if low is None else low + room, at if high is None else high - room
-        within = min(max(at, least), most)
-        outcome: GradeKind = "exact" if within == at else "approximate"
-        # Rounded into the travel: a last decimal outward would be an error at every homing.
-        text = inwards_low(within) if within == least else inwards_high(within)
-        self.ini.put(j, "HOME", text, self._of(axis, "home.coordinate", outcome))
-        self.out.grade(
-            axis,
-            "home.coordinate",
-            outcome,
-            f"[{j}]HOME",
-            text,
-            f"it stays at {at:g}, at its limit or beyond",
-            f"it goes on to {INSIDE:g} inside the limit, where the homing is no error",
-            "the new one",
-        )
-        self.ini.put(
-            j,
-            "HOME_OFFSET",
-            inwards_high(at if offset is None else offset),
-            self._of(axis, "home.offset", "exact"),
-        )
-        self.out.grade(
-            axis, "home.offset", "exact", f"[{j}]HOME_OFFSET", inwards_high(at if offset is None else offset)
-        )
-
-    def _home_speeds(self, axis: AxisMeaning, j: str, search: float, leave: float, *, alone: bool) -> None:
-        rapid = axis.number("rapid") or abs(search)
-        # Without a switch there is no search: the latch goes to the marker.
-        first = 0.0 if alone else math.copysign(min(abs(search), rapid), search)
-        latch = search if alone else leave
-        slow = math.copysign(min(abs(latch), rapid), latch)
-        opposite = alone or search * leave < 0.0
-        self.ini.put(j, "HOME_SEARCH_VEL", not_above(first / 60.0), self._of(axis, "home.search", "exact"))
-        self.ini.put(
-            j,
-            "HOME_LATCH_VEL",
-            not_above(slow / 60.0),
-            self._of(axis, "home.leave", "exact" if opposite else "approximate"),
-        )
-        self.ini.put(j, "HOME_FINAL_VEL", not_above(abs(slow) / 60.0))
-        limited = abs(search) > rapid
-        self.out.grade(
-            axis,
-            "home.search",
-            "approximate" if limited else "exact",
-            f"[{j}]HOME_SEARCH_VEL",
-            not_above(first / 60.0),
-            "it searches faster than the rapid speed",
-            "with the rapid speed",
-            "the new one",
-        )
-        self.out.grade(axis, "home.towards", "exact", f"[{j}]HOME_SEARCH_VEL", not_above(first / 60.0))
-        self.out.grade(
-            axis,
-            "home.leave",
-            "exact" if opposite else "approximate",
-            f"[{j}]HOME_LATCH_VEL",
-            not_above(slow / 60.0),
-            "it runs on through the switch",
-            "it backs off, and comes again in the same direction",
-            "the new one needs room before the switch",
-        )
-
-    def _of(self, axis: AxisMeaning, concept: str, outcome: str) -> str:
-        figure = axis.figures.get(concept)
-        named = ", ".join(f"{s.param} {s.raw}" for s in figure.sources) if figure else ""
-        return f"{named}: {outcome}" if named else ""

@@ -35,11 +35,11 @@ SILENT_AFTER = 1.8  # seconds without an answer until the waiting caller is noti
 SILENT_EVERY = 1.0  # seconds until he is notified again
 LINGER = 5.0  # seconds a commit is seen through after a stop was asked for
 
-ACTS_ON_GRBL = frozenset((0x03, 0x05, 0x06, 0x14, 0x18, 0x19, *b"!%~", *range(0x80, 0x100)))
+ACTS_ON_GRBL = frozenset((0x03, 0x14, 0x18, 0x19, *b"!%~", *range(0x80, 0x100)))
 """Bytes that a Grbl or grblHAL obeys wherever they come, a reset and a cycle start among them (its grbl.h,
 ``CMD_…``)."""
 _DRAWS = 500
-"""Tries for a frame without them: one in twenty has none, as its check sum falls."""
+"""Tries for a frame without them: 4.4 % of 20,000 had none, as the check sum falls."""
 
 # Patience starts again only with a step of so many bytes (fewer of a small image, on a slow line, or at the
 # end): a control cannot keep a client for ever by giving it a byte every few seconds.

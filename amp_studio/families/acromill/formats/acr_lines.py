@@ -23,8 +23,10 @@ _BEHIND = re.compile(r"\s*+(?:\(.*\)\s*+|REM\b.*)?", re.IGNORECASE)
 _PROFILE = re.compile(
     r"\s*:?(?:\s*(?:STP|VEL|JRK|IVEL|FVEL)\s*(?:[0-9.]+|\([^()]*\))(?![\w.]))*+\s*", re.IGNORECASE
 )
-"""What a program gives its moves beside ``ACC`` and ``DEC``, in one line with them as a rule."""
+"""What a program gives its moves beside ``ACC`` and ``DEC`` (page 91). That several commands may be in a
+line, with a colon between them or none, is assumed: no page prints it."""
 _MOVE = re.compile(r"(?:\s*[XYZABCUV]\s*/?\s*(?:[-+]?[0-9.]+|\([^()]*\))(?![\w.]))++\s*", re.IGNORECASE)
+"""A move of axes behind the commands for it: it sets nothing (page 115)."""
 
 _LONGEST_LINE = 1000
 _WORDS = re.compile(
