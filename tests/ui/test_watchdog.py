@@ -22,11 +22,13 @@ from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.motion.view import MotionView
 from amp_studio.ui.page.file_page import FilePage
 from amp_studio.ui.project.check import check_files
+from tests.campaigns import CAMPAIGN
 
 from .conftest import WAIT_MS, Control, action
 from .watchdog import Watchdog
 
-LIMIT_MS = 50.0
+LIMIT = 50.0 if CAMPAIGN else 400_000
+"""In the unit of the watchdog: the first edit of a full file is the longest with 285,000 calls."""
 EXCESS = ("servo.excess_error", "1")
 
 
@@ -118,4 +120,4 @@ def test_the_window_does_not_stall_over_its_work(
         work.move_an_axis()
         dog.watch("download and check")
         qtbot.waitUntil(lambda: not Task.running, timeout=WAIT_MS)
-    assert dog.over(LIMIT_MS) == {}
+    assert dog.over(LIMIT) == {}

@@ -2,71 +2,60 @@
 
 from __future__ import annotations
 
+import sys
 import time
 from types import TracebackType
 
 from PySide6.QtCore import QTimer
 
+from tests.campaigns import CAMPAIGN
+
 BEAT_MS = 2
-TRIAL_MS = 3.0
-"""What the trial takes on a machine with nothing else to do, one for which the limits are meant."""
-
-
-def slowness() -> float:
-    """Return how many times longer this machine takes for the same work now:
-    processors share caches and pipelines.
-    """
-    begin = time.thread_time()
-    sum(n * n for n in range(100_000))
-    return max(1.0, (time.thread_time() - begin) * 1000 / TRIAL_MS)
 
 
 class Watchdog:
     """Beats by a timer of the window while ``with`` lasts;
-    each stall is how long the main thread worked between two beats.
+    each stall is how much the main thread worked between two beats.
 
-    That is the time of the processor, not of the clock: a machine that is busy with other things is no stall.
-    Neither is one whose processor is slow while others share it, which a trial before each action measures.
+    In the tests that is a number of calls, which is the same on every machine. In the campaign it is
+    milliseconds of the processor: what a person waits, on a machine with nothing else to do.
     """
 
+    UNIT = "ms" if CAMPAIGN else "calls"
+
     def __init__(self) -> None:
-        self.stalls: list[tuple[int, float]] = []
-        """Number of the action, and milliseconds."""
-        self._actions = [""]
-        self._slowness = [1.0]
-        """Before each action, and at the end."""
+        self.stalls: dict[str, float] = {}
+        """The longest of each action."""
+        self._action = ""
+        self._calls = 0
         self._last = 0.0
         self._timer = QTimer()
         self._timer.timeout.connect(self._beat)
 
+    def _count(self, _frame: object, event: str, _argument: object) -> None:
+        self._calls += event.endswith("call")
+
+    def _now(self) -> float:
+        return time.thread_time() * 1000 if CAMPAIGN else self._calls
+
     def _beat(self) -> None:
-        now = time.thread_time()
-        self.stalls.append((len(self._actions) - 1, (now - self._last) * 1000))
+        now = self._now()
+        self.stalls[self._action] = max(now - self._last, self.stalls.get(self._action, 0.0))
         self._last = now
 
     def watch(self, action: str) -> None:
         """Say what is going on from now on."""
         self._beat()
-        self._actions.append(action)
-        self._slowness.append(slowness())
-        self._last = time.thread_time()
+        self._action = action
 
     def over(self, limit: float) -> dict[str, float]:
-        """Return the longest stall over a limit in milliseconds, for each action.
-
-        The trials before and behind an action, and one more on both sides,
-        give it as much more time as they were slow.
-        """
-        found: dict[str, float] = {}
-        for number, stall in self.stalls:
-            if stall > limit * max(self._slowness[max(0, number - 1) : number + 3]):
-                action = self._actions[number]
-                found[action] = max(stall, found.get(action, 0.0))
-        return found
+        """Return the longest stall over a limit, for each action."""
+        return {action: stall for action, stall in self.stalls.items() if stall > limit}
 
     def __enter__(self) -> Watchdog:
-        self._slowness[0] = slowness()
-        self._last = time.thread_time()
+        self._last = self._now()
+        if not CAMPAIGN:
+            sys.setprofile(self._count)
         self._timer.start(BEAT_MS)
         return self
 
@@ -74,5 +63,6 @@ class Watchdog:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self._beat()
+        if not CAMPAIGN:
+            sys.setprofile(None)
         self._timer.stop()
-        self._slowness.append(slowness())
