@@ -17,7 +17,7 @@ from html import escape, unescape
 
 from amp_studio.languages import TextSection, name_of_language
 from amp_studio.schema import NO_TEXTS, UNITS, FactTexts, fact_texts, figures_in, program_texts, unit_text
-from amp_studio.validate import Finding
+from amp_studio.validate import Argument, Calculator, Finding
 
 from .wording import counted, joined_places
 
@@ -83,6 +83,10 @@ class Language:
     def scenario(self, name: str) -> str:
         """Return the name of a scenario of the simulator."""
         return self.phrases.get(f"scenario {name}") or name.capitalize()
+
+    def of_formula(self, part: Calculator | Argument) -> str:
+        """Return the title of a published formula, or of what it asks for."""
+        return self.facts.formulas.get(part.name, part.title)
 
     def of_help(self, title: str) -> str:
         """Return the title of a part of a parameter's help: its Note is the manual's, not a person's."""

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from .arguments import finite, not_negative, percent_of, positive, whole
     from .beside import axes_by_letter, earlier_beside, rules_beside, validator_of
     from .builder_rules import NO_RULES, BuilderRules, Suppressed
-    from .calculator import Calculator, calculate, calculators, shown_result
+    from .calculator import Argument, Calculator, calculate, calculators, shown_result
     from .cell_expression import Entered, enter, read_plain
     from .companions import RULES_FILE, companion_names, companions_of, machines_of
     from .explanation import Explanation, SeenValue, explain, rule_title

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
 from PySide6.QtWidgets import QComboBox
 
-from amp_studio.schema import Value
+from amp_studio.schema import NO_TEXTS, Value, fact_texts, family_ids
 from amp_studio.ui.dialogs.calculator_dialog import CalculatorDialog
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.validate import calculators
 
 from .conftest import User, action
 
@@ -48,3 +53,34 @@ def test_another_formula_asks_for_its_own_arguments(window: MainWindow, user: Us
     assert dialog.form.answer("outcome") == "1500"
     dialog.form.set_answer("argument.follower", "fast")
     assert dialog.form.answer("outcome").startswith("'fast' is no follower")
+
+
+@pytest.mark.parametrize("family", [each for each in family_ids() if fact_texts(each, "de") is not NO_TEXTS])
+def test_every_formula_and_what_it_asks_for_has_a_german_title_and_no_title_is_of_another_formula(
+    family: str,
+) -> None:
+    known = calculators(family)
+    names = set(known) | {a.name for each in known.values() for a in each.arguments}
+    assert sorted(names ^ fact_texts(family, "de").formulas.keys()) == []
+
+
+@pytest.mark.usefixtures("german")
+def test_a_german_calculator_asks_answers_and_refuses_in_german(
+    open_window: Callable[..., MainWindow], path: Path
+) -> None:
+    window = open_window(path)
+    window.go_to(GAIN_BREAK)
+    action(window, "Rechner").trigger()
+    dialog = window.findChild(CalculatorDialog)
+    formula = dialog.form.editor("formula", QComboBox)
+    formula.setCurrentText("Knickpunkt der Verstärkung")
+    dialog.form.set_answer("argument.max_contouring", "4100")
+    assert dialog.form.answer("outcome") == "Noch nötig: Verstärkung"
+    dialog.form.set_answer("argument.gain", "1")
+    assert dialog.form.answer("outcome") == "4,1"
+    formula.setCurrentText("Drehzahl der Synchronspindeln")
+    dialog.form.set_answer("argument.requested", "schnell")
+    dialog.form.set_answer("argument.controlling", "1000, 3000")
+    dialog.form.set_answer("argument.follower", "800, 1500")
+    assert dialog.form.answer("outcome").startswith("'schnell' passt nicht zu")
+    assert window.page.detail.page.toPlainText().count("englisch") == 1

@@ -86,6 +86,8 @@ class FactTranslation(Model):
     motion: MotionTexts | None = None
     messages: dict[Key, MessageTexts] = {}
     message_lists: dict[Key, MessageListTexts] = {}
+    formulas: dict[Key, str] = {}
+    """Name of a published formula, or of what formulas ask for -> its title."""
     phrases: dict[str, str] = {}
     """Texts that have no id: what a rule puts into its message, the meaning of a code of a program, a
     sentence of a law with ``{names}`` for its figures. English -> own."""
@@ -100,3 +102,5 @@ class FactTexts(Model):
     """The same of sentences with ``{names}`` for figures."""
     messages: dict[str, str] = {}
     """Rule -> its message, with its names in braces."""
+    formulas: dict[str, str] = {}
+    """Name of a formula, or of what formulas ask for -> its title."""

@@ -22,6 +22,7 @@ from amp_studio.schema.model import (
 TextPlace = tuple[str | int, ...]
 """``("rules", "9pc.axis.two-spindles", "title")``: the keys of a file of a language."""
 _FIGURE = re.compile(r"\{([a-z_]+)\}")
+_WITHOUT_PLACE: tuple[TextPlace, ...] = (("phrases",), ("formulas",))
 GRADES = ("danger", "warning", "note")
 
 
@@ -103,5 +104,5 @@ def _leaves(place: TextPlace, value: Any) -> Iterator[tuple[TextPlace, str]]:
         return
     below = value.items() if isinstance(value, (Model, dict)) else enumerate(value or ())
     for key, entry in below:
-        if (*place, key) != ("phrases",):
+        if (*place, key) not in _WITHOUT_PLACE:
             yield from _leaves((*place, key), entry)

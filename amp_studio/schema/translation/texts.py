@@ -49,6 +49,7 @@ def compile_texts(compiled: Compiled, files: list[Path]) -> FactTexts:
     sentences: dict[str, str] = {}
     patterns: dict[str, str] = {}
     messages: dict[str, str] = {}
+    formulas: dict[str, str] = {}
     for path in files:
         translation, line = read_facts(path, FactTranslation)
         own = own_texts(translation)
@@ -60,11 +61,14 @@ def compile_texts(compiled: Compiled, files: list[Path]) -> FactTexts:
             # A message that was made in English is found by its words, as any other sentence.
             has_figures = place[0] == "rules" and figures_in(english[place])
             (patterns if has_figures else sentences)[english[place]] = text
+        formulas |= translation.formulas
         for phrase, text in translation.phrases.items():
             if figures_in(phrase) != figures_in(text):
                 raise DatabaseError(path, line(("phrases", phrase)), _OTHER_NAMES)
             (patterns if figures_in(phrase) else sentences)[phrase] = text
-    return FactTexts.model_construct(sentences=sentences, patterns=patterns, messages=messages)
+    return FactTexts.model_construct(
+        sentences=sentences, patterns=patterns, messages=messages, formulas=formulas
+    )
 
 
 def missing_texts(family_id: str, language: str) -> Iterator[TextPlace]:

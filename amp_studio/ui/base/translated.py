@@ -52,6 +52,11 @@ def _worded(code: str, text: str, family: str) -> str:
     return language_of(code, family).title(text)
 
 
+def help_language() -> str:
+    """Return in which language help and printed tables are, where it is not that of the window."""
+    return "" if _spoken == "en" else worded("in English")
+
+
 def scenario_in_words(name: str) -> str:
     """Return the name of a scenario of the simulator in the language of the window."""
     return language_of(_spoken).scenario(name)

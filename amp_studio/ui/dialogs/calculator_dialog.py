@@ -9,10 +9,10 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDialog, QPushButton, QVBoxLayout, QWidget
 
 from amp_studio.schema import Address
-from amp_studio.ui.base.translated import unit_in_words
+from amp_studio.ui.base.translated import facts_in_words, help_language, sentenced, unit_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.form import Field, FieldForm
-from amp_studio.validate import Calculator, calculate, calculators, shown_result
+from amp_studio.validate import Argument, Calculator, calculate, calculators, shown_result
 
 
 class CalculatorDialog(QDialog):
@@ -32,12 +32,13 @@ class CalculatorDialog(QDialog):
         self._workspace, self._address, self._commit = workspace, address, commit
         self._family = workspace.file.schema.family.family
         self._known = calculators(self._family)
+        self._titles = facts_in_words(workspace.file.schema).of_formula
         own = workspace.file.schema.parameters[address[0]].formulas if address else ()
-        names = (*own, *(name for name in sorted(self._known) if name not in own))
-        formulas = [(name, self._known[name].title) for name in names]
+        others = sorted((self._titles(each), name) for name, each in self._known.items() if name not in own)
+        formulas = [(name, self._titles(self._known[name])) for name in (*own, *(name for _, name in others))]
         self._above = (
-            Field("formula", self.tr("&Formula"), "choice", names[0], formulas),
-            Field("description", "", "words"),
+            Field("formula", self.tr("&Formula"), "choice", formulas[0][0], formulas),
+            Field("description", help_language().capitalize(), "words"),
         )
         self._below = (Field("outcome", self.tr("Result"), "words"),)
         self.form = FieldForm((*self._above, *self._below))
@@ -62,7 +63,8 @@ class CalculatorDialog(QDialog):
 
     def _choose(self) -> None:
         arguments = (
-            Field(f"argument.{a.name}", a.title, hint=a.default or a.example) for a in self._formula.arguments
+            Field(f"argument.{a.name}", self._titles(a), hint=worded(a.default or a.example))
+            for a in self._formula.arguments
         )
         self.form.offer((*self._above, *arguments, *self._below))
         self.form.set_answer("description", self._formula.description)
@@ -73,16 +75,16 @@ class CalculatorDialog(QDialog):
         texts = {a.name: self.form.answer(f"argument.{a.name}") for a in arguments}
         self.use.setEnabled(False)
         self.use.setText(self.tr("Use the result as a value"))
-        missing = [a.title for a in arguments if a.default is None and not texts[a.name]]
+        missing = [self._titles(a) for a in arguments if a.default is None and not texts[a.name]]
         if missing:
             self.form.set_answer("outcome", self.tr("Still needed: {names}").format(names="; ".join(missing)))
             return
         try:
             result = calculate(self._family, self._formula.name, texts)
         except ValueError as error:
-            self.form.set_answer("outcome", self._titled(f"{error}.".replace("..", ".")))
+            self.form.set_answer("outcome", self._titled(str(error)))
             return
-        self.form.set_answer("outcome", shown_result(result))
+        self.form.set_answer("outcome", sentenced(shown_result(result)))
         if self._address and isinstance(result, (int, float)) and not isinstance(result, bool):
             self._offer_as_value(self._address)
 
@@ -97,11 +99,11 @@ class CalculatorDialog(QDialog):
 
     def _titled(self, text: str) -> str:
         """Return a message with the titles of the formula and of its arguments for their names."""
-        calculator = self._formula
-        titles = {calculator.name: calculator.title, **{a.name: a.title for a in calculator.arguments}}
-        for name, title in titles.items():
-            text = re.sub(rf"\b{name}\b", title, text) if "_" in name else text
-        return text
+        text = sentenced(text, self._family)
+        parts: tuple[Calculator | Argument, ...] = (self._formula, *self._formula.arguments)
+        for part in parts:
+            text = re.sub(rf"\b{part.name}\b", self._titles(part), text) if "_" in part.name else text
+        return f"{text}.".replace("..", ".")
 
     def _use(self) -> None:
         if self._address and self._commit(self._address, self.form.answer("outcome")):

@@ -20,7 +20,7 @@ from amp_studio.report import cells_of
 from amp_studio.schema import Address, Table
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.theme import scheme
-from amp_studio.ui.base.translated import facts_in_words, worded
+from amp_studio.ui.base.translated import facts_in_words, help_language, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.pages import LINK, drawn, link
 
@@ -34,7 +34,7 @@ class TablesDialog(QDialog):
     def __init__(self, workspace: Workspace, address: Address | None, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.setWindowTitle(self.tr("Tables of the Manual"))
+        self.setWindowTitle(" · ".join(filter(None, (self.tr("Tables of the Manual"), help_language()))))
         fit_to_screen(self, 900, 560)
         self._schema = workspace.file.schema
         own = address[0] if address else ""

@@ -20,7 +20,14 @@ from amp_studio.schema import Address, Parameter, Value, labels_of_word, limits,
 from amp_studio.ui.base.figures import sentence, show_value
 from amp_studio.ui.base.hazard import hazard_html
 from amp_studio.ui.base.theme import colour, icon_html, severity_html
-from amp_studio.ui.base.translated import Translated, facts_in_words, finding_in_words, unit_in_words, worded
+from amp_studio.ui.base.translated import (
+    Translated,
+    facts_in_words,
+    finding_in_words,
+    help_language,
+    unit_in_words,
+    worded,
+)
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.pages import drawn, link
 from amp_studio.validate import NOT_SET, Finding, calculators, family_of_rule, rule_title
@@ -77,7 +84,7 @@ class DetailPage(Translated):
         if calculated := self._calculated(address):
             yield self.tr("Calculated"), calculated
         yield self._rules(address)
-        yield self.tr("Help"), self._help(address)
+        yield " · ".join(filter(None, (self.tr("Help"), help_language()))), self._help(address)
         yield self.tr("Where else"), self._where_else(address)
         yield self.tr("History"), self._history(address)
         yield self._facts(address)
@@ -229,8 +236,10 @@ class DetailPage(Translated):
             lines.append(f"<p><b>{self.tr('Messages of the control')}</b><br>{'<br>'.join(names)}</p>")
         if parameter.formulas:
             known = calculators(schema.family.family)
+            words = facts_in_words(schema)
             titles = (
-                f"{known[f].title}: {known[f].description.partition(chr(10))[0]}" for f in parameter.formulas
+                f"{words.of_formula(known[f])}: {known[f].description.partition(chr(10))[0]}"
+                for f in parameter.formulas
             )
             paragraphs = "</p><p>".join(map(html.escape, titles))
             lines.append(f"<p><b>{self.tr('Formulas')}</b></p><p>{paragraphs}</p>")
