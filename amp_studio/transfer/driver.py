@@ -70,6 +70,7 @@ class ControlIdentity:
     ``size``, ``sha256``  of what it contains: bytes and digest; None if that is known only once it is fetched
     ``in_estop``        None where there is no such state, or it cannot be asked
     ``restart_needed``  its parameters become active after a restart
+    ``notice``          what a person has to know before its content is replaced
     """
 
     family: str
@@ -82,6 +83,7 @@ class ControlIdentity:
     sha256: bytes | None = None
     in_estop: bool | None = None
     restart_needed: bool = False
+    notice: str = ""
 
 
 @dataclass(frozen=True)

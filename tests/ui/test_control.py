@@ -25,6 +25,7 @@ from amp_studio.ui.actions import project
 from amp_studio.ui.base.theme import colour, scheme
 from amp_studio.ui.control.conditions import conditions_of
 from amp_studio.ui.control.differences import CONTROL
+from amp_studio.ui.control.next_step import PageState, bar_message
 from amp_studio.ui.control.session import ControlSession
 from amp_studio.ui.main_window import MainWindow
 
@@ -482,6 +483,16 @@ def test_what_was_asked_before_the_line_was_lost_is_no_longer_known(window: Main
     lost = conditions_of(session, window.workspace.file)
     assert [c.met for c in lost] == [False, None, None, None]
     assert lost[0].text == "Not connected"
+
+
+def test_what_has_to_be_known_before_sending_is_above_the_table(window: MainWindow) -> None:
+    session = ControlSession("folder:mill", "linuxcnc")
+    session.seen, session.phase = SimpleNamespace(control=SimpleNamespace(notice="It runs.")), "ready"
+    state = PageState("send", None, None, session, None, 0, 0, *[False] * 4)
+    found = bar_message(state)
+    assert found is not None
+    assert (found.text, found.kind) == ("It runs.", "warning")
+    assert bar_message(replace(state, direction="read")) is None
 
 
 def test_controls_of_one_name_have_their_addresses_too(window: MainWindow) -> None:

@@ -144,6 +144,8 @@ def download(
     content = wanted.of(old)
     if content == old:
         return _nothing_to_do(control, hashlib.sha256(content).hexdigest())
+    if control.notice:
+        exchange.notify(control.notice)
     # From here on the old content may be lost: not a byte goes out before its copy is on the disk.
     kept = _keep(keep, old) if old else None
     try:

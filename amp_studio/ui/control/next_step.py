@@ -5,16 +5,19 @@ message above the table states, with its answers. Only read here; the page acts.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from amp_studio.files import ParameterFile
-from amp_studio.ui.base.translated import finding_in_words, tr
+from amp_studio.ui.base.translated import finding_in_words, message_in_words, tr
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.message_bar import MessageKind
 
 from .conditions import conditions_of
 from .session import ControlSession
 from .session_words import ControlBackup, doubts_of, error_in_words, text_of_failure
+
+if TYPE_CHECKING:
+    from amp_studio.transfer import ControlIdentity
 
 ExchangeDirection = Literal["compare", "send", "read", "hand"]
 """What is done with the control; "hand" is the sheet of values that a person keys in at it."""
@@ -140,7 +143,7 @@ def _why_not_sent(state: PageState, session: ControlSession) -> str:
 
 def bar_message(state: PageState) -> BarMessage | None:
     """Return what is missing or how the exchange ended; None where there is nothing to state."""
-    session, workspace = state.session, state.workspace
+    session = state.session
     if session is None or session.is_busy:
         return None
     if session.phase == "away" and session.needs_password:
@@ -150,17 +153,27 @@ def bar_message(state: PageState) -> BarMessage | None:
     if session.phase == "failed":
         return BarMessage(text_of_failure(session), "error")
     if session.phase == "done":
-        return BarMessage(" ".join(session.notes), "advice") if session.notes else None
+        return BarMessage(" ".join(map(message_in_words, session.notes)), "advice") if session.notes else None
     if state.direction != "send" or session.seen is None:
         return None
     # None is a control without such a state.
     if session.in_estop is False:
         text = tr("Press E-stop at the machine. While an axis can move, the control takes no parameters.")
         return BarMessage(text, "warning", ((tr("Ask Now"), "ask"),))
+    return _message_of_content(state, session.seen.control)
+
+
+def _message_of_content(state: PageState, control: ControlIdentity) -> BarMessage | None:
+    """Return what there is to know about what would be sent, and about the control that gets it."""
     if state.backup is not None:
         doubts = doubts_of(state.backup)
-        return BarMessage(doubts, "warning") if doubts else None
-    return _message_of_file(workspace, state.accepted_errors) if workspace is not None else None
+        found = BarMessage(doubts, "warning") if doubts else None
+    else:
+        workspace = state.workspace
+        found = _message_of_file(workspace, state.accepted_errors) if workspace is not None else None
+    if found is None and control.notice:
+        return BarMessage(message_in_words(control.notice), "warning")
+    return found
 
 
 def _about_password(session: ControlSession) -> str:

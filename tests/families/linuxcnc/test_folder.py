@@ -172,6 +172,30 @@ def test_a_program_that_runs_uses_what_its_pins_show(folder: Path, monkeypatch: 
     assert control.identify().restart_needed
 
 
+def test_who_writes_into_the_folder_of_a_program_that_runs_is_warned_before_the_first_byte(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    order: list[str] = []
+    write: Callable[..., str] = write_atomic
+
+    def noted(place: Path, *args: object, **more: object) -> str:
+        order.append(place.name)
+        return write(place, *args, **more)
+
+    monkeypatch.setattr(driver_module, "write_atomic", noted)
+    monkeypatch.setattr(driver_module, "is_running", lambda _path: True)
+    monkeypatch.setattr(running, "pins", lambda _kind: {})
+    file = read(folder)
+    control = connect(f"folder:{folder}", notify=order.append)
+    control.download(MachineParameters(file), accept_errors=True, keep=folder.parent)
+    assert order == []  # nothing is written, and nobody is warned
+    file.set(("joint.ferror", "0"), Value(2.25, "mm"))
+    control.download(MachineParameters(file), accept_errors=True, keep=folder.parent)
+    assert order == [driver_module.IN_USE, "joints.inc"]
+    monkeypatch.setattr(driver_module, "is_running", lambda _path: False)
+    assert not control.identify().notice
+
+
 def test_a_user_who_cannot_ask_the_program_may_send_and_is_refused_a_verdict(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -53,6 +53,15 @@ def test_a_changed_value_is_another_one_in_its_line_and_a_new_one_is_at_the_end_
     )
 
 
+def test_keys_that_a_screen_reads_are_no_slips_and_a_second_line_of_one_is(tmp_path: Path) -> None:
+    text = (
+        "[EMC]\n[DISPLAY]\nMAX_RAPID_OVERRIDE = 1\nMACRO = a\nMACRO = b\nLOG_FILE = x.log\n"
+        "[TOOLSENSOR]\nX = 10\n"
+    )
+    assert read(tmp_path, text).unknown == {}
+    assert len(read(tmp_path, text + "X = 20\n").unknown) == 1
+
+
 def test_another_unit_of_length_writes_every_length_again(tmp_path: Path) -> None:
     file = read(
         tmp_path,

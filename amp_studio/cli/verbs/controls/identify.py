@@ -83,5 +83,7 @@ def _lines(look: ControlLook, axes: Sequence[str], readable: str) -> Iterator[st
     yield f"axes {', '.join(axes)}" if axes else "axes unknown"
     yield f"{len(look.content)} bytes, {readable}"
     yield f"sha256 {look.sha256}"
+    if control.notice:
+        yield control.notice
     if control.restart_needed:
         yield "Its parameters become active after a restart."

@@ -37,6 +37,7 @@ from .content import MAIN, Configuration, ConfigurationContent
 from .running import is_running, status_of, values_in_use
 
 PROTOCOL = "configuration"
+IN_USE = "A LinuxCNC runs with this configuration: what is written counts from its next start."
 _MOST_BYTES = 20_000_000
 
 
@@ -78,6 +79,7 @@ class ConfigurationDriver(ConfigurationContent):
             size=len(content),
             sha256=hashlib.sha256(content).digest(),
             restart_needed=self._uses_others(file),
+            notice=IN_USE if is_running(self.path) else "",
         )
 
     def _uses_others(self, file: ParameterFile) -> bool:

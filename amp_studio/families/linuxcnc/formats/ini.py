@@ -38,8 +38,8 @@ _SECTIONS = re.compile(
     r"|JOINT_[0-9]+|AXIS_[XYZABCUVW0-8]|SPINDLE_[0-9])\]"
     r"|#INCLUDE[ \t]+\S+\.inc)"
 )
-_LISTS = "lists"
-"""The table of keys of which every line counts."""
+_LISTS, _SCREENS = "lists", "screens"
+"""The tables of keys of which every line counts, and of those that a screen alone reads."""
 
 
 @dataclass(frozen=True)
@@ -156,7 +156,9 @@ def _hal_references(ini: IniText, beside: Callable[[str], str | None]) -> dict[s
 def _rows(ini: IniText, schema: Schema, machine: str, hal: frozenset[str]) -> Iterator[_Row]:
     """Yield every entry with what it is."""
     known = addresses_by_name(schema, machine)
-    lists = {(section, key) for section, key, _ in schema.tables[_LISTS].rows}
+    lists, screens = (
+        {(section, key) for section, key, _ in schema.tables[name].rows} for name in (_LISTS, _SCREENS)
+    )
     counting = ini.counting()
     system = _system(counting, schema)
     for entry in ini.entries:
@@ -172,7 +174,7 @@ def _rows(ini: IniText, schema: Schema, machine: str, hal: frozenset[str]) -> It
                 yield _Row(entry, unknown=f"{_placed(entry)} ({error})")
             else:
                 yield _Row(entry, address, value, unit)
-        elif entry.name in hal:
+        elif entry.name in hal or (entry.section, entry.key) in screens:
             yield _Row(entry)
         else:
             yield _Row(entry, unknown=_unknown_name(entry, schema, machine, known))
