@@ -1,7 +1,5 @@
 """What a user waits for when he starts a program: a fresh process each time."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

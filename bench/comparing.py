@@ -1,7 +1,5 @@
 """Three full NUM files in the window that compares and merges: until it is painted, and until a filter is."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import time

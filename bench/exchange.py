@@ -1,7 +1,5 @@
 """The example on its way to an emulated control and back, over a socket and over a serial line."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Finding: an index of each size of family, and what a question costs at each of its keystrokes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import cycle
 from pathlib import Path

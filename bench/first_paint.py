@@ -5,8 +5,6 @@ The start is that of the program itself (``amp_studio.ui.main``); all that is
 added is an ear for the paint event of the table.
 """
 
-from __future__ import annotations
-
 import sys
 
 from PySide6.QtCore import QEvent, QObject, QTimer

@@ -3,8 +3,6 @@
 Its values are those of the mill of ``examples/``: each axis takes them from the axis of its type there.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from amp_studio.files import ParameterFile, fitted_axes, new_file, open_file

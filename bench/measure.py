@@ -4,8 +4,6 @@ A measure is a list of seconds, of megabytes or of shares. Targets are medians o
 it runs on; the table shows "over" and nothing fails, because a time is not a test.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

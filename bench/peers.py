@@ -1,7 +1,5 @@
 """Other ways to do the same, in the same run: what a figure is worth shows beside its neighbour."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator
 from pathlib import Path

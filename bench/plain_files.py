@@ -4,8 +4,6 @@
 (115,200 bit/s), clean, and with one byte of so many changed. 100 % is the time the bytes alone take.
 """
 
-from __future__ import annotations
-
 import contextlib
 import random
 import sys

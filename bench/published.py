@@ -2,8 +2,6 @@
 They may only get better.
 """
 
-from __future__ import annotations
-
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path

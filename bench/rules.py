@@ -2,8 +2,6 @@
 and the same relational rules done in other ways.
 """
 
-from __future__ import annotations
-
 import contextlib
 import operator
 import os

@@ -3,8 +3,6 @@
 Everything is measured on a file of eight axes with every parameter set, and on the mill of the examples.
 """
 
-from __future__ import annotations
-
 import argparse
 import os
 import platform

@@ -6,8 +6,6 @@ Peers: the same axis in C (``sim_axis.c``, compiled here with -O2), scipy's ``ls
 that can be seen, and the C program has to give the same positions; otherwise nothing is measured.
 """
 
-from __future__ import annotations
-
 import ctypes
 import math
 import shutil

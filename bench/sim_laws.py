@@ -5,8 +5,6 @@ current loop or velocity loop, delay, limits and counts. Halving the physics ste
 than a thousandth of its largest following error and three counts.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path

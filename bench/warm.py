@@ -2,8 +2,6 @@
 simulating.
 """
 
-from __future__ import annotations
-
 import gc
 import tracemalloc
 from collections.abc import Iterator

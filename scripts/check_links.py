@@ -5,8 +5,6 @@ one into the network is not followed. A picture, script or style that a page wou
 error, because the site is read without one.
 """
 
-from __future__ import annotations
-
 import re
 import sys
 from html.parser import HTMLParser

@@ -8,8 +8,6 @@ commands, bounds, units and defaults, each with its section and line. Bit layout
 which the text has not.
 """
 
-from __future__ import annotations
-
 import re
 import sys
 from collections.abc import Iterator, Sequence

@@ -8,8 +8,6 @@ looks like a fact and is not understood is reported on stderr;
 ``tests/manual`` compares the database with the rest.
 """
 
-from __future__ import annotations
-
 import re
 import sys
 from collections.abc import Iterator, Sequence

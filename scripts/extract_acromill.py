@@ -8,8 +8,6 @@ tabs show, ranges in brackets and values with their labels, the rows that the ch
 repeats, and the lists of gains of appendix C, each with the tab or chapter, its page and its line.
 """
 
-from __future__ import annotations
-
 import re
 import sys
 from collections.abc import Iterator, Sequence

@@ -8,8 +8,6 @@ with its line. Sections whose heading the scan lost, and lines that look like fa
 are reported on stderr.
 """
 
-from __future__ import annotations
-
 import re
 import sys
 from collections.abc import Iterator, Sequence

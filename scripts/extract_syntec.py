@@ -7,8 +7,6 @@ parameter numbers (``21~40`` is one fact), units, defaults, ranges and values wi
 each with its slide and line.
 """
 
-from __future__ import annotations
-
 import re
 import sys
 from collections import Counter

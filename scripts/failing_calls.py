@@ -4,8 +4,6 @@ What fails is one call alone or every call from it on, with an error of the syst
 of Python's own machinery (imports) are made before, by running the act once.
 """
 
-from __future__ import annotations
-
 import contextlib
 import errno
 import os

@@ -1,7 +1,5 @@
 """Read the C sources of grblHAL and its plugins: the settings, their numbers and their texts."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 from collections.abc import Iterator

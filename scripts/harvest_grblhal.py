@@ -10,8 +10,6 @@ one file a group. ``--counts`` counts settings, numbers, bits, alarms and errors
 parameter_db does not have.
 """
 
-from __future__ import annotations
-
 import argparse
 import re
 from collections.abc import Iterator

@@ -6,8 +6,6 @@ the file, so that a diff shows which fact has changed. An extractor reads a manu
 knows neither ``amp_studio`` nor ``parameter_db``, because what it finds is there to judge them.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import sys

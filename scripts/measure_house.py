@@ -10,8 +10,6 @@ The same script before and after a change of the structure:
 what it prints is written into the decision about that change.
 """
 
-from __future__ import annotations
-
 import argparse
 import ast
 import os

@@ -8,8 +8,6 @@ docs/howto/add-family.md goes on from there; `make test TESTS=tests/schema/test_
 missing.
 """
 
-from __future__ import annotations
-
 import argparse
 import re
 import sys

@@ -4,8 +4,6 @@ A page is Markdown with HTML inside: an anchor is the id or the number of a para
 writes it, which a label of Sphinx cannot be (it makes ``servo-excess-error`` of ``servo.excess_error``).
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from functools import cache

@@ -1,7 +1,5 @@
 """Pages of the generated reference that list what several parameters share: rules, steps, tables, numbers."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from html import escape
 

@@ -2,8 +2,6 @@
 to what is taken from them.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from html import escape

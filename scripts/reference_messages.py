@@ -1,7 +1,5 @@
 """Pages of the generated reference that lead from what a control shows to its cause."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator
 from html import escape

@@ -6,8 +6,6 @@ It is a script and not a JSON file, because a browser lets a page of file:// loa
 texts]; addresses are below that of their family.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Iterable, Iterator

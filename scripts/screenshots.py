@@ -4,8 +4,6 @@ for documents and for review.
 The files are copies of the examples with fixed times; nothing of the person who runs it is read or written.
 """
 
-from __future__ import annotations
-
 import argparse
 import contextlib
 import os

@@ -4,8 +4,6 @@ and a place in the others; what is gone goes.
 ``--check`` changes nothing, and fails where something is new, gone or has no translation.
 """
 
-from __future__ import annotations
-
 import ast
 import json
 import re

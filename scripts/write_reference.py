@@ -4,8 +4,6 @@ All of it comes from the schema and from the functions behind ``amp-studio show`
 another opinion than the program. Sphinx makes the site of them (``make docs``).
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterator
 from html import escape

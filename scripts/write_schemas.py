@@ -6,8 +6,6 @@ They come from the models that read those files, with their docstrings as descri
 a test sees that they are fresh.
 """
 
-from __future__ import annotations
-
 import ast
 import dataclasses
 import inspect

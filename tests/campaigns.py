@@ -2,8 +2,6 @@
 many new ones in ``make campaign``.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterable
 from typing import TypeVar

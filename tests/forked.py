@@ -2,8 +2,6 @@
 in half a second is there at once.
 """
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

@@ -1,7 +1,5 @@
 """The sources as syntax trees, read once: many tests look at all of them, each for something else."""
 
-from __future__ import annotations
-
 import ast
 from functools import cache
 from pathlib import Path

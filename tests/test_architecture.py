@@ -2,8 +2,6 @@
 and every library is declared.
 """
 
-from __future__ import annotations
-
 import ast
 import builtins
 import itertools

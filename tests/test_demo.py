@@ -1,7 +1,5 @@
 """The demonstration is the main job from end to end; it ends with nothing that differs."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.demo import run_demo

@@ -1,7 +1,5 @@
 """The documentation with what the simulator and the record of exchanges add to it."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 from datetime import UTC, datetime

@@ -1,7 +1,5 @@
 """Every run of the tests tries the same cases on the same ground, whatever computer it runs on."""
 
-from __future__ import annotations
-
 import ast
 import os
 import re

@@ -1,7 +1,5 @@
 """The public library: the examples of its page, its names, and its errors."""
 
-from __future__ import annotations
-
 import re
 import shutil
 import subprocess

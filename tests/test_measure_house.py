@@ -1,7 +1,5 @@
 """What ``scripts/measure_house.py`` counts, on sources of a few lines."""
 
-from __future__ import annotations
-
 import ast
 from pathlib import Path
 

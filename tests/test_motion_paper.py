@@ -1,7 +1,5 @@
 """The result of a simulation as a document: what a person signs beside the machine."""
 
-from __future__ import annotations
-
 import re
 from math import copysign, cos, sin
 from pathlib import Path

@@ -2,8 +2,6 @@
 installed into an empty environment and used far from the checkout.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import re

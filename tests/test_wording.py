@@ -5,8 +5,6 @@ and the texts of ``parameter_db``. Names in backquotes and the values in braces 
 and neither is a text of a single word (a key); identifiers are checked where they are defined.
 """
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Iterator

@@ -2,8 +2,6 @@
 machine types in the header.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from amp_studio.schema import Schema

@@ -1,7 +1,5 @@
 """How much work something is, in calls of functions: the same on every machine, however busy it is."""
 
-from __future__ import annotations
-
 import cProfile
 from collections.abc import Callable
 

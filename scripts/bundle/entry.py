@@ -4,8 +4,6 @@ It is its own interpreter too: what starts a process apart by ``sys.executable``
 CODE`` gets what Python's would give, as far as this program asks for it.
 """
 
-from __future__ import annotations
-
 import multiprocessing
 import runpy
 import sys

@@ -5,8 +5,6 @@ exchange with an emulated control, the window. As root this happens in a changed
 and no shell, no Python and no fonts; else with an empty environment.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

@@ -1,7 +1,5 @@
 """The benchmarks run and print what they measured. How long anything takes is no matter of a test."""
 
-from __future__ import annotations
-
 import importlib
 import re
 import sys

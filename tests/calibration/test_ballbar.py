@@ -1,7 +1,5 @@
 """Lost motion from the circles of a ball-bar: machines whose backlash is known, circled both ways round."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from fractions import Fraction

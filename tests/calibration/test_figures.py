@@ -2,8 +2,6 @@
 and against a machine whose truth is known.
 """
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

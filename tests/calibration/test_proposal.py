@@ -2,8 +2,6 @@
 on machines whose errors are known.
 """
 
-from __future__ import annotations
-
 from fractions import Fraction
 from functools import cache
 

@@ -2,8 +2,6 @@
 guessed.
 """
 
-from __future__ import annotations
-
 from fractions import Fraction
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Values tuned in steps: as fine as the control keeps them, and no further than their range (page 36-11)."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

@@ -1,7 +1,5 @@
 """The command line, run in process: what it prints, where, and with which exit code."""
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Callable

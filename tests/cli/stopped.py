@@ -1,7 +1,5 @@
 """Stops the program at moments that chance chooses, and compares its exit code with the disk."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import random

@@ -4,8 +4,6 @@ and compares the exit code with the truth.
 The programs are real ones and so are the signals; a campaign can run many seeds.
 """
 
-from __future__ import annotations
-
 import json
 import random
 import signal

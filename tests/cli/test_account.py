@@ -1,7 +1,5 @@
 """What the verbs ``export`` and ``import`` print of what became of each value."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

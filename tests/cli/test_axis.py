@@ -1,7 +1,5 @@
 """The verb ``axis``: every family's axes from the command line."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

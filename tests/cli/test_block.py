@@ -1,7 +1,5 @@
 """The verb block."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -2,8 +2,6 @@
 in one sentence.
 """
 
-from __future__ import annotations
-
 import shutil
 import socket
 from pathlib import Path

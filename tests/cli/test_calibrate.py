@@ -2,8 +2,6 @@
 all or nothing.
 """
 
-from __future__ import annotations
-
 import math
 import shutil
 from pathlib import Path

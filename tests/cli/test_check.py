@@ -1,7 +1,5 @@
 """The verb check and `validate --motion`: every scenario that a file allows, as one list."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from pathlib import Path

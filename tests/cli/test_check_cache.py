@@ -2,8 +2,6 @@
 and checks again whatever may have changed.
 """
 
-from __future__ import annotations
-
 import sqlite3
 import sys
 from collections.abc import Callable, Iterator

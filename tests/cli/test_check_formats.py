@@ -4,8 +4,6 @@ The schema is what the SARIF 2.1.0 standard (OASIS, 27 March 2020) demands of th
 here; the sections are its own. The whole schema of the standard is not part of the project.
 """
 
-from __future__ import annotations
-
 import json
 import re
 import tomllib

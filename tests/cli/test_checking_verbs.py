@@ -1,7 +1,5 @@
 """validate, diff, merge: what they find, how they say it, and exit code 1 for what is wrong."""
 
-from __future__ import annotations
-
 import json
 import sys
 from collections.abc import Callable, Iterator, Sequence

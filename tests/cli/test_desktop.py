@@ -1,7 +1,5 @@
 """The desktop program is opened by the command alone, and by a file."""
 
-from __future__ import annotations
-
 import shutil
 import sys
 from collections.abc import Sequence

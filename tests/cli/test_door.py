@@ -1,7 +1,5 @@
 """The command line uses the public door, ``import amp_studio``: what goes past it to a room is listed here."""
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Iterator
 from pathlib import Path

@@ -2,8 +2,6 @@
 whatever becomes of its streams and however it is stopped.
 """
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

@@ -1,7 +1,5 @@
 """The verb ``find``: from what a person remembers, or what the control shows, to the parameters."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The verb that makes suggested fixes: what it changes, what it leaves, and what it never brings."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Several controls at once, and the record of all exchanges."""
 
-from __future__ import annotations
-
 import csv
 import json
 import shutil

@@ -1,7 +1,5 @@
 """Help, examples, the man page and shell completion."""
 
-from __future__ import annotations
-
 import os
 import re
 import shlex

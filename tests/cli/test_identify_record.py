@@ -1,7 +1,5 @@
 """simulate identify: a record of a drive becomes the machine that the next simulation moves."""
 
-from __future__ import annotations
-
 import re
 import shutil
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`status -o`: the readings of one axis as a table, from an emulated control whose time passes as it is asked for."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Test programs from a file: the axis' own letter, feedrate and travel, or a refusal with the reason."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path

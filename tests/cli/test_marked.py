@@ -2,8 +2,6 @@
 together they are all demanded.
 """
 
-from __future__ import annotations
-
 import hashlib
 import shutil
 from pathlib import Path

@@ -1,7 +1,5 @@
 """merge with sides taken, as git's merge driver, and diff with other versions of a file."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """migrate: what is written under which name."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 MILL = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"

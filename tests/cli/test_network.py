@@ -2,8 +2,6 @@
 and nothing of the password is shown anywhere.
 """
 
-from __future__ import annotations
-
 import signal
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """new, set, get: a file is made, changed and read."""
 
-from __future__ import annotations
-
 import os
 import re
 import subprocess

@@ -1,7 +1,5 @@
 """``note`` reads and writes notes about a value, a group and the machine."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

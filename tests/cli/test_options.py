@@ -1,7 +1,5 @@
 """Options that no other story needs: each does through the command line what its help promises."""
 
-from __future__ import annotations
-
 import shutil
 import socket
 from concurrent.futures import ThreadPoolExecutor

@@ -1,7 +1,5 @@
 """The bits of a packed word are set and read one at a time, by number and by label."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

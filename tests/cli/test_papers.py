@@ -1,7 +1,5 @@
 """Papers of the command line: what differs as a document, machines side by side, forms."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The verb for pictures."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from xml.etree import ElementTree as ET

@@ -1,7 +1,5 @@
 """send and receive carry any file, and end with a code and a sentence that say what has arrived."""
 
-from __future__ import annotations
-
 import socket
 import threading
 from collections.abc import Callable, Iterator

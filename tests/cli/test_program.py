@@ -1,7 +1,5 @@
 """The program as other programs start it: exit codes, streams and encodings."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """A control's own text is read wherever a parameter file is read; what writes needs a parameter file."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

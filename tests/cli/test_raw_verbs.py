@@ -1,7 +1,5 @@
 """Every verb that takes a file takes a control's own text in its place, in each format that a family has."""
 
-from __future__ import annotations
-
 import codecs
 from collections.abc import Callable, Iterator
 from pathlib import Path

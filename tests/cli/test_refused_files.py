@@ -1,7 +1,5 @@
 """A file that cannot be used: every verb reports it in one line, ends with 2, and writes nothing."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

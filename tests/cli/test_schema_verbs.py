@@ -1,7 +1,5 @@
 """families, schema, show: what the program knows, for people and for other programs."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.schema import family_ids, load_schema

@@ -1,7 +1,5 @@
 """Secrets: a password in a file is seen by who opens the file itself, and by who asks for it in clear."""
 
-from __future__ import annotations
-
 import re
 import shutil
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """``amp-studio sheet``: print, write, tick, read back, and what its exit codes mean."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Texts from files reach a terminal as text: no sign in them can steer it."""
 
-from __future__ import annotations
-
 import json
 import re
 import subprocess

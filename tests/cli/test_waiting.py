@@ -1,7 +1,5 @@
 """What somebody at a terminal sees while an exchange waits."""
 
-from __future__ import annotations
-
 import io
 import sys
 

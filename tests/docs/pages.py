@@ -1,7 +1,5 @@
 """The command lines of the documents: in blocks of code, and in backquotes within the text."""
 
-from __future__ import annotations
-
 import re
 import shlex
 from collections.abc import Iterator

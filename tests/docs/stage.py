@@ -1,7 +1,5 @@
 """Where the commands of a document are run: an empty folder, with the controls that it names."""
 
-from __future__ import annotations
-
 import os
 import shlex
 import shutil

@@ -5,8 +5,6 @@ Only an address or a device that is not here is replaced: a port that somebody h
 a host of a plant.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import re

@@ -1,7 +1,5 @@
 """Every command of the page of coverage runs on its example."""
 
-from __future__ import annotations
-
 import json
 import re
 import shlex

@@ -1,7 +1,5 @@
 """The decisions: one a page, short, in one form, and all in the index."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -2,8 +2,6 @@
 and shown somewhere.
 """
 
-from __future__ import annotations
-
 import re
 import struct
 from pathlib import Path

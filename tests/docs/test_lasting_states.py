@@ -2,8 +2,6 @@
 and where nothing is known it is so there.
 """
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

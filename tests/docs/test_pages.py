@@ -1,7 +1,5 @@
 """Pages that one can read: none is longer than it takes a person to find what is there."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

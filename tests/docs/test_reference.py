@@ -2,8 +2,6 @@
 and the check of links sees what is broken.
 """
 
-from __future__ import annotations
-
 import functools
 import json
 import re

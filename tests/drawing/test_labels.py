@@ -1,7 +1,5 @@
 """Texts of pictures lie on no other text, in whatever size a picture is drawn."""
 
-from __future__ import annotations
-
 import re
 from itertools import combinations
 from pathlib import Path

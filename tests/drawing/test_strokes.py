@@ -1,7 +1,5 @@
 """What is drawn of a curve hides nothing: peaks, pauses, the band of a value that jumps."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

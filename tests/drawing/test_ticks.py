@@ -1,7 +1,5 @@
 """Round numbers along a scale."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.drawing.ticks import decades, ticks

@@ -1,7 +1,5 @@
 """The machines of ``examples/``, each opened from a copy so that no test can change it."""
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Callable
 from pathlib import Path

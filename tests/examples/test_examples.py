@@ -1,7 +1,5 @@
 """Every example is a machine that runs: complete, sound, explained, and unharmed by the program."""
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Callable

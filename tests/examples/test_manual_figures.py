@@ -4,8 +4,6 @@ The figures are typed here from the manual, not taken from the files.
 A page is that on which the section begins.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

@@ -1,7 +1,5 @@
 """What the example of the NUM family takes from the manual, and what follows from it by its formulas."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

@@ -1,7 +1,5 @@
 """Files that must be refused: each with one clear line, exit code 2, and nothing touched."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 

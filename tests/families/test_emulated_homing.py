@@ -2,8 +2,6 @@
 one engine is behind both.
 """
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -2,8 +2,6 @@
 following error of `simulate` of the same move, count for count: one engine is behind both.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """A family of another package: an entry point is enough, and a broken one takes nothing from the others."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

@@ -2,8 +2,6 @@
 stays inside its travel, and an order that comes later takes the place of what was still to follow.
 """
 
-from __future__ import annotations
-
 import contextlib
 import math
 import random

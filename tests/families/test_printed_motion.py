@@ -1,7 +1,5 @@
 """Figures of motion that manuals print, in the scenarios and formulas that a user calls."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.schema import Value, load_schema

@@ -2,8 +2,6 @@
 the figures that their manuals print.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

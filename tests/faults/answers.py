@@ -2,8 +2,6 @@
 or its answers are texts.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from amp_studio.meaning import read_answers

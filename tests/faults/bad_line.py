@@ -2,8 +2,6 @@
 pauses and is cut.
 """
 
-from __future__ import annotations
-
 import random
 from collections.abc import Callable, Mapping
 from typing import Protocol, TypeVar

@@ -4,8 +4,6 @@ and names every violation.
 ``make faults`` runs them whole and prints one table; the tests run a short part of each.
 """
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import sys

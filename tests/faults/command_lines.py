@@ -2,8 +2,6 @@
 and refuses without having changed a file.
 """
 
-from __future__ import annotations
-
 import contextlib
 import io
 import json

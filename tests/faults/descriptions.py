@@ -2,8 +2,6 @@
 and a file of it opens again.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from amp_studio.families.grblhal.described import schema_of

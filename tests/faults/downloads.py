@@ -5,8 +5,6 @@ on the disk before the first value is sent. What a control contains is read from
 driver, which may leave something out.
 """
 
-from __future__ import annotations
-
 import random
 import threading
 from collections.abc import Callable, Mapping

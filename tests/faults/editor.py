@@ -2,8 +2,6 @@
 templates of a project.
 """
 
-from __future__ import annotations
-
 import random
 from collections.abc import Iterator
 from functools import cache

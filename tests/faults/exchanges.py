@@ -5,8 +5,6 @@ Afterwards the exit code is true of the control and of the folder,
 and what was kept or fetched is whole or not there.
 """
 
-from __future__ import annotations
-
 import hashlib
 import os
 import random

@@ -2,8 +2,6 @@
 odd bytes at the emulated one.
 """
 
-from __future__ import annotations
-
 import contextlib
 import random
 import shutil

@@ -2,8 +2,6 @@
 and faults that a seed chooses.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import random

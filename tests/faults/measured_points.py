@@ -2,8 +2,6 @@
 or what was read makes a table the control takes.
 """
 
-from __future__ import annotations
-
 from functools import cache
 
 from amp_studio.calibration import CalibrationError, MeasurementAnswers, Wish, propose

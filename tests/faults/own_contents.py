@@ -2,8 +2,6 @@
 and odd keys and bytes at their emulated controls.
 """
 
-from __future__ import annotations
-
 import contextlib
 import random
 import zlib

@@ -2,8 +2,6 @@
 over lines and to controls on which a seed puts every fault.
 """
 
-from __future__ import annotations
-
 import contextlib
 import random
 import shutil

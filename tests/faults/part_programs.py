@@ -1,7 +1,5 @@
 """Damaged part programs: each is read to its end, or ends at a block with a reason; none takes for ever."""
 
-from __future__ import annotations
-
 import tempfile
 from functools import cache
 from pathlib import Path

@@ -2,8 +2,6 @@
 odd and damaged, by a seed.
 """
 
-from __future__ import annotations
-
 import json
 import random
 from collections.abc import Iterator

@@ -4,8 +4,6 @@ a campaign that reports none proves nothing.
 ``python -m tests.faults.planted NAME verb …`` is the program with a defect.
 """
 
-from __future__ import annotations
-
 import contextlib
 import os
 import random

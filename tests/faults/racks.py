@@ -2,8 +2,6 @@
 and odd answers of one.
 """
 
-from __future__ import annotations
-
 import contextlib
 import random
 from collections.abc import Iterator

@@ -2,8 +2,6 @@
 or gives finite figures.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import asdict

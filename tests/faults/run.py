@@ -2,8 +2,6 @@
 ``make faults FAULTS="--only journal --share 0.1"``.
 """
 
-from __future__ import annotations
-
 import argparse
 import os
 import resource

@@ -2,8 +2,6 @@
 and so is the backup of what was there.
 """
 
-from __future__ import annotations
-
 import contextlib
 import io
 import re

@@ -2,8 +2,6 @@
 and what somebody has written down from the screen.
 """
 
-from __future__ import annotations
-
 import json
 from functools import cache
 from pathlib import Path

@@ -4,8 +4,6 @@ locks, facts.
 What is refused is refused with the one documented error, and no file has changed by it.
 """
 
-from __future__ import annotations
-
 import hashlib
 import logging
 import random

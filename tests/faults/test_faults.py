@@ -1,7 +1,5 @@
 """A short part of each fault campaign; ``make faults`` runs them whole."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

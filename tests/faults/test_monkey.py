@@ -2,8 +2,6 @@
 ``make faults`` has it choose others, ten minutes a family.
 """
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

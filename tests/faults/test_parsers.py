@@ -2,8 +2,6 @@
 every place that takes something from outside is in this table.
 """
 
-from __future__ import annotations
-
 import ast
 import re
 from pathlib import Path

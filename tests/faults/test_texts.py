@@ -1,7 +1,5 @@
 """What damages texts does so the same way for the same seed; ``test_faults.py`` gives them to the readers."""
 
-from __future__ import annotations
-
 from tests.faults import texts as damaged
 
 

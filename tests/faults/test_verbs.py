@@ -1,7 +1,5 @@
 """What an upload leaves behind when a call of the system fails, one run a call."""
 
-from __future__ import annotations
-
 import errno
 import os
 import subprocess

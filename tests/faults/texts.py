@@ -5,8 +5,6 @@ documented error, what took longer than ``SLOWEST``,
 and what was taken and could not be written or read back as the same.
 """
 
-from __future__ import annotations
-
 import json
 import random
 import time

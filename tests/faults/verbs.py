@@ -2,8 +2,6 @@
 and looks what it left behind.
 """
 
-from __future__ import annotations
-
 import errno
 import os
 import random

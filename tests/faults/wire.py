@@ -1,7 +1,5 @@
 """Damaged bytes on the line and damaged messages in whole frames, the same for the same seed."""
 
-from __future__ import annotations
-
 import dataclasses
 import random
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """A file of the 9/PC on disk, and a disk that fails on demand."""
 
-from __future__ import annotations
-
 import errno
 import os
 import subprocess

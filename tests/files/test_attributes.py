@@ -1,7 +1,5 @@
 """What else a file has than its content survives a save, or the save reports what does not."""
 
-from __future__ import annotations
-
 import errno
 import grp
 import os

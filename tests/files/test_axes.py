@@ -1,7 +1,5 @@
 """The axis operations: name, retype, copy, delete; each is a list of changes that can be taken back."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.files import (

@@ -2,8 +2,6 @@
 axes that are always there.
 """
 
-from __future__ import annotations
-
 from itertools import combinations
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Axes are matched by their letters, and one axis is compared with another."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.files import ParameterFile, compare, new_file

@@ -1,7 +1,5 @@
 """The backup of a save, its recovery, and saving a file by itself."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

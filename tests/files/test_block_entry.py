@@ -1,7 +1,5 @@
 """Several values at once: what would change is known before anything does."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

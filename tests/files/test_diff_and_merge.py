@@ -1,7 +1,5 @@
 """Differences and the three-way merge, by parameter."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st

@@ -1,7 +1,5 @@
 """An open file: one program at a time, unsaved work that survives, and a history."""
 
-from __future__ import annotations
-
 import getpass
 import json
 import os

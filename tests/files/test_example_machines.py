@@ -1,7 +1,5 @@
 """The list of the examples that come with the program."""
 
-from __future__ import annotations
-
 from amp_studio.files.example_files import examples, examples_folder
 
 

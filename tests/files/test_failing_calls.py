@@ -2,8 +2,6 @@
 old one or the new one, whole, and nothing lies about.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Every save is in the history of the file, without secrets; a history that cannot be written is a note."""
 
-from __future__ import annotations
-
 import getpass
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What a file contains besides known values comes back from a save as it was."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

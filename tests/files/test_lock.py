@@ -1,7 +1,5 @@
 """The lock where a file system has none, where another user has it, and where something else has its name."""
 
-from __future__ import annotations
-
 import errno
 import fcntl
 import os

@@ -2,8 +2,6 @@
 and lost by nobody.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Opening a file: understood whole, kept whole, or refused with file and line."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

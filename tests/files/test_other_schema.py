@@ -1,7 +1,5 @@
 """Two files of one family whose controls describe themselves are compared, though each has its schema."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A parameter file in memory: new, read, changed, all or none."""
 
-from __future__ import annotations
-
 import math
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A project: a folder with the files of one machine."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

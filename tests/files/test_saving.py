@@ -2,8 +2,6 @@
 and nothing lies about.
 """
 
-from __future__ import annotations
-
 import os
 import resource
 import stat

@@ -1,7 +1,5 @@
 """Texts in a CSV file stay texts in a spreadsheet, and come back as they were."""
 
-from __future__ import annotations
-
 import csv
 import io
 from pathlib import Path

@@ -1,7 +1,5 @@
 """One edit is one step: all of it is made, or the file is as it was before."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.files import Change, ParameterFile, RangeError

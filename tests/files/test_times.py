@@ -1,7 +1,5 @@
 """Times are stored in UTC and shown as local time, to the minute."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Iterator
 from datetime import datetime, timedelta

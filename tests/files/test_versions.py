@@ -1,7 +1,5 @@
 """Other versions of an open file: as opened, as saved, with its defaults, before its saves."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Whatever is to be written can be read, and means the same; else nothing is written."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """One question over everything: what is found, why, and where it leads."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

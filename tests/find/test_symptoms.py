@@ -1,7 +1,5 @@
 """Symptoms: what a person sees or hears, as messages of our own in each family."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.find import Finder

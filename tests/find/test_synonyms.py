@@ -1,7 +1,5 @@
 """German and trade words, and what people see: each leads to something in the manuals' words."""
 
-from __future__ import annotations
-
 from collections import Counter
 
 import pytest

@@ -1,7 +1,5 @@
 """By which marks the values of a file are listed, alone and together."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

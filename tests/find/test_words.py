@@ -1,7 +1,5 @@
 """Typing errors: which words a mistyped one may be."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

@@ -1,7 +1,5 @@
 """What an export and an import report is what a reading of the text finds, for every format and example."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What docs/formats.md and the pages below it describe is what the formats do."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from textwrap import dedent

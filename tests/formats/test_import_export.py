@@ -1,7 +1,5 @@
 """Text formats: what is written reads back, and what cannot be meant is reported with line and column."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

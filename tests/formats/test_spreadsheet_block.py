@@ -2,8 +2,6 @@
 what a spreadsheet shows is not mistaken for what it is.
 """
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 from pathlib import Path

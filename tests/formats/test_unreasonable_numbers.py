@@ -2,8 +2,6 @@
 or kept as what they are.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """A fresh file is calm: what is wrong with printed defaults is a state until somebody begins."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

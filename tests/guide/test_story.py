@@ -2,8 +2,6 @@
 what a person sees who follows the guide and knows the machine.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """A file in one line: machine, axes and how many findings."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

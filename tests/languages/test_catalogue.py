@@ -1,7 +1,5 @@
 """Every language has every text under its id, and an English text has one id in its section."""
 
-from __future__ import annotations
-
 from collections import Counter
 from typing import get_args
 

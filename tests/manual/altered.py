@@ -1,7 +1,5 @@
 """Facts and parameters with one thing altered, which a check has to report."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """The printed 9/PC manual beside the database: which parameter a printed fact is about."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from functools import cached_property

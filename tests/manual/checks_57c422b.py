@@ -1,7 +1,5 @@
 """Registers, bits and values of the 57C422B database against those its manual prints."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from functools import cache

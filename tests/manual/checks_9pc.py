@@ -1,7 +1,5 @@
 """Numbers, ranges and choices of the 9/PC database against those its manual prints, section by section."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import replace

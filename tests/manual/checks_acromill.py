@@ -2,8 +2,6 @@
 pictures included, and the lists of gains of its appendix C.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

@@ -1,7 +1,5 @@
 """The NUM database against the bare facts of its manual: parameters, words, bits, defaults and bounds."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator
 from functools import cached_property

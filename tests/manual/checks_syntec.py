@@ -1,7 +1,5 @@
 """Numbers and values of the Syntec database against those its slides print."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from functools import cached_property

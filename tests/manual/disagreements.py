@@ -2,8 +2,6 @@
 and those that an exception covers with its reason.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path

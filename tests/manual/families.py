@@ -2,8 +2,6 @@
 and what no check may miss.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache

@@ -1,7 +1,5 @@
 """A family whose database is compared with its manual: what ``families.py`` records of each."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property

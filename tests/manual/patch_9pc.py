@@ -1,7 +1,5 @@
 """The 9/PC database against the Patch AMP table of its manual: what the control itself stores."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from typing import NamedTuple

@@ -2,8 +2,6 @@
 and whether a text names what is printed.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """What only the check of AcroMill has: the letters of the axes, and the pages of its tabs."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from families import ACROMILL

@@ -5,8 +5,6 @@ a need or a rule.
 cannot be decided from a parameter file is listed too, with the reason.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

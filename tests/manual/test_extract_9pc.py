@@ -2,8 +2,6 @@
 and what it misses.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable
 from pathlib import Path

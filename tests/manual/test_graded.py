@@ -5,8 +5,6 @@ statements on danger and damage, each with its line and page, and where it is sh
 or why nowhere.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from pathlib import Path
 

@@ -2,8 +2,6 @@
 of the constraining statements.
 """
 
-from __future__ import annotations
-
 import re
 from functools import lru_cache
 from pathlib import Path

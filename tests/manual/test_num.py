@@ -1,7 +1,5 @@
 """What only the check of the NUM has: sections that lost their headings, and the ranges of the types."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from checks_num import Words, check_ranges

@@ -6,8 +6,6 @@ The facts in ``<family>.yaml`` were taken from each manual without a look at the
 each with line and section of the manual and with both readings.
 """
 
-from __future__ import annotations
-
 from itertools import islice
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The list of printed figures of machines in motion: each has a test that there is, or a reason why it has none."""
 
-from __future__ import annotations
-
 import re
 from functools import cache
 from pathlib import Path

@@ -6,8 +6,6 @@ for the 57C422B from the programs of sections 4.49 and 5.2 to 5.9; for AcroMill 
 screens of its tabs; for NUM and Syntec from the text of each parameter.
 """
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.files import ParameterFile, new_file

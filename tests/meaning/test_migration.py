@@ -1,7 +1,5 @@
 """The way out of an old control: every active parameter once, nothing beyond what the old one allowed."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

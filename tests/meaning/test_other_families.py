@@ -1,7 +1,5 @@
 """The other readers, the settings of a grblHAL, and machines of several families side by side."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

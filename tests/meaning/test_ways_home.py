@@ -1,7 +1,5 @@
 """Machines that are homed without a switch, and travel that a grblHAL does not limit."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Example machines, a new copy for each test."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The cam of an axis among the pictures of its file: position, speed and acceleration."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.pictures import draw, pictures_of

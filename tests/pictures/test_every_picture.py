@@ -1,7 +1,5 @@
 """What every picture has in common: handles that change nothing where they lie, labels, notes, errors."""
 
-from __future__ import annotations
-
 import json
 from functools import cache
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Limits of an axis for the live page, in the unit in which its control shows it."""
 
-from __future__ import annotations
-
 from amp_studio.pictures import LiveLimits, axis_limits
 
 

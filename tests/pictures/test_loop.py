@@ -2,8 +2,6 @@
 signals that are those of the scenarios.
 """
 
-from __future__ import annotations
-
 import pytest
 
 import amp_studio as amp

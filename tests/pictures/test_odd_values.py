@@ -1,7 +1,5 @@
 """Whatever numbers a file contains, its pictures are drawn or have a note."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Ramps, jog speeds, gears, gains and tables: what is drawn, and what a handle does to the values."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

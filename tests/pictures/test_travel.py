@@ -1,7 +1,5 @@
 """Travel and zones: the geometry of what the manuals say, and what a handle does to the values."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.files import new_file

@@ -2,8 +2,6 @@
 calls of the builder's programs.
 """
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.assignments import read_assignments

@@ -1,7 +1,5 @@
 """Programs as they come: what a control does not read, or what no page prints, has a message with its line."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Whole programs to their path: modal state, arcs, coordinates, printed cycles, branches; what is refused."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

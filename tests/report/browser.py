@@ -2,8 +2,6 @@
 through the pipe of its debugging protocol.
 """
 
-from __future__ import annotations
-
 import base64
 import fcntl
 import json

@@ -1,7 +1,5 @@
 """Machines to print: values of every kind, with marks of every kind."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterable
 from datetime import UTC, datetime

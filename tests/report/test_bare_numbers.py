@@ -1,7 +1,5 @@
 """What a number without a unit counts, or that the manual prints none."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.report import facts

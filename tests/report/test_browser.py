@@ -1,7 +1,5 @@
 """The web page in a real browser, with real keys: searching, jumping, help, a phone, paper."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import count, pairwise
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Findings by their rule, with the axes that cause them and what their fixes do."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from amp_studio.files import new_file

@@ -1,7 +1,5 @@
 """The chapter of what check finds in motion: in each format, and only where it is asked for."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

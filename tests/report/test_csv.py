@@ -1,7 +1,5 @@
 """The table for a spreadsheet: values read back equal those of the file."""
 
-from __future__ import annotations
-
 import csv
 import io
 import math

@@ -1,7 +1,5 @@
 """Danger, warning and note of a parameter's help, as machine manuals grade them."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.files import ParameterFile, new_file

@@ -1,7 +1,5 @@
 """Documents in another language: every word of the frame, and nothing of the manual's."""
 
-from __future__ import annotations
-
 import re
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """A name of the room is loaded only when it is asked for."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

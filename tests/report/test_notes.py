@@ -1,7 +1,5 @@
 """Notes keep their lines and what they are indented by, in every format that a person reads."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

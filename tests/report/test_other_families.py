@@ -1,7 +1,5 @@
 """A family that is nothing like the 9/PC: many axes that are always there, words of bits, texts."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """The web page: whole in itself, its links lead somewhere, its texts are escaped."""
 
-from __future__ import annotations
-
 from html.parser import HTMLParser
 
 import pytest

@@ -1,7 +1,5 @@
 """The paper of a comparison: every source with its result, conflicts that are open, secrets masked."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -2,8 +2,6 @@
 and the workbook a real spreadsheet opens.
 """
 
-from __future__ import annotations
-
 import csv
 import io
 import json

@@ -1,7 +1,5 @@
 """The chapter of part programs: in each format, and only where they are given."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The PDF as a reader sees it: its pages, its texts, its fonts."""
 
-from __future__ import annotations
-
 import re
 import shutil
 import subprocess

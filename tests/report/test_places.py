@@ -1,7 +1,5 @@
 """Where values are on the pages of a report, for the preview; and a template to begin with."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

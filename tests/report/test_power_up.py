@@ -1,7 +1,5 @@
 """The chapter of what is active in part programs after power-up."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

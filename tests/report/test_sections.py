@@ -1,7 +1,5 @@
 """The three orders of the documenter, and what is left out of them."""
 
-from __future__ import annotations
-
 from datetime import datetime
 from itertools import pairwise
 from pathlib import Path

@@ -2,8 +2,6 @@
 a formula or a terminal's order.
 """
 
-from __future__ import annotations
-
 import csv
 import io
 from datetime import UTC, datetime

@@ -1,7 +1,5 @@
 """A family with tables of hundreds of entries, of which an operator fills a few."""
 
-from __future__ import annotations
-
 import io
 
 from openpyxl import load_workbook

@@ -1,7 +1,5 @@
 """Templates of a project: what they may change, what they may not do, and what becomes of their mistakes."""
 
-from __future__ import annotations
-
 import re
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """Plain text of 100 columns, and the literal writing of Typst."""
 
-from __future__ import annotations
-
 import re
 from datetime import UTC, datetime
 from pathlib import Path

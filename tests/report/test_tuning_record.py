@@ -1,7 +1,5 @@
 """The tuning record: kept beside the file, only ever added to, and a chapter of the report in each format."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 from pathlib import Path

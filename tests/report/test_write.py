@@ -1,7 +1,5 @@
 """Every format in every order, for machines plain, odd and empty."""
 
-from __future__ import annotations
-
 from datetime import datetime
 from functools import cache
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Small families of our own making: written as YAML in the test, compiled as the real ones are."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from textwrap import dedent

@@ -1,7 +1,5 @@
 """The registers of the 57C422B, compared with chapter 4 and the printed programs of the manual."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.files import ParameterFile, new_file

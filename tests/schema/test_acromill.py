@@ -1,7 +1,5 @@
 """The AcroMill family: what its guide prints, and what is special to a control without numbers."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

@@ -1,7 +1,5 @@
 """What a person means by a number, an id or the letter of an axis: one answer for every verb."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.files import ParameterFile, new_file

@@ -1,7 +1,5 @@
 """A packed word given by what its bits are called."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.schema import InvalidValueError, Parameter, read_value

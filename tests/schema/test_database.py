@@ -1,7 +1,5 @@
 """The facts themselves: every family in the database is whole, and agrees with itself."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Iterator
 

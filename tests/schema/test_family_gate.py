@@ -1,7 +1,5 @@
 """Only the id of a family that is there is ever looked up, whatever names it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -4,8 +4,6 @@ Each family here is made up, as short as its one difficulty allows; numbers and 
 the difficulty comes from.
 """
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.schema import (

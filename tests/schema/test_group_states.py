@@ -1,7 +1,5 @@
 """States that a group has once for all its parameters, and lists that the family has once."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.schema import DatabaseError, Value

@@ -2,8 +2,6 @@
 and of one mind with the models that read the files.
 """
 
-from __future__ import annotations
-
 import copy
 import json
 import re

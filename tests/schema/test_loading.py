@@ -1,7 +1,5 @@
 """Loading facts: a fault is reported with file and line, and the cache never gives yesterday's facts."""
 
-from __future__ import annotations
-
 import json
 import os
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Messages of controls as facts: how they are written, and which mistakes the loader names."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -2,8 +2,6 @@
 and all of an entry at once.
 """
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.schema import DatabaseError

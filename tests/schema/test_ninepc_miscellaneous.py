@@ -1,7 +1,5 @@
 """Chapters 33, 34 and 37: the numbers of arrays and processes, the printed password, what is out of use."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.report.parameter.manual_page import facts

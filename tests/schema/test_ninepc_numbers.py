@@ -1,7 +1,5 @@
 """The numbers of the real 9/PC: three of them mean two parameters, and the signature keeps watch over all."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

@@ -1,7 +1,5 @@
 """Planes, macro calls and interrupts of the real 9/PC: arrays whose numbers and states go by the instance."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.schema import Value

@@ -1,7 +1,5 @@
 """Spindles of the real 9/PC: which of their parameters are active goes by the axis that is the spindle."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.schema import Evaluation, Value

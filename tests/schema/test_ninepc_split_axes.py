@@ -2,8 +2,6 @@
 and what can be keyed in for each set.
 """
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.schema import Value

@@ -1,7 +1,5 @@
 """Words of chapters 4 and 5 of the NUM parameter manual: every example it prints, bit by bit."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.files import ParameterFile, new_file

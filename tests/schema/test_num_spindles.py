@@ -2,8 +2,6 @@
 and the order of integration of chapter 3.
 """
 
-from __future__ import annotations
-
 import re
 
 import pytest

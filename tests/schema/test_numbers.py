@@ -1,7 +1,5 @@
 """Numbers as people write them, and that whatever is written can be read back."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -2,8 +2,6 @@
 and their pages.
 """
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.files import new_file

@@ -1,7 +1,5 @@
 """The roles of pictures are checked when the facts are compiled."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

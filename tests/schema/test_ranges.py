@@ -1,7 +1,5 @@
 """Ranges: the edges as printed, in the unit as printed."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st

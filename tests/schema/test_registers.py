@@ -1,7 +1,5 @@
 """What the words of the database must be able to express of registers, as the 57C422B module has them."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.schema import InvalidValueError, Value, fault, field_at, field_value, read_value, with_field

@@ -1,7 +1,5 @@
 """Reading a named path: a file of bounded size, or one sentence about what it is instead, at once."""
 
-from __future__ import annotations
-
 import os
 import socket
 from collections.abc import Callable

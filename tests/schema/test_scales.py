@@ -1,7 +1,5 @@
 """Units whose size another parameter sets: what a count is in mm or degrees, and a length as a count."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """The picture of numbers and references in docs/schema.md is what the program does."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

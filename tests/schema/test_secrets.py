@@ -1,7 +1,5 @@
 """Which parameters can be secrets, and what may be shown of them."""
 
-from __future__ import annotations
-
 import pytest
 from pydantic import ValidationError
 

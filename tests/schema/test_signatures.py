@@ -1,7 +1,5 @@
 """The signatures of the families, as files and controls out there hold them."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.schema import load_schema

@@ -1,7 +1,5 @@
 """Active, ignored, hidden, unusable: each with its reason, and right after every edit."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st

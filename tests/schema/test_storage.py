@@ -1,7 +1,5 @@
 """What a control stores for a value: exact until the last rounding, and the same both ways."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

@@ -3,8 +3,6 @@
 Figures are typed here from the slides; sections are counted as in ``parameter_db/syntec/family.yaml``.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import pytest

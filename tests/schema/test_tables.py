@@ -1,7 +1,5 @@
 """The printed tables: one form for all, and no word against the parameters they belong to."""
 
-from __future__ import annotations
-
 from collections import Counter
 
 import pytest

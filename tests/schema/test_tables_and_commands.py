@@ -2,8 +2,6 @@
 and the unit of bare figures.
 """
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.schema import DatabaseError

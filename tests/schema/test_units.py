@@ -1,7 +1,5 @@
 """Units as people write them, exact conversions, and the units that a family brings."""
 
-from __future__ import annotations
-
 import math
 from decimal import Decimal
 from fractions import Fraction

@@ -1,7 +1,5 @@
 """Values of parameters: what a person writes is read, and what is written or shown can be read back."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

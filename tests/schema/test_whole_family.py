@@ -2,8 +2,6 @@
 may come later or never.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

@@ -4,8 +4,6 @@ and fields without a number.
 NUM keeps arrays of typed words, the 57C422B module registers, Syntec pairs of numbers, AcroMill names only.
 """
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.schema import (

@@ -1,7 +1,5 @@
 """The one reader of YAML: what it takes, what it refuses, and where."""
 
-from __future__ import annotations
-
 import contextlib
 from pathlib import Path
 

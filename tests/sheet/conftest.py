@@ -1,7 +1,5 @@
 """Two states of one sound mill: what the control contains, and what it is to contain."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

@@ -1,7 +1,5 @@
 """The order of a sheet: no state in between breaks a rule that neither its beginning nor its end breaks."""
 
-from __future__ import annotations
-
 import random
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What a person reads on the control's screen is compared exactly with what was to be keyed in."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.sheet import ReadBackError, compare_screen, make_sheet, read_screen_readings

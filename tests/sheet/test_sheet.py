@@ -1,7 +1,5 @@
 """What is on a sheet, in what words, and what is not on it."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.files import new_file

@@ -1,7 +1,5 @@
 """The ticks of a sheet are on the disk at once, and count as long as nothing else has to be keyed in."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

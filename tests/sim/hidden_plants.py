@@ -5,8 +5,6 @@ torque, under a separate sampled position and velocity loop; the record has nois
 each channel and, with some, the speed in rpm.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass

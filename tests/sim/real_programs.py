@@ -3,8 +3,6 @@
 ``python -m tests.sim.real_programs`` measures them again (``make peers`` builds the simulator; minutes).
 """
 
-from __future__ import annotations
-
 import math
 import random
 import subprocess

@@ -1,7 +1,5 @@
 """Recommendations leave a sound axis, name their price, and never raise a gain on a guessed machine."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path

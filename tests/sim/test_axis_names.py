@@ -1,7 +1,5 @@
 """An axis is named by itself or by its letter, and a result shows both."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

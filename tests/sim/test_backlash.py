@@ -2,8 +2,6 @@
 and what chatters in the gap is the loop.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

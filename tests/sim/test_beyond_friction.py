@@ -1,7 +1,5 @@
 """What a record shows beside inertia and friction, in axes that scipy moved."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Chirps on axes that scipy made: each figure is within three of its uncertainties. ``make campaign`` takes all twenty."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Two axes on a circle: the radius error is that of the linear model, and reversals leave their spikes."""
 
-from __future__ import annotations
-
 from functools import cache
 from pathlib import Path
 

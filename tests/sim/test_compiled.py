@@ -1,7 +1,5 @@
 """Machine code of a law: found again in later processes, and never that of another law."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

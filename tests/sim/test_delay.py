@@ -2,8 +2,6 @@
 the simulated axis is the discrete linear model of its law.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Records of drives as they come: separators, decimal commas, names and units; and what is not guessed."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -4,8 +4,6 @@
 each, five seconds apiece.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from random import Random
 from typing import Any, cast

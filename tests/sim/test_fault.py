@@ -1,7 +1,5 @@
 """A drive that trips, and feedback that is lost: in a scenario, and at an emulated control, with its words."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

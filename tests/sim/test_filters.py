@@ -3,8 +3,6 @@
 ``make campaign`` lets the solver set a notch; ``make tunings`` searches 300 machines on a grid with other filters.
 """
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

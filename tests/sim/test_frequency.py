@@ -1,7 +1,5 @@
 """A swept sine on the simulated axis and the linear model of its law say the same."""
 
-from __future__ import annotations
-
 from math import isfinite
 
 import numpy as np

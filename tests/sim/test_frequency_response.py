@@ -1,7 +1,5 @@
 """The machine in a frequency response: plants that scipy made, not the simulator, and what is refused."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Callable

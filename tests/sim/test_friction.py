@@ -2,8 +2,6 @@
 and what such a record must show.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -2,8 +2,6 @@
 or there is none. ``make campaign`` takes all twenty.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """One sequence of homing for every family: what it meets, and what it shows where it fails."""
 
-from __future__ import annotations
-
 import itertools
 import math
 

@@ -1,7 +1,5 @@
 """In which step of a homing of all axes an axis is: priority, phase, HOME_SEQUENCE."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.schema import Value

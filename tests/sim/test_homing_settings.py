@@ -1,7 +1,5 @@
 """Settings of a homing that its sequence has no use for are refused, not ignored."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.schema import Value

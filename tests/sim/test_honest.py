@@ -1,7 +1,5 @@
 """Figures that mean what they say: steady, settled, unstable, doubtful, absurd."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

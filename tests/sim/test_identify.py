@@ -2,8 +2,6 @@
 what the simulator was given is what its trace is identified as.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

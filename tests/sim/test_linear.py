@@ -1,7 +1,5 @@
 """The linear sampled model agrees with python-control, scipy and its own law run step by step."""
 
-from __future__ import annotations
-
 import sys
 from types import ModuleType
 from typing import Any

@@ -2,8 +2,6 @@
 and as the linear model predicts.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

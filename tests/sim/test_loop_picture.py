@@ -1,7 +1,5 @@
 """The loop as a Nyquist and a Nichols chart: true to the loop, with the area that a sound one stays out of."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Backlash in a record of motor and load, of axes that numpy made, not the simulator."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A machine that cannot be computed with is refused before anything is computed."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.sim import SimulationError

@@ -1,7 +1,5 @@
 """The check of a machine takes every scenario that a file allows, also those of one family."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.files import ParameterFile

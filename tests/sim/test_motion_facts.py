@@ -1,7 +1,5 @@
 """What the laws take from ``motion.yaml``: each role that is asked for is there, and each one there is used."""
 
-from __future__ import annotations
-
 import ast
 import re
 from functools import cache

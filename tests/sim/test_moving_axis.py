@@ -1,7 +1,5 @@
 """An axis whose command changes while it moves: one motion, stepped once."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 

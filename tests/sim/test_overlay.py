@@ -1,7 +1,5 @@
 """A record of the machine laid over the simulated move."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

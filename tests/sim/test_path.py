@@ -1,7 +1,5 @@
 """Programs on their path: ramps, corners, look-ahead against planners of this test, what limits, contour error."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """A picture hides nothing: peaks, what was before, what is assumed."""
 
-from __future__ import annotations
-
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 

@@ -2,8 +2,6 @@
 and a physics step that does not show.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from itertools import pairwise

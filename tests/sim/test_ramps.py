@@ -2,8 +2,6 @@
 against the equations of the book and against another program.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A recording that is gathered reading by reading, with a trigger, and laid over as what it is: single readings."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A move that the control refuses before it begins has no stop, and sentences call parameters by their names."""
 
-from __future__ import annotations
-
 import ast
 from pathlib import Path
 

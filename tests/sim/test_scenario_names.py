@@ -1,7 +1,5 @@
 """Help and completion name every scenario there is, and load no simulator for it."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

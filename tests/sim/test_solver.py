@@ -4,8 +4,6 @@
 too, and ``make tunings`` 300 random ones.
 """
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A sweep has the figures of single runs, whatever computes it, and goes on where it was stopped."""
 
-from __future__ import annotations
-
 import json
 import socket
 import subprocess

@@ -1,7 +1,5 @@
 """A law as a family writes one runs over the shared kernel."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

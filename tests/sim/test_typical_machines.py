@@ -1,7 +1,5 @@
 """Twelve machines and more, with ordinary and odd arguments: a sentence or a result, never a fault of the program."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

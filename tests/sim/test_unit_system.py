@@ -1,7 +1,5 @@
 """One unit of length everywhere in a simulation: that of the file."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The scenario velocity: a step of the velocity command on the velocity loop alone."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

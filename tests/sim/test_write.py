@@ -1,7 +1,5 @@
 """A trace as CSV, SVG, PNG and JSON."""
 
-from __future__ import annotations
-
 import json
 import struct
 import xml.etree.ElementTree as ET

@@ -2,8 +2,6 @@
 a proportional position loop over a proportional velocity loop.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Any

@@ -6,8 +6,6 @@ exponential with the delay in it (K. J. Åström, B. Wittenmark, Computer-Contro
 are margins, Ms and the way of the load under a torque, before and after ``tune``.
 """
 
-from __future__ import annotations
-
 import math
 import random
 import sys

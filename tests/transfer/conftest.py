@@ -1,7 +1,5 @@
 """What the tests of the exchange share: emulated controls, in this process or in one of their own."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """A line without a cable between a driver and an emulated device, in a simulated time."""
 
-from __future__ import annotations
-
 import contextlib
 import threading
 from collections.abc import Iterator

@@ -4,8 +4,6 @@ OPTIONS is a JSON object: ``initial`` (text), ``signature``, ``estop``, ``autost
 ``restart_seconds``.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Damaged control images, as many as are wanted, the same for the same seed."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Iterator
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Two images and how they are sent, for every test of the line."""
 
-from __future__ import annotations
-
 import hashlib
 from typing import Any
 

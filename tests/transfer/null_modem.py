@@ -5,8 +5,6 @@ so that an exchange over a slow or a broken line takes a few milliseconds and
 comes out the same each time.
 """
 
-from __future__ import annotations
-
 from amp_studio.transfer.emulated.control import Control
 from amp_studio.transfer.emulated.responder import CHUNK, WINDOW, Responder
 from amp_studio.transfer.links.link import Link, LinkError

@@ -1,7 +1,5 @@
 """What a control of single values contains after a break is worked out from what it is read to contain."""
 
-from __future__ import annotations
-
 from amp_studio.transfer.break_state import state_after_break
 
 STORED = {"P9N0": "0", "P10N0": "0", "P11N0": "5"}

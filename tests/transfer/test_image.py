@@ -1,7 +1,5 @@
 """The control image: what is written reads back the same, and what is damaged is refused."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import pytest

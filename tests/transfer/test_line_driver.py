@@ -2,8 +2,6 @@
 and what an error reports of the control.
 """
 
-from __future__ import annotations
-
 import threading
 
 import pytest

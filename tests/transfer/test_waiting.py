@@ -1,7 +1,5 @@
 """A wait on a line without frames has an end, shows silence, and ends at once for somebody who stops it."""
 
-from __future__ import annotations
-
 import threading
 
 import pytest

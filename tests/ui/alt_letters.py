@@ -1,7 +1,5 @@
 """The Alt letters of what is seen together."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Iterator
 

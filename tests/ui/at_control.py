@@ -1,7 +1,5 @@
 """The page at the control in a test: a control is chosen, and what is under way comes to its end."""
 
-from __future__ import annotations
-
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import ParameterFile

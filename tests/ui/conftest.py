@@ -1,7 +1,5 @@
 """The desktop program without a display, and without a question that nobody answers."""
 
-from __future__ import annotations
-
 import gc
 import queue
 import subprocess

@@ -1,7 +1,5 @@
 """The window that the tests of a module share: what one of them did is taken back, and checked."""
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Every part of the window that takes the keyboard has a name for a screen reader."""
 
-from __future__ import annotations
-
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAccessible
 from PySide6.QtWidgets import QApplication, QWidget

@@ -1,7 +1,5 @@
 """The accessibility tree of every page of the window: names, roles and the way of the Tab key."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 

@@ -2,8 +2,6 @@
 dialogs and the window as a whole.
 """
 
-from __future__ import annotations
-
 import ast
 import importlib
 import inspect

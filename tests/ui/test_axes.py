@@ -1,7 +1,5 @@
 """The axis menu: name, configure type and servo, copy, delete; each one step."""
 
-from __future__ import annotations
-
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest

@@ -1,7 +1,5 @@
 """The axis menu on families whose axes have no types, through the real window."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The published formulas as calculators."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

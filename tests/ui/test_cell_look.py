@@ -2,8 +2,6 @@
 and choices that cannot be taken for one another.
 """
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.schema import Value, family_ids, load_schema

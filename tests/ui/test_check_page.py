@@ -1,7 +1,5 @@
 """The page of the check in motion: each check as it is done, its parameters as links."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

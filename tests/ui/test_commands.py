@@ -1,7 +1,5 @@
 """Every command is in a menu, has a name and a key, and is found and run by the find box."""
 
-from __future__ import annotations
-
 from collections import Counter
 
 import pytest

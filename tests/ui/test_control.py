@@ -2,8 +2,6 @@
 in one page.
 """
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 from dataclasses import replace

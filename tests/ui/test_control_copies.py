@@ -1,7 +1,5 @@
 """A copy of a control that was kept goes back, from the window."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from pytestqt.qtbot import QtBot

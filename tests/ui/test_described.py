@@ -2,8 +2,6 @@
 what it keeps.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

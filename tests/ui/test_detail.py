@@ -1,7 +1,5 @@
 """Help, facts, rules and history of the selected parameter."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from PySide6.QtCore import QUrl

@@ -1,7 +1,5 @@
 """The table of differences with a control: numbers are seen, and neither side is beyond the edge."""
 
-from __future__ import annotations
-
 import pytest
 from pytestqt.qtbot import QtBot
 

@@ -1,7 +1,5 @@
 """Disks that are full or write-protected: the user knows before the work is done, and none of it is lost."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from pathlib import Path

@@ -2,8 +2,6 @@
 findings and marks with it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

@@ -1,7 +1,5 @@
 """New, save, save as, recover, facts, close: nothing is lost."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from pathlib import Path

@@ -2,8 +2,6 @@
 and that nothing moves meanwhile.
 """
 
-from __future__ import annotations
-
 import hashlib
 from pathlib import Path
 

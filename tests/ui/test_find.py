@@ -1,7 +1,5 @@
 """The find box: what it shows at each key, and where each row leads."""
 
-from __future__ import annotations
-
 import pytest
 from PySide6.QtCore import Qt, QUrl
 from PySide6.QtGui import QGuiApplication

@@ -1,7 +1,5 @@
 """The findings below the table."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

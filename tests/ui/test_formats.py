@@ -1,7 +1,5 @@
 """Import and export of the text formats of controls and their tools."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from amp_studio.files import open_file

@@ -1,7 +1,5 @@
 """The frame of the window: tool bar, tabs, status bar, and what a small window does with its panels."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

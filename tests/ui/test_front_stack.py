@@ -1,7 +1,5 @@
 """A stack is as small as what is in front of it may be."""
 
-from __future__ import annotations
-
 from PySide6.QtWidgets import QSizePolicy, QWidget
 from pytestqt.qtbot import QtBot
 

@@ -2,8 +2,6 @@
 and a decimal comma where a number is shown.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from datetime import UTC, datetime

@@ -1,7 +1,5 @@
 """An error in a method that Qt calls never ends the program, whatever raises it."""
 
-from __future__ import annotations
-
 import importlib
 import os
 import pkgutil

@@ -2,8 +2,6 @@
 findings that wait for their step.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

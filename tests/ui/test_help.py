@@ -2,8 +2,6 @@
 of the machine without a yes.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import platformdirs

@@ -2,8 +2,6 @@
 to.
 """
 
-from __future__ import annotations
-
 from math import copysign, cos, sin
 from pathlib import Path
 

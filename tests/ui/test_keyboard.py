@@ -1,7 +1,5 @@
 """A commissioning with keys alone, and how many clicks a download takes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

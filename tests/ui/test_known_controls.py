@@ -1,7 +1,5 @@
 """The controls on the welcome page: what is remembered of each, and what can be done from there."""
 
-from __future__ import annotations
-
 import json
 from datetime import UTC, datetime
 

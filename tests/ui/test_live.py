@@ -1,7 +1,5 @@
 """The live page: figures, faults with cause and cure, and what ends it."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """What is loaded beside the window is loaded by one thread at a time."""
 
-from __future__ import annotations
-
 import sys
 import threading
 from pathlib import Path

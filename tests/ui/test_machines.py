@@ -1,7 +1,5 @@
 """Machines side by side in the window."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -2,8 +2,6 @@
 of every family, motion and a hundred edits in ``make campaign``.
 """
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

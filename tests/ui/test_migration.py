@@ -1,7 +1,5 @@
 """The window of a migration: questions, what is less safe, each parameter once, and what is written."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """The motion page follows the file as it is edited."""
 
-from __future__ import annotations
-
 import threading
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The dialog for a new file: what a family cannot choose is off before anything is accepted."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

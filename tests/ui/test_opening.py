@@ -1,7 +1,5 @@
 """Opening: two programs on one file notice each other, and the work of a killed one is offered."""
 
-from __future__ import annotations
-
 import signal
 import subprocess
 import sys

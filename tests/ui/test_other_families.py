@@ -2,8 +2,6 @@
 machine types in the header.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

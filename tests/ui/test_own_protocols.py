@@ -2,8 +2,6 @@
 through the same actions as any other.
 """
 
-from __future__ import annotations
-
 import threading
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The texts of pictures in the font of the window: none on another, and a tip for what has no room."""
 
-from __future__ import annotations
-
 from itertools import combinations
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The page of pictures: handles dragged, stepped by keys and typed, in the real window."""
 
-from __future__ import annotations
-
 import threading
 
 import pytest

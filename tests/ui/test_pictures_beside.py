@@ -1,7 +1,5 @@
 """Pictures beside the table: both are seen, follow each other, and stay where a person put them."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest

@@ -2,8 +2,6 @@
 and what is seen while a file is opened.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

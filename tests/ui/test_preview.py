@@ -2,8 +2,6 @@
 with the project's template.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

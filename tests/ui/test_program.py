@@ -1,7 +1,5 @@
 """Start and end of the program: quick, with nothing heavy loaded, nothing lost and nothing left running."""
 
-from __future__ import annotations
-
 import gc
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """The page of blocks and programs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 

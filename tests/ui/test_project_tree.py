@@ -1,7 +1,5 @@
 """The tree of the project in the left panel: what is in the folder, with marks, and what is done with it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The files of a project: open, copy (also from another project), rename, delete, recover."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

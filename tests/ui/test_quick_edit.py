@@ -1,7 +1,5 @@
 """Quick edit by number, as the old development system had it: number, value, number, value."""
 
-from __future__ import annotations
-
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest

@@ -2,8 +2,6 @@
 One step to undo each.
 """
 
-from __future__ import annotations
-
 import pytest
 from PySide6.QtCore import QItemSelection, QItemSelectionModel, QMimeData, QPoint, Qt
 from PySide6.QtGui import QGuiApplication

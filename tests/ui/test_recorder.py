@@ -1,7 +1,5 @@
 """The recorder of the motion page: a record with its trigger, live from a control, channels on scales of their own."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The printed report, written by a worker."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable
 from pathlib import Path

@@ -2,8 +2,6 @@
 and nothing that moves by itself.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -2,8 +2,6 @@
 and ink can be read on its ground.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 
 import numpy as np

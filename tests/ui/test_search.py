@@ -1,7 +1,5 @@
 """Groups, and the rows of a search in the table."""
 
-from __future__ import annotations
-
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest

@@ -1,7 +1,5 @@
 """Secrets in the desktop program: masked wherever they would be seen, until a person asks for them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """The program starts whatever is in its settings."""
 
-from __future__ import annotations
-
 import os
 import stat
 import sys

@@ -1,7 +1,5 @@
 """The one page of settings: each takes effect at once, or the page names when."""
 
-from __future__ import annotations
-
 import sys
 from types import SimpleNamespace
 

@@ -1,7 +1,5 @@
 """Several controls on the page at the control, and the exchanges that were recorded."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

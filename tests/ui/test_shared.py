@@ -1,7 +1,5 @@
 """The window that tests share is as a new one after each of them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path

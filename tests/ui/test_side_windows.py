@@ -2,8 +2,6 @@
 leaves nothing behind.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

@@ -2,8 +2,6 @@
 printed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

@@ -1,7 +1,5 @@
 """The table: a row a parameter, a column an axis."""
 
-from __future__ import annotations
-
 import pytest
 from PySide6.QtCore import Qt
 

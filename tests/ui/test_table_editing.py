@@ -1,7 +1,5 @@
 """The table is edited by keyboard alone, and what is typed is not lost."""
 
-from __future__ import annotations
-
 import pytest
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QKeyEvent

@@ -1,7 +1,5 @@
 """The manual's tables, to look things up."""
 
-from __future__ import annotations
-
 from PySide6.QtCore import QUrl
 
 from amp_studio.ui.dialogs.tables_dialog import TablesDialog

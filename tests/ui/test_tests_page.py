@@ -1,7 +1,5 @@
 """The page of the tests at the machine: programs, steps with what must be seen, and ticks."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

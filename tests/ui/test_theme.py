@@ -1,7 +1,5 @@
 """The colours can be read, icons are there, and light and dark follow the choice at once."""
 
-from __future__ import annotations
-
 import ast
 import json
 import os

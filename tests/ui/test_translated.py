@@ -1,7 +1,5 @@
 """The window in another language: no key of the program is a word that a translation changes."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 

@@ -1,7 +1,5 @@
 """The window in German: every text has a translation, and the right one is shown."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """The page Tuning: chapter 36 of the 9/PC on the open file, and measured points."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from pathlib import Path

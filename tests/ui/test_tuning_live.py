@@ -1,7 +1,5 @@
 """The Tuning window on values in a connected control."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -2,8 +2,6 @@
 is proposed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Switching units changes what is shown, never what is stored."""
 
-from __future__ import annotations
-
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest

@@ -2,8 +2,6 @@
 and a check of many files run.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial

@@ -1,7 +1,5 @@
 """The welcome page: families, examples that are copied, recent files with their machine and findings."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from datetime import UTC, datetime

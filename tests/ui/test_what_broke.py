@@ -1,7 +1,5 @@
 """What once broke while somebody worked with the window, each driven through the real one."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 from pathlib import Path

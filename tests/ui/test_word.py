@@ -1,7 +1,5 @@
 """Packed words taken apart into ticks and fields, and values as the control contains them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

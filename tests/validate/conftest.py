@@ -1,7 +1,5 @@
 """The sound machines of the 9/PC, for whatever is tried on a machine in which nothing is to be found."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 

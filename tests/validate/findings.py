@@ -1,7 +1,5 @@
 """The findings of a file, for tests that ask for those of one rule."""
 
-from __future__ import annotations
-
 from amp_studio.files import ParameterFile
 from amp_studio.validate import Finding, Validator
 

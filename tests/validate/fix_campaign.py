@@ -4,8 +4,6 @@ and every fix that is offered in them.
 ``campaign(seed, count)`` may be called with any count; ``test_fix_campaign.py`` runs it briefly.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from functools import cache
 from random import Random

@@ -1,7 +1,5 @@
 """What a mutation test changes in the expressions of a rule, one thing after the other."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Iterator

@@ -7,8 +7,6 @@ its screw. Only a machine in which the rules of the manuals find nothing is kept
 so what is found in it is found by experience alone.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase

@@ -3,8 +3,6 @@
 ``rule_cases/README.md`` explains how cases are written; the machines are in ``sound_machines/<family>/``.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping

@@ -6,8 +6,6 @@ prints the table, ``test_slips.py`` a few of them. A slip is what a hand or a un
 is drawn that the file could not hold (a half of an odd number of a parameter without fractions is rounded).
 """
 
-from __future__ import annotations
-
 import argparse
 import re
 from collections import defaultdict

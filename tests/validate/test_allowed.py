@@ -1,7 +1,5 @@
 """The part of a range that the rules allow for one value, all others as they are."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.files import ParameterFile, open_file

@@ -2,8 +2,6 @@
 run.
 """
 
-from __future__ import annotations
-
 import contextlib
 import math
 import struct

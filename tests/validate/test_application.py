@@ -1,7 +1,5 @@
 """A rule may ask for the model of the control, and asks again when the file is given to another one."""
 
-from __future__ import annotations
-
 from amp_studio.files import new_file
 from amp_studio.schema import Rule
 from amp_studio.validate import BuilderRules, Validator

@@ -1,7 +1,5 @@
 """A machine builder's own rules and suppressions beside his files."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 from textwrap import dedent

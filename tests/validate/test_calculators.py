@@ -1,7 +1,5 @@
 """The published formulas as calculators, with arguments as a person writes them."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.cli import run

@@ -2,8 +2,6 @@
 and never of another quantity than the value.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

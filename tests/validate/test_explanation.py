@@ -1,7 +1,5 @@
 """Why a finding is there."""
 
-from __future__ import annotations
-
 import contextlib
 import re
 

@@ -1,7 +1,5 @@
 """What an expression of a builder's rule can give and cost is known before it runs."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import replace

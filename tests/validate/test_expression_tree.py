@@ -1,7 +1,5 @@
 """Expressions of builders' rules are read into trees, with bounds, before the engine gets them."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

@@ -2,8 +2,6 @@
 however it is worked out.
 """
 
-from __future__ import annotations
-
 from itertools import product
 
 import pytest

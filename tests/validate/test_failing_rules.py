@@ -2,8 +2,6 @@
 it is not taken for one that is satisfied.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -6,8 +6,6 @@ figures in its message are changed as ``test_rule_mutants.py`` changes what deci
 that should not be there, or when what the control uses instead breaks the rule as well.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from copy import copy

@@ -1,7 +1,5 @@
 """Which findings a changed file has that it did not have before."""
 
-from __future__ import annotations
-
 from amp_studio.validate import Finding
 from amp_studio.validate.findings_between import new_findings
 

@@ -2,8 +2,6 @@
 and fixing comes to an end.
 """
 
-from __future__ import annotations
-
 from fix_campaign import campaign
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st

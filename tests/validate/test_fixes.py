@@ -1,7 +1,5 @@
 """Fixes are tried against the whole file before they are offered, and made one after the other."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from random import Random
 

@@ -2,8 +2,6 @@
 and no speed is cut to what another value is to blame for.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

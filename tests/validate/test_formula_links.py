@@ -1,7 +1,5 @@
 """Parameters name their formulas: each name is a formula, and each formula has a parameter that names it."""
 
-from __future__ import annotations
-
 import inspect
 import re
 

@@ -1,7 +1,5 @@
 """Many files, each checked by what differs from one before: the findings are those of each by itself."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path

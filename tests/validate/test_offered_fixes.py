@@ -5,8 +5,6 @@ One case in twelve in ``make test``, each in ``make campaign``. Applied alone it
 safe sets what the control uses anyway, or what no motion depends on.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import pytest

@@ -1,7 +1,5 @@
 """What a rule reads: which instances it runs for, what it gets of other scopes, and what cannot be meant."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from textwrap import dedent

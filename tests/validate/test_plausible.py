@@ -2,8 +2,6 @@
 All of it is a recommendation.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from random import Random

@@ -1,7 +1,5 @@
 """Findings of one value by itself: its range, its choices, its unit."""
 
-from __future__ import annotations
-
 import pytest
 from findings import found, the
 

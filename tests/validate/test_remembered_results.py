@@ -2,8 +2,6 @@
 not another rule.
 """
 
-from __future__ import annotations
-
 from random import Random
 
 import pytest

@@ -8,8 +8,6 @@ out every operand of "and" and "or". What is alive at the end is in ``equivalent
 reason why no case can distinguish it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 

@@ -5,8 +5,6 @@ The tables are in ``rule_cases/``; the machines they change are in ``sound_machi
 of some cases of each rule, and looks at the others' values alone; ``make campaign`` makes all of them.
 """
 
-from __future__ import annotations
-
 import math
 import operator
 import re

@@ -1,7 +1,5 @@
 """What a row of ``rule_cases/`` cannot say: findings of no rule, and the words of a message."""
 
-from __future__ import annotations
-
 from rule_machines import TrialMachine, sound, trial_machine
 
 from amp_studio.schema import Value

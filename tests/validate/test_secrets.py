@@ -2,8 +2,6 @@
 a builder's own rules too.
 """
 
-from __future__ import annotations
-
 import json
 
 import pytest

@@ -2,8 +2,6 @@
 ``make slips`` plants all of them.
 """
 
-from __future__ import annotations
-
 from random import Random
 
 from slips import KINDS, campaign, examples, slips

@@ -1,7 +1,5 @@
 """Findings of one file: states, rules and their order, kept up to date whatever is written into it."""
 
-from __future__ import annotations
-
 import contextlib
 
 import pytest

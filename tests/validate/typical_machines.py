@@ -5,8 +5,6 @@ without knowing it: travels, screws, encoders and speeds of a machine first, the
 Nothing may be found in them but a recommendation in one of forty.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache

@@ -1,7 +1,5 @@
 """The tuning story of appendix C: its test motor and its runs, for the tests."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 

@@ -1,7 +1,5 @@
 """The ACR command script: every command as the guide prints it, and what else a terminal may be sent."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

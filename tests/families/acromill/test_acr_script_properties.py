@@ -1,7 +1,5 @@
 """The ACR command script with any values, and other forms of commands than AcroMill has."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -5,8 +5,6 @@ Its traces are lost; what the text has about each of them is tested. Each step r
 printed, ACC 500 (17 ms), and with ramps of the 100 ms that the story has verified (erratum of the index).
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The ballscrew compensation of page 107 as the file that the controller reads."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

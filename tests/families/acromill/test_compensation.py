@@ -2,8 +2,6 @@
 and what it refuses.
 """
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

@@ -1,7 +1,5 @@
 """The worked numbers of the AcroMill user's guide, each with the page of its section."""
 
-from __future__ import annotations
-
 import cmath
 import inspect
 import math

@@ -1,7 +1,5 @@
 """An axis of AcroMill bound from a file, and its servo loop sample by sample, with the page of the guide."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.families.acromill import law_sample as loop

@@ -1,7 +1,5 @@
 """Homing and jogs of an AcroMill axis (pages 65 and 67)."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """LOPASS and NOTCH of an ACR controller do what appendix C describes (page 128)."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

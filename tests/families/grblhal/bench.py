@@ -2,8 +2,6 @@
 and a clock that only moves when one waits.
 """
 
-from __future__ import annotations
-
 import random
 from collections.abc import Callable, Mapping
 from dataclasses import replace

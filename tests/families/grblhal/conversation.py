@@ -4,8 +4,6 @@
 set. Sentences of the firmware (help, texts of alarms and errors) are left out.
 """
 
-from __future__ import annotations
-
 import re
 import sys
 from collections.abc import Callable, Sequence

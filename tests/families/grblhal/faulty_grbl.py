@@ -4,8 +4,6 @@ Afterwards the copy of the old state must be whole,
 and what is reported of the control must be true of each setting.
 """
 
-from __future__ import annotations
-
 import random
 from pathlib import Path
 from typing import Any

@@ -10,8 +10,6 @@ setting. FluidNC (bdring/FluidNC): ``make_proxies`` of src/SettingsDefinitions.c
 settings.c; it has every number that the others have.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass

@@ -2,8 +2,6 @@
 ended by its number.
 """
 
-from __future__ import annotations
-
 import socket
 import subprocess
 import time

@@ -2,8 +2,6 @@
 and builds made of that.
 """
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The copy of a Grbl control is text in the control's own words, and each content has exactly one."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.families.grblhal.content import GrblContent, read_content, write_content

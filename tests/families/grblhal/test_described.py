@@ -2,8 +2,6 @@
 conditions and rules of the numbers that are known.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

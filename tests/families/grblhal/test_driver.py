@@ -1,7 +1,5 @@
 """Downloads and uploads over the Grbl driver, against an emulated control on a bench."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 from dataclasses import replace

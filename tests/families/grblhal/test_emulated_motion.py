@@ -1,7 +1,5 @@
 """The machine behind an emulated Grbl: blocks, jogs, $H and its alarms come over its protocol."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """grblHAL and Grbl on the command line: by number, by label, by axis."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -2,8 +2,6 @@
 and what has no place there is named before anything is sent.
 """
 
-from __future__ import annotations
-
 from amp_studio.families.grblhal.described import schema_of
 from amp_studio.families.grblhal.fitting import fit_to
 from amp_studio.files import ParameterFile, new_file

@@ -1,7 +1,5 @@
 """The arithmetic of the firmware, with the examples of its functions."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.families.grblhal.formulas import (

@@ -1,7 +1,5 @@
 """The line to a Grbl control: what others left on it, what comes unasked, silence and nonsense."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable, Iterable
 from pathlib import Path

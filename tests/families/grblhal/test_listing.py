@@ -1,7 +1,5 @@
 """A saved answer to $$ is read with whatever a sender has around it, and written as the control shows it."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

@@ -2,8 +2,6 @@
 and what a lost line leaves.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

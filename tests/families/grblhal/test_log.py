@@ -1,7 +1,5 @@
 """Settings are read out of what senders, terminals, forums and other programs make of them."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -2,8 +2,6 @@
 an axis must not turn round.
 """
 
-from __future__ import annotations
-
 from functools import partial
 from pathlib import Path
 

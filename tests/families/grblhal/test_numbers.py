@@ -2,8 +2,6 @@
 as measured on the firmware.
 """
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st

@@ -2,8 +2,6 @@
 and asked of no file.
 """
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from functools import partial

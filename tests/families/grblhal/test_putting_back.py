@@ -2,8 +2,6 @@
 also on another build.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import partial
 from pathlib import Path

@@ -3,8 +3,6 @@
 The firmware keeps a processor busy all the while, so ``make faults`` has the power cuts, and what is put back.
 """
 
-from __future__ import annotations
-
 import random
 import threading
 from collections.abc import Iterator

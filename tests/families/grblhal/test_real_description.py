@@ -1,7 +1,5 @@
 """The recorded description and listing are those of the real firmware, where it is built (``make peers``)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path

@@ -2,8 +2,6 @@
 and read back as it was written.
 """
 
-from __future__ import annotations
-
 from contextlib import closing
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Of Marlin, FluidNC and Grbl_ESP32 what they have in common with Grbl is read; the rest is kept as text."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

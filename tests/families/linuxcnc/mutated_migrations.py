@@ -4,8 +4,6 @@ figures that the old file means, and every joint homes to where its file has it.
 ``python -m tests.families.linuxcnc.mutated_migrations [NUMBER ...]`` runs them, as root and with a user ``cnc``.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

@@ -4,8 +4,6 @@ long it takes, and what it does at a limit.
 ``python -m tests.families.linuxcnc.real_homing`` measures them again, as root and with a user ``cnc``.
 """
 
-from __future__ import annotations
-
 import sys
 import tempfile
 from dataclasses import dataclass

@@ -3,8 +3,6 @@
 ``python -m tests.families.linuxcnc.real_paths [NAME ...]`` measures them again, as root and with a user ``cnc``.
 """
 
-from __future__ import annotations
-
 import math
 import shutil
 import subprocess

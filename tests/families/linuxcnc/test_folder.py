@@ -1,7 +1,5 @@
 """A folder as a control: what goes into its configuration, what stays, and what a break leaves."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Homing and limits beside those of a real LinuxCNC, which is a second opinion where methods agree."""
 
-from __future__ import annotations
-
 import os
 import shutil
 

@@ -1,7 +1,5 @@
 """The configuration of LinuxCNC: what is read of it, and that nobody's byte is changed."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """An axis of LinuxCNC in motion: following error, homing, limits (lines of the source of 2.9.8)."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Programs on LinuxCNC: the times and the path that the real one took, what is refused, and a lower bound."""
 
-from __future__ import annotations
-
 import math
 import os
 import shutil

@@ -2,8 +2,6 @@
 Skipped where it is not installed.
 """
 
-from __future__ import annotations
-
 import os
 import pwd
 import shutil

@@ -1,7 +1,5 @@
 """One 9/PC axis as a file would give it, bound by the law of the family."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Numbers as the 9/PC manual prints them."""
 
-from __future__ import annotations
-
 from decimal import ROUND_HALF_UP, Decimal
 
 

@@ -1,7 +1,5 @@
 """The machine behind the emulated 9/PC: jog and home keys, MDI blocks, E-stop, and the position screen."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

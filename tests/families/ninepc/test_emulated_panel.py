@@ -2,8 +2,6 @@
 password and Patch AMP.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from unittest import mock

@@ -6,8 +6,6 @@ n decimals; all other comparisons are exact, or marked. Chapter 3 has no arithme
 contradicts its own formula the formula is asserted and the misprint is beside it.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """The calibration table of an axis as one text: form, limits of the screen, and what the points come to."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

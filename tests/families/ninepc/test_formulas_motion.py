@@ -2,8 +2,6 @@
 how they are compared is in test_formulas.py.
 """
 
-from __future__ import annotations
-
 import math
 
 import pytest

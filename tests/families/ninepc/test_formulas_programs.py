@@ -4,8 +4,6 @@ The page is with each case. Numbers that the manual does not print, and that are
 words, are marked "by hand".
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Literal
 

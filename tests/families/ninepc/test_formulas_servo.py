@@ -2,8 +2,6 @@
 how they are compared is in test_formulas.py.
 """
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.families.ninepc import formulas as ninepc

@@ -5,8 +5,6 @@ The page is with each case. Numbers that the manual does not print, and that are
 words, are marked "by hand".
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

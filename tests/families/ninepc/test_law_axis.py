@@ -1,7 +1,5 @@
 """A 9/PC axis is read from its own parameters; what is missing or not simulated is named."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

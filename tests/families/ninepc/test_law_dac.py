@@ -1,7 +1,5 @@
 """The DAC monitor shows a signal of the servo in volts, as far as appendix A prints its scale."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Homing, jogs and overtravels of a 9/PC axis, by chapters 5, 6, 8 and 10."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

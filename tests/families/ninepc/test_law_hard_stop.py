@@ -1,7 +1,5 @@
 """Feed to hard stop of a 9/PC (7-65, 7-66): found by its torque, or never, or the control stops before."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """What the manual prints of a 9/PC axis in motion, against the simulated motion (chapters 7 and 10)."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The figures that chapter 10 of the manual prints, from the ramps that the simulator moves an axis with."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

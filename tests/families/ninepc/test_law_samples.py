@@ -1,7 +1,5 @@
 """The sample functions of the 9/PC, called with arrays: what each loop does with one sample (chapter 7)."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.families.ninepc import law_samples as law

@@ -1,7 +1,5 @@
 """Spindles, solid tapping and probing of a 9/PC: the figures of chapters 9, 12, 21, 27 and 29."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The slave of a split axis goes with its master (chapter 32)."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Appendix A of the manual, step by step, on a light and on a heavy axis (A-8 to A-10)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import pytest

@@ -1,7 +1,5 @@
 """The unit of the velocity gains: an inference, and the evidence of the manual for it (7-54 to 7-57)."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

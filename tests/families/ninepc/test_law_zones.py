@@ -1,7 +1,5 @@
 """Zones of a 9/PC over several axes: the figures of pages 6-2 to 6-9."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

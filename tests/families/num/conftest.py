@@ -1,7 +1,5 @@
 """The small NUM family of the tests of its table."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.schema import Schema

@@ -2,8 +2,6 @@
 and the manual's own example.
 """
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

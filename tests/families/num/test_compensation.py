@@ -1,7 +1,5 @@
 """Backlash of a NUM axis from measured points: in its internal unit, with a sign that means the direction."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

@@ -1,7 +1,5 @@
 """The formulas of chapters 4 and 5 of the NUM parameter manual, against every example it prints."""
 
-from __future__ import annotations
-
 import inspect
 import re
 

@@ -3,8 +3,6 @@
 Numbers that the manual does not print, and that are worked by hand from its words, are marked "by hand".
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

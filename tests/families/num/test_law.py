@@ -1,7 +1,5 @@
 """NUM axes in motion: what the manual prints comes out of the simulated axis."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What a move of a NUM axis recommends, and that the recommended word ends its cause."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """`simulate` on files of NUM and Syntec controls, from an empty file to a moving axis."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The position loop of a NUM from sample to sample, against what the manual prints."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

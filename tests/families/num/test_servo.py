@@ -4,8 +4,6 @@ and what chapter 11 adds to its parameters.
 Speeds are per minute, as the words of P30 hold them; the manual's examples give them per second.
 """
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -1,7 +1,5 @@
 """The NUM parameter table: every byte is understood or reported, and comes back as it was (page 13-14)."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """The NUM parameter table with the facts of the real control."""
 
-from __future__ import annotations
-
 import random
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """NUM tables of other software and other hands: what is kept of their form."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Properties of the NUM parameter table: what is written is read, and what is altered is reported."""
 
-from __future__ import annotations
-
 from random import Random
 
 from hypothesis import given, settings

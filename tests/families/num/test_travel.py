@@ -2,8 +2,6 @@
 and the values of its examples.
 """
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -1,7 +1,5 @@
 """The small servo module of the tests of the AutoMax formats."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.schema import Schema, load_schema

@@ -2,8 +2,6 @@
 and what they all go through.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from textwrap import dedent
 

@@ -1,7 +1,5 @@
 r"""AutoMax texts of a servo module: tables of registers, and the assignments of BASIC tasks."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

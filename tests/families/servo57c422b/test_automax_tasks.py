@@ -1,7 +1,5 @@
 """The BASIC task of AutoMax: values in assignments, and what else a task contains."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

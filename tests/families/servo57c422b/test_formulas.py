@@ -1,7 +1,5 @@
 """The worked numbers of the 57C422B manual, each with its page."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.families.servo57c422b.formulas import (

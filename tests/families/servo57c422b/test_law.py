@@ -2,8 +2,6 @@
 with the page of the manual.
 """
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.families.servo57c422b import law_sample as loop

@@ -1,7 +1,5 @@
 """Cams made of points: the printed program's number of points, registers, limits, and the way back."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

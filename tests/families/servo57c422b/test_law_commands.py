@@ -2,8 +2,6 @@
 with the page of the manual.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import pytest

@@ -1,7 +1,5 @@
 """Electronic gearing and cams of the 57C422B, each with the page of its manual."""
 
-from __future__ import annotations
-
 from itertools import islice
 
 import pytest

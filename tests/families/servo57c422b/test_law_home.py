@@ -1,7 +1,5 @@
 """Homing of a 57C422B axis in its four sequences (page 4-29), and its software overtravel (4-6, 4-10)."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -2,8 +2,6 @@
 and how far it may be from what was written.
 """
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import pytest

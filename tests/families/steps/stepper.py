@@ -2,8 +2,6 @@
 a law, one record.
 """
 
-from __future__ import annotations
-
 import hashlib
 from pathlib import Path
 from typing import ClassVar

@@ -2,8 +2,6 @@
 and no generic module was touched.
 """
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

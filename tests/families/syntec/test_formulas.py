@@ -5,8 +5,6 @@ are exact or marked. Where a printed number leaves a step out,
 the formula is asserted and what is printed is beside it.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 

@@ -1,7 +1,5 @@
 """Syntec axes in motion: what the slides print comes out of the simulated axis."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

@@ -1,7 +1,5 @@
 """What a move of a Syntec axis recommends, and that the recommended value ends its cause."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from amp_studio.files import ParameterFile, open_file

@@ -1,7 +1,5 @@
 """Homing, jogs and stroke limits of a Syntec axis (2.2, 3.2)."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """The pulse loop of a Syntec axis in one interpolation time, against what the slides print."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.families.syntec import law_sample as law

@@ -2,8 +2,6 @@
 and the client knows no other.
 """
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Iterator
 from functools import partial

@@ -1,7 +1,5 @@
 """Download, upload: what a person reads, and that nothing is replaced before it is kept."""
 
-from __future__ import annotations
-
 import hashlib
 import threading
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """identify shows who answers at an address and what it contains; ports lists where something could."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from types import SimpleNamespace

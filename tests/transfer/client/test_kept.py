@@ -2,8 +2,6 @@
 and checked before it goes back.
 """
 
-from __future__ import annotations
-
 import hashlib
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """The main job against an emulated control in a separate process, by the command line's verbs."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

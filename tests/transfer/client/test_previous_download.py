@@ -1,7 +1,5 @@
 """What was last put into a control from a file, from the record of exchanges and the kept copies."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What lies in a project folder belongs to its files."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -2,8 +2,6 @@
 and nothing is sent to it that acts on a machine.
 """
 
-from __future__ import annotations
-
 import socket
 import threading
 from collections.abc import Callable, Iterator

@@ -2,8 +2,6 @@
 by the command line's verbs.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Callable

@@ -2,8 +2,6 @@
 and a sample of the proof.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -2,8 +2,6 @@
 states and faults with what the manual has about them.
 """
 
-from __future__ import annotations
-
 from amp_studio.families.grblhal.status import status_of as grbl_status
 from amp_studio.families.servo57c422b.lines.status import AxisRegisters
 from amp_studio.families.servo57c422b.lines.status import status_of as module_status

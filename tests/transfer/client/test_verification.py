@@ -1,7 +1,5 @@
 """A result names no more than what is known of a control."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest

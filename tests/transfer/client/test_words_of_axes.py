@@ -5,8 +5,6 @@ tests/families/grblhal/test_masks_of_axes.py. In every other family each file ha
 the family can have, those that are not there included.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from amp_studio.files import new_file

@@ -1,7 +1,5 @@
 """Two images, and how a client downloads one into a control without a line."""
 
-from __future__ import annotations
-
 import hashlib
 
 from amp_studio.transfer.emulated.control import Control

@@ -1,7 +1,5 @@
 """The power of an emulated control that goes off at a step of its memory."""
 
-from __future__ import annotations
-
 from amp_studio.transfer.emulated.memory import Memory
 
 

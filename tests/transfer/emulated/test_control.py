@@ -1,7 +1,5 @@
 """An emulated control contains its old image or the new one, whatever happens to its disk and whenever."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path

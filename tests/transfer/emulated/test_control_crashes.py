@@ -1,7 +1,5 @@
 """An emulated control whose power or disk fails at any step has the old image or the new one."""
 
-from __future__ import annotations
-
 import errno
 from collections.abc import Callable
 from pathlib import Path

@@ -2,8 +2,6 @@
 nothing in it makes an emulated control take half a download.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Callable

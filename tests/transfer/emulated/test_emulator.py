@@ -1,7 +1,5 @@
 """Emulated controls in processes of their own, over real lines: cut off, killed, full, silent."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

@@ -2,8 +2,6 @@
 no power failure finds a name without its bytes.
 """
 
-from __future__ import annotations
-
 import os
 import stat
 from collections.abc import Callable

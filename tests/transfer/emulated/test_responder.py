@@ -1,7 +1,5 @@
 """The control's answers, request by request, to clients that keep to the protocol and others."""
 
-from __future__ import annotations
-
 import errno
 import hashlib
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """The screen of an emulated control over its line, and who reads it there."""
 
-from __future__ import annotations
-
 import contextlib
 import threading
 from collections.abc import Iterator

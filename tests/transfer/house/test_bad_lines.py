@@ -1,7 +1,5 @@
 """A session ends well over bad lines, and where it cannot, it reports truly what the control contains."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """A download that broke off goes on in another run of the program, where the control still has its bytes."""
 
-from __future__ import annotations
-
 import os
 import random
 import time

@@ -1,7 +1,5 @@
 """Frames: literal bytes, any cutting into pieces, any damage."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st

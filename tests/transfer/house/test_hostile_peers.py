@@ -1,7 +1,5 @@
 """Peers that want to hurt: bounded time and memory at both ends, and an end that reports the truth."""
 
-from __future__ import annotations
-
 import random
 import tracemalloc
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Messages: each comes back as it was sent, and what is no message is refused with a code."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import pytest

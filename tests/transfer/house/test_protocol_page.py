@@ -1,7 +1,5 @@
 """The page that specifies the protocol is true, and enough to write the other end from."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import math

@@ -1,7 +1,5 @@
 """The retry timer learns from answers whose sending is known, and from no others (Karn's rule)."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """A session on a good line: what it asks, sends and fetches, and how it is broken off."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 from typing import Any

@@ -2,8 +2,6 @@
 a commit is answered for in 20 s.
 """
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """The window: what is sent when, and what counts as lost."""
 
-from __future__ import annotations
-
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -1,7 +1,5 @@
 """Controls that refuse, that are silent, stuck or busy, that forget, or that do not keep to the protocol."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, ClassVar

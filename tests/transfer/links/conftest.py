@@ -1,7 +1,5 @@
 """Lines of controls; no password of this computer is used."""
 
-from __future__ import annotations
-
 import sys
 import threading
 from collections.abc import Callable, Iterator

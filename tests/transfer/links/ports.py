@@ -1,7 +1,5 @@
 """Serial ports without hardware, and what is read from them."""
 
-from __future__ import annotations
-
 import contextlib
 import shutil
 import subprocess

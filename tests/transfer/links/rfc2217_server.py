@@ -4,8 +4,6 @@ one port that gives back what it is sent.
 Prints the number of its TCP port, and each set of line settings it was asked for.
 """
 
-from __future__ import annotations
-
 import socket
 import sys
 import threading

@@ -1,7 +1,5 @@
 """A control with a certificate and a password, and a caller that sends something and hears it back."""
 
-from __future__ import annotations
-
 import contextlib
 from pathlib import Path
 

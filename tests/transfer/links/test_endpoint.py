@@ -1,7 +1,5 @@
 """An address is written in one of three forms, and what is wrong with another is reported in one sentence."""
 
-from __future__ import annotations
-
 import tempfile
 from pathlib import Path
 

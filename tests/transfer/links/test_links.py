@@ -1,7 +1,5 @@
 """Byte links over real sockets and pseudo terminals, and the faults that can be put on them."""
 
-from __future__ import annotations
-
 import os
 import socket
 from collections.abc import Callable, Iterator

@@ -1,7 +1,5 @@
 """A control asks for its password, and who attacks it gets nothing and delays nobody."""
 
-from __future__ import annotations
-
 import contextlib
 import select
 import socket

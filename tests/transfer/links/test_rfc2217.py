@@ -1,7 +1,5 @@
 """A port behind an RFC 2217 server is set and spoken over like an own one, and no server harms the client."""
 
-from __future__ import annotations
-
 import shutil
 import socket
 import subprocess

@@ -2,8 +2,6 @@
 and who attacks either gets nothing and delays nobody.
 """
 
-from __future__ import annotations
-
 import socket
 import ssl
 import threading

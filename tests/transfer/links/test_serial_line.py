@@ -2,8 +2,6 @@
 and is missed at once when it is pulled out.
 """
 
-from __future__ import annotations
-
 import os
 import time
 from collections.abc import Callable, Iterator

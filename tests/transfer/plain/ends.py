@@ -1,7 +1,5 @@
 """Two ends in one process: links that pass bytes between threads, and one that sends what a seed chooses."""
 
-from __future__ import annotations
-
 import queue
 import random
 import threading

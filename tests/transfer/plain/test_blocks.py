@@ -1,7 +1,5 @@
 """Files of every size come through both protocols byte for byte, also where the line changes some of them."""
 
-from __future__ import annotations
-
 import random
 
 import pytest

@@ -1,7 +1,5 @@
 """The programs of lrzsz, which nobody here wrote, are the other end."""
 
-from __future__ import annotations
-
 import random
 import shutil
 import threading

@@ -1,7 +1,5 @@
 """Raw text is punched with leader and %, and read back without them."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.transfer.plain.line import ByteLine, Patience, PlainFileError

@@ -1,7 +1,5 @@
 """The window that compares and merges, over the open mill."""
 
-from __future__ import annotations
-
 import pytest
 
 from amp_studio.schema import Value

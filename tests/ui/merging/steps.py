@@ -1,7 +1,5 @@
 """What a person does in the window that compares and merges."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from PySide6.QtCore import QPoint, Qt

@@ -1,7 +1,5 @@
 """The result of a comparison goes into the file as one step, into a new file, or on paper."""
 
-from __future__ import annotations
-
 import gc
 import weakref
 from pathlib import Path

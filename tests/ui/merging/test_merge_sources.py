@@ -1,7 +1,5 @@
 """What can be compared: files, versions, axes, controls, and what was taken when a source changes."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

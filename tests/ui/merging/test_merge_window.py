@@ -1,7 +1,5 @@
 """Two or three sources in one window: rows by group, sides taken, what a person sees and hears."""
 
-from __future__ import annotations
-
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAccessible, QGuiApplication

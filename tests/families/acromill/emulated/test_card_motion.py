@@ -2,8 +2,6 @@
 and the driver reads their status.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

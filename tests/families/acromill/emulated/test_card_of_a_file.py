@@ -1,7 +1,5 @@
 """An emulated card that is set up from a file answers with its settings, and AcroMill's soft limits hold."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

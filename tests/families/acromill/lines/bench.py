@@ -1,7 +1,5 @@
 """A driver at an emulated ACR card, in a simulated time; faults may be put on each line and into the save."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Every verb works over the terminal of an ACR card, on a TCP connection and on a serial line."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """The machine behind an emulated NUM control: jog and homing in manual mode."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -2,8 +2,6 @@
 the person reads what to press on standard error.
 """
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """The table of a NUM control keeps its form whatever it is, when a file's values are put into it."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

@@ -2,8 +2,6 @@
 nothing is half done.
 """
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 from functools import partial

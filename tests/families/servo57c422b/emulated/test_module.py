@@ -2,8 +2,6 @@
 faults and interrupts as chapter 4 of the manual has them.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """A driver at an emulated rack, in a simulated time; faults may be put on each line."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -2,8 +2,6 @@
 and its state after a break.
 """
 
-from __future__ import annotations
-
 import threading
 from pathlib import Path
 from typing import Any
