@@ -2,6 +2,7 @@
 
 import json
 import re
+import shutil
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,6 +25,14 @@ class Outcome:
     def json(self) -> Any:
         """Return the one JSON document on standard output."""
         return json.loads(self.out)
+
+
+MEASURED = ("--sign", "measured-target")
+
+
+def from_points(path: Path, points: Path) -> tuple[object, ...]:
+    """Return the arguments that calibrate X from measured points."""
+    return ("calibrate", path, "--axis", "X", "--from", points)
 
 
 @pytest.fixture
@@ -60,6 +69,12 @@ def mill(new_mill: bytes, tmp_path: Path) -> Path:
     path = tmp_path / "mill.amp"
     path.write_bytes(new_mill)
     return path
+
+
+@pytest.fixture
+def example(checkout: Path, tmp_path: Path) -> Path:
+    """Return a copy of the example mill, which has no errors."""
+    return Path(shutil.copy(checkout / "examples" / "mill-1394" / "MILL_1394.amp", tmp_path / "mill.amp"))
 
 
 @pytest.fixture

@@ -3,20 +3,14 @@ all or nothing.
 """
 
 import math
-import shutil
 from pathlib import Path
 
 import pytest
 
+from .conftest import MEASURED, from_points
+
 MILL = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
 POINTS = "position [mm],error [um]\n0,0\n100,4\n200,7\n200,13\n100,10\n0,6\n"
-
-
-@pytest.fixture
-def mill(tmp_path: Path) -> Path:
-    path = tmp_path / "mill.amp"
-    shutil.copy(MILL, path)
-    return path
 
 
 @pytest.fixture
@@ -26,12 +20,12 @@ def laser(tmp_path: Path) -> Path:
     return path
 
 
-def table(amp, mill: Path, axis: str = "X"):
-    return amp("calibrate", mill, "--axis", axis, "--json").json["table"]
+def table(amp, example: Path, axis: str = "X"):
+    return amp("calibrate", example, "--axis", axis, "--json").json["table"]
 
 
-def test_measured_points_become_a_table_and_a_reversal_error(amp, mill: Path, laser: Path) -> None:
-    message = amp("calibrate", mill, "--axis", "X", "--from", laser, "--sign", "measured-target", "--json")
+def test_measured_points_become_a_table_and_a_reversal_error(amp, example: Path, laser: Path) -> None:
+    message = amp(*from_points(example, laser), *MEASURED, "--json")
     assert message.code == 0
     found = message.json
     assert [(p["position"], p["figure"]) for p in found["table"]["points"]] == [
@@ -43,73 +37,61 @@ def test_measured_points_become_a_table_and_a_reversal_error(amp, mill: Path, la
     assert found["residual"] == {"before": pytest.approx(0.013), "after": pytest.approx(0, abs=1e-9)}
     assert found["figures"]["mean_reversal"] == pytest.approx(-0.006)
     assert found["assumed"] == []
-    assert amp("get", mill, "1340", "--json").json["values"][0]["value"] == 0.006
-    assert mill.with_name("mill.amp.bak").read_bytes() == MILL.read_bytes()
-    assert "calibration" not in amp("validate", mill).out
+    assert amp("get", example, "1340", "--json").json["values"][0]["value"] == 0.006
+    assert example.with_name("mill.amp.bak").read_bytes() == MILL.read_bytes()
+    assert "calibration" not in amp("validate", example).out
 
 
-def test_what_has_no_answer_is_shown_and_never_written(amp, mill: Path, laser: Path) -> None:
-    dry = amp("calibrate", mill, "--axis", "X", "--from", laser, "--dry-run")
+def test_what_has_no_answer_is_shown_and_never_written(amp, example: Path, laser: Path) -> None:
+    dry = amp(*from_points(example, laser), "--dry-run")
     assert dry.code == 0
     assert "--sign measured-target" in dry.err
-    message = amp("calibrate", mill, "--axis", "X", "--from", laser)
+    message = amp(*from_points(example, laser))
     assert message.code == 2
     assert "confirm with --sign measured-target" in message.err
-    assert mill.read_bytes() == MILL.read_bytes()
+    assert example.read_bytes() == MILL.read_bytes()
 
 
-def test_a_dry_run_changes_nothing_and_shows_what_would_be(amp, mill: Path, laser: Path) -> None:
-    arguments = ("calibrate", mill, "--axis", "X", "--from", laser, "--sign", "target-measured", "--dry-run")
+def test_a_dry_run_changes_nothing_and_shows_what_would_be(amp, example: Path, laser: Path) -> None:
+    arguments = (*from_points(example, laser), "--sign", "target-measured", "--dry-run")
     found = amp(*arguments, "--json").json
     assert [p["figure"] for p in found["table"]["points"]] == [0, -0.004, -0.007]
     assert [change["param"] for change in found["changes"]] == ["calibration.table@1"]
     assert "would be changed" in amp(*arguments).out
     assert any("check the sign" in note for note in found["notes"])
-    assert mill.read_bytes() == MILL.read_bytes()
+    assert example.read_bytes() == MILL.read_bytes()
 
 
-def test_a_compensated_axis_is_measured_again_only_with_an_answer(amp, mill: Path, laser: Path) -> None:
-    sign = ("--sign", "measured-target")
-    assert amp("calibrate", mill, "--axis", "X", "--from", laser, *sign).code == 0
-    again = amp("calibrate", mill, "--axis", "X", "--from", laser, *sign)
+def test_a_compensated_axis_is_measured_again_only_with_an_answer(amp, example: Path, laser: Path) -> None:
+    assert amp(*from_points(example, laser), *MEASURED).code == 0
+    again = amp(*from_points(example, laser), *MEASURED)
     assert again.code == 2
     assert "compensation on or off" in again.err
-    assert amp("calibrate", mill, "--axis", "X", "--from", laser, *sign, "--compensation", "on").code == 0
-    assert [p["figure"] for p in table(amp, mill)["points"]] == [0, 0.008, 0.014]
+    assert amp(*from_points(example, laser), *MEASURED, "--compensation", "on").code == 0
+    assert [p["figure"] for p in table(amp, example)["points"]] == [0, 0.008, 0.014]
 
 
-def test_only_one_of_both_is_made_where_only_one_is_wanted(amp, mill: Path, laser: Path) -> None:
-    base = (
-        "calibrate",
-        mill,
-        "--axis",
-        "X",
-        "--from",
-        laser,
-        "--sign",
-        "measured-target",
-        "--dry-run",
-        "--json",
-    )
+def test_only_one_of_both_is_made_where_only_one_is_wanted(amp, example: Path, laser: Path) -> None:
+    base = (*from_points(example, laser), *MEASURED, "--dry-run", "--json")
     assert [c["param"] for c in amp(*base, "--only", "table").json["changes"]] == ["calibration.table@1"]
     only = amp(*base, "--only", "reversal").json
     assert [c["param"] for c in only["changes"]] == ["1340"]
     assert only["residual"]["after"] == pytest.approx(0.007)
 
 
-def test_points_are_changed_by_hand_as_at_the_screen(amp, mill: Path) -> None:
+def test_points_are_changed_by_hand_as_at_the_screen(amp, example: Path) -> None:
     first = ("--input", "deviation", "--start", "negative", "--insert", "-50=0", "--insert", "50=0.001")
-    assert amp("calibrate", mill, "--axis", "X", *first).code == 0
-    assert amp("calibrate", mill, "--axis", "X", "--insert", "0=0.0005", "--replace", "50=0.002").code == 0
-    assert [(p["position"], p["figure"]) for p in table(amp, mill)["points"]] == [
+    assert amp("calibrate", example, "--axis", "X", *first).code == 0
+    assert amp("calibrate", example, "--axis", "X", "--insert", "0=0.0005", "--replace", "50=0.002").code == 0
+    assert [(p["position"], p["figure"]) for p in table(amp, example)["points"]] == [
         (-50, 0),
         (0, 0.0005),
         (50, 0.002),
     ]
-    assert amp("calibrate", mill, "--axis", "X", "--delete", "0").code == 0
-    assert "deviation - mm -50:0 50:0.002" in amp("get", mill, "calibration.table@X").out
-    assert amp("calibrate", mill, "--axis", "X", "--clear").code == 0
-    assert table(amp, mill) is None
+    assert amp("calibrate", example, "--axis", "X", "--delete", "0").code == 0
+    assert "deviation - mm -50:0 50:0.002" in amp("get", example, "calibration.table@X").out
+    assert amp("calibrate", example, "--axis", "X", "--clear").code == 0
+    assert table(amp, example) is None
 
 
 @pytest.mark.parametrize(
@@ -129,12 +111,12 @@ def test_points_are_changed_by_hand_as_at_the_screen(amp, mill: Path) -> None:
     ],
 )
 def test_what_cannot_be_done_is_refused_in_one_line(
-    amp, mill: Path, arguments: list[str], named: str
+    amp, example: Path, arguments: list[str], named: str
 ) -> None:
-    message = amp("calibrate", mill, "--axis", "X", *arguments)
+    message = amp("calibrate", example, "--axis", "X", *arguments)
     assert message.code == 2
     assert named in message.err
-    assert mill.read_bytes() == MILL.read_bytes()
+    assert example.read_bytes() == MILL.read_bytes()
 
 
 def test_the_other_families_have_what_they_have(amp, tmp_path: Path, laser: Path) -> None:
@@ -162,49 +144,48 @@ def test_an_inch_file_shows_and_takes_its_points_in_inches(amp, tmp_path: Path) 
     path.write_text(path.read_text().replace("units: metric", "units: inch"))
     points = tmp_path / "laser.csv"
     points.write_text("position [in],measured [in]\n-1,-1.001\n0,0\n1,1.002\n")
-    found = amp("calibrate", path, "--axis", "X", "--from", points, "--json").json["table"]
+    found = amp(*from_points(path, points), "--json").json["table"]
     assert found["unit"] == "in"
     assert [(p["position"], p["figure"]) for p in found["points"]] == [(-1, 0.001), (0, 0), (1, -0.002)]
     assert amp("calibrate", path, "--axis", "X", "--replace", "1=-0.003").code == 0
     assert "X0E.00000 X1E-.00300 X2E.00100" in amp("get", path, "ballscrew.table@X").out
 
 
-def test_a_circle_of_a_ball_bar_needs_to_know_which_axis(amp, mill: Path, tmp_path: Path) -> None:
+def test_a_circle_of_a_ball_bar_needs_to_know_which_axis(amp, example: Path, tmp_path: Path) -> None:
     points = tmp_path / "ballbar.csv"
     rows = [(n, (2.5 if 0 < n % 360 < 180 else -2.5) * math.cos(math.radians(n))) for n in range(-20, 200)]
     points.write_text("angle [deg],deviation [um]\n" + "".join(f"{n},{by:.4f}\n" for n, by in rows))
-    sign = ("--sign", "measured-target")
-    assert "first or the second" in amp("calibrate", mill, "--axis", "X", "--from", points, *sign).err
-    message = amp(
-        "calibrate", mill, "--axis", "X", "--from", points, *sign, "--circle", "first", "--dry-run", "--json"
-    )
+    assert "first or the second" in amp(*from_points(example, points), *MEASURED).err
+    message = amp(*from_points(example, points), *MEASURED, "--circle", "first", "--dry-run", "--json")
     assert [change["param"] for change in message.json["changes"]] == ["1340"]
     assert "residual" not in message.json
 
 
-def test_a_table_that_cannot_be_used_is_named_deleted_or_replaced(amp, mill: Path, laser: Path) -> None:
-    assert amp("set", mill, "calibration.table@X=deviation - mm 0:0 100:9").code == 0
-    assert "PARAMETER OUT OF RANGE" in amp("calibrate", mill, "--axis", "X").err
-    measured = ("calibrate", mill, "--axis", "X", "--from", laser, "--sign", "measured-target")
+def test_a_table_that_cannot_be_used_is_named_deleted_or_replaced(amp, example: Path, laser: Path) -> None:
+    assert amp("set", example, "calibration.table@X=deviation - mm 0:0 100:9").code == 0
+    assert "PARAMETER OUT OF RANGE" in amp("calibrate", example, "--axis", "X").err
+    measured = (*from_points(example, laser), *MEASURED)
     assert "cannot be used" in amp(*measured, "--compensation", "on").err
     assert amp(*measured, "--compensation", "off", "--dry-run").code == 0
-    assert amp("calibrate", mill, "--axis", "X", "--clear").code == 0
-    assert table(amp, mill) is None
+    assert amp("calibrate", example, "--axis", "X", "--clear").code == 0
+    assert table(amp, example) is None
 
 
 def test_a_point_measured_with_the_calibration_on_is_added_to_what_the_table_takes_away(
-    amp, mill: Path
+    amp, example: Path
 ) -> None:
     first = ("--input", "deviation", "--start", "negative", "--insert", "0=0", "--insert", "100=0.004")
-    assert amp("calibrate", mill, "--axis", "X", *first).code == 0
-    assert amp("calibrate", mill, "--axis", "X", "--compensation", "on", "--insert", "50=0.001").code == 0
-    assert amp("calibrate", mill, "--axis", "X", "--compensation", "on", "--replace", "100=0.001").code == 0
-    assert [p["figure"] for p in table(amp, mill)["points"]] == [0, 0.003, 0.005]
+    assert amp("calibrate", example, "--axis", "X", *first).code == 0
+    assert amp("calibrate", example, "--axis", "X", "--compensation", "on", "--insert", "50=0.001").code == 0
+    assert (
+        amp("calibrate", example, "--axis", "X", "--compensation", "on", "--replace", "100=0.001").code == 0
+    )
+    assert [p["figure"] for p in table(amp, example)["points"]] == [0, 0.003, 0.005]
 
 
-def test_the_errors_before_and_after_are_drawn(amp, mill: Path, laser: Path, tmp_path: Path) -> None:
+def test_the_errors_before_and_after_are_drawn(amp, example: Path, laser: Path, tmp_path: Path) -> None:
     picture = tmp_path / "errors.svg"
-    base = ("calibrate", mill, "--axis", "X", "--from", laser, "--dry-run")
+    base = (*from_points(example, laser), "--dry-run")
     assert amp(*base, "-o", picture).code == 0
     text = picture.read_text(encoding="utf-8")
     for words in ("Axis X", "measured, rising", "measured, falling", "expected, rising", "13 µm measured"):
@@ -212,16 +193,16 @@ def test_the_errors_before_and_after_are_drawn(amp, mill: Path, laser: Path, tmp
     assert "name the file errors.svg" in amp(*base, "-o", tmp_path / "errors.png").err
     assert amp(*base, "-o", laser).code == 2
     assert laser.read_text() == POINTS
-    assert "--from" in amp("calibrate", mill, "--axis", "X", "-o", picture).err
+    assert "--from" in amp("calibrate", example, "--axis", "X", "-o", picture).err
 
 
 def test_a_turn_whose_net_correction_is_not_zero_is_taken_with_the_message_of_the_control(
-    amp, mill: Path
+    amp, example: Path
 ) -> None:
-    assert amp("set", mill, "axis.rollover@4=360").code == 0
+    assert amp("set", example, "axis.rollover@4=360").code == 0
     points = ("--insert", "0=0", "--insert", "180=0.004", "--insert", "360=0.001")
-    message = amp("calibrate", mill, "--axis", "4", "--input", "deviation", "--start", "negative", *points)
+    message = amp("calibrate", example, "--axis", "4", "--input", "deviation", "--start", "negative", *points)
     assert message.code == 0
     assert "NET CORRECTION IS NOT ZERO: it is 0.00100 deg" in message.err
-    assert "9pc.calibration.net" in amp("validate", mill, "--json").out
-    assert amp("calibrate", mill, "--axis", "4", "--replace", "360=0", "--json").json["remarks"] == []
+    assert "9pc.calibration.net" in amp("validate", example, "--json").out
+    assert amp("calibrate", example, "--axis", "4", "--replace", "360=0", "--json").json["remarks"] == []

@@ -1,18 +1,9 @@
 """The verb ``find``: from what a person remembers, or what the control shows, to the parameters."""
 
 import json
-import shutil
 from pathlib import Path
 
-import pytest
-
 EXAMPLE = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
-
-
-@pytest.fixture
-def mill(tmp_path: Path) -> Path:
-    """Return the path of a copy of the example."""
-    return Path(shutil.copy(EXAMPLE, tmp_path))
 
 
 def test_a_message_without_a_family_is_found_in_the_one_that_has_it(amp) -> None:
@@ -29,9 +20,9 @@ def test_a_slip_in_a_family_is_forgiven_and_named(amp) -> None:
     assert amp("find", "--family", "9pc", "exess error").out.splitlines()[0] == lines[0]
 
 
-def test_a_file_shows_the_values_of_the_message_and_the_rules_it_breaks(amp, mill: Path) -> None:
-    assert amp("set", mill, "1740=20", "1750=10").code == 0
-    data = amp("find", mill, "SERVO AMP FE LIMITS", "--json").json
+def test_a_file_shows_the_values_of_the_message_and_the_rules_it_breaks(amp, example: Path) -> None:
+    assert amp("set", example, "1740=20", "1750=10").code == 0
+    data = amp("find", example, "SERVO AMP FE LIMITS", "--json").json
     message = data["hits"][0]
     assert (message["kind"], message["id"], message["source"]) == (
         "message",
@@ -42,12 +33,12 @@ def test_a_file_shows_the_values_of_the_message_and_the_rules_it_breaks(amp, mil
     assert {"param": "servo.excess_error@1", "value": "10 mm"} in excess["values"]
     broken = [rule["rule"] for rule in message["rules"] if rule["broken"]]
     assert "9pc.servo.suppression-within-excess" in broken
-    assert "Broken in this file: " in amp("find", mill, "SERVO AMP FE LIMITS").out
+    assert "Broken in this file: " in amp("find", example, "SERVO AMP FE LIMITS").out
 
 
-def test_a_value_leads_to_the_number_of_its_parameter(amp, mill: Path) -> None:
-    assert amp("set", mill, "2750=17.125").code == 0
-    hit = amp("find", mill, "17.125", "mm", "--json").json["hits"][0]
+def test_a_value_leads_to_the_number_of_its_parameter(amp, example: Path) -> None:
+    assert amp("set", example, "2750=17.125").code == 0
+    hit = amp("find", example, "17.125", "mm", "--json").json["hits"][0]
     assert (hit["kind"], hit["param"], hit["instance"], hit["title"]) == ("value", "2750", "2", "17.125 mm")
 
 

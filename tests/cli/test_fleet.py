@@ -2,7 +2,6 @@
 
 import csv
 import json
-import shutil
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from pathlib import Path
@@ -24,12 +23,6 @@ DEAD = "tcp://127.0.0.1:1"
 
 
 @pytest.fixture
-def mill(checkout: Path, tmp_path: Path) -> Path:
-    """Return a copy of the example mill, which has no errors."""
-    return Path(shutil.copy(checkout / "examples" / "mill-1394" / "MILL_1394.amp", tmp_path / "mill.amp"))
-
-
-@pytest.fixture
 def start_control(tmp_path: Path) -> Iterator[Callable[[], str]]:
     """Return what starts an emulated 9/PC in a separate process and gives its address."""
     with ExitStack() as running:
@@ -42,27 +35,27 @@ def start_control(tmp_path: Path) -> Iterator[Callable[[], str]]:
 
 
 def test_a_file_goes_to_several_controls_and_is_verified_in_all(
-    amp: Callable[..., Outcome], mill: Path, start_control: Callable[[], str]
+    amp: Callable[..., Outcome], example: Path, start_control: Callable[[], str]
 ) -> None:
     one, two = start_control(), start_control()
 
-    sent = amp("download", mill, "--to", one, "--to", two, "--json")
+    sent = amp("download", example, "--to", one, "--to", two, "--json")
 
     assert sent.code == 0
     assert [(c["address"], c["result"]) for c in sent.json["controls"]] == [(one, "done"), (two, "done")]
     assert len({c["sha256"] for c in sent.json["controls"]}) == 1
-    compared = amp("verify", mill, "--with", one, "--with", two)
+    compared = amp("verify", example, "--with", one, "--with", two)
     assert compared.code == 0
     assert [line.split()[:2] for line in compared.out.splitlines()] == [[one, "same"], [two, "same"]]
 
 
 def test_a_control_that_does_not_answer_is_in_the_table_and_the_others_go_on(
-    amp: Callable[..., Outcome], mill: Path, start_control: Callable[[], str], tmp_path: Path
+    amp: Callable[..., Outcome], example: Path, start_control: Callable[[], str], tmp_path: Path
 ) -> None:
     control = start_control()
     table = tmp_path / "results.csv"
 
-    sent = amp("download", mill, "--to", DEAD, "--to", control, "--report", table)
+    sent = amp("download", example, "--to", DEAD, "--to", control, "--report", table)
 
     assert sent.code == 3, "one control was changed as wanted, the other was not reached"
     first, second = sent.out.splitlines()
@@ -75,13 +68,13 @@ def test_a_control_that_does_not_answer_is_in_the_table_and_the_others_go_on(
 
 def test_after_a_failure_no_other_control_is_begun_where_that_was_asked_for(
     amp: Callable[..., Outcome],
-    mill: Path,
+    example: Path,
     start_control: Callable[[], str],
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     control = start_control()
     before = amp("identify", control, "--json").json["sha256"]
-    code = cli.run(["download", str(mill), "--to", DEAD, "--to", control, "--stop-on-failure", "--json"])
+    code = cli.run(["download", str(example), "--to", DEAD, "--to", control, "--stop-on-failure", "--json"])
     printed = capsys.readouterr()
     assert code == 2
     assert [c["result"] for c in json.loads(printed.out)["controls"]] == ["failed", "not tried"]
@@ -92,10 +85,10 @@ def test_after_a_failure_no_other_control_is_begun_where_that_was_asked_for(
 
 
 def test_an_upload_from_several_controls_writes_a_file_for_each(
-    amp: Callable[..., Outcome], mill: Path, start_control: Callable[[], str], tmp_path: Path
+    amp: Callable[..., Outcome], example: Path, start_control: Callable[[], str], tmp_path: Path
 ) -> None:
     one, two = start_control(), start_control()
-    amp("download", mill, "--to", one, "--to", two)
+    amp("download", example, "--to", one, "--to", two)
     folder = tmp_path / "plant"
     folder.mkdir()
 
@@ -104,7 +97,7 @@ def test_an_upload_from_several_controls_writes_a_file_for_each(
     assert fetched.code == 0
     files = sorted(folder.glob("*.amp"))
     assert [f.name for f in files] == sorted(f"tcp-127.0.0.1-{a.rpartition(':')[2]}.amp" for a in (one, two))
-    wanted = dict(open_file(mill).file.values)
+    wanted = dict(open_file(example).file.values)
     assert [dict(open_file(f).file.values) for f in files] == [wanted, wanted]
 
 
@@ -121,13 +114,13 @@ def test_an_upload_from_several_controls_writes_a_file_for_each(
 )
 def test_what_cannot_be_used_is_refused_before_anything_is_begun(
     amp: Callable[..., Outcome],
-    mill: Path,
+    example: Path,
     folder: Callable[[], dict[str, bytes]],
     arguments: tuple[str, ...],
     problem: str,
 ) -> None:
     before = folder()
-    refused = amp("download", mill, *arguments)
+    refused = amp("download", example, *arguments)
     assert refused.code == 2
     assert problem in refused.err
     assert folder() == before
@@ -153,74 +146,74 @@ def test_one_exchange_that_breaks_does_not_end_the_others() -> None:
 
 
 def test_every_exchange_is_recorded_with_what_it_changed_and_is_restored_from(
-    amp: Callable[..., Outcome], mill: Path, start_control: Callable[[], str]
+    amp: Callable[..., Outcome], example: Path, start_control: Callable[[], str]
 ) -> None:
     control = start_control()
-    amp("download", mill, "--to", control)
-    amp("set", mill, "servo.excess_error@1=12 mm")
-    amp("download", mill, "--to", control)
-    amp("verify", mill, "--with", control)
+    amp("download", example, "--to", control)
+    amp("set", example, "servo.excess_error@1=12 mm")
+    amp("download", example, "--to", control)
+    amp("verify", example, "--with", control)
 
-    first, second, third = amp("history", mill, "--json").json["exchanges"]
+    first, second, third = amp("history", example, "--json").json["exchanges"]
 
     assert [e["verb"] for e in (first, second, third)] == ["download", "download", "verify"]
     assert {e["control"] for e in (first, second, third)} == {control}
     assert second["changes"] == [["servo.excess_error@1", "11 mm", "12 mm"]]
     assert (second["before"], second["after"]) == (first["after"], third["after"])
-    assert "servo.excess_error@1" in amp("history", mill, "--show", 2).out
+    assert "servo.excess_error@1" in amp("history", example, "--show", 2).out
 
     put_back = amp("restore", second["kept"], "--to", control)
 
     assert put_back.code == 0
-    last = amp("history", mill, "--json").json["exchanges"][-1]
+    last = amp("history", example, "--json").json["exchanges"][-1]
     assert (last["verb"], last["after"]) == ("restore", first["after"])
 
 
 def test_a_secret_is_not_in_the_record(
-    amp: Callable[..., Outcome], mill: Path, start_control: Callable[[], str]
+    amp: Callable[..., Outcome], example: Path, start_control: Callable[[], str]
 ) -> None:
-    file = open_file(mill).file
+    file = open_file(example).file
     secret = next(p for p in file.schema.parameters.values() if p.secret)
-    amp("set", mill, f"{secret.id}=GEHEIM")
-    amp("download", mill, "--to", start_control())
-    assert secret.id in (mill.parent / "exchanges.jsonl").read_text()
-    assert "GEHEIM" not in (mill.parent / "exchanges.jsonl").read_text()
+    amp("set", example, f"{secret.id}=GEHEIM")
+    amp("download", example, "--to", start_control())
+    assert secret.id in (example.parent / "exchanges.jsonl").read_text()
+    assert "GEHEIM" not in (example.parent / "exchanges.jsonl").read_text()
 
 
 def test_an_exchange_that_cannot_be_recorded_has_happened_anyway(
-    amp: Callable[..., Outcome], mill: Path, start_control: Callable[[], str]
+    amp: Callable[..., Outcome], example: Path, start_control: Callable[[], str]
 ) -> None:
-    (mill.parent / "exchanges.jsonl").mkdir()
-    sent = amp("download", mill, "--to", start_control())
+    (example.parent / "exchanges.jsonl").mkdir()
+    sent = amp("download", example, "--to", start_control())
     assert sent.code == 0
     assert "could not be recorded" in sent.err
 
 
 def test_an_exchange_by_a_link_is_one_of_the_file(
-    amp: Callable[..., Outcome], mill: Path, start_control: Callable[[], str], tmp_path: Path
+    amp: Callable[..., Outcome], example: Path, start_control: Callable[[], str], tmp_path: Path
 ) -> None:
     link = tmp_path / "here" / "link.amp"
     link.parent.mkdir()
-    link.symlink_to(mill)
+    link.symlink_to(example)
     amp("verify", link, "--with", start_control())
-    for path in (mill, link):
+    for path in (example, link):
         assert [e["file"] for e in amp("history", path, "--json").json["exchanges"]] == ["mill.amp"]
 
 
-def test_the_record_is_no_output(amp: Callable[..., Outcome], mill: Path) -> None:
-    refused = amp("merge", mill, mill, mill, "-o", mill.with_name("exchanges.jsonl"))
+def test_the_record_is_no_output(amp: Callable[..., Outcome], example: Path) -> None:
+    refused = amp("merge", example, example, example, "-o", example.with_name("exchanges.jsonl"))
     assert refused.code == 2
     assert "choose another name" in refused.err
-    assert not (mill.parent / "exchanges.jsonl").exists()
+    assert not (example.parent / "exchanges.jsonl").exists()
 
 
-def test_an_exchange_that_reached_nothing_is_not_recorded(amp: Callable[..., Outcome], mill: Path) -> None:
-    assert amp("download", mill, "--to", DEAD).code == 2
-    assert read_exchanges(mill.parent) == []
-    assert "No exchange is recorded" in amp("history", mill).out
+def test_an_exchange_that_reached_nothing_is_not_recorded(amp: Callable[..., Outcome], example: Path) -> None:
+    assert amp("download", example, "--to", DEAD).code == 2
+    assert read_exchanges(example.parent) == []
+    assert "No exchange is recorded" in amp("history", example).out
 
 
-def test_an_exchange_there_is_not_is_refused(amp: Callable[..., Outcome], mill: Path) -> None:
-    refused = amp("history", mill, "--show", 7)
+def test_an_exchange_there_is_not_is_refused(amp: Callable[..., Outcome], example: Path) -> None:
+    refused = amp("history", example, "--show", 7)
     assert refused.code == 2
     assert "there is no exchange 7" in refused.err

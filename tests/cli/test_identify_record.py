@@ -1,7 +1,6 @@
 """simulate identify: a record of a drive becomes the machine that the next simulation moves."""
 
 import re
-import shutil
 from pathlib import Path
 
 import pytest
@@ -21,13 +20,6 @@ GIVEN = (
 )
 
 
-@pytest.fixture
-def mill(tmp_path: Path) -> Path:
-    path = tmp_path / "mill.amp"
-    shutil.copy(MILL, path)
-    return path
-
-
 @pytest.fixture(scope="module")
 def homing() -> str:
     """Return the trace of a homing, fast onto the switch and slowly off it."""
@@ -36,30 +28,32 @@ def homing() -> str:
 
 
 @pytest.fixture
-def record(mill: Path, homing: str) -> Path:
-    path = mill.with_name("record.csv")
+def record(example: Path, homing: str) -> Path:
+    path = example.with_name("record.csv")
     path.write_text(homing)
     return path
 
 
-def test_the_machine_is_written_and_simulated_with(amp, mill: Path, record: Path) -> None:
-    machine = mill.with_name("machine.yaml")
-    message = amp("simulate", mill, "identify", record, "--axis", "X", "-o", machine)
+def test_the_machine_is_written_and_simulated_with(amp, example: Path, record: Path) -> None:
+    machine = example.with_name("machine.yaml")
+    message = amp("simulate", example, "identify", record, "--axis", "X", "-o", machine)
     assert message.code == 0
     assert re.search(r"Coulomb friction +3\.000", message.out)
     assert machine.read_text().startswith("# The machine of axis X")
-    given = amp("simulate", mill, "step", *GIVEN, "--json").json["result"]["peak_torque"]["value"]
-    found = amp("simulate", mill, "step", "--machine", machine, "--json").json["result"]["peak_torque"][
+    given = amp("simulate", example, "step", *GIVEN, "--json").json["result"]["peak_torque"]["value"]
+    found = amp("simulate", example, "step", "--machine", machine, "--json").json["result"]["peak_torque"][
         "value"
     ]
     assert found == pytest.approx(given, rel=1e-3)
-    lighter = amp("simulate", mill, "step", "--machine", machine, "--set", "model.gravity=0", "--json").json
+    lighter = amp(
+        "simulate", example, "step", "--machine", machine, "--set", "model.gravity=0", "--json"
+    ).json
     assert lighter["result"]["peak_torque"]["value"] == pytest.approx(given - 2.0, rel=0.01)
-    assert mill.read_bytes() == MILL.read_bytes()
+    assert example.read_bytes() == MILL.read_bytes()
 
 
-def test_json_has_each_figure_its_standard_error_and_the_settings(amp, mill: Path, record: Path) -> None:
-    found = amp("simulate", mill, "identify", record, "--axis", "X", "--json").json
+def test_json_has_each_figure_its_standard_error_and_the_settings(amp, example: Path, record: Path) -> None:
+    found = amp("simulate", example, "identify", record, "--axis", "X", "--json").json
     assert (found["scenario"], found["axis"], found["letter"]) == ("identify", "1", "X")
     assert found["result"]["gravity"] == {
         "value": pytest.approx(2.0, rel=1e-3),
@@ -82,9 +76,11 @@ def test_json_has_each_figure_its_standard_error_and_the_settings(amp, mill: Pat
         ("fit.csv", b"time_s,velocity [mm/min],torque [%],predicted_torque [%],residual [%]"),
     ],
 )
-def test_the_fit_is_a_picture_or_a_table(amp, mill: Path, record: Path, name: str, begin: bytes) -> None:
-    assert amp("simulate", mill, "identify", record, "--axis", "X", "-o", mill.with_name(name)).code == 0
-    assert mill.with_name(name).read_bytes().startswith(begin)
+def test_the_fit_is_a_picture_or_a_table(amp, example: Path, record: Path, name: str, begin: bytes) -> None:
+    assert (
+        amp("simulate", example, "identify", record, "--axis", "X", "-o", example.with_name(name)).code == 0
+    )
+    assert example.with_name(name).read_bytes().startswith(begin)
 
 
 @pytest.mark.parametrize(
@@ -109,31 +105,31 @@ def test_the_fit_is_a_picture_or_a_table(amp, mill: Path, record: Path, name: st
     ],
 )
 def test_what_cannot_be_used_is_reported_in_one_line_and_nothing_is_written(
-    amp, mill: Path, record: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str], words: str
+    amp, example: Path, record: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str], words: str
 ) -> None:
-    monkeypatch.chdir(mill.parent)
-    before = sorted(path.name for path in mill.parent.iterdir()), record.read_bytes()
+    monkeypatch.chdir(example.parent)
+    before = sorted(path.name for path in example.parent.iterdir()), record.read_bytes()
     message = amp("simulate", "mill.amp", *arguments)
     assert message.code == 2
     assert words in message.err
     assert len(message.err.splitlines()) == 1
-    assert (sorted(path.name for path in mill.parent.iterdir()), record.read_bytes()) == before
+    assert (sorted(path.name for path in example.parent.iterdir()), record.read_bytes()) == before
 
 
 @pytest.mark.parametrize(
     "order", ["--axis X identify record.csv", "identify --axis X record.csv", "identify record.csv --axis X"]
 )
 def test_options_may_come_before_the_scenario_and_the_record(
-    amp, mill: Path, record: Path, monkeypatch: pytest.MonkeyPatch, order: str
+    amp, example: Path, record: Path, monkeypatch: pytest.MonkeyPatch, order: str
 ) -> None:
-    monkeypatch.chdir(mill.parent)
+    monkeypatch.chdir(example.parent)
     assert "axis 1 (X)" in amp("simulate", "mill.amp", *order.split()).out
 
 
-def test_what_is_too_much_is_still_refused(amp, mill: Path) -> None:
-    message = amp("simulate", mill, "--axis", "X", "step", "record.csv", "more.csv")
+def test_what_is_too_much_is_still_refused(amp, example: Path) -> None:
+    message = amp("simulate", example, "--axis", "X", "step", "record.csv", "more.csv")
     assert (message.code, "Unexpected argument: more.csv" in message.err) == (2, True)
 
 
-def test_the_list_names_it(amp, mill: Path) -> None:
-    assert "identify RECORD.csv: inertia, friction and weight" in amp("simulate", mill, "--list").out
+def test_the_list_names_it(amp, example: Path) -> None:
+    assert "identify RECORD.csv: inertia, friction and weight" in amp("simulate", example, "--list").out

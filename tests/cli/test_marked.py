@@ -3,10 +3,7 @@ together they are all demanded.
 """
 
 import hashlib
-import shutil
 from pathlib import Path
-
-import pytest
 
 from amp_studio.files import digest_of, open_file
 from amp_studio.files.notes import set_value_note
@@ -17,28 +14,22 @@ from amp_studio.transfer.image import encode_image
 EXAMPLE = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
 
 
-@pytest.fixture
-def mill(tmp_path: Path) -> Path:
-    """Return the path of a copy of the example."""
-    return Path(shutil.copy(EXAMPLE, tmp_path))
-
-
 def numbers(message) -> set[str]:
     return {row["param"] for row in message.json["values"]}
 
 
-def test_changed_values_are_those_that_are_not_the_default(amp, mill: Path) -> None:
-    every = amp("get", mill, "--json").json["values"]
-    assert numbers(amp("get", mill, "--changed", "--json")) == {
+def test_changed_values_are_those_that_are_not_the_default(amp, example: Path) -> None:
+    every = amp("get", example, "--json").json["values"]
+    assert numbers(amp("get", example, "--changed", "--json")) == {
         row["param"] for row in every if not row["default"]
     }
 
 
-def test_axes_differ_lists_all_axes_of_a_parameter_with_different_values(amp, mill: Path) -> None:
-    before = numbers(amp("get", mill, "--axes-differ", "--json"))
+def test_axes_differ_lists_all_axes_of_a_parameter_with_different_values(amp, example: Path) -> None:
+    before = numbers(amp("get", example, "--axes-differ", "--json"))
     assert "1735" not in before
-    assert amp("set", mill, "1735=0.03").code == 0
-    assert numbers(amp("get", mill, "--axes-differ", "--json")) - before == {
+    assert amp("set", example, "1735=0.03").code == 0
+    assert numbers(amp("get", example, "--axes-differ", "--json")) - before == {
         "1735",
         "2735",
         "3735",
@@ -47,11 +38,11 @@ def test_axes_differ_lists_all_axes_of_a_parameter_with_different_values(amp, mi
     }
 
 
-def test_marks_together_are_all_demanded(amp, mill: Path) -> None:
-    assert amp("set", mill, "1740=20", "1750=10").code == 0
-    found = numbers(amp("get", mill, "--with-findings", "--json"))
+def test_marks_together_are_all_demanded(amp, example: Path) -> None:
+    assert amp("set", example, "1740=20", "1750=10").code == 0
+    found = numbers(amp("get", example, "--with-findings", "--json"))
     assert "1740" in found or "1750" in found
-    assert numbers(amp("get", mill, "--with-findings", "--changed", "--json")) <= found
+    assert numbers(amp("get", example, "--with-findings", "--changed", "--json")) <= found
 
 
 def record_download(path: Path) -> None:
@@ -73,23 +64,23 @@ def record_download(path: Path) -> None:
     )
 
 
-def test_what_is_newer_than_the_last_download_is_listed(amp, mill: Path) -> None:
-    record_download(mill)
-    assert numbers(amp("get", mill, "--since-download", "--json")) == set()
-    assert amp("set", mill, "2750=13", "1735=0.03").code == 0
-    assert numbers(amp("get", mill, "--since-download", "--json")) == {"2750", "1735"}
-    assert amp("set", mill, "2750=11").code == 0
-    assert numbers(amp("get", mill, "--since-download", "--json")) == {"1735"}
+def test_what_is_newer_than_the_last_download_is_listed(amp, example: Path) -> None:
+    record_download(example)
+    assert numbers(amp("get", example, "--since-download", "--json")) == set()
+    assert amp("set", example, "2750=13", "1735=0.03").code == 0
+    assert numbers(amp("get", example, "--since-download", "--json")) == {"2750", "1735"}
+    assert amp("set", example, "2750=11").code == 0
+    assert numbers(amp("get", example, "--since-download", "--json")) == {"1735"}
 
 
-def test_values_with_a_note_are_listed(amp, mill: Path) -> None:
-    document = open_file(mill).file
+def test_values_with_a_note_are_listed(amp, example: Path) -> None:
+    document = open_file(example).file
     set_value_note(document, ("servo.excess_error", "2"), "ask Karl")
-    save_file(document, mill, expected=digest_of(mill))
-    assert numbers(amp("get", mill, "--with-notes", "--json")) == {"2750"}
-    assert amp("find", mill, "karl").out.splitlines()[0].startswith("note ask Karl: 2750 Excess Error Y")
+    save_file(document, example, expected=digest_of(example))
+    assert numbers(amp("get", example, "--with-notes", "--json")) == {"2750"}
+    assert amp("find", example, "karl").out.splitlines()[0].startswith("note ask Karl: 2750 Excess Error Y")
 
 
-def test_without_a_download_nothing_can_be_newer_than_it(amp, mill: Path) -> None:
-    message = amp("get", mill, "--since-download")
-    assert (message.code, "No download of MILL_1394.amp is recorded" in message.err) == (2, True)
+def test_without_a_download_nothing_can_be_newer_than_it(amp, example: Path) -> None:
+    message = amp("get", example, "--since-download")
+    assert (message.code, "No download of mill.amp is recorded" in message.err) == (2, True)

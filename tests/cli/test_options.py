@@ -1,19 +1,14 @@
 """Options that no other story needs: each does through the command line what its help promises."""
 
-import shutil
 import socket
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
+from .conftest import MEASURED, from_points
+
 EXAMPLE = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
-
-
-@pytest.fixture
-def example(tmp_path: Path) -> Path:
-    """Return a copy of the example mill."""
-    return Path(shutil.copy(EXAMPLE, tmp_path / "mill.amp"))
 
 
 def test_a_comparison_of_everything_has_the_rows_that_are_the_same(amp, example: Path) -> None:
@@ -42,19 +37,7 @@ def test_a_report_of_the_inactive_has_what_the_control_ignores(amp, example: Pat
 def test_points_without_units_get_them(amp, example: Path, tmp_path: Path, options, unit: str, point) -> None:
     laser = tmp_path / "laser.csv"
     laser.write_text("position,error\n0,0\n1,0.001\n" if unit == "in" else "position,error\n0,0\n1,1\n")
-    found = amp(
-        "calibrate",
-        example,
-        "--axis",
-        "X",
-        "--from",
-        laser,
-        "--sign",
-        "measured-target",
-        "--json",
-        "--dry-run",
-        *options,
-    )
+    found = amp(*from_points(example, laser), *MEASURED, "--json", "--dry-run", *options)
     assert found.code == 0, found.err
     last = found.json["table"]["points"][-1]
     assert (last["position"], last["figure"]) == (pytest.approx(point[0]), pytest.approx(point[1]))
@@ -63,18 +46,7 @@ def test_points_without_units_get_them(amp, example: Path, tmp_path: Path, optio
 def test_a_decimal_comma_is_read_where_it_is_shown_to_be_one(amp, example: Path, tmp_path: Path) -> None:
     laser = tmp_path / "laser.csv"
     laser.write_text("position [mm];error [mm]\n0;0\n100,500;0,004\n")
-    line = (
-        "calibrate",
-        example,
-        "--axis",
-        "X",
-        "--from",
-        laser,
-        "--sign",
-        "measured-target",
-        "--json",
-        "--dry-run",
-    )
+    line = (*from_points(example, laser), *MEASURED, "--json", "--dry-run")
     comma = amp(*line, "--decimal", "comma")
     assert comma.json["table"]["points"][-1]["position"] == pytest.approx(100.5)
     assert amp(*line, "--decimal", "point").code == 2

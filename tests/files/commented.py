@@ -1,5 +1,7 @@
 """A parameter file as a person wrote it: remarks, blank lines, spellings of his own."""
 
+from pathlib import Path
+
 COMMENTED = """\
 # The bench of hall 4
 amp_studio: 1
@@ -20,3 +22,11 @@ values:
 # end of the file
 ...
 """
+
+
+def edited(path: Path, old: str, new: str) -> Path:
+    """Change the text of a file as a person would."""
+    text = path.read_text(encoding="utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new, 1), encoding="utf-8")
+    return path

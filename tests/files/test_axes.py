@@ -15,13 +15,7 @@ from amp_studio.files import (
 from amp_studio.files.axes import AxisError, axis_type
 from amp_studio.files.axis_fitting import name_axes
 from amp_studio.schema import Value
-
-
-def taken_back(file: ParameterFile, changes) -> dict:
-    """Return the values after the changes have been taken back."""
-    for change in reversed(changes):
-        file.apply(change.reversed())
-    return dict(file.values)
+from tests.files.axis_steps import taken_back
 
 
 def axis_values(file: ParameterFile, axis: str) -> dict[str, Value]:

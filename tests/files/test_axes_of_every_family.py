@@ -32,6 +32,7 @@ from amp_studio.files.axes import AxisError
 from amp_studio.files.axis_values import words_of_axes
 from amp_studio.files.example_files import examples
 from amp_studio.schema import Value, load_schema
+from tests.files.axis_steps import taken_back
 
 
 def titles(file: ParameterFile) -> list[str]:
@@ -42,13 +43,6 @@ def titles(file: ParameterFile) -> list[str]:
 def word(file: ParameterFile, parameter: str, instance: str = "") -> int:
     """Return a packed word."""
     return int(file.get((parameter, instance)).value)
-
-
-def taken_back(file: ParameterFile, changes) -> dict:
-    """Return the values after the changes have been taken back."""
-    for change in reversed(changes):
-        file.apply(change.reversed())
-    return dict(file.values)
 
 
 # -- new files

@@ -11,17 +11,9 @@ from amp_studio.files import ParameterFile, ParameterFileError, content_of, open
 from amp_studio.files.storage import save_file
 from amp_studio.schema import Value, load_schema
 from tests.campaigns import examples
-from tests.files.commented import COMMENTED
+from tests.files.commented import COMMENTED, edited
 
 HERE = Path("small.amp")
-
-
-def edited(path: Path, old: str, new: str) -> Path:
-    """Change the text of a file as a person would."""
-    text = path.read_text(encoding="utf-8")
-    assert old in text
-    path.write_text(text.replace(old, new, 1), encoding="utf-8")
-    return path
 
 
 # -- kept -----------------------------------------------------------------------------------------------

@@ -8,17 +8,9 @@ from hypothesis import strategies as st
 
 from amp_studio.files import ParameterFile, ParameterFileError, open_file, read_content
 from amp_studio.schema import Value
-from tests.files.commented import COMMENTED
+from tests.files.commented import COMMENTED, edited
 
 HERE = Path("small.amp")
-
-
-def edited(path: Path, old: str, new: str) -> Path:
-    """Change the text of a file as a person would."""
-    text = path.read_text(encoding="utf-8")
-    assert old in text
-    path.write_text(text.replace(old, new, 1), encoding="utf-8")
-    return path
 
 
 def refused(path: Path) -> ParameterFileError:

@@ -40,6 +40,7 @@ from amp_studio.ui.base.task import ProgressDialog
 from amp_studio.ui.base.translated import speak
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.table.parameter_table import ParameterTable
 
 from .alt_letters import doubled, texts_of
 from .shared import Brush, SharedWindow, close_windows
@@ -307,6 +308,14 @@ def workspace(request: pytest.FixtureRequest, qapp: QApplication, path: Path) ->
         alone = Workspace(Document.open(path))
         yield alone
         alone.close()
+
+
+@pytest.fixture
+def table(workspace: Workspace) -> ParameterTable:
+    """Return a table of all parameters, without a window."""
+    table = ParameterTable(workspace)
+    table.show_parameters(list(workspace.file.schema.parameters.values()))
+    return table
 
 
 @pytest.fixture

@@ -1,6 +1,5 @@
 """The table: a row a parameter, a column an axis."""
 
-import pytest
 from PySide6.QtCore import Qt
 
 from amp_studio.files import ParameterFile
@@ -11,14 +10,6 @@ from amp_studio.ui.table.cell_look import CellLook
 from amp_studio.ui.table.parameter_table import AddressRole, ParameterTable
 
 EXCESS = ("servo.excess_error", "1")
-
-
-@pytest.fixture
-def table(workspace: Workspace) -> ParameterTable:
-    """Return a table of all parameters, without a window."""
-    table = ParameterTable(workspace)
-    table.show_parameters(list(workspace.file.schema.parameters.values()))
-    return table
 
 
 def look(table: ParameterTable, address: tuple[str, str]) -> CellLook:

@@ -1,6 +1,5 @@
 """Switching units changes what is shown, never what is stored."""
 
-import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
@@ -12,14 +11,6 @@ from amp_studio.ui.table.parameter_table import ParameterTable
 from .conftest import editor
 
 EXCESS = ("servo.excess_error", "1")
-
-
-@pytest.fixture
-def table(workspace: Workspace) -> ParameterTable:
-    """Return a table of all parameters, without a window."""
-    table = ParameterTable(workspace)
-    table.show_parameters(list(workspace.file.schema.parameters.values()))
-    return table
 
 
 def test_the_switch_changes_the_display_and_no_value(window: MainWindow, workspace: Workspace) -> None:

@@ -10,6 +10,7 @@ from amp_studio.transfer.emulated.faults import Faults, FaultyLine, read_faults
 from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
 from amp_studio.transfer.links.link import Link, LinkError, Listener
 from amp_studio.transfer.links.opening import connect, listen
+from tests.transfer.links.ports import read_all
 
 needs_pty = pytest.mark.skipif(not hasattr(os, "openpty"), reason="this system has no pseudo terminals")
 KINDS = [pytest.param("tcp://127.0.0.1:0", id="tcp"), pytest.param("pty:", id="pty", marks=needs_pty)]
@@ -25,14 +26,6 @@ def pair(request: pytest.FixtureRequest) -> Iterator[tuple[Listener, Link, Link]
     yield listener, near, far
     for end in (near, far, listener):
         end.close()
-
-
-def read_all(link: Link, length: int) -> bytes:
-    """Read until so many bytes have come, or nothing more comes for a second."""
-    data = b""
-    while len(data) < length and (more := link.read(1)):
-        data += more
-    return data
 
 
 @pytest.mark.parametrize("pair", KINDS, indirect=True)
