@@ -70,6 +70,7 @@ check: setup ## format, lint, types and the import contracts
 	@$(BIN)/ruff check
 	@$(BIN)/mypy
 	@$(BIN)/mypy scripts
+	@$(BIN)/mypy --platform win32 --no-warn-unreachable --cache-dir .mypy_cache/win32
 	@$(BIN)/lint-imports --no-cache --no-logo
 
 format: setup ## put the code into the one format and mend what ruff can mend

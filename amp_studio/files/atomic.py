@@ -11,14 +11,17 @@ import contextlib
 import errno
 import hashlib
 import os
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from amp_studio.errors import AmpStudioError
 from amp_studio.schema import HARMLESS, NO_LINK, demand_file, read_file
 
-from .attributes import keep_attributes
 from .paths import RECORD, TUNINGS, backup_path, companions, destination, real_path, same_file
+
+if sys.platform != "win32":
+    from .attributes import keep_attributes
 
 Notify = Callable[[str], None]
 """Takes one sentence about what a save could not keep."""
@@ -194,7 +197,7 @@ def _staged(path: Path, content: bytes, like: Path | None, notes: list[str]) -> 
         handle = os.open(temporary, flags, 0o666 if like is None else 0o600)
         try:
             write_all(handle, content)
-            if like is not None:
+            if like is not None and sys.platform != "win32":
                 notes += keep_attributes(like, handle)
             # Before the rename: else the name could reach the disk before the content, and a power cut would
             # leave an empty file.

@@ -7,15 +7,16 @@ from __future__ import annotations
 import contextlib
 import os
 import stat
+import sys
 from pathlib import Path
+
+assert sys.platform != "win32"  # which gives a new file those of its folder
 
 
 def keep_attributes(old: Path, handle: int) -> list[str]:
     """Give an open new file the owner, the mode and the attributes of an old one;
     return a sentence for what cannot be kept.
     """
-    if os.name != "posix":
-        return []
     was = old.stat()
     now = _with_owner_of(was, handle)
     notes, mode = [], stat.S_IMODE(was.st_mode)
@@ -39,10 +40,8 @@ def keep_attributes(old: Path, handle: int) -> list[str]:
 
 def _with_owner_of(was: os.stat_result, handle: int) -> os.stat_result:
     """Give a file the owner and group of another as far as this user may; return what it has then."""
-    for user in (
-        was.st_uid,
-        -1,
-    ):  # a user who may not give it to another one may give it to a group of his own
+    # Who may not give it to another user may give it to a group of his own.
+    for user in (was.st_uid, -1):
         now = os.fstat(handle)
         if (now.st_uid, now.st_gid) == (was.st_uid, was.st_gid):
             break
@@ -68,7 +67,7 @@ def _keep_extended(old: Path, handle: int) -> list[str]:
     """Copy extended attributes, access control lists among them;
     labels of the system's own are given by the system.
     """
-    if not hasattr(os, "listxattr"):
+    if sys.platform != "linux":
         return []
     lost = []
     names: list[str] = []

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import sys
 from pathlib import Path
 from typing import BinaryIO, Literal
 
@@ -94,7 +95,9 @@ def answer(asked: BinaryIO, out: BinaryIO) -> None:
 
 def _bound_memory(most: int) -> None:
     # Windows has no such limit; there the patience alone ends a template.
-    with contextlib.suppress(ImportError, OSError, ValueError):
-        import resource
+    if sys.platform == "win32":
+        return
+    import resource
 
+    with contextlib.suppress(OSError, ValueError):
         resource.setrlimit(resource.RLIMIT_AS, (most, most))

@@ -57,6 +57,8 @@ class PtyLink:
         """Return the rate in bit/s and the stop bits that the client has set;
         a pseudo terminal knows no parity.
         """
+        if sys.platform == "win32":  # there is no such listener then
+            raise NotImplementedError
         import termios
 
         set_to = termios.tcgetattr(self._slave)

@@ -7,6 +7,7 @@ import errno
 import os
 import select
 import stat
+import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -196,7 +197,7 @@ def _claim(port: Any) -> None:
     Not from a pseudo terminal: its other end keeps it open,
     and would keep the mark of a program that was killed.
     """
-    if os.name != "posix" or os.major(os.fstat(port.fileno()).st_rdev) in PSEUDO_TERMINALS:
+    if sys.platform == "win32" or os.major(os.fstat(port.fileno()).st_rdev) in PSEUDO_TERMINALS:
         return
     import fcntl
     import termios
