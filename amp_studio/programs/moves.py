@@ -23,7 +23,8 @@ class PathMoves:
         self.rows = RowsWriter(tuple(at.letters))
         self.line = 0
         """Of the program, from 1."""
-        self._feed, self.speed = 0.0, 0.0
+        self._feed: float | None = None
+        self.speed = 0.0
         self._centers = "incremental_positive"
         if path.centers is not None:
             self._centers = str(file.evaluation.canonical((path.centers, "")) or "absolute")
@@ -67,14 +68,16 @@ class PathMoves:
                 raise BlockError("A block of G93 has no F", "no-feed")
             feed = self._feed
             # Each block of inverse time needs its own F, for it is the time of this block.
-            self._feed = 0.0
+            self._feed = None
             return way * feed / 60.0
-        if not self._feed and self._path.feed:
+        if self._feed is None and self._path.feed:
             value = self._file.evaluation.canonical((self._path.feed, ""))
             if isinstance(value, float | int) and value > 0.0:
                 self._feed = float(value)
-        if not self._feed:
+        if self._feed is None:
             raise BlockError("No feed is programmed, and the file has none", "no-feed")
+        if not self._feed:
+            raise BlockError("F0 is no feed: it must be above 0", "no-feed")
         if modal.is_per_turn:
             if not self.speed:
                 raise BlockError("A feed for a turn of the spindle, and no S before it", "no-spindle")

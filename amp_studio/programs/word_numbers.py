@@ -76,9 +76,8 @@ class WordNumbers:
             if reading.place < 0 and not reading.role and text[:1] in ("P", "#"):
                 continue  # a value for the card, which moves no axis
             value = self._number(letter, text, reading) * reading.scale
-            if reading.role == "feed" and value <= 0.0:
-                fault = "negative-feed" if value < 0.0 else "no-feed"
-                raise BlockError(f"{letter}{text[:20]} is no feed: it must be above 0", fault)
+            if reading.role == "feed" and value < 0.0:
+                raise BlockError(f"{letter}{text[:20]} is no feed: it must be above 0", "negative-feed")
             if reading.bounds and not reading.bounds[0] <= value <= reading.bounds[1]:
                 low, high = reading.bounds
                 raise BlockError(f"{letter}{text[:20]}: {low:g} to {high:g} are printed", "out-of-range")

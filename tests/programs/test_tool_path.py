@@ -141,7 +141,6 @@ def test_a_cycle_is_repeated_by_distances_and_ended_by_g80(router: ParameterFile
         ("P5=P", "is no expression"),
         ("X99999999999", "beyond every machine"),
         ("G3 X-1 Y-1 R1", "No page prints arcs by R"),
-        ("F0", "must be above 0"),
         ("G81 X-1 Z-1 F1", "needs the depth and R"),
         ("G43 H900 Z-1", "is not set"),
         ("é", "is no word"),
@@ -263,6 +262,16 @@ def test_inverse_time_is_minutes_for_the_move_on_a_9pc_and_moves_a_minute_on_a_g
     assert router.feed.tolist() == pytest.approx([60.0 / 15.0])
     assert router.fault is not None
     assert router.fault.code == "error:22"
+
+
+@pytest.mark.parametrize(
+    ("program", "line"),
+    [("F0|G0 X-1 F0|G1 X-2 F10", 0), ("G1 X-1 F10|G0 X-2 F0|G1 X-3", 3), ("G1 X-1 F0", 1)],
+)
+def test_a_feed_of_0_is_refused_where_a_move_needs_it(program: str, line: int) -> None:
+    """The firmware takes F0 in a block that moves at no feed, and refuses the next one that does."""
+    fault = path(example("grblhal-router"), program).fault
+    assert (fault.line, fault.code) == (line, "error:22") if line else fault is None  # type: ignore[union-attr]
 
 
 def test_scale_and_turn_are_around_their_points(router: ParameterFile) -> None:
