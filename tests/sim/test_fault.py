@@ -41,6 +41,18 @@ def test_a_control_shows_its_own_words(name: str, axis: str, kind: str, code: st
     assert (noticed is not None and noticed < 0.003) == is_informed
 
 
+def test_a_control_that_is_informed_lets_the_axis_run_out_as_long_as_one_that_is_not() -> None:
+    """It was watched for 0.05 s alone, so that the run-out was the speed times that, whatever the machine."""
+    free, braked = (
+        fault("mill-1394", "3"),
+        simulate(example("mill-1394"), "fault", "3", {"model.brake": 30.0}),
+    )
+    assert any("still moves 2 s" in note for note in free.assumptions)
+    assert not any("still moves 2 s" in note for note in braked.assumptions)
+    assert free.columns["time_s"][-1] - free.alarms[0].time_s == pytest.approx(2.0, abs=0.01)
+    assert abs(braked.columns["velocity"][-1]) < 0.01 * braked.move["move.feedrate"]
+
+
 def test_without_its_input_a_module_notices_a_drive_by_its_following_error() -> None:
     """57C422B, 4-37: the bit comes only if the input is enabled in register 2."""
     file = example("57c422b-label-press")

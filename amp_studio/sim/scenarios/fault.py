@@ -33,6 +33,9 @@ UNSEEN = (
     "ASSUMED: how a tripped drive informs this control is in no manual here. The drive has no torque, and the"
     " control goes on until its following error shows it."
 )
+STILL_MOVES = (
+    f"The axis still moves {COAST:g} s after the fault: without friction and a brake (model.*) it runs on."
+)
 NO_ALARM = "The drive has tripped, and no limit of the following error shows it: the command ends as usual"
 
 
@@ -49,9 +52,14 @@ def run_fault(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     course.begin(one(MoveOrder(moved.distance, moved.feedrate, moved.ramp)))
     course.advance(moment)
     moment = course.time
-    course.emergency() if kind in axis.faults else course.trip()
-    course.finish()
+    if kind in axis.faults:
+        course.switch_off()
+    else:
+        course.trip()
+        course.finish()
     motion = course.motion()
+    times, row = motion.columns["time_s"], motion.alarm_row
+    runs_on = row is not None and times[-1] - times[row] > 0.99 * COAST
     return Trace(
         scenario="fault",
         axis=axis.axis,
@@ -65,6 +73,7 @@ def run_fault(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
             INFORMED.format(axis.faults[kind].message) if kind in axis.faults else UNSEEN,
             *assumptions(axis),
             RUN_OUT,
+            *([STILL_MOVES] if runs_on else []),
         ),
         limits={name: (level, axis.unit) for name, level in axis.limits.items() if math.isfinite(level)},
         move={"move.distance": moved.distance, "move.feedrate": moved.feedrate * 60.0},
