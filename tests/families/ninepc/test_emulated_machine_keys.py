@@ -113,3 +113,16 @@ def test_the_screen_shows_every_axis_and_e_stop(bench: Bench) -> None:
     assert displayed.axes[0].following_error
     bench.control.set_estop(True)
     assert bench.panel.screen(bench.control).state == "E-STOP"
+
+
+def test_the_reset_of_an_e_stop_gives_the_drives_back(bench: Bench) -> None:
+    """An axis without friction went on, and a vertical one fell, until the next key."""
+    bench.give("jog Z- highest")
+    bench.after(0.5)
+    bench.control.set_estop(True)
+    bench.after(0.5)
+    bench.control.set_estop(False)
+    bench.after(0.3)
+    axis = bench.panel.screen(bench.control).axes[2]
+    assert axis.velocity == pytest.approx(0.0, abs=0.01)
+    assert axis.following_error == pytest.approx(0.0, abs=0.01)

@@ -47,11 +47,10 @@ class MachineKeys:
         """
         if control.flags & Flags.ESTOP:
             self._machine.switch_off()
+        elif self._was_estop:  # E-STOP RESET gives the drives back, and forgets what has stopped them
+            self._machine.reset()
         elif self._machine.has_lost_drive:
-            if self._was_estop:  # E-STOP RESET gives the drives back, and forgets what has stopped them
-                self._machine.reset()
-            else:
-                control.set_estop(True)
+            control.set_estop(True)
         self._was_estop = bool(control.flags & Flags.ESTOP)
         self._machine.advance(duration)
 
