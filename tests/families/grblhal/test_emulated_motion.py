@@ -128,3 +128,18 @@ def test_a_move_that_lacks_something_is_refused(bench: Bench, line: str, answer:
 def test_homing_that_is_off_is_refused(bench: Bench) -> None:
     bench.identity_word("$22=0")
     assert bench.identity_word("$H") == "error:5"
+
+
+@pytest.mark.parametrize(("alarm", "answer"), [("2", "error:79"), ("17", "error:79"), ("9", "ok")])
+def test_a_critical_alarm_is_ended_by_a_reset_alone(bench: Bench, alarm: str, answer: str) -> None:
+    """alarms.h, and measured on the firmware after G0X500 beyond its soft limits: $X gives error:79, $$ its
+    settings.
+    """
+    bench.firmware.operate(f"alarm {alarm}")
+    bench.read()
+    assert bench.identity_word("$X") == answer
+    assert bench.identity_word("$$").endswith("ok")
+    bench.firmware.receive(b"\x18")
+    bench.read()
+    assert bench.identity_word("$X").endswith("ok")
+    assert bench.status()[0] == "Idle"

@@ -28,6 +28,15 @@ OFFSETS = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3")
 POSITIONS = ("G28", "G30", "G92")
 UNKNOWN, NOT_IDLE, LOCKED, TOO_LONG, NO_HOMING, BAD_WORD = 3, 8, 9, 11, 5, 20
 TRAVEL_EXCEEDED, BAD_JOG, NO_FEED = 15, 16, 22
+CRITICAL = 79
+_RESET = "[MSG:Reset to continue]"
+CRITICAL_ALARMS = {
+    1: _RESET,
+    2: _RESET,
+    10: "[MSG:Emergency stop - clear, then reset to continue]",
+    17: "[MSG:Motor fault - clear, then reset to continue]",
+}
+"""Alarms that only a reset ends (alarms.h ``alarm_is_critical``), and what follows them."""
 SOFT_RESET = 0x18
 JOG_CANCEL = 0x85
 MOVING = ("Run", "Jog", "Home")
@@ -60,6 +69,7 @@ class Firmware:
         self.state = "Idle"
         self._out = bytearray()
         self._is_moved = False  # whether the machine moved at the last look
+        self._is_critical = False  # an alarm that only a reset ends
         self._motion = GrblMotion(self.settings, self._axes)
         self._boot()
 
@@ -67,6 +77,7 @@ class Firmware:
 
     def _boot(self) -> None:
         self._line, self._overflows, self._is_deaf, self._last_end = "", False, False, ""
+        self._is_critical = False
         self._unit = 21
         self._distance, self._mode, self._feed = 90, 0, 0.0
         self._motion.switch_off()
@@ -169,6 +180,7 @@ class Firmware:
     def _soft_reset(self) -> None:
         """Start again as Ctrl-X does, in the middle of whatever is under way."""
         self._line, self._is_deaf = "", True  # this build takes no setting after a soft reset
+        self._is_critical = False
         was = self._motion.state
         if self._motion.cancel():  # motion_control.c ``mc_reset``: the position may be lost
             self.state, self._unread = "Alarm", []
@@ -256,6 +268,8 @@ class Firmware:
                 raise RefusedError(53)
             self._send(f"${setting.number}={setting.show()}")
         elif name == "X":
+            if self._is_critical:
+                raise RefusedError(CRITICAL)
             self.state = "Idle"
         elif equals and name == "J":
             self._jog(text.upper().replace(" ", ""))
@@ -396,11 +410,20 @@ class Firmware:
             raise RefusedError(NO_FEED)
         if self._motion.leaves_travel(targets):
             self._motion.cancel()
-            self.state = "Alarm"
-            self._send("ALARM:2", "[MSG:Reset to continue]")
+            self._alarm(2)
             raise _AnswerLater
         if self.state != "Check":
             self._move(targets, self._feed if self._mode == 1 else None)
+
+    def _alarm(self, number: int) -> None:
+        """Stop in an alarm; a critical one is ended by a reset alone (protocol.c
+        ``protocol_exec_rt_system``; a Grbl 1.1 then answers nothing at all, which is not imitated).
+        """
+        self.state = "Alarm"
+        self._send(f"ALARM:{number}")
+        self._is_critical = number in CRITICAL_ALARMS and not self.settings.is_classic
+        if number in CRITICAL_ALARMS:
+            self._send(CRITICAL_ALARMS[number])
 
     def _reports(self) -> Mapping[str, Callable[[], Iterator[str]]]:
         return FirmwareReports(
@@ -419,8 +442,7 @@ class Firmware:
                 self.state = rest
             case "alarm", _ if re.fullmatch(r"\d{1,2}", rest):
                 self._motion.halt()
-                self.state = "Alarm"
-                self._send(f"ALARM:{rest}")
+                self._alarm(int(rest))
             case "message", _ if rest.isprintable():
                 self._send(f"[MSG:{rest}]")
             case "power", "":
