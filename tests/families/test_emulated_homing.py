@@ -14,7 +14,7 @@ from amp_studio.families.servo57c422b.lines.content import (
     words_of_content,
     written_content,
 )
-from amp_studio.files import ParameterFile
+from amp_studio.files import ParameterFile, open_file
 from amp_studio.schema import Value
 from amp_studio.sim import FileMachine, bind_axis, law_of, simulate
 from tests.families.acromill.lines.bench import CardBench
@@ -22,6 +22,7 @@ from tests.families.grblhal.test_emulated_motion import Bench as GrblBench
 from tests.families.ninepc.test_emulated_machine_keys import Bench as PanelBench
 from tests.families.num.emulated.test_manual_keys import Bench as NumBench
 from tests.programs.test_block import example
+from tests.sim.typical_machines import made
 
 GAINS = "PPU X4096|EXC AXIS0 4|PGAIN X.08|DGAIN X.00021|FFVEL X.0000015"
 """Of the bare test motor of appendix C."""
@@ -134,3 +135,27 @@ def test_a_following_error_stops_both_with_the_same_words_and_they_run_out_alike
     assert stopped.alarm == (trace.alarms[0].code, trace.alarms[0].message)
     scan = abs(trace.columns["velocity"][-1]) / 60.0 * 0.02  # what it goes on in a slice
     assert stopped.position == pytest.approx(trace.columns["position"][-1], abs=scan + 1e-4)
+
+
+def test_a_homing_that_is_never_in_position_has_a_sentence_and_leaves_the_module_alive(
+    tmp_path: Path,
+) -> None:
+    """Without an integral gain dry friction keeps the feeder 14 counts off, and register 10 allows 10: the
+    result had no reason, and the emulated module took no further order.
+    """
+    file = open_file(made("57c422b feeder", tmp_path)).file
+    alarms = simulate(file, "home", "X", {}, advise=False).alarms
+    assert [alarm.code for alarm in alarms] == ["HOME"]
+    assert "never in position" in alarms[0].message
+    from tests.families.test_emulated_moves import module_of  # which imports this module
+
+    bench = module_of(file, 0)
+    bench.module.write(66, HOME)
+    bench.module.write(66, 0)
+    for _ in range(100):
+        bench.module.advance(0.1)
+    there = bench.look()[0]
+    bench.module.write(65, 5)
+    for _ in range(10):
+        bench.module.advance(0.1)
+    assert bench.look()[0] > there + 10000.0

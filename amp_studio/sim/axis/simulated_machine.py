@@ -192,6 +192,9 @@ class SimulatedAxis:
         yield StopOrder(ramp)
 
     def _begin(self, orders: Orders) -> None:
+        # One that never came into position is over without an alarm: it takes the next order up.
+        if self.is_enabled and self.alarm is None and self._moving.is_over:
+            self._moving.restart()
         if self.is_enabled and not self._moving.is_over:
             self._moving.begin(orders)
             self._left = AWAKE

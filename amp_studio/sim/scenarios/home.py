@@ -67,6 +67,11 @@ SEEN = (
     " which no manual here times, come later."
 )
 
+_NOT_IN_POSITION = (
+    "The axis is never in position: its following error at rest stays above the in-position band, {0};"
+    " no alarm is printed for it"
+)
+
 
 def run_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Home an axis, as often as asked; raises SimulationError for impossible settings."""
@@ -91,6 +96,8 @@ def run_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     others = [_homed(axis, homing, ramp, each)[1] for each in _scattered(around, homing, settings)]
     if not found.alarm:
         _compare(homing, found, others)
+    if not alarms and found.home is None and not found.alarm:
+        found.alarm, found.why = "HOME", _NOT_IN_POSITION.format(value_text(axis.inposition_band, axis.unit))
     if found.alarm:
         alarms = (Alarm(found.alarm, float(motion.columns["time_s"][-1]), found.why), *alarms)
     return Trace(
