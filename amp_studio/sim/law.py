@@ -181,6 +181,8 @@ class AxisLaw:
     undamped: str = ""
     """What to do first if the loop is not stable, a sentence;
     "" where the law knows nothing better than lower gains."""
+    ordered_by: tuple[str, str] | None = None
+    """The axis whose orders move this one too, and the page; None for an axis that has its own orders."""
     limits: Mapping[str, float] = field(default_factory=dict)
     """Limits of the following error in u, to draw beside the curves."""
     sources: Mapping[str, Source] = field(default_factory=dict)

@@ -25,6 +25,7 @@ from amp_studio.sim import (
 )
 
 from . import law_dac as dac
+from . import law_dual as dual
 from . import law_events as events
 from . import law_notes as notes_of
 from . import law_samples as samples
@@ -104,16 +105,16 @@ def bind(read: AxisParameters) -> AxisLaw:
     slave = split.slave_of(read)
     # Its loops are in the drive: nothing of a split axis is known of it.
     if _kind(read).drive == "sercos":
-        return _alone(read)
+        return dual.grouped(_alone(read), read)
     if slave is None:
-        return _leading(read)
+        return dual.grouped(_leading(read), read)
     master = read.of(slave.master)
     # A chain would make each of them wait for the motion of another.
     if split.slave_of(master) is not None:
         raise SimulationError(f"The master of axis {read.axis} is a slave itself", split.SETS[0][0])
     law, unit, stiffness = _alone(read, master), _kind(read).unit, split.coupling_of(read)
     texts = (split.SLAVE.format(slave.master, unit), split.JOINED if stiffness else split.LOOSE.format(unit))
-    law = replace(law, assumptions=(*law.assumptions, *texts))
+    law = replace(law, assumptions=(*law.assumptions, *texts), ordered_by=(slave.master, "32-7"))
     return split.coupled(law, slave, _alone(master), stiffness)
 
 
@@ -217,7 +218,7 @@ def _position_parameters(
         not_negative(read, ids.feedrate_suppression),
     )
     p[samples.COUNT] = feedback.position_count
-    p[samples.CUTTING] = if_set(read, ids.max_cutting) / 60.0
+    p[samples.CUTTING] = if_set(dual.slowest(read, ids.max_cutting), ids.max_cutting) / 60.0
     reversal = read.optional(ids.reversal_error) or 0.0
     demand(read, ids.reversal_error, reversal, not math.isnan(reversal), "must be a number")
     if reversal and feedback.on_load:
@@ -243,7 +244,9 @@ def _common(
         everywhere=True,
     )
     ramps: dict[str, Ramp] = ramps_of(master or read, kind.unit, assumptions)
-    rapid = if_set(master or read, ids.feedrate_rapid)
+    for member in dual.group_of(read):
+        ramps = dual.slower(ramps, ramps_of(member, kind.unit, []))
+    rapid = if_set(dual.slowest(master or read, ids.feedrate_rapid), ids.feedrate_rapid)
     assumptions += [notes_of.SAMPLED, notes_of.RAMPS]
     return {
         "axis": read.axis,

@@ -21,6 +21,7 @@ from amp_studio.sim import (
     SimulationError,
 )
 
+from .law_dual import slowest
 from .law_facts import ids
 from .law_reading import above_zero, if_set
 
@@ -52,13 +53,13 @@ def path_rules(machine: BoundMachine) -> PathRules:
     for axis in machine.fitted:
         read, letter = machine.read(axis), machine.letter(axis) or axis
         try:
-            cutting[letter] = PathLimit(above_zero(read, ids.max_cutting) / 60.0, (ids.max_cutting, axis))
-            speed = above_zero(read, ids.feedrate_rapid) / 60.0
-            rapid[letter] = PathLimit(speed, (ids.feedrate_rapid, axis))
+            cutting[letter] = _speed(read, ids.max_cutting)
+            rapid[letter] = _speed(read, ids.feedrate_rapid)
         except SimulationError:
             continue  # an axis without feedrates moves in no block; the planner names it where it does
-        faster[letter], slower[letter] = _ramp(read, axis, down=False), _ramp(read, axis, down=True)
-        steps[letter] = PathLimit(if_set(read, ids.velocity_step) / 60.0, (ids.velocity_step, axis))
+        faster[letter], slower[letter] = _ramp(read, down=False), _ramp(read, down=True)
+        member = slowest(read, ids.velocity_step)
+        steps[letter] = PathLimit(if_set(member, ids.velocity_step) / 60.0, (ids.velocity_step, member.axis))
     return PathRules(
         feed_ramp=Ramp("linear"),
         rapid_ramp=Ramp("linear"),
@@ -73,11 +74,19 @@ def path_rules(machine: BoundMachine) -> PathRules:
     )
 
 
-def _ramp(read: AxisParameters, axis: str, *, down: bool) -> PathLimit:
+def _speed(read: AxisParameters, parameter: str) -> PathLimit:
+    """Return a feedrate in u/s, in a dual group that of the slowest member (31-2)."""
+    member = slowest(read, parameter)
+    return PathLimit(above_zero(member, parameter) / 60.0, (parameter, member.axis))
+
+
+def _ramp(read: AxisParameters, *, down: bool) -> PathLimit:
     """Return a linear ramp, 0 for none; without a deceleration it is the acceleration (10-10)."""
-    if down and (slower := if_set(read, ids.linear_deceleration)):
-        return PathLimit(slower, (ids.linear_deceleration, axis))
-    return PathLimit(if_set(read, ids.linear_acceleration), (ids.linear_acceleration, axis))
+    member = slowest(read, ids.linear_deceleration)
+    if down and (slower := if_set(member, ids.linear_deceleration)):
+        return PathLimit(slower, (ids.linear_deceleration, member.axis))
+    member = slowest(read, ids.linear_acceleration)
+    return PathLimit(if_set(member, ids.linear_acceleration), (ids.linear_acceleration, member.axis))
 
 
 def _corner(steps: Mapping[str, PathLimit]) -> CornerRule:

@@ -52,6 +52,7 @@ def synchronised(law: AxisLaw, read: AxisParameters, leader: AxisLaw, length: fl
     )
     return replace(
         law,
+        ordered_by=(leader.axis, "4-32"),
         parameters=p,
         predict=lambda feedrate: _predicted(law, leader, p[sample.CORRECTION], feedrate),
         feedrate=leader.feedrate,
@@ -77,7 +78,8 @@ def _predicted(law: AxisLaw, leader: AxisLaw, share: float, feedrate: float) -> 
 
 def refuse_chain(read: AxisParameters, leader: AxisParameters) -> None:
     """Raise SimulationError for a drive axis that is a driven one or the axis itself."""
-    if leader.axis == read.axis or drive_axis(leader) is not None:
+    # A table as delivered has 0 in every word: axis 0 "driven" by itself is not coupled (P28).
+    if leader.axis == read.axis or drive_axis(leader) not in (None, leader.axis):
         raise SimulationError(
             f"Drive axis {leader.axis} of axis {read.axis} is a driven axis itself (P27)", ids.drive_axis
         )

@@ -7,14 +7,14 @@ from __future__ import annotations
 import contextlib
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import axis_name
-from amp_studio.sim.command.events import Jogging, Ramp, Travel
+from amp_studio.sim.command.events import Homing, Jogging, Ramp, Travel
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, Law
-from amp_studio.sim.rounding import value_text
+from amp_studio.sim.rounding import page_text, value_text
 
 from .simulated_machine import SimulatedAxis, SimulatedMachine
 
@@ -45,6 +45,8 @@ class FileMachine:
         self._machine = SimulatedMachine()
         self._file: ParameterFile | None = None
         self._targets: list[dict[str, float]] = []
+        self._led: dict[str, list[str]] | None = None
+        """Axis -> those that its orders move too; None until an order asks for it."""
 
     # -- orders --------------------------------------------------------------------------
 
@@ -54,35 +56,34 @@ class FileMachine:
         """
         if self._machine.is_busy:
             return
-        self._file = file
+        self._file, self._led = file, None
         for name, axis in self._machine.axes.items():
             axis.bind(self._bind(file, self._law, name))
 
     def home(self, axis: str) -> str:
         """Begin to home an axis; returns its letter. Raises SimulationError."""
-        name = self._named(axis)
-        moving = self._axis(name)
-        if moving.law.homing is None:
-            raise SimulationError(f"Axis {name} is not homed by a sequence that is printed")
-        homing = moving.law.homing()
-        # Limits count from the zero that homing finds: none while it is searched.
-        moving.travel, self._targets = None, []
-        moving.home(homing, homing.ramp or self._ramp(moving, homes=True))
+        name = self._ordered(axis)
+        homings = [self._homing(each) for each in (name, *self._others(name))]
+        self._targets = []
+        for moving, homing in homings:
+            # Limits count from the zero that homing finds: none while it is searched.
+            moving.travel = None
+            moving.home(homing, homing.ramp or self._ramp(moving, homes=True))
         return self._letter(name)
 
     def jog(self, axis: str, sign: float, speed: str = "", increment: str = "") -> str:
         """Jog until `stop`, or by an increment; returns what is done. Raises SimulationError."""
-        name = self._named(axis)
+        name = self._ordered(axis)
         moving, jogging = self._axis(name), self._jogging(name)
         rate = _figure("speed", jogging.increment_speed if increment and not speed else speed, jogging.speeds)
         ramp = jogging.ramp or self._ramp(moving, homes=False)
         way = _figure("increment", increment, jogging.increments) if increment else 0.0
-        moving.travel = self._travel(moving)
         self._targets = []  # an axis that is jogged goes nowhere after it
-        if increment:
-            moving.move(moving.command + sign * way, rate, ramp)
-        else:
-            moving.go(sign * rate, ramp)
+        for each in self._limited(name):
+            if increment:
+                each.move(each.command + sign * way, rate, ramp)
+            else:
+                each.go(sign * rate, ramp)
         return (
             f"{self._letter(name)}{'+' if sign > 0.0 else '-'} at"
             f" {value_text(rate * 60.0, f'{moving.law.unit}/min')}"
@@ -92,11 +93,10 @@ class FileMachine:
         self, targets: dict[str, float], feedrate: float | None, then: dict[str, float] | None = None
     ) -> None:
         """Move axes in a line, in u and u/s, and on to a second point; raises SimulationError."""
-        names = {self._named(axis): to for axis, to in targets.items()}
+        names = {self._ordered(axis): to for axis, to in targets.items()}
         for name in names:
-            moving = self._axis(name)
-            moving.travel = self._travel(moving)
-        self._machine.line(names, feedrate)
+            self._limited(name)
+        self._machine.line(names, feedrate, self._led)
         self._targets = [] if then is None else [{self._named(axis): to for axis, to in then.items()}]
 
     def stop(self) -> None:
@@ -195,7 +195,7 @@ class FileMachine:
         self._machine.advance(duration)
         # Only when every axis of the first line is at its end: the second line begins from rest.
         if self._targets and not self._machine.is_busy:
-            self._machine.line(self._targets.pop(0), None)
+            self._machine.line(self._targets.pop(0), None, self._led)
 
     # -- small parts -------------------------------------------------------------------------
 
@@ -212,6 +212,47 @@ class FileMachine:
                 f"Axis {axis} is not fitted. Fitted: {', '.join(map(self._letter, fitted))}"
             )
         return found
+
+    def _ordered(self, axis: str) -> str:
+        """Return the axis that an order names; raises SimulationError for one that moves with another."""
+        name = self._named(axis)
+        by = self._axis(name).law.ordered_by
+        if by is not None:
+            raise SimulationError(
+                f"Axis {self._letter(name)} moves with axis {self._letter(by[0])} ({page_text(by[1])}): give"
+                " that one the order"
+            )
+        return name
+
+    def _others(self, name: str) -> list[str]:
+        """Return the axes that the orders of one move too, as far as they can be made."""
+        if self._led is None:
+            self._led = {}
+            for each in self._law.axes(self._file_now()):
+                with contextlib.suppress(SimulationError):
+                    made = self._machine.axes.get(each)
+                    law = made.law if made else self._bind(self._file_now(), self._law, each)
+                    if law.ordered_by is not None:
+                        self._led.setdefault(law.ordered_by[0], []).append(each)
+        return self._led.get(name, [])
+
+    def _limited(self, name: str) -> list[SimulatedAxis]:
+        """Return an axis and those that move with it, with the limits of its travel; all have the same."""
+        first = self._axis(name)
+        first.travel = self._travel(first)
+        for other in map(self._axis, self._others(name)):
+            off = other.command - first.command
+            other.travel = first.travel and replace(
+                first.travel,
+                limits={key: (low + off, high + off) for key, (low, high) in first.travel.limits.items()},
+            )
+        return [first, *map(self._axis, self._others(name))]
+
+    def _homing(self, name: str) -> tuple[SimulatedAxis, Homing]:
+        moving = self._axis(name)
+        if moving.law.homing is None:
+            raise SimulationError(f"Axis {name} is not homed by a sequence that is printed")
+        return moving, moving.law.homing()
 
     def _letter(self, axis: str) -> str:
         return axis_name(self._file_now().evaluation, axis) or axis

@@ -8,7 +8,7 @@ Positions are in the coordinates of the control.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from amp_studio.sim.command.events import Around, Homing, Ramp, Travel
@@ -336,9 +336,14 @@ class SimulatedMachine:
         """Whether any axis has an order under way."""
         return any(axis.is_busy for axis in self.axes.values())
 
-    def line(self, targets: Mapping[str, float], feedrate: float | None) -> None:
+    def line(
+        self,
+        targets: Mapping[str, float],
+        feedrate: float | None,
+        others: Mapping[str, Sequence[str]] | None = None,
+    ) -> None:
         """Move axes in a straight line at a feedrate in u/s, or as fast as all of them can;
-        each has its share of speed and ramp.
+        each has its share of speed and ramp. ``others`` has the axes that go the way of one.
         """
         ways = {name: to - self.axes[name].command for name, to in targets.items()}
         length = math.sqrt(sum(way * way for way in ways.values()))
@@ -355,3 +360,5 @@ class SimulatedMachine:
             share = abs(way) / length
             ramp = replace(ramps[name], acceleration=rise * share, deceleration=rise * share)
             self.axes[name].move(targets[name], speed * share, ramp)
+            for other in (others or {}).get(name, ()):
+                self.axes[other].move(self.axes[other].command + way, speed * share, ramp)
