@@ -71,6 +71,8 @@ def test_orders_of_the_master_move_all_and_the_others_take_none(
     name: str, other: str, page: str, way: float, tmp_path: Path
 ) -> None:
     file = open_file(made(name, tmp_path)).file if name else dual_mill()
+    if name == "num gantry":  # a table as delivered has 0 in every word of P27
+        file.set(("axes.drive_axis", "0"), Value("axis-0"))
     machine = machine_of(file)
     for order in (machine.home, lambda axis: machine.jog(axis, 1.0)):
         with pytest.raises(SimulationError, match=f"moves with axis X .*{page}"):

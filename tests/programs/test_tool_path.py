@@ -271,7 +271,7 @@ def test_inverse_time_is_minutes_for_the_move_on_a_9pc_and_moves_a_minute_on_a_g
 def test_a_feed_of_0_is_refused_where_a_move_needs_it(program: str, line: int) -> None:
     """The firmware takes F0 in a block that moves at no feed, and refuses the next one that does."""
     fault = path(example("grblhal-router"), program).fault
-    assert (fault and (fault.line, fault.code)) == ((line, "error:22") if line else None)
+    assert (fault.line, fault.code) == (line, "error:22") if fault else not line
 
 
 def test_scale_and_turn_are_around_their_points(router: ParameterFile) -> None:

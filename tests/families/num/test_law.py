@@ -323,8 +323,6 @@ def test_a_group_without_a_time_constant_is_named() -> None:
 def test_a_drive_axis_that_is_driven_itself_is_refused() -> None:
     with pytest.raises(SimulationError, match="Drive axis 0 of axis 0 is a driven axis itself"):
         bound(axes__drive_axis_at_0="axis-0", axes__synchronised=1.0)
-    # As delivered, every word of P27 is 0, and axis 0 is coupled with nothing.
-    bound(axes__drive_axis_at_0="axis-1", axes__drive_axis_at_1="axis-1", axes__synchronised=1.0)
 
 
 def test_a_copied_reference_without_correction_is_named() -> None:
