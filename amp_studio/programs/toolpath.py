@@ -170,23 +170,24 @@ class RowsWriter:
     ) -> ToolPath:
         """Return the path of the rows."""
         rows = len(self.kind)
-        arcs = np.array(self.arcs, np.float64).reshape(rows, 3)
+        # The numbers themselves, not a copy: the writer ends here.
+        arcs = np.frombuffer(self.arcs).reshape(rows, 3)
         return ToolPath(
             axes=self.axes,
             start=np.array(start, np.float64),
-            ends=np.array(self.ends, np.float64).reshape(rows, len(self.axes)),
-            kind=np.array(self.kind, np.uint8),
-            line=np.array(self.line, np.int32),
-            feed=np.array(self.feed, np.float64),
+            ends=np.frombuffer(self.ends).reshape(rows, len(self.axes)),
+            kind=np.frombuffer(self.kind, np.uint8),
+            line=np.frombuffer(self.line, np.int32),
+            feed=np.frombuffer(self.feed),
             center=arcs[:, :2],
             sweep=arcs[:, 2],
-            plane=np.array(self.plane, np.uint8),
-            seconds=np.array(self.seconds, np.float64),
-            corner=np.array(self.corner, np.uint8),
-            free=np.array(self.free, np.uint8),
-            rounding=np.array(self.rounding, np.uint8),
+            plane=np.frombuffer(self.plane, np.uint8),
+            seconds=np.frombuffer(self.seconds),
+            corner=np.frombuffer(self.corner, np.uint8),
+            free=np.frombuffer(self.free, np.uint8),
+            rounding=np.frombuffer(self.rounding, np.uint8),
             roundings=tuple(self.roundings),
-            zones=np.array(self.zones, np.uint8),
+            zones=np.frombuffer(self.zones, np.uint8),
             zone_sets=tuple(self.zone_sets),
             blocks=blocks,
             fault=fault,

@@ -29,10 +29,11 @@ from amp_studio.sim.command.changes import change_time, change_way, peaks, reach
 from amp_studio.sim.command.pieces import change, length
 from amp_studio.sim.law import law_of
 from amp_studio.sim.path.contour import distances
+from amp_studio.sim.path.picture import MOST_POINTS, path_picture
 from amp_studio.sim.path.planner import ProgramPlan, lowest_sums, plan_program
 from amp_studio.sim.path.profiles import axis_profiles
 from amp_studio.sim.path.program import ProgramRun, run_program
-from amp_studio.sim.path.result import limit_letters
+from amp_studio.sim.path.result import limit_letters, line_rows
 from amp_studio.sim.path_rules import Corners, PathLimit
 from amp_studio.sim.zones import Zone
 from tests.programs.test_block import example
@@ -190,9 +191,9 @@ def test_a_program_takes_the_time_that_a_real_grblhal_needed(program: RealProgra
 
 def test_every_second_is_given_to_one_limit(router: ParameterFile) -> None:
     plan = planned(router, ZIGZAG, rules())
-    assert plan.time_by_cause().sum() == pytest.approx(plan.time)
+    assert plan.time_by_cause.sum() == pytest.approx(plan.time)
     assert sum(plan.time_of_lines().values()) == pytest.approx(plan.time)
-    named = {limit.param: time for limit, time in zip(plan.causes, plan.time_by_cause(), strict=True)}
+    named = {limit.param: time for limit, time in zip(plan.causes, plan.time_by_cause, strict=True)}
     assert named["acceleration", ""] > 0.0
 
 
@@ -399,7 +400,7 @@ def test_the_passes_of_straight_ramps_are_those_of_a_loop(count: int) -> None:
 
 def test_no_limit_has_the_letter_of_rapid() -> None:
     times = np.array([9.0, *range(24, 0, -1)])
-    run = cast(ProgramRun, SimpleNamespace(plan=SimpleNamespace(time_by_cause=lambda: times)))
+    run = cast(ProgramRun, SimpleNamespace(plan=SimpleNamespace(time_by_cause=times)))
     letters = limit_letters(run)
     assert "".join(letters.values()) == "ABCDEFGHIJKLMNOPQSTUVWXYZ"
 
@@ -407,3 +408,21 @@ def test_no_limit_has_the_letter_of_rapid() -> None:
 def test_a_zone_has_its_number_and_not_one_that_begins_so() -> None:
     zone = Zone("programmable zone 12, group 3", {}, "outside", is_on=True, code="")
     assert [number for number in ("", "1", "12", "3", "2") if zone.has_number(number)] == ["12"]
+
+
+def test_a_picture_has_a_bounded_number_of_points_and_every_limit_of_a_long_program(
+    router: ParameterFile,
+) -> None:
+    """Cut and rapid by turns, an arc among them: each n-th row alone would be of one kind."""
+    lines = ["G21 G90 F1000", *("G0 X-9 Y-9", "G1 X-1", "G2 X-3 Y-9 I-2 J-9", "G0 X-1 Y-1") * 5000]
+    run = ProgramJob(lines, [0.0] * 3, dict.fromkeys("XYZ", 0.0), with_contour=False).run(router)
+    assert run.plan.path.fault is None
+    for colours in ("limit", "feed"):
+        picture = path_picture(router, run, None, colours)
+        for scene in (picture.above, picture.close):
+            assert scene is not None
+            assert sum(len(line.points) for line in scene.lines) < 2 * MOST_POINTS
+            assert {line.dashed for line in scene.lines} == {False, True}
+    rows = line_rows(run, 4)
+    assert [rows[n][0] for n in (2, 3)] == ["R", line_rows(run, len(lines))[3][0]]
+    assert max(rows) == 4

@@ -12,7 +12,7 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.path_rules import Geometry, Indices, PathRows
 
 MOST_PIECES = 8_000_000
-"""Rows after arcs have become straight pieces; at about 150 bytes each with three axes, 1.2 GB."""
+"""Rows after arcs have become straight pieces; at about 300 bytes each with three axes, 2.4 GB."""
 
 
 def places_of(path: ToolPath, row: int) -> tuple[int, int]:
@@ -38,7 +38,7 @@ def geometry_of(path: ToolPath, chord: float | None) -> Geometry:
     length = np.sqrt((delta * delta).sum(axis=1))
     radius, is_arc = np.full(count, math.inf), path.kind == ARC
     first = _unit(delta, length)
-    last, share = first.copy(), np.abs(first)
+    last, share = first.copy() if len(arcs) else first, np.abs(first)
     for plane in range(3):
         rows = arcs[path.plane[arcs] == plane]
         # A plane without arcs may have an axis that the path has not.

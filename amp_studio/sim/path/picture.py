@@ -35,10 +35,14 @@ from .profiles import path_points
 from .program import ProgramRun
 from .result import limit_letters, limit_name, main_cause
 
-MOST_POINTS = 20_000
-"""Points of a drawn path; a longer one is thinned."""
+MOST_ROWS, MOST_POINTS = 10_000, 4000
+"""Rows that are drawn of a path, and points of them; of more, so many are chosen by chance: each n-th one
+would miss what a program repeats."""
+SEEN = 1e-3
+"""Share of the width of a path that is a step of its picture."""
+MOST_ON_ARCS = 40_000
 WITHIN = 0.01
-"""u between an arc and what is drawn of it."""
+"""u between an arc and what is drawn of it; more where arcs would have above ``MOST_ON_ARCS`` points."""
 SORTS: tuple[ShapeSort, ...] = ("now", "outside", "second", "limit", "error", "output")
 """Colours of the limits beside the programmed feed, the longest first."""
 TILT = ((0.866, 0.5), (-0.5, 0.433), (0.0, 0.75))
@@ -60,7 +64,7 @@ def path_picture(
     plan, length = run.plan, length_unit(file)
     facts = [f"{plan.path.blocks} blocks, {value_text(plan.time, 's', 4)}"]
     letters = limit_letters(run)
-    times = plan.time_by_cause()
+    times = plan.time_by_cause
     facts += [
         f"{letter} {limit_name(file, plan.causes[n])} {100.0 * times[n] / plan.time:.0f} %"
         for n, letter in letters.items()
@@ -73,12 +77,18 @@ def path_picture(
         unit, per_mm = path_error_unit(length)
         error = Curve("contour error", run.contour.time, per_mm * run.contour.error, "now", dense=True)
         panels.append(panel_of("contour error", (error,), ("time", "s"), unit))
-    classes = _classes(file, run, letters, colours)
-    plan_scene = path_scene(run, classes, moment, length, tilted=False)
-    tilted = path_scene(run, classes, moment, length, tilted=True)
-    return Picture(
-        "program", tuple(facts), tuple(panels), plan_scene, tilted, bool(run.alarms), run.assumptions
+    moving = np.flatnonzero(plan.geometry.length > 0.0)
+    drawn = moving[_chosen(len(moving), MOST_ROWS)]
+    classes = _classes(file, run, letters, colours, drawn)
+    points, rows = path_points(plan, _within(plan, drawn), drawn)
+    # Twice the class, and 1 more in rapid, of the row that ends in each point; the first has none.
+    kinds = np.zeros(1, np.int64)
+    if len(drawn):
+        kinds = (2 * classes.of_rows + plan.is_rapid[drawn])[np.searchsorted(drawn, rows)]
+    flat, space = (
+        path_scene(run, classes, moment, length, (points, kinds), tilted=tilted) for tilted in (False, True)
     )
+    return Picture("program", tuple(facts), tuple(panels), flat, space, bool(run.alarms), run.assumptions)
 
 
 def _speed(plan: ProgramPlan, length: str) -> Scene:
@@ -94,7 +104,7 @@ def _speed(plan: ProgramPlan, length: str) -> Scene:
 
 @dataclass(frozen=True)
 class _Classes:
-    """What colours the rows of a plan."""
+    """What colours the rows of a plan that are drawn."""
 
     of_rows: Indices
     """(rows,)"""
@@ -103,28 +113,27 @@ class _Classes:
     """Letter -> what it is."""
 
 
-def _classes(file: ParameterFile, run: ProgramRun, letters: dict[int, str], colours: PathColours) -> _Classes:
-    """Return what each row of a path is coloured by, with the letters and names of the colours."""
+def _classes(
+    file: ParameterFile, run: ProgramRun, letters: dict[int, str], colours: PathColours, rows: Indices
+) -> _Classes:
+    """Return what some rows of a path are coloured by, with the letters and names of the colours."""
     plan = run.plan
-    count = len(plan.entry)
     if colours == "limit":
-        by = main_cause(plan) if count else np.zeros(0, np.int64)
-        return _Classes(
-            by, letters, {letter: limit_name(file, plan.causes[n]) for n, letter in letters.items()}
-        )
+        names = {letter: limit_name(file, plan.causes[n]) for n, letter in letters.items()}
+        return _Classes(main_cause(plan, rows), letters, names)
     if colours == "feed":
-        wanted = plan.path.feed[plan.geometry.row]
-        time = np.maximum(plan.times.sum(axis=1), 1e-12)
-        shares = np.where(wanted > 0.0, plan.geometry.length / time / np.maximum(wanted, 1e-12), 1.0)
+        wanted = plan.path.feed[plan.geometry.row[rows]]
+        time = np.maximum(plan.times[rows].sum(axis=1), 1e-12)
+        shares = np.where(wanted > 0.0, plan.geometry.length[rows] / time / np.maximum(wanted, 1e-12), 1.0)
         # digitize needs rising edges, and shares fall from colour to colour: both with a minus.
         by = np.digitize(-shares, [-part for part in FEED_PARTS])
         texts = _parts(FEED_PARTS, "from {} % of the feed on", "below {} % of the feed")
     else:
-        largest = np.zeros(count)
+        largest = np.zeros(max(len(plan.entry), 1))
         if run.contour is not None:
             np.maximum.at(largest, run.contour.row, np.abs(run.contour.error))
-        whole = float(largest.max()) if count else 0.0
-        by = np.digitize(largest / (whole or 1.0), ERROR_PARTS)
+        whole = float(largest.max())
+        by = np.digitize(largest[rows] / (whole or 1.0), ERROR_PARTS)
         whole_text = path_error_text(whole, length_unit(file))
         texts = _parts(ERROR_PARTS, f"below {{}} % of {whole_text}", f"from {{}} % of {whole_text} on")
     found = dict(enumerate("ABCD"))
@@ -135,27 +144,46 @@ def _parts(parts: Sequence[float], text: str, last: str) -> list[str]:
     return [*(text.format(f"{100.0 * part:g}") for part in parts), last.format(f"{100.0 * parts[-1]:g}")]
 
 
+def _chosen(count: int, most: int) -> Indices:
+    """Return places below ``count`` in their order, at most so many, with the first and the last."""
+    if count <= most:
+        return np.arange(count)
+    chance = np.random.default_rng(0).choice(np.arange(1, count - 1), most - 2, replace=False)
+    return np.concatenate([[0], np.sort(chance), [count - 1]])
+
+
+def _within(plan: ProgramPlan, rows: Indices) -> float:
+    """Return how far off the arcs of some rows are drawn: their points are bounded."""
+    arcs = rows[plan.geometry.is_arc[rows]]
+    # A chord for each w of the arcs takes their angles times the root of r/(8 w).
+    turns = np.abs(plan.path.sweep[plan.geometry.row[arcs]]) * np.sqrt(plan.geometry.radius[arcs])
+    return max(WITHIN, (float(turns.sum()) / MOST_ON_ARCS) ** 2 / 8.0)
+
+
 def path_scene(
-    run: ProgramRun, classes: _Classes, moment: PathMoment | None, length: str, *, tilted: bool
+    run: ProgramRun,
+    classes: _Classes,
+    moment: PathMoment | None,
+    length: str,
+    outline: tuple[PathRows, Indices],
+    *,
+    tilted: bool,
 ) -> Scene:
-    """Return the path in plan (the first two axes) or tilted (three), in the colours of its classes."""
+    """Return the path in plan (the first two axes) or tilted (three), in the colours of its classes;
+    ``outline`` are its points with the kind of row that ends in each.
+    """
     plan, size = run.plan, canonical(1.0, length)
-    points, rows = path_points(plan, WITHIN)
+    points, kinds = outline
     flat = _flat(points / size, tilted=tilted)
-    by, letters = classes.of_rows, classes.letters
-    step = max(1, len(flat) // MOST_POINTS)
+    kept = _thinned(flat, kinds)
+    flat, kinds = flat[kept], kinds[kept]
     lines: list[Polyline] = []
     texts: list[Text] = []
     seen: set[str] = set()
-    for first, last in _stretches(plan, rows, by):
-        row = int(rows[last])
-        rapid = bool(plan.is_rapid[row])
-        letter = "R" if rapid else letters.get(int(by[row]), "")
-        # The last point of a part is kept, so that thinning opens no gap to the next colour.
-        kept = [*range(first, last, step), last]
-        lines.append(
-            Polyline(tuple((float(flat[n, 0]), float(flat[n, 1])) for n in kept), limit_sort(letter), rapid)
-        )
+    for first, last in _stretches(kinds):
+        letter = "R" if kinds[last] % 2 else classes.letters.get(int(kinds[last]) // 2, "")
+        part = tuple(map(tuple, flat[first : last + 1].tolist()))
+        lines.append(Polyline(part, limit_sort(letter), letter == "R"))
         if letter and letter not in seen:
             seen.add(letter)
             middle = flat[(first + last) // 2 if last - first > 1 else last]
@@ -245,11 +273,23 @@ def limit_sort(letter: str) -> ShapeSort:
     return SORTS[min(place, len(SORTS) - 1)] if place >= 0 else "ink"
 
 
-def _stretches(plan: ProgramPlan, rows: Indices, by: Indices) -> Sequence[tuple[int, int]]:
+def _thinned(flat: PathRows, kinds: Indices) -> Indices:
+    """Return the points (n,) of a path that are drawn: where its picture goes on or its colour changes,
+    at most `MOST_POINTS` of them.
+    """
+    if len(flat) <= MOST_POINTS:
+        return np.arange(len(flat))
+    steps = np.floor(flat / (SEEN * float(np.ptp(flat, axis=0).max()) or 1.0))
+    changes = (steps[1:] != steps[:-1]).any(axis=1)
+    changes[:-1] |= kinds[1:-1] != kinds[2:]
+    kept = np.unique(np.concatenate([[0], np.flatnonzero(changes) + 1, [len(flat) - 1]]))
+    chosen: Indices = kept[_chosen(len(kept), MOST_POINTS)]
+    return chosen
+
+
+def _stretches(kinds: Indices) -> Sequence[tuple[int, int]]:
     """Return (first, last) point of each part of the path with one cause and one kind of move."""
-    if len(rows) < 2:
+    if len(kinds) < 2:
         return ()
-    kind = np.stack([by[rows[1:]], plan.is_rapid[rows[1:]].astype(np.int64)])
-    change = np.flatnonzero((kind[:, 1:] != kind[:, :-1]).any(axis=0)) + 1
-    edges = [0, *change.tolist(), len(rows) - 1]
+    edges = [0, *(np.flatnonzero(kinds[2:] != kinds[1:-1]) + 1).tolist(), len(kinds) - 1]
     return list(pairwise(edges))

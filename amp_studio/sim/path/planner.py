@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -22,6 +23,7 @@ from amp_studio.sim.path_rules import (
     Causes,
     Corners,
     Geometry,
+    Indices,
     PathLimit,
     PathRows,
     PathRules,
@@ -91,8 +93,9 @@ class ProgramPlan:
         """Of the whole program."""
         return float(self.start[-1] + self.times[-1].sum() + self.rest[-1]) if len(self.start) else 0.0
 
+    @cached_property
     def time_by_cause(self) -> PathRows:
-        """Return the time in s of each limit, (causes,); 0 for one whose time is the rounding of a sum."""
+        """The time in s of each limit, (causes,); 0 for one whose time is the rounding of a sum."""
         found = np.zeros(len(self.causes))
         for cause, time in (
             (self.faster_by, self.times[:, 0]),
@@ -103,12 +106,12 @@ class ProgramPlan:
             found += np.bincount(cause, time, len(found))
         return np.where(found > _ROUNDING * found.sum(), found, 0.0)
 
-    def time_of_lines(self) -> dict[int, float]:
-        """Return line of the program -> its time in s."""
-        whole = self.times.sum(axis=1) + self.rest
-        lines = self.path.line[self.geometry.row]
-        sums = np.bincount(lines, whole)
-        return {int(line): float(sums[line]) for line in np.unique(lines)}
+    def time_of_lines(self, rows: Indices | slice = slice(None)) -> dict[int, float]:
+        """Return line of the program -> its time in s; of some rows alone."""
+        whole = self.times[rows].sum(axis=1) + self.rest[rows]
+        lines = self.path.line[self.geometry.row[rows]]
+        sums, present = np.bincount(lines, whole), np.unique(lines)
+        return dict(zip(present.tolist(), sums[present].tolist(), strict=True))
 
 
 def plan_program(

@@ -12,7 +12,7 @@ from amp_studio.sim.engine.profiles import POLYNOMIAL, SINE
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.path_rules import Indices, PathRows
 
-from .geometry import places_of
+from .geometry import places_of, plane_columns
 from .planner import ProgramPlan
 
 MOST_ROWS = 50_000
@@ -110,28 +110,31 @@ def _row(
     ]
 
 
-def path_points(plan: ProgramPlan, within: float) -> tuple[PathRows, Indices]:
-    """Return points on the programmed path (n, axes), arcs at most ``within`` u off, and their rows (n,)."""
-    geometry = plan.geometry
-    points, rows = [plan.path.start[None, :]], [np.zeros(1, np.int64)]
-    for n in range(len(geometry.length)):
-        if geometry.length[n] <= 0.0:
-            continue
-        parts = 1
-        if geometry.is_arc[n]:
-            row = int(geometry.row[n])
-            a, b = places_of(plan.path, row)
-            sweep, center = float(plan.path.sweep[row]), plan.path.center[row]
-            # A chord over the angle a is r (1 - cos(a/2)) off, about r a²/8: solved for a, that is how often
-            # it goes into the sweep.
-            parts = max(2, math.ceil(abs(sweep) * math.sqrt(float(geometry.radius[n]) / (8.0 * within))))
-            share = np.arange(1, parts + 1) / parts
-            x, y = geometry.begins[n, a] - center[0], geometry.begins[n, b] - center[1]
-            between = geometry.begins[n] + share[:, None] * (geometry.ends[n] - geometry.begins[n])
-            between[:, a] = center[0] + x * np.cos(share * sweep) - y * np.sin(share * sweep)
-            between[:, b] = center[1] + x * np.sin(share * sweep) + y * np.cos(share * sweep)
-        else:
-            between = geometry.ends[n][None, :]
-        points.append(between)
-        rows.append(np.full(parts, n))
-    return np.vstack(points), np.concatenate(rows)
+def path_points(plan: ProgramPlan, within: float, chosen: Indices | None = None) -> tuple[PathRows, Indices]:
+    """Return points on the programmed path (n, axes), arcs at most ``within`` u off, and their rows (n,):
+    all that move, or those that are ``chosen``.
+    """
+    geometry, path = plan.geometry, plan.path
+    moving = np.flatnonzero(geometry.length > 0.0) if chosen is None else chosen
+    of_path, is_arc = geometry.row[moving], geometry.is_arc[moving]
+    sweep, radius = path.sweep[of_path], geometry.radius[moving]
+    # A chord over the angle a is r (1 - cos(a/2)) off, about r a²/8: solved for a, that is how often
+    # it goes into the sweep.
+    parts = np.ones(len(moving), np.int64)
+    turns = np.abs(sweep[is_arc]) * np.sqrt(radius[is_arc] / (8.0 * within))
+    parts[is_arc] = np.maximum(2, np.ceil(turns))
+    each = np.repeat(np.arange(len(moving)), parts)
+    begins, points = geometry.begins[moving[each]], geometry.ends[moving[each]]
+    on_arc = np.flatnonzero(is_arc[each])
+    share = (np.arange(len(each)) - np.repeat(np.cumsum(parts) - parts, parts) + 1.0)[on_arc] / parts[
+        each[on_arc]
+    ]
+    begun = begins[on_arc]
+    points[on_arc] = begun + share[:, None] * (points[on_arc] - begun)
+    rows = of_path[each[on_arc]]
+    columns, center = plane_columns(path)[path.plane[rows]], path.center[rows]
+    x, y = (np.take_along_axis(begun, columns, axis=1) - center).T
+    cosine, sine = np.cos(share * path.sweep[rows]), np.sin(share * path.sweep[rows])
+    points[on_arc, columns[:, 0]] = center[:, 0] + x * cosine - y * sine
+    points[on_arc, columns[:, 1]] = center[:, 1] + x * sine + y * cosine
+    return np.vstack([path.start[None, :], points]), np.concatenate([[0], moving[each]])

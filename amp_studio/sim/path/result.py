@@ -38,15 +38,17 @@ def limit_name(file: ParameterFile, limit: PathLimit) -> str:
 
 def limit_letters(run: ProgramRun) -> dict[int, str]:
     """Return cause -> its letter in picture and list: A for the programmed feed, the others by their time."""
-    times = run.plan.time_by_cause()
+    times = run.plan.time_by_cause
     order = sorted((n for n in range(1, len(times)) if times[n] > 0.0), key=lambda n: -times[n])
     return {0: "A", **{n: letter for letter, n in zip(_LETTERS, order, strict=False)}}
 
 
-def main_cause(plan: ProgramPlan) -> Indices:
-    """Return for each row the cause of most of its time, (rows,)."""
-    causes = np.column_stack([plan.faster_by, plan.even_by, plan.slower_by]).astype(np.int64)
-    times = plan.times.copy()
+def main_cause(plan: ProgramPlan, rows: Indices) -> Indices:
+    """Return for some rows the cause of most of their time, (rows,)."""
+    causes = np.column_stack([plan.faster_by[rows], plan.even_by[rows], plan.slower_by[rows]]).astype(
+        np.int64
+    )
+    times = plan.times[rows]
     # A ramp up and down by the same limit is one share of the row.
     same = causes[:, 0] == causes[:, 2]
     times[same, 0] += times[same, 2]
@@ -54,27 +56,32 @@ def main_cause(plan: ProgramPlan) -> Indices:
     return chosen
 
 
-def line_rows(run: ProgramRun) -> dict[int, tuple[str, float]]:
-    """Return line of the program -> letter of what limits it longest ("R" in rapid), and its time in s."""
+def line_rows(run: ProgramRun, most: int) -> dict[int, tuple[str, float]]:
+    """Return line of the program, up to ``most`` -> letter of what limits it longest ("R" in rapid),
+    and its time in s.
+    """
     plan, letters = run.plan, limit_letters(run)
-    times, causes = plan.times.sum(axis=1), main_cause(plan)
     lines = plan.path.line[plan.geometry.row]
-    found: dict[int, tuple[str, float]] = {}
-    longest: dict[int, float] = {}
-    for line, time, cause, rapid in zip(
-        lines.tolist(), times.tolist(), causes.tolist(), plan.is_rapid.tolist(), strict=True
-    ):
-        if time > longest.get(line, -1.0):
-            longest[line] = time
-            found[line] = ("R" if rapid else letters.get(cause, ""), 0.0)
-    return {line: (found[line][0], time) for line, time in plan.time_of_lines().items()}
+    rows = np.flatnonzero(lines <= most)
+    lines, times = lines[rows], plan.times[rows].sum(axis=1)
+    order = np.lexsort((-times, lines))
+    longest = rows[order[np.unique(lines[order], return_index=True)[1]]]
+    causes = zip(main_cause(plan, longest).tolist(), plan.is_rapid[longest].tolist(), strict=True)
+    limits = ["R" if rapid else letters.get(cause, "") for cause, rapid in causes]
+    return dict(
+        zip(
+            np.unique(lines).tolist(),
+            zip(limits, plan.time_of_lines(rows).values(), strict=True),
+            strict=True,
+        )
+    )
 
 
 def limited_by(file: ParameterFile, run: ProgramRun) -> list[dict[str, Any]]:
     """Return what limits, the longest first: ``param`` as it is typed ("" for none), name, letter, time,
     share.
     """
-    times, whole, letters = run.plan.time_by_cause(), run.plan.time, limit_letters(run)
+    times, whole, letters = run.plan.time_by_cause, run.plan.time, limit_letters(run)
     rows = [
         {
             "param": file.machine_schema.short(limit.param) if limit.param else "",
@@ -93,7 +100,7 @@ def limit_tries(file: ParameterFile, run: ProgramRun) -> Iterator[Mapping[Addres
     """Yield another value of each parameter that limits a program, the longest first: its value times
     `TRIED_SHARE`.
     """
-    times = run.plan.time_by_cause()
+    times = run.plan.time_by_cause
     # One more than tried: the programmed feed is among the limits and has no parameter.
     for n in sorted(range(len(times)), key=lambda n: -times[n])[: MOST_TRIES + 1]:
         limit = run.plan.causes[n]

@@ -63,6 +63,9 @@ TEXT_TOKENS: dict[ShapeSort, Token] = {
 
 RING, RING_LINE, SMALL = 6.6, 1.4, 3.2
 """px: how wide a single value is, its line, and how wide one of many is."""
+MOST_WIDE, MOST_RIPPLE = 1000, 30.0
+"""Points of lines, and heights of its frame that a curve goes up and down, that are painted wider than a
+point: that takes ten times as long."""
 MOST_RINGS = 60
 """Values of a curve that are rings; more of them would lie on each other."""
 
@@ -75,6 +78,7 @@ class ScenePainter:
         self._painter, self._place, self._scene = painter, place, place.scene
         self._caption, self._strong = caption_fonts()
         self.labels = painted_labels(place, size)
+        self._is_fine = sum(len(line.points) for line in place.scene.lines) > MOST_WIDE
         self.named: list[tuple[QRectF, Address]] = []
         """Where a name is that leads to its parameter."""
 
@@ -157,7 +161,10 @@ class ScenePainter:
                 painter.setPen(Qt.PenStyle.NoPen)
                 painter.setBrush(light)
                 painter.drawPolygon(_polygon(band))
-            painter.setPen(curve_pen(curve))
+            pen = curve_pen(curve)
+            if float(abs(line[1:, 1] - line[:-1, 1]).sum()) > MOST_RIPPLE * self._place.height:
+                pen.setWidthF(1.0)
+            painter.setPen(pen)
             painter.drawPolyline(_polygon(line))
         painter.restore()
 
@@ -198,7 +205,7 @@ class ScenePainter:
         shade = colour(TOKENS[line.sort])
         if line.sort == "rail":
             shade.setAlphaF(0.5)
-        pen = QPen(shade, width)
+        pen = QPen(shade, 1.0 if self._is_fine else width)
         pen.setCapStyle(Qt.PenCapStyle.FlatCap)
         pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
         if line.dashed:

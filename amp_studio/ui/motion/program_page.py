@@ -439,7 +439,9 @@ class ProgramPage(PageOfFile):
             ],
         )
         assert self._job is not None
-        listed = {n: (letter, written(f"{time:.3g}")) for n, (letter, time) in line_rows(run).items()}
+        listed = {
+            n: (letter, written(f"{time:.3g}")) for n, (letter, time) in line_rows(run, MOST_LINES).items()
+        }
         fill(
             self.lines,
             [(line, *listed.get(n, ("", ""))) for n, line in enumerate(self._job.lines[:MOST_LINES], 1)],
