@@ -16,6 +16,8 @@ class Danger:
     page: str
     about: tuple[tuple[str, str], ...]
     """(anchor, label) of each parameter."""
+    brief: str = ""
+    """The same in three to five words."""
 
     @property
     def line(self) -> str:

@@ -41,17 +41,20 @@ def _grouped(
     schema: Schema, values: Iterable[tuple[str, str, str, str]], language: Language
 ) -> tuple[Danger, ...]:
     """Return each statement with the values that it is about: (id, anchor, name, place) of each."""
-    found: dict[tuple[str, str], dict[str, tuple[str, str, list[str]]]] = {}
+    found: dict[tuple[str, str, str], dict[str, tuple[str, str, list[str]]]] = {}
     for parameter, anchor, name, place in values:
         for danger in schema.parameters[parameter].help.danger:
-            about = found.setdefault((language.sentence(danger.says), danger.page), {})
+            about = found.setdefault((language.sentence(danger.says), danger.page, danger.brief), {})
             # One statement with all its axes: printed for each of them, nobody would read it.
             about.setdefault(parameter, (anchor, name, []))[2].append(language.text(place))
     return tuple(
         Danger(
-            statement, page, tuple((anchor, _label(name, places)) for anchor, name, places in about.values())
+            statement,
+            page,
+            tuple((anchor, _label(name, places)) for anchor, name, places in about.values()),
+            language.sentence(brief),
         )
-        for (statement, page), about in found.items()
+        for (statement, page, brief), about in found.items()
     )
 
 

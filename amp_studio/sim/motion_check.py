@@ -47,6 +47,8 @@ class MotionCheck:
     params: tuple[str, ...] = ()
     """Ids of the parameters to look at."""
     assumptions: tuple[str, ...] = ()
+    trace: Trace | None = field(default=None, compare=False, repr=False)
+    """The run that decided; None where there was none."""
 
 
 def check_motion(file: ParameterFile, axis: str | None = None) -> Iterator[MotionCheck]:
@@ -111,7 +113,8 @@ def _checked(file: ParameterFile, law: Law, scenario: Scenario, axis: str | None
     except SimulationError as error:
         return _not_possible(file, scenario.name, axis, error)
     # The worse end of the travel decides.
-    verdict, why = max((_verdict(trace) for trace, _, _ in runs), key=lambda found: WORSE.index(found[0]))
+    found = [(*_verdict(trace), trace) for trace, _, _ in runs]
+    verdict, why, decided = max(found, key=lambda each: WORSE.index(each[0]))
     if verdict == "good" and scenario.name in SHOWN_BY:
         verdict, why = _of_loops(file, law, runs[0][0])
     if scenario.opposite and len(runs) == 1 and verdict == "good":
@@ -125,7 +128,7 @@ def _checked(file: ParameterFile, law: Law, scenario: Scenario, axis: str | None
         notes |= dict.fromkeys((*assumed, *trace.assumptions))
     params = _parameters(file, law, runs[0][0]) if verdict != "good" and instance else ()
     return MotionCheck(
-        scenario.name, instance, letter, verdict, figures, tuple(alarms), why, params, tuple(notes)
+        scenario.name, instance, letter, verdict, figures, tuple(alarms), why, params, tuple(notes), decided
     )
 
 

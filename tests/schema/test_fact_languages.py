@@ -60,3 +60,14 @@ def test_a_sentence_that_several_parameters_have_is_written_once() -> None:
     texts = fact_texts("9pc", "de")
     help_of = load_schema("9pc").parameters["zone.limit3_min"].help
     assert texts.sentences[" ".join(help_of.danger[0].says.split())].startswith("Zonen und Softwareendlagen")
+
+
+@pytest.mark.parametrize("family", family_ids())
+def test_a_danger_is_known_in_three_to_five_words_too_which_are_german_in_a_german_window(
+    family: str,
+) -> None:
+    dangers = [each for p in load_schema(family).parameters.values() for each in p.help.danger]
+    german = fact_texts(family, "de").sentences
+    assert [each.says for each in dangers if not 3 <= len(each.brief.split()) <= 5] == []
+    if family in FAMILIES:
+        assert [each.brief for each in dangers if not 3 <= len(german.get(each.brief, "").split()) <= 5] == []

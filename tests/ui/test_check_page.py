@@ -4,11 +4,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import Document, ParameterFile
 from amp_studio.schema import Value
-from amp_studio.sim import Alarm, MotionCheck
+from amp_studio.sim import Alarm, MotionCheck, picture_of
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import colour, scheme
 from amp_studio.ui.base.workspace import Workspace
@@ -33,6 +34,12 @@ def test_every_scenario_of_the_file_is_a_row_with_its_verdict(router: Workspace,
     qtbot.waitUntil(lambda: not Task.running and len(window.checks) >= 16, timeout=10 * WAIT_MS)
     assert window.table.rowCount() == len(window.checks)
     assert window.summary.text() == "16 good"
+    window.table.setCurrentCell(1, 0)
+    assert window.plot.picture is not None, "the move of a check is seen beside it"
+    drawn, expected = window.plot.picture, picture_of(window.checks[1].trace)
+    assert [panel.title for panel in drawn.panels] == [panel.title for panel in expected.panels]
+    assert window.title.text() == "Step · Y · good"
+    assert window.table.item(1, 0).data(Qt.ItemDataRole.AccessibleTextRole) == "Step Y: good"
     assert {check.scenario for check in window.checks} == {
         "step",
         "home",
@@ -84,7 +91,7 @@ def test_what_is_bad_comes_first_and_a_row_stays_its_own_check(router: Workspace
     qtbot.addWidget(page)
     for verdict, axis in (("good", "X"), ("not possible", "S"), ("bad", "Y"), ("good", "Z"), ("bad", "Z")):
         page.show_check(MotionCheck("jog", axis, axis, verdict))
-    assert [page.table.item(row, 2).text() for row in range(5)] == ["Y", "Z", "X", "Z", "S"]
+    assert [page.table.item(row, 0).text()[-1] for row in range(5)] == ["Y", "Z", "X", "Z", "S"]
     assert [check.letter for check in page.checks] == ["Y", "Z", "X", "Z", "S"]
     assert page.summary.text() == "2 bad, 2 good, 1 not possible"
 

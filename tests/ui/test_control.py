@@ -22,7 +22,7 @@ from amp_studio.transfer.exchange import Exchange
 from amp_studio.ui.actions import project
 from amp_studio.ui.base.theme import colour, scheme
 from amp_studio.ui.control.conditions import conditions_of
-from amp_studio.ui.control.differences import CONTROL
+from amp_studio.ui.control.differences import CONTROL, MIND
 from amp_studio.ui.control.next_step import PageState, bar_message
 from amp_studio.ui.control.session import ControlSession
 from amp_studio.ui.main_window import MainWindow
@@ -551,3 +551,25 @@ def test_a_file_does_not_take_the_last_control_of_another_family(window: MainWin
     assert exchanges.address_of(window.workspace) == here, "nobody knows what it is"
     exchanges.remember_contact(here, "connect", reached=True, family="57c422b")
     assert exchanges.address_of(window.workspace) == ""
+
+
+def test_values_sent_from_another_page_are_sent_alone_and_what_to_mind_has_a_few_words_and_the_whole_below(
+    window: MainWindow, start_control: Start, qtbot: QtBot
+) -> None:
+    control = start_control(file=nearly(window))
+    window.control.exchanges.choose(window.workspace, control.address)
+    window.control.show("send", only=[EXCESS])
+    page = settled(window, qtbot)
+    assert {row.difference.address for row in page.table.rows_taking(file=True)} == {EXCESS}
+    assert page.primary.text() == "Send 1 Value to the Control"
+    page.table.select(EXCESS)
+    assert page.table.currentItem().text(MIND) == "later stop when it fails"
+    assert "This limit guards against damage" in page.detail.text()
+    page.table.select(("servo.excess_error", "2"))
+    page.table.take([("servo.excess_error", "2")], file=True)
+    window.control.leave()
+    window.control.show("send", only=[EXCESS])
+    assert page.primary.text() == "Send 2 Values to the Control", "a choice stays"
+    window.control.leave()
+    window.control.show("send")
+    assert page.primary.text() == "Send 3 Values to the Control", "all of them, as from the tool bar"

@@ -170,3 +170,16 @@ def test_what_the_steps_of_a_family_show_are_scenarios_that_it_has() -> None:
             assert step.shows.scenario in (*law.motion.scenarios, *law.own()), step.title
             families.add(family)
     assert families == {"9pc", "num", "syntec", "57c422b", "acromill"}
+
+
+def test_what_is_proposed_is_taken_into_the_file_and_sent_alone(
+    guided: TuningSteps, workspace: Workspace, qtbot: QtBot
+) -> None:
+    guided._propose((Recommendation(GAIN[0], 2100.0, "", "calm"),), "")
+    assert guided.send.isVisible()
+    with qtbot.waitSignal(guided.send_wanted) as wanted:
+        guided.send.click()
+    assert wanted.args == [[GAIN]]
+    assert workspace.file.get(GAIN).value == 2100
+    guided._propose((), "")
+    assert not guided.send.isVisible(), "nothing is proposed"

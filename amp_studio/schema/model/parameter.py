@@ -203,6 +203,8 @@ class HelpNote(Model):
 
     says: str
     page: Page
+    brief: str = ""
+    """Of a danger: three to five words for a column beside the value."""
 
 
 class Help(Model):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,6 +11,7 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QFileDialog, QStackedWidget
 
 from amp_studio.files import Document, ParameterFile, settle
+from amp_studio.schema import Address
 from amp_studio.ui.base.emulated_control import EmulatedControl
 from amp_studio.ui.base.known_controls import ControlVerb
 from amp_studio.ui.base.modal import is_alive
@@ -193,8 +194,12 @@ class ControlDesk(Translated):
         if not self.is_shown:
             self.show(self._page.direction if self._page is not None and self._page.workspace else "send")
 
-    def show(self, direction: ExchangeDirection, address: str = "") -> None:
-        """Show the page in a direction; the key that opened it is its primary button the second time."""
+    def show(
+        self, direction: ExchangeDirection, address: str = "", *, only: Iterable[Address] | None = None
+    ) -> None:
+        """Show the page in a direction; the key that opened it is its primary button the second time. Of what
+        differs ``only`` these values are to be sent, unless another choice is made.
+        """
         workspace = self.window.workspace
         if direction == "send" and workspace is not None and not self._has_a_way(workspace):
             direction = "hand"  # nothing can be sent: keyed in by hand
@@ -206,7 +211,7 @@ class ControlDesk(Translated):
         if self.window.table_view is not None and not self.window.table_view.finish():
             return
         page.known.several.setChecked(False)
-        page.show_file(workspace, direction)
+        page.show_file(workspace, direction, only)
         self._centre.setCurrentWidget(page)
         self.window.docks.show_page(None)
         self.window.enable()

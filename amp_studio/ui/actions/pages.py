@@ -181,11 +181,12 @@ def open_tuning(window: PartsWindow) -> None:
         return
     from amp_studio.ui.motion.tuning_page import TuningView
 
-    _turn(
-        window,
-        TUNING,
-        lambda page: TuningView(page.workspace, partial(_connect, page.workspace, window.control.exchanges)),
-    )
+    def make(page: FilePage) -> TuningView:
+        made = TuningView(page.workspace, partial(_connect, page.workspace, window.control.exchanges))
+        made.send_wanted.connect(lambda addresses: window.control.show("send", only=addresses))
+        return made
+
+    _turn(window, TUNING, make)
 
 
 def _connect(workspace: Workspace, exchanges: ControlExchange) -> LiveTuning | None:

@@ -4,6 +4,7 @@ it.
 
 from __future__ import annotations
 
+import html
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -12,20 +13,20 @@ from PySide6.QtGui import QFontMetrics, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QTreeWidget, QTreeWidgetItem
 
 from amp_studio.files import Difference, ParameterFile, describe, shown_axes
-from amp_studio.report import Danger, dangers_of_change
+from amp_studio.report import Danger, dangers_of_change, takes_effect
 from amp_studio.schema import Address
 from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.places import short_place
 from amp_studio.ui.base.theme import GAP2, GAP3, ROW, SMALL_ICON, colour, font, icon, scheme, severity_icon
-from amp_studio.ui.base.translated import facts_in_words
+from amp_studio.ui.base.translated import facts_in_words, worded
 
 from .session import BackupReturn
 
 NUMBER, NAME, AXIS, CONTROL, FILE, MIND = range(6)
 _NAME, _LEAST_NAME, _SIDE, _LEAST_SIDE = 260, 130, 150, 96
-_MOST_NUMBER = 84
-"""Widths in pixels of the names and of a side, where there is room and where there is not; and of a number at
-most. A side whose name needs more has more where there is room."""
+_MOST_NUMBER, _MOST_MIND = 84, 200
+"""Widths in pixels of the names and of a side, where there is room and where there is not; and of a number and
+of what is to be minded at most. A side whose name needs more has more where there is room."""
 _ADDRESS = Qt.ItemDataRole.UserRole + 1
 
 
@@ -70,6 +71,7 @@ class DifferenceTable(QTreeWidget):
         self._items: dict[Address, QTreeWidgetItem] = {}
         self._file: ParameterFile | None = None
         self._secrets = self._is_narrow = False
+        self._wanted: frozenset[Address] | None = None
         self.itemClicked.connect(self._click)
         self.header().setStretchLastSection(True)
         self.header().setTextElideMode(Qt.TextElideMode.ElideRight)
@@ -91,6 +93,15 @@ class DifferenceTable(QTreeWidget):
         self.headerItem().setText(CONTROL, f"A  {control}")
         self.headerItem().setText(FILE, f"B  {file}")
         self._share_room()
+
+    def begin_with(self, only: Iterable[Address] | None) -> None:
+        """Take the file's side of these values alone, of all with None; what was chosen before is forgotten
+        where that is another beginning.
+        """
+        wanted = None if only is None else frozenset(only)
+        if wanted != self._wanted:
+            self._wanted = wanted
+            self.show_nothing()
 
     def show_nothing(self) -> None:
         """Forget what differed, and the choices."""
@@ -124,7 +135,8 @@ class DifferenceTable(QTreeWidget):
             only = difference.a is None if to_control else difference.b is None
             only = only and returns != "whole"
             dangers = dangers_of_change(file, [difference], facts_in_words(file.schema))
-            takes = not only and before.get(difference.address, True)
+            begun = self._wanted is None or difference.address in self._wanted
+            takes = not only and before.get(difference.address, begun)
             self.rows[difference.address] = SideRow(difference, takes, dangers, only or not is_chosen)
         screen_text = set(shown_axes(file)) if schema.family.fits_axes else None
         blocks: dict[str, list[Address]] = {}
@@ -156,7 +168,9 @@ class DifferenceTable(QTreeWidget):
         room = self.viewport().width() - self.columnWidth(NUMBER) - self.columnWidth(AXIS)
         names = [self.header().sectionSizeHint(column) for column in (CONTROL, FILE)]
         side = min(max(_SIDE, *names), max(_LEAST_SIDE, room // 4))
-        mind = max(_LEAST_SIDE, self.header().sectionSizeHint(MIND))
+        words = {item.text(MIND) for item in self._items.values()}
+        needed = SMALL_ICON + 2 * GAP2 + max(map(metrics.horizontalAdvance, words), default=0)
+        mind = max(_LEAST_SIDE, self.header().sectionSizeHint(MIND), min(needed, _MOST_MIND, room // 3))
         for column, width in (
             (NAME, max(_LEAST_NAME, min(_NAME, room - 2 * side - mind))),
             (CONTROL, side),
@@ -227,8 +241,9 @@ class DifferenceTable(QTreeWidget):
             item.setText(MIND, self._by_width(self.tr("kept"), self.tr("the control's value stays")))
             item.setIcon(MIND, icon("circle", "panel"))
         elif row.dangers:
-            words = self._by_width(self.tr("danger"), self.tr("danger, page {page}"))
-            item.setText(MIND, words.format(page=row.dangers[0].page))
+            danger = row.dangers[0]
+            item.setText(MIND, danger.brief or self.tr("danger, page {page}").format(page=danger.page))
+            item.setToolTip(MIND, "\n".join(each.says for each in row.dangers))
             item.setIcon(MIND, severity_icon("error"))
         else:
             item.setText(MIND, "")
@@ -246,6 +261,20 @@ class DifferenceTable(QTreeWidget):
         """Return the selected row."""
         item = self.currentItem()
         return self.rows.get(item.data(0, _ADDRESS)) if item is not None and item.data(0, _ADDRESS) else None
+
+    def current_in_words(self, *, with_dangers: bool) -> str:
+        """Return the selected value as HTML: its name, and its dangers or when it takes effect."""
+        row = self.current()
+        if row is None or self._file is None:
+            return ""
+        address, schema = row.difference.address, self._file.schema
+        name = " ".join(filter(None, (describe(self._file, address), short_place(self._file, address))))
+        dangers = row.dangers if with_dangers else ()
+        effect = takes_effect(schema, schema.parameters[address[0]])
+        lines = [f"{each.says} ({self.tr('page {page}').format(page=each.page)})" for each in dangers]
+        if not dangers:
+            lines = [self.tr("Takes effect: {when}.").format(when=worded(effect))]
+        return f"<b>{html.escape(name)}</b><br>{html.escape(' '.join(lines))}"
 
     def take(self, addresses: Iterable[Address], *, file: bool) -> None:
         """Take one side for some rows."""

@@ -4,7 +4,7 @@ Nothing of it asks in a box.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,7 +12,7 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QKeySequence, QShortcut
 
 from amp_studio.files import ParameterFile, describe
-from amp_studio.schema import Value
+from amp_studio.schema import Address, Value
 from amp_studio.ui.base.theme import scheme
 from amp_studio.ui.base.translated import message_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
@@ -97,14 +97,15 @@ class ControlPage(ControlPageParts):
 
     # -- what is shown -------------------------------------------------------------
 
-    def show_file(self, workspace: Workspace | None, direction: ExchangeDirection) -> None:
-        """Show the exchanges of a file in a direction; without a file a control can be read into a new
-        one.
-        """
+    def show_file(
+        self, workspace: Workspace | None, direction: ExchangeDirection, only: Iterable[Address] | None = None
+    ) -> None:
+        """Show the exchanges of a file in a direction; without one a control is read into a new file."""
         if workspace is not self.workspace:
             self.workspace, self.backup = workspace, None
             self._accepted_errors = False
             self.table.show_nothing()
+        self.table.begin_with(only)
         self.turn(direction)
 
     def turn(self, direction: str) -> None:
@@ -360,12 +361,10 @@ class ControlPage(ControlPageParts):
         self.refresh()
 
     def _show_detail(self) -> None:
-        """Show the dangers of the current row, and what can be done with it alone."""
+        """Show what the current row is about, and what can be done with it alone."""
         row, session = self.table.current(), self.session
         is_sending = self.direction == "send"
-        dangers = row.dangers if row is not None and is_sending else ()
-        page = self.tr("page {page}")
-        self.detail.setText(" ".join(f"{each.says} ({page.format(page=each.page)})" for each in dangers))
+        self.detail.setText(self.table.current_in_words(with_dangers=is_sending))
         is_ready = session is not None and session.phase == "ready"
         self._show_row_buttons(row if is_sending and is_ready else None)
         count = len(self.table.dangers()) if is_sending else 0

@@ -98,7 +98,7 @@ class ControlPageParts(QWidget):
         self.detail.setWordWrap(True)
         self.detail.setTextFormat(Qt.TextFormat.RichText)
         self.detail.setAlignment(Qt.AlignmentFlag.AlignTop)
-        self.detail.setFixedHeight(64)
+        self.detail.setFixedHeight(84)  # four lines and the name: a long danger in a small window
         self.detail.setContentsMargins(GAP3, GAP2, GAP3, 0)
         self.keep = QPushButton()
         self.one = QPushButton(tr("Write This One Now"))
@@ -158,6 +158,7 @@ class ControlPageParts(QWidget):
         self.steps.setHidden(is_narrow)
         self.steps_line.setVisible(is_narrow)
         self.table.show_short_words(is_narrow)
+        self.directions.show_icons(not is_narrow)
 
     def enable_choices(self, *, has_file: bool) -> None:
         """Enable what needs a file, and what several controls can do."""

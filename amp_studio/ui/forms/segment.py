@@ -64,6 +64,15 @@ class Segment(QWidget):
         for each, button in self.buttons.items():
             button.setChecked(each == key)
 
+    def show_icons(self, wanted: bool) -> None:
+        """Show the icons beside the texts, or the texts alone where there is little room."""
+        style = Qt.ToolButtonStyle
+        for button in self.buttons.values():
+            if button.text() and not button.icon().isNull():
+                button.setToolButtonStyle(
+                    style.ToolButtonTextBesideIcon if wanted else style.ToolButtonTextOnly
+                )
+
     @property
     def choice(self) -> str | None:
         """The key of the pressed button."""

@@ -1,5 +1,5 @@
-"""The page Machine of a file: every scenario that it allows, with verdict, figures and parameters
-to look at.
+"""The page Machine of a file: every scenario that it allows with its verdict and a figure; of the chosen one
+its picture, what is not good, all figures, and parameters to look at.
 """
 
 from __future__ import annotations
@@ -11,24 +11,28 @@ from collections import Counter
 from collections.abc import Callable
 
 from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtGui import QResizeEvent, QShowEvent
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
     QHBoxLayout,
     QHeaderView,
     QLabel,
     QPushButton,
+    QSplitter,
     QTableWidget,
     QTableWidgetItem,
     QVBoxLayout,
+    QWidget,
 )
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import unit_text
-from amp_studio.sim import MotionCheck, SimulationError, check_motion, value_text
+from amp_studio.sim import MotionCheck, SimulationError, check_motion, picture_of, value_text
+from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import GAP2, GAP3, ROW, Token, colour, font, icon, scheme
 from amp_studio.ui.base.translated import scenario_in_words, sentenced, worded
 from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.page.page_of_file import PageOfFile
 
 from .results import name_of
@@ -40,8 +44,6 @@ MARKS: dict[str, tuple[str, Token]] = {
     "not possible": ("circle-dashed", "dim"),
 }
 """Verdict -> its icon."""
-_LEAST_REASON = 240
-"""Pixels for a reason at least, however narrow the window is."""
 
 
 class _Checking(QObject):
@@ -82,6 +84,8 @@ class CheckPage(PageOfFile):
         self._workspace, self._show_parameter = workspace, show_parameter
         self._checking: _Checking | None = None
         self.checks: list[MotionCheck] = []
+        self._drawn: MotionCheck | None = None
+        self._begun_with: MotionCheck | None = None
         self._task: Task | None = None
         self._is_stale = True
         workspace.changed.connect(self._after_edit)
@@ -89,21 +93,13 @@ class CheckPage(PageOfFile):
         self.setAccessibleName(self.tr("Check in Motion"))
         self.summary = QLabel()
         self.summary.setFont(font("text", own=True))
-        self.table = QTableWidget(0, 5)
-        self.table.setHorizontalHeaderLabels(
-            [
-                self.tr("Verdict"),
-                self.tr("Scenario"),
-                self.tr("Axis"),
-                self.tr("What is not good"),
-                self.tr("Figures"),
-            ]
-        )
+        self.table = QTableWidget(0, 2)
+        self.table.setHorizontalHeaderLabels([self.tr("Scenario"), self.tr("Figure")])
         self.table.verticalHeader().setDefaultSectionSize(ROW)
         self.table.setAccessibleName(self.tr("Checks of the machine in motion"))
         self.table.setEditTriggers(QTableWidget.EditTrigger.NoEditTriggers)
         self.table.setSelectionBehavior(QTableWidget.SelectionBehavior.SelectRows)
-        self.table.setWordWrap(True)
+        self.table.setShowGrid(False)
         self.table.verticalHeader().hide()
         head = self.table.horizontalHeader()
         head.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
@@ -112,6 +108,9 @@ class CheckPage(PageOfFile):
         head.setStretchLastSection(True)
         self.table.currentCellChanged.connect(lambda *_: self._show_detail())
         scheme().changed.connect(self._show_detail)  # a link keeps the colour in which it was written
+        self.title = ElidedLabel()
+        self.title.setFont(font("title", own=True))
+        self.plot = Plot(has_cursors=False)
         self.detail = QLabel()
         self.detail.setWordWrap(True)
         self.detail.setTextFormat(Qt.TextFormat.RichText)
@@ -126,17 +125,35 @@ class CheckPage(PageOfFile):
             button.clicked.connect(step)
         self.motion.setEnabled(False)
         self.table.cellActivated.connect(lambda *_: self._show_motion())
+        self._lay_out()
+        self.setFocusProxy(self.table)
+
+    def _lay_out(self) -> None:
+        left, right = QWidget(), QWidget()
+        for side, parts in (
+            (left, (self.table, self.summary)),
+            (right, (self.title, self.plot, self.detail)),
+        ):
+            column = QVBoxLayout(side)
+            column.setContentsMargins(0 if side is left else GAP2, 0, 0, 0)
+            column.setSpacing(GAP2)
+            for part in parts:
+                column.addWidget(part, int(part is self.plot or part is self.table))
         foot = QHBoxLayout()
-        foot.addWidget(self.summary, 1)
+        foot.addStretch()
         foot.addWidget(self.again)
         foot.addWidget(self.motion)
+        right_column = right.layout()
+        assert isinstance(right_column, QVBoxLayout)
+        right_column.addLayout(foot)
+        splitter = QSplitter(Qt.Orientation.Horizontal)
+        for side, share in ((left, 3), (right, 7)):
+            splitter.addWidget(side)
+            splitter.setStretchFactor(splitter.count() - 1, share)
+        splitter.setSizes([3000, 7000])
         column = QVBoxLayout(self)
         column.setContentsMargins(GAP3, GAP3, GAP3, GAP3)
-        column.setSpacing(GAP2)
-        column.addWidget(self.table, 1)
-        column.addWidget(self.detail)
-        column.addLayout(foot)
-        self.setFocusProxy(self.table)
+        column.addWidget(splitter)
 
     def showEvent(self, event: QShowEvent) -> None:
         super().showEvent(event)
@@ -155,6 +172,9 @@ class CheckPage(PageOfFile):
         self.checks.clear()
         self.table.setRowCount(0)
         self.detail.clear()
+        self.title.clear()
+        self.plot.clear_picture()
+        self._drawn = None
         self.motion.setEnabled(False)
         checking = self._checking = _Checking(self._workspace.file.copy())
         checking.checked.connect(self.show_check)
@@ -184,6 +204,8 @@ class CheckPage(PageOfFile):
 
     def _over(self, why: object) -> None:
         self._task = None
+        if self.checks and self._drawn is self._begun_with:  # the person has chosen none: the worst is first
+            self.table.setCurrentCell(0, 0)
         self._sum_up()
         if why:
             self.summary.setText(str(why))
@@ -193,22 +215,18 @@ class CheckPage(PageOfFile):
         row = bisect_right([_ORDER[each.verdict] for each in self.checks], _ORDER[check.verdict])
         self.checks.insert(row, check)
         self.table.insertRow(row)
-        figures = ", ".join(_figure(name, value, unit) for name, (value, unit) in check.figures.items())
         mark, colour_name = MARKS[check.verdict]
-        for column, text in enumerate(
-            (
-                self._word(check.verdict),
-                scenario_in_words(check.scenario),
-                check.letter,
-                sentenced(check.why, self._family),
-                figures,
-            )
-        ):
+        name = " ".join(filter(None, (scenario_in_words(check.scenario), check.letter)))
+        for column, text in enumerate((name, next(iter(_figures(check)), ""))):
             item = QTableWidgetItem(text)
-            item.setToolTip(text)
+            item.setToolTip(f"{text}: {self._word(check.verdict)}")
             if column == 0:
                 item.setIcon(icon(mark, colour_name))
+                item.setData(Qt.ItemDataRole.AccessibleTextRole, item.toolTip())
             self.table.setItem(row, column, item)
+        if self.table.currentRow() < 0:
+            self._begun_with = check
+            self.table.setCurrentCell(0, 0)
         self._sum_up()
 
     def _word(self, verdict: str) -> str:
@@ -227,16 +245,24 @@ class CheckPage(PageOfFile):
         self.summary.setText(", ".join(words))
 
     def _show_detail(self) -> None:
-        """Show the alarms of the current check, and its parameters as links."""
+        """Show the picture of the current check, its alarms and figures, and its parameters as links."""
         row = self.table.currentRow()
         if not 0 <= row < len(self.checks):
             return
         check = self.checks[row]
         self.motion.setEnabled(check.verdict != "not possible")
+        titles = (scenario_in_words(check.scenario), check.letter, self._word(check.verdict))
+        self.title.setText(" · ".join(filter(None, titles)))
+        if check.trace is None:
+            self.plot.clear_picture()
+        elif check is not self._drawn:
+            self.plot.draw(picture_of(check.trace))
+        self._drawn = check
         parts = [
             f"<b>{alarm.code}</b> {html.escape(sentenced(alarm.message, self._family))}"
             for alarm in check.alarms
         ] or [html.escape(sentenced(check.why, self._family))]
+        parts.append(html.escape(", ".join(_figures(check))))
         if check.params:
             names = {each: name_of(self._workspace.file.schema, each) for each in check.params}
             shade = colour("sel").name()
@@ -247,10 +273,10 @@ class CheckPage(PageOfFile):
             parts.append(f"{self.tr('Parameters:')} {links}")
         self.detail.setText("<br>".join(filter(None, parts)))
 
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        """Leave room for the figures beside a long reason, which is whole below the table."""
-        super().resizeEvent(event)
-        self.table.horizontalHeader().setMaximumSectionSize(max(_LEAST_REASON, self.width() * 9 // 20))
+
+def _figures(check: MotionCheck) -> list[str]:
+    """Return the figures of a check in words."""
+    return [_figure(name, value, unit) for name, (value, unit) in check.figures.items()]
 
 
 def _figure(name: str, value: float | None, unit: str) -> str:

@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtCore import QEvent, QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtWidgets import (
     QFileDialog,
@@ -54,6 +54,9 @@ _LIST_WIDTH = 190
 
 class TuningView(PageOfFile):
     """Steps at the left; above them what is tuned, and what the control contains."""
+
+    send_wanted = Signal(list)
+    """Addresses of values of the file that are to be sent to the control, and no others."""
 
     def __init__(self, workspace: Workspace, connect: Connect, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -150,6 +153,7 @@ class TuningView(PageOfFile):
         from .tuning_steps import TuningSteps
 
         steps = TuningSteps(guide, self._workspace, self.guarded)
+        steps.send_wanted.connect(self.send_wanted)
         self.guided.append(steps)
         _put_into(holder, steps)
         steps.show_target(self.target)

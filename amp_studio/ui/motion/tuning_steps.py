@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from PySide6.QtCore import QSize, Qt, QTimer, QUrl
+from PySide6.QtCore import QSize, Qt, QTimer, QUrl, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QHBoxLayout,
@@ -49,7 +49,7 @@ from amp_studio.ui.forms.segment import Segment
 from .results import RecommendationsPage
 from .settings import scrolled
 from .step_detail import StepDetail
-from .tuning_target import TuningTarget
+from .tuning_target import FileTarget, TuningTarget
 
 SETTLE_MS = 250
 """Milliseconds without a further change before it is simulated again."""
@@ -66,6 +66,9 @@ _DONE, _OPEN = "check-circle-fill", "circle"
 
 class TuningSteps(QWidget):
     """One guide of tuning, at the file or at a control."""
+
+    send_wanted = Signal(list)
+    """Addresses of proposed values, in the file by now, that are to be sent to the control, and no others."""
 
     def __init__(
         self, guide: Guide, workspace: Workspace, guarded: Callable[[Callable[[], object]], object]
@@ -126,6 +129,14 @@ class TuningSteps(QWidget):
         self.chart.show_choice(_TUNE)
         self._chart = _TUNE
         self.proposed = RecommendationsPage(self._apply, self._follow)
+        self.send = QPushButton(icon("arrow-line-down"), self.tr("Se&nd…"))
+        self.send.setToolTip(
+            self.tr("Take the proposed values into the file, and send these alone: at the control")
+        )
+        self.send.setAutoDefault(False)
+        self.send.clicked.connect(self._send)
+        self.send.hide()
+        self._found: Sequence[Recommendation] = ()
         self.figures, self.assumed = QLabel(), QLabel()
         for label in (self.figures, self.assumed):
             label.setWordWrap(True)
@@ -166,6 +177,7 @@ class TuningSteps(QWidget):
         column.addLayout(row)
         column.addWidget(self.figures)
         column.addWidget(self.proposed, 1)
+        column.addWidget(self.send, 0, Qt.AlignmentFlag.AlignRight)
         column.addWidget(self.assumed)
         left.setFixedWidth(_LEFT)
         right.setFixedWidth(_RIGHT)
@@ -265,13 +277,14 @@ class TuningSteps(QWidget):
         # A copy: the file may be edited while the threads read it.
         file, axis = self._target.file.copy(), str(self.axis.currentData())
         shows = self.guide.steps[self.steps.currentRow()].shows
+        self.plot.setVisible(
+            shows is not None
+        )  # what is proposed has all the room beside a step without a move
         if shows is not None:
             scenario, settings = shows.scenario, dict(shows.settings)
             # Tapping is of the machine: it finds the spindle and the axis that taps itself.
             on = None if scenario == "tap" else axis
             self._begin("step", lambda: _simulated(file, scenario, on, settings), self._stepped)
-        else:
-            self.plot.clear_picture()
         aim = self._aim
         if self._chart == _MAP:
             self._begin(_MAP, lambda: _simulated(file, "sweep", axis, {}), self._mapped)
@@ -346,6 +359,8 @@ class TuningSteps(QWidget):
             self._target.file.schema, found, lambda name: may and self._address(name) is not None
         )
         self.figures.setText(figures)
+        self._found = found
+        self.send.setVisible(bool(found) and may and isinstance(self._target, FileTarget))
 
     def _pointed(self, x: float, y: float) -> None:
         """Propose the gains of a point of the map: the nearest that was computed."""
@@ -417,17 +432,30 @@ class TuningSteps(QWidget):
         assert self._target is not None
         return address_of(self._target.file, parameter, str(self.axis.currentData()))
 
-    def _apply(self, found: Sequence[Recommendation]) -> None:
-        """Set proposed values as one step, in the file or in the control."""
+    def _values_of(self, found: Sequence[Recommendation]) -> dict[Address, Value | None]:
+        """Return proposed values as the file writes them."""
         assert self._target is not None
-        target, values = self._target, dict[Address, Value | None]()
+        values = dict[Address, Value | None]()
         for each in found:
             address = self._address(each.parameter)
             if address is not None:
-                old = target.file.get(address)
+                old = self._target.file.get(address)
                 whole = old is not None and isinstance(old.value, int) and each.value.is_integer()
                 values[address] = Value(int(each.value) if whole else each.value, each.unit)
+        return values
+
+    def _apply(self, found: Sequence[Recommendation]) -> None:
+        """Set proposed values as one step, in the file or in the control."""
+        assert self._target is not None
+        target, values = self._target, self._values_of(found)
         self._guarded(lambda: self._set_and_record(target, values))
+
+    def _send(self) -> None:
+        """Take what is proposed into the file, and have these values alone sent."""
+        values, found = self._values_of(self._found), self._found
+        self._apply(found)
+        if self._target is not None and all(self._target.file.get(a) == v for a, v in values.items()):
+            self.send_wanted.emit(list(values))
 
     def _set_and_record(self, target: TuningTarget, values: Mapping[Address, Value | None]) -> None:
         """Set values; all that are proposed go into the tuning record, with what the loop had and has. Raises
