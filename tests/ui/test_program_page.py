@@ -88,12 +88,18 @@ def test_a_program_shows_its_time_what_limits_it_and_another_value(
     qtbot.waitUntil(lambda: window.outcome is not None, timeout=10 * WAIT_MS)
     assert window.title.text().startswith("plate.nc: 6 blocks")
     assert "feed as programmed" in [window.limits.item(n, 1).text() for n in range(window.limits.rowCount())]
+    limits = [window.limits.item(n, 1).text() for n in range(window.limits.rowCount())]
+    assert [text for text in limits if "speeds." in text] == [], "a parameter has its name, not its id"
+    row = limits.index("Rapid Speed")
+    window.limits.cellActivated.emit(row, 1)
+    assert window.change_form.answer("change") == "speeds.rapid=+20%", "and is tried as it is typed"
     assert [window.lines.item(n, 1).text() for n in (3, 4)] == ["A", "R"]
     assert window.plot.picture is not None
     window.view.buttons["tilted"].click()
     enter(window, "change", "speeds.rapid=150; speeds.min_corner=+20%")
     qtbot.waitUntil(lambda: window.tries.table.rowCount() == 1, timeout=10 * WAIT_MS)
     assert window.tries.table.item(0, 2).text().startswith("−")
+    assert window.tries.apply_button.text() == "&Apply 2 to File"
     window.tries.apply_button.click()
     assert applied == [
         {("speeds.rapid", ""): Value(150.0, "in/min"), ("speeds.min_corner", ""): Value(6.0, "in/min")}
@@ -119,7 +125,7 @@ def test_changes_that_are_ticked_are_computed_together(
     rows = panel.table.rowCount()
     panel.earlier_button.click()
     qtbot.waitUntil(lambda: panel.table.rowCount() == rows + 1, timeout=10 * WAIT_MS)
-    assert "speeds.rapid" in panel.table.item(rows, 0).text()
+    assert "Rapid Speed" in panel.table.item(rows, 0).text()
     assert panel.table.item(rows, 2).text().startswith("+")
     panel.clear_button.click()
     assert (panel.table.rowCount(), panel.values()) == (0, {})

@@ -25,8 +25,8 @@ from .session import BackupReturn
 NUMBER, NAME, AXIS, CONTROL, FILE, MIND = range(6)
 _NAME, _LEAST_NAME, _SIDE, _LEAST_SIDE = 260, 130, 150, 96
 _MOST_NUMBER, _MOST_MIND = 84, 200
-"""Widths in pixels of the names and of a side, where there is room and where there is not; and of a number and
-of what is to be minded at most. A side whose name needs more has more where there is room."""
+"""Widths in pixels of the names and of a side, where there is room and where there is not; and of a number
+and of what is to be minded at most. A side whose name needs more has more where there is room."""
 _ADDRESS = Qt.ItemDataRole.UserRole + 1
 
 
@@ -95,8 +95,8 @@ class DifferenceTable(QTreeWidget):
         self._share_room()
 
     def begin_with(self, only: Iterable[Address] | None) -> None:
-        """Take the file's side of these values alone, of all with None; what was chosen before is forgotten
-        where that is another beginning.
+        """Take the file's side of these values alone, of all with None; another beginning forgets what
+        was chosen before.
         """
         wanted = None if only is None else frozenset(only)
         if wanted != self._wanted:

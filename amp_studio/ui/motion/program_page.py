@@ -26,7 +26,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.errors import AmpStudioError
 from amp_studio.files import ParameterFile, SavedVersion, day_and_time
-from amp_studio.programs import BlockReader, ProgramBlockError, power_up, read_program
+from amp_studio.programs import ProgramBlockError, read_program
 from amp_studio.schema import Address, Value, read_address
 from amp_studio.sim import (
     JobProgress,
@@ -62,6 +62,7 @@ from amp_studio.ui.forms.form import Field, FieldForm
 from amp_studio.ui.forms.segment import Segment
 from amp_studio.ui.page.page_of_file import PageOfFile
 
+from .program_block import block_fields, block_in_words
 from .program_play import PlayBar, TimeBar, TimePart
 from .program_tables import TableLook, fill, read_table
 from .what_if_panel import WhatIfPanel
@@ -98,6 +99,8 @@ class ProgramPage(PageOfFile):
         super().__init__(parent)
         self._read, self._file, self._apply, self._earlier = read, read(), apply, earlier
         self._job: ProgramJob | None = None
+        self._limiting: list[str] = []
+        """What limits, row by row, as it is typed."""
         self._name = ""
         self.outcome: ProgramRun | None = None
         self._task: Task | None = None
@@ -119,6 +122,7 @@ class ProgramPage(PageOfFile):
         )
         # Of its rows there are a few: what is below has the room.
         self.limits.setSizeAdjustPolicy(QTableWidget.SizeAdjustPolicy.AdjustToContents)
+        self.limits.cellActivated.connect(lambda row, _column: self._begin_try(row))
         self.limits.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Maximum)
         self.tries = WhatIfPanel()
         self.tries.limits_button.clicked.connect(self._try_limits)
@@ -148,29 +152,11 @@ class ProgramPage(PageOfFile):
         self.bar, self.play = TimeBar(), PlayBar()
         self.play.moved.connect(self._show_moment)
         self.words.hide()
-        self.form, self.change_form = FieldForm(self._fields()), FieldForm((self._change_field(),))
+        self.form, self.change_form = FieldForm(block_fields()), FieldForm((self._change_field(),))
         self.form.entered.connect(self._entered)
         self.change_form.entered.connect(lambda _key: self._try(str(self.change_form.answers()["change"])))
         self._lay_out()
         self._say(self.tr("Type a block, or open a part program."))
-
-    def _fields(self) -> Sequence[Field]:
-        return (
-            Field(
-                "block",
-                self.tr("&Block"),
-                hint="G1 X10 F200",
-                tip=self.tr(
-                    "Enter shows each word as this file has it read; empty, what is active after power-up"
-                ),
-            ),
-            Field(
-                "zero",
-                self.tr("&Zero"),
-                hint="X0,Y0",
-                tip=self.tr("Where the zero of the program is in the machine; empty takes work coordinates"),
-            ),
-        )
 
     def _change_field(self) -> Field:
         return Field(
@@ -232,48 +218,14 @@ class ProgramPage(PageOfFile):
 
     def _read_block(self, text: str) -> None:
         """Show the words of a block; without one, what is active after power-up."""
-        if not text.strip():
-            self._show_power_up()
-            return
         try:
-            block = BlockReader(self._read()).read(text)
+            rows, remark = block_in_words(self._read(), text)
         except ProgramBlockError as error:
             self._say(self._worded(str(error)))
             return
-        short = self._file.machine_schema.short
         self.words.show()
-        fill(
-            self.words,
-            [
-                (
-                    word.word,
-                    "" if word.number is None else self._worded(value_text(word.number, word.unit, 9)),
-                    ": ".join(map(self._worded, filter(None, (word.meaning, word.fault)))),
-                    ", ".join(short(address) for address in word.params),
-                )
-                for word in block.words
-            ],
-        )
-        self._say("; ".join(map(self._worded, block.faults or block.assumptions)))
-
-    def _show_power_up(self) -> None:
-        """Show the codes after power-up, what changes them, and the calls of the builder's programs."""
-        found = power_up(self._read())
-        short = self._file.machine_schema.short
-        self.words.show()
-        fill(
-            self.words,
-            [
-                (
-                    line.code,
-                    "",
-                    f"{self._worded(line.what)}: {self._worded(line.meaning)}",
-                    ", ".join(map(short, line.params)),
-                )
-                for line in (*found.active, *found.changes, *found.calls)
-            ],
-        )
-        self._say(self.tr("What is active after power-up, what changes it, and what calls a program."))
+        fill(self.words, rows)
+        self._say(remark)
 
     # -- a program -----------------------------------------------------------------
 
@@ -372,8 +324,8 @@ class ProgramPage(PageOfFile):
         self._begin(lambda show: versions(job, named, show), self._show_versions)
 
     def _version_name(self, version: SavedVersion) -> str:
-        short = self._file.machine_schema.short
-        changed = ", ".join(short(read_address(each)) for each in version.changed[:3])
+        label = self._file.machine_schema.label
+        changed = ", ".join(label(read_address(each)) for each in version.changed[:3])
         more = ", …" if len(version.changed) > 3 else ""
         return self.tr("Before {time}").format(time=day_and_time(version.when)) + f" ({changed}{more})"
 
@@ -426,18 +378,20 @@ class ProgramPage(PageOfFile):
     def _show(self, run: ProgramRun) -> None:
         self.outcome = run
         self.tries.clear()
+        limited = limited_by(self._file, run)
         fill(
             self.limits,
             [
                 (
                     row["letter"],
-                    f"{worded(row['name'])}  {row['param']}".rstrip(),
+                    " ".join(filter(None, (self._number_of(row["param"]), worded(row["name"])))),
                     written(f"{row['time_s']:.3g}"),
                     f"{100 * row['share']:.0f}",
                 )
-                for row in limited_by(self._file, run)
+                for row in limited
             ],
         )
+        self._limiting = [row["param"] for row in limited]
         assert self._job is not None
         listed = {
             n: (letter, written(f"{time:.3g}")) for n, (letter, time) in line_rows(run, MOST_LINES).items()
@@ -460,13 +414,23 @@ class ProgramPage(PageOfFile):
         self.bar.show_parts(
             [
                 TimePart(row["letter"], worded(row["name"]), row["time_s"], limit_sort(row["letter"]))
-                for row in limited_by(self._file, run)
+                for row in limited
             ]
         )
         self.play.show_program(run.plan.time)
         text = self.tr("Cutter radius compensation and the tool are not simulated. Assumed: {count}")
         self.missing.setText(text.format(count=len(run.assumptions)))
         self.missing.setToolTip("\n".join(map(self._worded, run.assumptions)))
+
+    def _number_of(self, typed: str) -> str:
+        """Return the number of a parameter as the control shows it; "" of one that has a name alone."""
+        return "" if read_address(typed)[0] in self._file.schema.parameters else typed
+
+    def _begin_try(self, row: int) -> None:
+        """Begin to try another value of what limits: its parameter is in the field, as it is typed."""
+        if row < len(self._limiting) and self._limiting[row]:
+            self.change_form.set_answer("change", f"{self._limiting[row]}=+20%")
+            self.change_form.editors["change"].setFocus()
 
     def _worded(self, text: str) -> str:
         return sentenced(text, self._read().schema.family.family)
@@ -500,7 +464,7 @@ class ProgramPage(PageOfFile):
                 notes.append(tried.why_not)
                 continue
             found = try_summary(self._file, self.outcome, tried)
-            named = map(self._file.machine_schema.named, tried.changes)
+            named = map(self._file.machine_schema.label, tried.changes)
             changes = [
                 f"{name}\n{one['from']} → {one['to']}"
                 for name, one in zip(named, found["changes"], strict=True)

@@ -134,5 +134,8 @@ class WhatIfPanel(QWidget):
         self.ticked.emit()
 
     def _show_buttons(self) -> None:
-        self.apply_button.setEnabled(bool(self.chosen()))
+        count = len(self.values())
+        text = self.tr("&Apply %n to File", "", count) if count else self.tr("&Apply to File")
+        self.apply_button.setText(text)
+        self.apply_button.setEnabled(bool(count))
         self.clear_button.setEnabled(bool(self._values))
