@@ -47,6 +47,7 @@ OF_AXIS = (
     "feed_forward",
     "backlash",
     "scale",
+    "output.sign",
     "home.kind",
     "home.coordinate",
     "home.offset",

@@ -76,6 +76,7 @@ def migrate(file: ParameterFile, target: str, answers: Mapping[str, str] | None 
     if not machine.axes:
         raise TargetError("no axis of the file is fitted: there is nothing to migrate")
     _refuse_crossed(machine)
+    _refuse_turning(machine)
     written: WrittenMachine = load_part(registration_of(target).migrate)(machine, answers or {})
     # Only now is it known which questions this machine raises: a misspelt answer must not be passed
     # over.
@@ -95,6 +96,16 @@ def _refuse_crossed(machine: MachineMeaning) -> None:
             raise TargetError(
                 f"The limits of {axis.letter} are crossed, {low:g} above {high:g} ({params}):"
                 " mend the file first"
+            )
+
+
+def _refuse_turning(machine: MachineMeaning) -> None:
+    """Raise TargetError for an axis that turns by its name where no page has the unit of its figures."""
+    for axis in machine.axes:
+        if axis.choice("kind") == "rotary" and not axis.turns:
+            raise TargetError(
+                f"Axis {axis.letter} turns by its name, and no page prints in which unit this control has its"
+                " figures: take the axis out of the file, and set it up at the new control"
             )
 
 

@@ -8,7 +8,7 @@ from amp_studio.assignments import read_assignments
 from amp_studio.cli import run
 from amp_studio.files import ParameterFile, open_file
 from amp_studio.files.example_files import examples_folder
-from amp_studio.meaning import Migration, migrate
+from amp_studio.meaning import Migration, TargetError, migrate
 from amp_studio.meaning.migration import less_safe
 
 
@@ -97,6 +97,33 @@ def test_a_scale_with_coded_markers_is_not_homed_by_a_linuxcnc() -> None:
     assert "HOME_USE_INDEX" not in joint
     assert "HOME_SEARCH_VEL" not in joint
     assert grade(found, "1010") == "not_possible"
+
+
+def test_an_axis_that_turns_in_an_unknown_unit_is_refused() -> None:
+    """The guide of AcroMill knows no axis that turns (page 60): -28 of A would have been 711 mm."""
+    with pytest.raises(TargetError, match="Axis A turns by its name"):
+        migrate(other("acromill-router", {"axes.name@Y": "a"}), "linuxcnc")
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "sign"),
+    [
+        ("num-1060-mill", {}, "above 0"),
+        ("num-1060-mill", {"P20N0": "0x00000001"}, "below 0"),
+        ("acromill-router", {}, "below 0"),
+        ("acromill-router", {"axes.dac_polarity@X": "neg"}, "above 0"),
+        ("mill-1394", {}, None),
+        ("syntec-mill", {}, None),
+    ],
+)
+def test_the_sign_of_the_output_is_graded_where_a_page_prints_it(
+    name: str, values: dict[str, str], sign: str | None
+) -> None:
+    """NUM P20 (6-12) and the DAC polarity of AcroMill (114); a digital drive and a Syntec have none."""
+    written = migrate(other(name, values), "linuxcnc").written
+    found = [g for g in written.graded if (g.axis, g.concept) == ("X", "output.sign")]
+    assert [(g.outcome, g.value) for g in found] == [("approximate", sign)] * bool(sign)
+    assert "OUTPUT_SCALE =" not in next(iter(written.texts.values()))
 
 
 def test_work_offsets_reference_points_and_tools_go_along() -> None:

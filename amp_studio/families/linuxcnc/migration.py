@@ -252,9 +252,21 @@ class _Migration:
             )
         self.out.measure.append(
             f"{axis.letter}: direction and scale of the feedback against a gauge, the way it needs to stop at"
-            " each end, backlash, and the sign of the output to its drive (OUTPUT_SCALE): that of the old"
-            " file is for the old card and its wires"
+            " each end, backlash, and the sign of the output to its drive (OUTPUT_SCALE)"
         )
+        if voltage := axis.number("output.sign"):
+            way = "positive" if voltage > 0.0 else "negative"
+            self.out.grade(
+                axis,
+                "output.sign",
+                "approximate",
+                f"[{j}]OUTPUT_SCALE",
+                "above 0" if voltage > 0.0 else "below 0",
+                f"a {way} voltage moves it in its positive direction",
+                "the same where the drive and its wires stay; the key is not written, as its size is the new"
+                " card's",
+                "neither: try it with the motor off its load",
+            )
 
     def _travel(self, axis: AxisMeaning, j: str, a: str) -> None:
         kind = axis.choice("travel.kind")

@@ -57,6 +57,7 @@ def meanings() -> dict[str, str]:
         "feed_forward": tr("feed forward"),
         "backlash": tr("backlash"),
         "scale": tr("scale of the feedback"),
+        "output.sign": tr("sign of the output"),
         "home.kind": tr("kind of homing"),
         "home.coordinate": tr("position at home"),
         "home.offset": tr("offset of home"),
