@@ -19,7 +19,7 @@ FAMILIES = {
 """Family -> its record."""
 
 SCENARIOS = {
-    "9pc": ("procedure", "hard-stop"),
+    "9pc": ("procedure", "hard-stop", "adaptive-feed"),
     "57c422b": ("procedure", "gear", "cam", "backlash", "passive-home"),
 }
 """Family -> the scenarios that its law alone has, for help and completion, which load no law."""

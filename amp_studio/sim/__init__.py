@@ -17,6 +17,8 @@ from . import one_thread as one_thread
 if TYPE_CHECKING:
     from .axis.file_machine import FileMachine
     from .axis.motion import Motion, Until, run_axis
+    from .axis.moving_axis import MovingAxis
+    from .axis.orders import GoOrder, Seen, Watch
     from .axis.simulated_machine import SimulatedAxis, SimulatedMachine
     from .axis_parameters import AxisParameters, ParameterValue
     from .binding import bind_axis

@@ -10,7 +10,8 @@ from amp_studio.files import open_file
 from amp_studio.files.example_files import examples_folder
 from amp_studio.sim import AxisLaw, law_of
 from amp_studio.sim.axis.motion import Engine, Until, run_axis
-from amp_studio.sim.axis.moving_axis import MovingAxis, Watch, way
+from amp_studio.sim.axis.moving_axis import MovingAxis, way
+from amp_studio.sim.axis.orders import Watch
 from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.command.ramps import move
 from amp_studio.sim.law import Ramp

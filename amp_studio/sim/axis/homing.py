@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from amp_studio.sim.command.events import Around, CodedScale, Failure, Homing, Ramp
 from amp_studio.sim.rounding import page_text, value_text
 
-from .moving_axis import GoOrder, MoveOrder, MovingAxis, Order, Orders, PauseOrder, Seen, StopOrder, Watch
+from .moving_axis import MovingAxis
+from .orders import GoOrder, MoveOrder, Order, Orders, PauseOrder, Seen, StopOrder, Watch
 
 MARKERS = 5.0
 """Turns after which a marker that does not come is none, where no alarm gives the number."""

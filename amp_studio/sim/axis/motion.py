@@ -181,11 +181,7 @@ def prepared(
     x[kernel.ENDED] = x[kernel.ALARM_ROW] = -1.0
     # As if a stride had just passed: the first step writes a row.
     x[kernel.SINCE], x[kernel.SHARE] = float(stride), 1.0
-    machine = _machine_array(axis.machine, step)
-    part = machine[DELAY_SHARE] * step
-    before, after = (
-        _machine_array(axis.machine, span) if part > 0.0 else [*machine] for span in (part, step - part)
-    )
+    machine, before, after = machine_vectors(axis.machine, step)
     # `delayed` reads two places, the farther one ``DELAY_STEPS`` + 1 before the one just written.
     line = [0.0] * (int(machine[DELAY_STEPS]) + 2)
     parameters, state = [float(each) for each in axis.parameters], [0.0] * axis.state_size
@@ -194,6 +190,16 @@ def prepared(
     rows = np.empty(shape) if room is None or room.size < size else room[:size].reshape(shape)
     push = [float(each) for each in axis.push]
     return [parameters, state, io, machine, before, after, x, line, timing, profile, push], rows
+
+
+def machine_vectors(machine: Machine, step: float) -> list[list[float]]:
+    """Return the vectors of a machine over a physics step, and over its parts before and after the delay."""
+    whole = _machine_array(machine, step)
+    part = whole[DELAY_SHARE] * step
+    return [
+        whole,
+        *(_machine_array(machine, span) if part > 0.0 else [*whole] for span in (part, step - part)),
+    ]
 
 
 @lru_cache(maxsize=256)

@@ -8,8 +8,8 @@ behind an emulated control use this class, so that an axis moves at the desk as 
 from __future__ import annotations
 
 import math
-from collections.abc import Generator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -19,13 +19,33 @@ from amp_studio.sim.command.pieces import Piece, change, length
 from amp_studio.sim.command.ramps import exponential_pieces, leg, profile_of
 from amp_studio.sim.engine import kernel
 from amp_studio.sim.engine.compiled import can_compile, compiled, pays, plain
-from amp_studio.sim.engine.machine import POSITION_COUNT, POSITION_COUNTS, TORQUE_NEGATIVE, TORQUE_POSITIVE
+from amp_studio.sim.engine.machine import (
+    POSITION_COUNT,
+    POSITION_COUNTS,
+    TORQUE_NEGATIVE,
+    TORQUE_POSITIVE,
+    Machine,
+)
 from amp_studio.sim.engine.profiles import IN_POSITION, POLYNOMIAL, WIDTH, command, piece_at
 from amp_studio.sim.engine.signals import COMMAND, COMMAND_ACCELERATION, COMMAND_VELOCITY, STOP
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, Ramp
 
-from .motion import AFTER, BEFORE, IO, MOST_ROWS, STATE, TIMING, Engine, Motion, Until, prepared, steps
+from .motion import (
+    AFTER,
+    BEFORE,
+    IO,
+    MOST_ROWS,
+    STATE,
+    TIMING,
+    Engine,
+    Motion,
+    Until,
+    machine_vectors,
+    prepared,
+    steps,
+)
+from .orders import GoOrder, MoveOrder, Order, Orders, PauseOrder, Seen, StopOrder, Watch, one
 
 LAGS = 5.0
 """Time constants of the position loop by which a command goes on beyond the farthest place of an event."""
@@ -43,79 +63,6 @@ LONGEST = 3600.0
 """s of one order that are simulated."""
 LAW_STATE, MACHINE, PROFILE = 1, 3, 9
 """Places among the vectors of the kernel."""
-
-
-@dataclass(frozen=True)
-class Watch:
-    """A place in u that is reported at the first servo sample at which the axis has passed it in a
-    direction.
-    """
-
-    at: float
-    sign: float
-    """1.0 or -1.0."""
-    device: bool = False
-    """Whether it is a place of the position device (a marker, a software limit), not of the load (a
-    switch)."""
-
-
-@dataclass(frozen=True)
-class Seen:
-    """The servo sample that saw a place passed: number of the watch, s,
-    and in u the actual and the measured position.
-    """
-
-    watch: int
-    time: float
-    position: float
-    measured: float
-
-
-@dataclass(frozen=True)
-class GoOrder:
-    """Go at a velocity until a place is passed, at most ``farthest`` u; what was seen is the answer,
-    None for nothing.
-    """
-
-    velocity: float
-    ramp: Ramp
-    watch: Watch
-    farthest: float
-
-
-@dataclass(frozen=True)
-class StopOrder:
-    """Stop along a ramp, and wait until the axis is in position."""
-
-    ramp: Ramp
-    waits: bool = True
-    """Whether it is waited for."""
-
-
-@dataclass(frozen=True)
-class MoveOrder:
-    """Move to a position from rest, and wait until the axis is in position."""
-
-    position: float
-    feedrate: float
-    ramp: Ramp
-
-
-@dataclass(frozen=True)
-class PauseOrder:
-    """Wait for a time, s."""
-
-    time: float
-
-
-Order = GoOrder | StopOrder | MoveOrder | PauseOrder
-Orders = Generator[Order, Seen | None, None]
-"""A sequence as a control goes through it: each order is answered with what it saw."""
-
-
-def one(order: Order) -> Orders:
-    """Return a sequence of one order."""
-    yield order
 
 
 class MovingAxis:
@@ -175,6 +122,11 @@ class MovingAxis:
         return self._origin + float(
             kernel.counted(self._vectors[MACHINE], at, POSITION_COUNT, POSITION_COUNTS)
         )
+
+    @property
+    def torque(self) -> float:
+        """Of the drive, now, in its unit."""
+        return float(self._vectors[STATE][kernel.PLANT + 4])
 
     @property
     def stop_number(self) -> int:
@@ -365,6 +317,12 @@ class MovingAxis:
         """Take the output away at the next servo sample; the axis runs out while it is stepped."""
         self.drop()
         self._vectors[TIMING][kernel.EMERGENCY] = self.time
+
+    def change(self, machine: Machine) -> None:
+        """Go on with another machine, as where a cut begins; it is no stiffer than the first one."""
+        fresh = machine_vectors(machine, self.axis.servo_period / self._steps)
+        for place, vector in zip((MACHINE, BEFORE, AFTER), fresh, strict=True):
+            self._vectors[place][:] = vector
 
     def trip(self) -> None:
         """Take the torque away from the drive, which the control does not notice by itself."""

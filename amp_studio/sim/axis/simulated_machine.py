@@ -18,7 +18,8 @@ from amp_studio.sim.rounding import page_text, rounded_up
 
 from .homing import Homed, home_axis
 from .moves import time_to_speed
-from .moving_axis import GoOrder, MoveOrder, MovingAxis, Orders, StopOrder, Watch
+from .moving_axis import MovingAxis
+from .orders import GoOrder, MoveOrder, Orders, StopOrder, Watch
 
 COAST = 10.0
 """s in which an axis that has lost its drive may run out."""

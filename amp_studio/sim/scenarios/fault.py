@@ -12,7 +12,8 @@ import numpy as np
 
 from amp_studio.sim.axis.motion import Motion
 from amp_studio.sim.axis.moves import MOVE_SETTINGS, Move, move_of
-from amp_studio.sim.axis.moving_axis import MoveOrder, MovingAxis, one
+from amp_studio.sim.axis.moving_axis import MovingAxis
+from amp_studio.sim.axis.orders import MoveOrder, one
 from amp_studio.sim.command.ramps import end_of
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import FAULTS, AxisLaw

@@ -9,7 +9,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from amp_studio.schema import InvalidValueError, read_number
-from amp_studio.sim.axis.moving_axis import MoveOrder, MovingAxis, StopOrder, one
+from amp_studio.sim.axis.moving_axis import MovingAxis
+from amp_studio.sim.axis.orders import MoveOrder, StopOrder, one
 from amp_studio.sim.command.events import Ramp
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, BoundMachine

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 
 from amp_studio.sim.axis.motion import Motion
 from amp_studio.sim.axis.moves import run_up
-from amp_studio.sim.axis.moving_axis import MovingAxis, Seen, Watch
+from amp_studio.sim.axis.moving_axis import MovingAxis
+from amp_studio.sim.axis.orders import Seen, Watch
 from amp_studio.sim.command.events import Ramp
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, BoundMachine

@@ -9,7 +9,8 @@ import numpy as np
 
 from amp_studio.sim.axis.motion import Motion
 from amp_studio.sim.axis.moves import feedrate_of, run_up
-from amp_studio.sim.axis.moving_axis import MovingAxis, Seen, Watch
+from amp_studio.sim.axis.moving_axis import MovingAxis
+from amp_studio.sim.axis.orders import Seen, Watch
 from amp_studio.sim.command.events import Travel
 from amp_studio.sim.engine.kernel import STANDSTILL
 from amp_studio.sim.errors import SimulationError
