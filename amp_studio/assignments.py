@@ -52,13 +52,13 @@ def read_assignments(
     for param, text in assignments:
         try:
             resolved = resolve_address(trial.evaluation, param)
-            address, bit = resolved.address, resolved.bit
+            address = resolved.address
             if isinstance(text, Value):
                 values[address] = text
                 trial.set(address, text)
                 continue
-            value = _read_assigned(trial, param, address, bit, text)
-            if bit is None and address in values and values[address] != value:
+            value = _read_assigned(trial, param, address, resolved.bit, text)
+            if resolved.bit is None and values.get(address, value) != value:
                 raise ValueError("it is given two values")
             values[address] = value
         except UnknownParameterError as error:

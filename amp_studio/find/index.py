@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from .entries import KINDS, WORTH, Entry, Where, searched_words
@@ -36,6 +36,20 @@ class _WordMatch(NamedTuple):
     worth: float
     where: Where
     word: str
+
+
+def _with_enough(
+    found: dict[int, dict[str, _WordMatch]], words: Sequence[str]
+) -> Iterator[tuple[int, list[str]]]:
+    """Yield the entries that have enough of the words, and which words each of them lacks."""
+    # Where one entry has all words, others may lack few of them; where none has, up to half may be missing.
+    whole = any(len(hits) == len(words) for hits in found.values())
+    most = len(words) // (_FORGOTTEN if whole else 2)
+    for n, hits in found.items():
+        missing = [word for word in words if word not in hits]
+        # A number is never forgotten: who types 1300 does not mean another parameter.
+        if len(missing) <= most and not any(map(_has_digit, missing)):
+            yield n, missing
 
 
 def _has_digit(word: str) -> bool:
@@ -83,17 +97,8 @@ class SearchIndex:
         total = sum(weights.values())
         asked = " ".join(words_of(query))
         best = []
-        # Where one entry has all words, others may lack few of them; where none has, up to half may be
-        # missing.
-        whole = any(len(hits) == len(words) for hits in found.values())
-        for n, hits in found.items():
-            missing = [word for word in words if word not in hits]
-            # A number is never forgotten: who types 1300 does not mean another parameter.
-            if len(missing) > (len(words) // _FORGOTTEN if whole else len(words) // 2) or any(
-                map(_has_digit, missing)
-            ):
-                continue
-            score = sum(weights[word] * hit.worth for word, hit in hits.items()) / total
+        for n, missing in _with_enough(found, words):
+            score = sum(weights[word] * hit.worth for word, hit in found[n].items()) / total
             score = (score + self._phrase(asked, n)) * KINDS[self.entries[n].kind] * _MISSING ** len(missing)
             # The place as a negative number: of equal scores the one that is earlier in the manual sorts
             # first.

@@ -89,6 +89,14 @@ def _has_instance(schema: Schema, parameter: Parameter, instance: str) -> bool:
     return any(instance in schema.on(machine.key).instances(parameter) for machine in machines)
 
 
+def _value_text(parameter: Parameter | None, row: dict[str, str]) -> tuple[str, bool]:
+    """Return the text of a value with its unit, and whether it sets nothing."""
+    # A text has no unit, its blanks are its own, and an empty one is a value.
+    if parameter is not None and parameter.type == "text":
+        return row["value"], False
+    return f"{row['value']} {row['unit']}".strip(), not row["value"].strip()
+
+
 def _read_row(
     result: TextRead, schema: Schema, heads: list[str], cells: list[str], line: int, keep_unknown: bool
 ) -> None:
@@ -99,9 +107,7 @@ def _read_row(
     row = dict(zip(heads, map(cell_text, cells), strict=True))
     address: Address = (row["id"].strip(), row.get("instance", "").strip())
     parameter = schema.parameters.get(address[0])
-    is_text = parameter is not None and parameter.type == "text"
-    # A text has no unit, and its blanks are its own.
-    text = row["value"] if is_text else f"{row['value']} {row['unit']}".strip()
+    text, is_empty = _value_text(parameter, row)
     column = heads.index("id") + 1
     if parameter is None or not _has_instance(schema, parameter, address[1]):
         if not keep_unknown:
@@ -110,8 +116,7 @@ def _read_row(
         return
     if address in result.values:
         raise FormatError(f"{written(address)} occurs twice", line, column)
-    # An empty cell sets nothing; an empty text is a value.
-    if not row["value"].strip() and not is_text:
+    if is_empty:
         return
     if is_mask(parameter, row["value"]):
         result.notes.append(f"{written(address)} is a secret that this table does not contain; it is not set")

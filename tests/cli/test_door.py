@@ -49,6 +49,7 @@ PAST_THE_DOOR = {
     "work of one verb alone, which the door does not offer": {
         "files/like.py": "files",
         "files/marked.py": "find guide transfer",
+        "motion/trigger.py": "sim",
         "verbs/checks/compare.py": "meaning",
         "verbs/checks/diff.py": "files transfer",
         "verbs/checks/merge.py": "files ui validate",

@@ -50,20 +50,29 @@ def state_of(
     writing: Writing, content: GrblContent, *, has_lost_memory: bool = False
 ) -> tuple[AtControl, tuple[str, ...]]:
     """Return what a control that shows ``content`` contains of a download, and which settings are new."""
-    present, wanted = names_of(writing.present), names_of(writing.target)
-    names = {f"${n}" for n in writing.settings} | writing.others.keys()
-    # Rates of single axes come and go with $22: only what was there or is sent can be old or new.
-    wanted = {name: text for name, text in wanted.items() if name in names or name in present}
-    wanted |= {name: text for name, text in present.items() if name not in names}
+    present, names = names_of(writing.present), {f"${n}" for n in writing.settings} | writing.others.keys()
+    wanted = _wanted(writing, names, present)
     now = _seen(writing, content, names, present, wanted)
     changed = [n for n in present if n not in names and now.get(n) != present[n]]
-    known = {*present, *wanted}
-    at, new = state_after_break(present, wanted, {n: t for n, t in now.items() if n in known})
+    known = {name: now[name] for name in now.keys() & {*present, *wanted}}
+    at, new = state_after_break(present, wanted, known)
     # Many others at once: the control has restarted with its defaults.
     if (has_lost_memory and at != "old") or len(changed) >= _MANY:
-        after = writing.sent.unanswered  # what a control that has just restarted has still taken
-        return "defaults", (after,) if after and now.get(after) == wanted.get(after) else ()
+        return "defaults", _still_new(writing.sent.unanswered, now, wanted)
     return at, new
+
+
+def _still_new(last: str, now: Mapping[str, str], wanted: Mapping[str, str]) -> tuple[str, ...]:
+    """Return the last setting that was sent where a control that has just restarted has still taken it."""
+    return (last,) if last and now.get(last) == wanted.get(last) else ()
+
+
+def _wanted(writing: Writing, names: Collection[str], present: Mapping[str, str]) -> dict[str, str]:
+    """Return what the control contains after a whole download, by name."""
+    target = names_of(writing.target)
+    # Rates of single axes come and go with $22: only what was there or is sent can be old or new.
+    wanted = {name: text for name, text in target.items() if name in names or name in present}
+    return wanted | {name: text for name, text in present.items() if name not in names}
 
 
 def _seen(

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from itertools import chain
 
 from amp_studio.files import Header, ParameterFile, fitted_axes
 from amp_studio.schema import Address, InvalidValueError, Schema, Value, fault, show_value
@@ -59,47 +60,56 @@ def fit_to(file: ParameterFile, schema: Schema, axes: Sequence[str]) -> Fitted:
     """Return a file with the same settings by another schema, by their numbers;
     ``axes`` are those of the control.
     """
-    header = {**vars(file.header), "extra": dict(file.header.extra), "signature": schema.signature}
-    machine = file.machine if file.machine in schema.machines else schema.family.default_machine
-    found = ParameterFile(schema, Header(**{**header, "machine": machine}))
+    found = _begun(file, schema)
     known = addresses_by_number(found.machine_schema)
     no_room = bits_beyond(build_of(file), Build(found.machine_schema, axes), axes_only=True)
     lost: dict[int, dict[int, str]] = {}
     misfits: list[Misfit] = []
-    given = [(address, value) for address, value in file.values.items()]
+    read = chain.from_iterable(c.reads.values() for c in schema.family.conditions.values())
+    deciding = {text.partition("@")[0] for text in read}
     # First what decides whether others exist and what they are measured in.
-    deciding = {
-        text.partition("@")[0] for c in schema.family.conditions.values() for text in c.reads.values()
-    }
-    for address, value in sorted(given, key=lambda pair: pair[0][0] not in deciding):
+    for address, value in sorted(file.values.items(), key=lambda pair: pair[0][0] not in deciding):
         number = number_at(file.machine_schema, address)
         if number is None:
             if address in found.machine_schema.addresses:
                 found.set(address, value)
         # What is hidden is not in the control that the file is of.
         elif file.evaluation.state(address).state != "hidden":
-            # A bit of an axis that is not there would be refused, or be that of another option.
-            if number in no_room and isinstance(value.value, (int, float)):
-                bits = no_room[number]
-                text = str(int(value.value))
-                if gone := set_bits(text, bits):
-                    lost[number] = gone
-                cut = replace(value, value=int(with_bits(text, bits, "0")))
-                misfits += _set(file, found, address, cut, known.get(number))
-            else:
-                misfits += _set(file, found, address, value, known.get(number))
+            cut, gone = _without(value, no_room.get(number, {}))
+            lost |= {number: gone} if gone else {}
+            misfits += _set(file, found, address, cut, known.get(number))
     for key, text in file.unknown.items():
-        number = int(key[1:]) if re.fullmatch(r"\$[0-9]{1,5}", key) else None
-        if number is None:
-            found.unknown[key] = text
+        if re.fullmatch(r"\$[0-9]{1,5}", key):
+            misfits += _set_text(found, known.get(int(key[1:])), key, text)
         else:
-            misfits += _set_text(found, known.get(number), key, text)
-    misfits += [
-        Misfit(found.machine_schema.label(a), show_value(schema.parameters[a[0]], v), why)
+            found.unknown[key] = text
+    return Fitted(found, (*misfits, *_refused(found)), lost)
+
+
+def _begun(file: ParameterFile, schema: Schema) -> ParameterFile:
+    """Return a file without values by another schema, with the header of this one."""
+    machine = file.machine if file.machine in schema.machines else schema.family.default_machine
+    header = {"extra": dict(file.header.extra), "signature": schema.signature, "machine": machine}
+    return ParameterFile(schema, Header(**{**vars(file.header), **header}))
+
+
+def _without(value: Value, bits: dict[int, str]) -> tuple[Value, dict[int, str]]:
+    """Return a mask without the bits of axes that are not there, and those of them that were set:
+    they would be refused, or be those of another option.
+    """
+    if not bits or not isinstance(value.value, (int, float)):
+        return value, {}
+    text = str(int(value.value))
+    return replace(value, value=int(with_bits(text, bits, "0"))), set_bits(text, bits)
+
+
+def _refused(found: ParameterFile) -> list[Misfit]:
+    """Return the settings of a file that its control would refuse."""
+    return [
+        Misfit(found.machine_schema.label(a), show_value(found.schema.parameters[a[0]], v), why)
         for a, v in found.values.items()
         if number_at(found.machine_schema, a) is not None and (why := _why(found, a, v))
     ]
-    return Fitted(found, tuple(misfits), lost)
 
 
 def _set(

@@ -88,26 +88,12 @@ def read_words(read: AxisParameters, notes: list[str]) -> Words:
     # P9 has the group in its high four bits, from 0 on; 15 is no group (4-24).
     group = int(assignment) >> 4
     named = str(group + 1) if group < 8 else None
-    own = read.optional(ids.axis_time_constant)
-    of_group = None if named is None else read.optional(ids.group_time_constant, at=named)
-    constant = axis_time_constant(own or 0.0, of_group or 0.0) / 1000.0
-    if named is None and not constant:
-        raise SimulationError(
-            f"P9N{read.axis} gives the axis no group, and so no time constant of P56 (or P66)",
-            ids.axes_assignment,
-        )
-    if not constant and of_group is None:
-        read.require([(ids.group_time_constant, str(named))])
-    above(constant, ids.group_time_constant, "The time constant of P56 (or P66)")
+    constant, of_group = _time_constants(read, named)
     acceleration = read.number(ids.acceleration_fast)
     above(acceleration, ids.acceleration_fast, "Maximum Permissible Acceleration, fast speed (P32)")
     top, gain = read.number(ids.max_speed) / 60.0, read.number(ids.loop_gain)
     above(top, ids.max_speed, f"Maximum Axis Traverse Rate (P30N{read.axis})")
     above(gain, ids.loop_gain, f"KVAR (P21N{read.axis}), which is in the drive with DISC NT,")
-    voltage = read.optional(VOLTAGE)
-    voltage = MOTION.value("drive_voltage") if voltage is None else voltage
-    if not 0.0 < voltage <= 10.0:
-        raise SimulationError(f"{VOLTAGE} is {voltage:g} V; it must be above 0 and at most 10", VOLTAGE)
     terms, share = _anticipation(read, named, notes)
     return Words(
         unit="deg" if turns else "mm",
@@ -119,12 +105,37 @@ def read_words(read: AxisParameters, notes: list[str]) -> Words:
         top=top,
         share=share,
         terms=terms,
-        voltage=voltage,
+        voltage=_drive_voltage(read),
         acceleration=acceleration,
         work_acceleration=read.optional(ids.acceleration_work) or 0.0,
-        curve_constant=(of_group or 0.0) / 1000.0,
+        curve_constant=of_group,
         curve_error=_curve_error(read, turns, notes),
     )
+
+
+def _time_constants(read: AxisParameters, group: str | None) -> tuple[float, float]:
+    """Return the time constants of the axis and of its group in s; 0 for a group that has none (P56, P66)."""
+    own = read.optional(ids.axis_time_constant)
+    of_group = None if group is None else read.optional(ids.group_time_constant, at=group)
+    constant = axis_time_constant(own or 0.0, of_group or 0.0) / 1000.0
+    if group is None and not constant:
+        raise SimulationError(
+            f"P9N{read.axis} gives the axis no group, and so no time constant of P56 (or P66)",
+            ids.axes_assignment,
+        )
+    if not constant and of_group is None:
+        read.require([(ids.group_time_constant, str(group))])
+    above(constant, ids.group_time_constant, "The time constant of P56 (or P66)")
+    return constant, (of_group or 0.0) / 1000.0
+
+
+def _drive_voltage(read: AxisParameters) -> float:
+    """Return the speed reference at the top speed in V."""
+    voltage = read.optional(VOLTAGE)
+    voltage = MOTION.value("drive_voltage") if voltage is None else voltage
+    if not 0.0 < voltage <= 10.0:
+        raise SimulationError(f"{VOLTAGE} is {voltage:g} V; it must be above 0 and at most 10", VOLTAGE)
+    return voltage
 
 
 def _curve_error(read: AxisParameters, turns: bool, notes: list[str]) -> float:

@@ -47,7 +47,7 @@ VERB = Verb(
 def run(options: Options) -> int:
     """Print or write what differs between machines; 1 where anything does."""
     from amp_studio.cli.checks.comparing import matched_by_letter_noted
-    from amp_studio.report import SIDE_BY_SIDE, alike_of, machine_groups, machine_names, machine_rows
+    from amp_studio.report import SIDE_BY_SIDE, alike_of, machine_groups, machine_names
 
     files = [opened(path, options).file for path in options.paths]
     if len({file.schema.family.family for file in files}) > 1:
@@ -55,10 +55,7 @@ def run(options: Options) -> int:
     if options.by_letter:
         files = [files[0], *(matched_by_letter_noted(file, files[0]) for file in files[1:])]
     names = machine_names([path.stem for path in options.paths])
-    try:
-        rows, same = machine_rows(files, everything=options.everything)
-    except ValueError as error:
-        raise UsageError(str(error)) from None
+    rows, same = _rows(files, everything=options.everything)
     alike = [alike_of(values) for _, values in rows]
     groups = machine_groups(alike) if rows else [tuple(range(len(files)))]
     if options.output:
@@ -72,6 +69,17 @@ def run(options: Options) -> int:
             _print(files[0], rows)
         print(f"{len(rows)} listed, {same} are the same on all {len(files)}")
     return int(any(map(any, alike)))
+
+
+def _rows(
+    files: list[ParameterFile], *, everything: bool
+) -> tuple[list[tuple[Address, tuple[Value | None, ...]]], int]:
+    from amp_studio.report import machine_rows
+
+    try:
+        return machine_rows(files, everything=everything)
+    except ValueError as error:
+        raise UsageError(str(error)) from None
 
 
 def _as_json(

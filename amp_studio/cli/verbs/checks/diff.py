@@ -73,12 +73,12 @@ def run(options: Options) -> int:
     elif options.json:
         rows = [difference_json(a, d, options.secrets) for d in found.differences]
         rows += [difference_json(b, d, options.secrets) for d in of_b]
-        digests = {"a": a_digest, "b": b_digest}
-        known = {"sha256": digests} if any(digests.values()) else {}
+        known = {"sha256": {"a": a_digest, "b": b_digest}} if a_digest or b_digest else {}
         print_json({"differences": rows, "same": found.same} | known)
     else:
         print_comparison(a, found, options.secrets, (b, of_b))
-        print(*(f"sha256 {digest}\n" for digest in (a_digest, b_digest) if digest), sep="", end="")
+        for digest in filter(None, (a_digest, b_digest)):
+            print(f"sha256 {digest}")
     return int(bool(found.differences or of_b))
 
 

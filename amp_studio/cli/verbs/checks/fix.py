@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli import candidates
@@ -62,35 +63,49 @@ def run(options: Options) -> int:
 
 def _nothing(options: Options, validator: Validator) -> str:
     """Print that there was nothing to fix, and what could be fixed otherwise."""
-    others = sorted({finding.rule for finding in validator.findings() if finding.fix})
+    others = _fixable(validator.findings())
     message = f"{options.path}: nothing to fix"
-    return message + (f" with these options; there are fixes of {', '.join(others)}" if others else "")
+    return message + (f" with these options; there are fixes of {others}" if others else "")
+
+
+def _fixable(findings: Sequence[Finding]) -> str:
+    """Return the rules whose findings have a fix."""
+    return ", ".join(sorted({finding.rule for finding in findings if finding.fix}))
+
+
+def _doubtful(options: Options, findings: Sequence[Finding]) -> str:
+    """Return the rules with doubtful fixes: without an option that chooses, all others were made."""
+    return "" if options.rule or options.param or options.safe else _fixable(findings)
+
+
+def _change_line(file: ParameterFile, fixed: Fixed) -> str:
+    from amp_studio.files import describe
+    from amp_studio.schema import show_value
+
+    change = fixed.change
+    old, new = (
+        show_value(file.schema.parameters[change.address[0]], value) for value in (change.old, change.new)
+    )
+    return f"{describe(file, change.address)}: {old} -> {new} ({fixed.rule})"
 
 
 def _lines(
     options: Options, file: ParameterFile, done: Sequence[Fixed], findings: Sequence[Finding]
 ) -> Iterator[str]:
     """Yield what was changed, the errors that are left, and how many findings."""
-    from amp_studio.files import describe
     from amp_studio.report import alike, counted, same_finding_text
-    from amp_studio.schema import show_value
     from amp_studio.validate import SEVERITIES
 
-    for fixed in done:
-        parameter, change = file.schema.parameters[fixed.change.address[0]], fixed.change
+    yield from map(partial(_change_line, file), done)
+    for same in alike([finding for finding in findings if finding.severity == "error"]):
+        yield same_finding_text(file, same)
+    if doubtful := _doubtful(options, findings):
         yield (
-            f"{describe(file, change.address)}: {show_value(parameter, change.old)} -> "
-            f"{show_value(parameter, change.new)} ({fixed.rule})"
-        )
-    errors = [finding for finding in findings if finding.severity == "error"]
-    yield from (same_finding_text(file, same) for same in alike(errors))
-    doubtful = sorted({finding.rule for finding in findings if finding.fix})
-    if doubtful and not (options.rule or options.param or options.safe):
-        yield (
-            f"Not made, because another value is likely the cause: fixes of {', '.join(doubtful)}."
+            f"Not made, because another value is likely the cause: fixes of {doubtful}."
             " Check that value, or name the rule with --rule."
         )
-    left = ", ".join(counted(sum(f.severity == s for f in findings), s) for s in SEVERITIES)
+    severities = Counter(finding.severity for finding in findings)
+    left = ", ".join(counted(severities[severity], severity) for severity in SEVERITIES)
     changed = counted(len({fixed.change.address for fixed in done}), "value")
     yield f"{options.path}: {changed} {'would be ' if options.dry_run else ''}changed; left: {left}"
 

@@ -7,10 +7,11 @@ import os
 import re
 import signal
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cache, partial
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from multiprocessing.context import BaseContext
 
     from amp_studio import MachineParameters
+    from amp_studio.cli.checks.cache import CheckCache
     from amp_studio.cli.checks.formats import CheckFormat, CheckResult, FileFindings
     from amp_studio.validate import KeptValidators, Validator
 
@@ -92,38 +94,47 @@ def run(options: Options) -> int:
     after the others.
     """
     from amp_studio.cli.checks.formats import CHECK_FORMATS
-    from amp_studio.schema import read_file
 
+    _check_options(options)
     form = CHECK_FORMATS[options.format]
-    for option in ("why", "motion"):
-        if getattr(options, option) and options.format not in WITH_REASONS:
-            raise UsageError(f"--{option} is for the formats {' and '.join(WITH_REASONS)}")
-    if options.rules:
-        read_file(
-            options.rules
-        )  # a file that is not there is a slip of the hand, one that is wrong a finding
     paths, unread = _files(options.paths)
     check = partial(_check, options, len(paths) > 1)
-    counts_shown = len(paths) > 1 and (form.needs_all or not sys.stdout.isatty())
-    show = progress() if counts_shown else None
+    is_counted = len(paths) > 1 and (form.needs_all or not sys.stdout.isatty())
     checked = []
-    for n, one in enumerate(_results(options, check, paths), 1):
-        checked.append(one)
-        _print(form, one)
-        if show:
-            show("checked", n, len(paths))
-    for one in unread:
+    for one in chain(_counted(_results(options, check, paths), len(paths) if is_counted else 0), unread):
         checked.append(one)
         _print(form, one)
     if form.needs_all and paths:
-        _print_document(form, checked, is_alone=form.alone and paths == options.paths[:1])
-    is_whole = not any(one.fault for one in checked)
-    return int(any(one.errors for one in checked)) if is_whole else 2
+        is_alone = form.alone and paths == options.paths[:1]
+        _print_document(checked[0].printed if is_alone else form.all(checked), form)
+    return _exit_code(checked)
 
 
-def _print_document(form: CheckFormat, checked: Sequence[CheckResult], *, is_alone: bool) -> None:
+def _exit_code(checked: Sequence[CheckResult]) -> int:
+    return 2 if any(one.fault for one in checked) else int(any(one.errors for one in checked))
+
+
+def _check_options(options: Options) -> None:
+    from amp_studio.schema import read_file
+
+    if (options.why or options.motion) and options.format not in WITH_REASONS:
+        option = "why" if options.why else "motion"
+        raise UsageError(f"--{option} is for the formats {' and '.join(WITH_REASONS)}")
+    if options.rules:
+        read_file(options.rules)  # one that is not there is a slip of the hand, one that is wrong a finding
+
+
+def _counted(results: Iterator[CheckResult], total: int) -> Iterator[CheckResult]:
+    """Yield results; how many of a total there are is shown after each, unless the total is 0."""
+    show = progress() if total else None
+    for n, one in enumerate(results, 1):
+        yield one
+        if show:
+            show("checked", n, total)
+
+
+def _print_document(document: str, form: CheckFormat) -> None:
     """Print the one document about all files, as far as the terminal can show its characters."""
-    document = checked[0].printed if is_alone else form.all(checked)
     is_utf8 = (sys.stdout.encoding or "").lower() == "utf-8"
     if document:
         print(document if is_utf8 else form.in_ascii(document))
@@ -141,8 +152,7 @@ def _results(
     cache = CheckCache(options)
     keys = cache.keys(paths)
     kept = cache.read(keys, paths)
-    left = [path for path in paths if path not in kept]
-    fresh = _each(check, left, options.jobs)
+    fresh = _each(check, [path for path in paths if path not in kept], options.jobs)
     made: list[CheckResult] = []
     for path in paths:
         if path in kept:
@@ -150,12 +160,17 @@ def _results(
         else:
             made.append(next(fresh))
             yield made[-1]
-    before = dict(zip(paths, keys, strict=True))
-    # A file that was changed while it was checked has the result of one content or the other.
+    _keep(cache, made, dict(zip(paths, keys, strict=True)))
+
+
+def _keep(cache: CheckCache, made: Sequence[CheckResult], keys: Mapping[Path, bytes | None]) -> None:
+    """Keep new results; a file that was changed while it was checked has that of one content or the other."""
     unchanged = {
-        key: one for one, key in zip(made, cache.keys(left), strict=True) if key and key == before[one.path]
+        key: one
+        for one, key in zip(made, cache.keys(one.path for one in made), strict=True)
+        if key and key == keys[one.path] and not one.fault
     }
-    cache.write({key: one for key, one in unchanged.items() if not one.fault}, used=keys)
+    cache.write(unchanged, used=keys.values())
 
 
 def _print(form: CheckFormat, one: CheckResult) -> None:

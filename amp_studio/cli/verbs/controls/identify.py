@@ -30,9 +30,7 @@ def run(options: Options) -> int:
     """Print who answers at an address, and what it contains."""
     from amp_studio import connect
     from amp_studio.cli.controls.by_hand import print_by_hand, ways_offered
-    from amp_studio.files import fitted_axes
     from amp_studio.report import counted
-    from amp_studio.transfer import ImageError
 
     if options.family:
         family(options.family)
@@ -40,13 +38,7 @@ def run(options: Options) -> int:
         found = connect(options.address, options.family or "", progress=progress()).look()
     control, abilities, content = found.identity, found.abilities, found.content
     print_by_hand(control.family)
-    unreadable, axes, values, signature = "", list(control.axes), 0, control.signature
-    try:
-        file = found.machine().file
-        axes, values = axes or list(fitted_axes(file)), len(file.values)
-        signature = signature or file.schema.signature
-    except ImageError as error:
-        unreadable = str(error) if content else "it is empty"
+    axes, signature, values, unreadable = _read(found)
     if options.json:
         print_json(
             {
@@ -60,16 +52,31 @@ def run(options: Options) -> int:
                 "signature": signature,
                 "size": len(content),
                 "sha256": found.sha256,
-                "values": None if unreadable else values,
+                "values": values,
                 "unreadable": unreadable or None,
                 "in_estop": control.in_estop,
                 "restart_needed": control.restart_needed,
             }
         )
         return 0
-    readable = f"not readable: {unreadable}" if unreadable else counted(values, "value")
+    readable = f"not readable: {unreadable}" if values is None else counted(values, "value")
     print("\n".join(_lines(found, axes, readable)))
     return 0
+
+
+def _read(look: ControlLook) -> tuple[list[str], str, int | None, str]:
+    """Return axes and signature of a control, as it names them or its content does, and how many values it
+    contains; None where they are not readable, with the reason.
+    """
+    from amp_studio.files import fitted_axes
+    from amp_studio.transfer import ImageError
+
+    axes, signature = list(look.identity.axes), look.identity.signature
+    try:
+        file = look.machine().file
+    except ImageError as error:
+        return axes, signature, None, str(error) if look.content else "it is empty"
+    return axes or list(fitted_axes(file)), signature or file.schema.signature, len(file.values), ""
 
 
 def _lines(look: ControlLook, axes: Sequence[str], readable: str) -> Iterator[str]:

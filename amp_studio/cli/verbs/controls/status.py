@@ -6,6 +6,7 @@ from amp_studio.cli import candidates
 from amp_studio.cli.arguments import JSON, OUTPUT, seconds
 from amp_studio.cli.console import family, print_json, print_remark
 from amp_studio.cli.errors import UsageError
+from amp_studio.cli.motion.trigger import trigger_given
 from amp_studio.cli.output import check_replaced
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
@@ -62,7 +63,7 @@ def run(options: Options) -> int:
         family(options.family)
     if options.output:
         return _record(options)
-    if options.axis or options.seconds or options.trigger or options.pre_trigger:
+    if any((options.axis, options.seconds, options.trigger, options.pre_trigger)):
         raise UsageError("--axis, --seconds, --trigger and --pre-trigger belong to -o, which records")
     with closing(connect(options.address, options.family or "").watch()) as seen:
         while True:
@@ -83,12 +84,10 @@ def _record(options: Options) -> int:
     from contextlib import closing, suppress
 
     from amp_studio import connect
-    from amp_studio.sim import LiveRecorder, trigger_of, write_recording
+    from amp_studio.sim import LiveRecorder, write_recording
 
     check_replaced(options.output)
-    if options.pre_trigger and not options.trigger:
-        raise UsageError("--pre-trigger belongs to --trigger")
-    trigger = trigger_of(options.trigger, options.pre_trigger or 0.0) if options.trigger else None
+    trigger = trigger_given(options)
     recorder = LiveRecorder(trigger, options.seconds)
     with closing(connect(options.address, options.family or "").watch()) as seen, suppress(KeyboardInterrupt):
         began = time.monotonic()

@@ -146,28 +146,24 @@ def _named(names: Iterable[str], file: ParameterFile, sheet: Sheet) -> list[Shee
 
 
 def _check(options: Options, file: ParameterFile, sheet: Sheet, ticks: Ticks) -> int:
-    from collections import Counter
-
-    from amp_studio.schema import read_file
-    from amp_studio.sheet import STATES, ReadBackError, compare_screen, read_screen_readings
-
-    content = read_file(options.check, _LARGEST)
-    try:
-        found = compare_screen(sheet, file, read_screen_readings(content.decode("utf-8-sig")))
-    except UnicodeDecodeError:
-        raise UsageError(f"{options.check}: there is a byte that is no UTF-8 text") from None
-    except ReadBackError as error:
-        raise UsageError(f"{options.check}: {error}") from None
+    found = _read_back(options, file, sheet)
     different = [each for each in found if each.state != "same"]
     if options.json or options.output:
         _print(options, sheet, ticks, {each.entry.number: each for each in found})
     if not options.json:
-        for each in different:
-            print(_outcome(each))
-        counts = Counter(each.state for each in found)
-        words = (f"{counts[state]} {name}" for state, name in STATES.items() if counts[state])
-        print(", ".join(words) or "Nothing is on the sheet")
+        print(*map(_outcome, different), _counts(found), sep="\n")
     return int(bool(different))
+
+
+def _counts(found: Sequence[ReadBack]) -> str:
+    """Return how many entries the control has, lacks and has otherwise."""
+    from collections import Counter
+
+    from amp_studio.sheet import STATES
+
+    counts = Counter(each.state for each in found)
+    words = (f"{counts[state]} {name}" for state, name in STATES.items() if counts[state])
+    return ", ".join(words) or "Nothing is on the sheet"
 
 
 def _outcome(each: ReadBack) -> str:
@@ -180,6 +176,20 @@ def _outcome(each: ReadBack) -> str:
         else f": the screen shows {each.screen_text}, it should be {entry.new} {entry.unit}".rstrip()
     )
     return f"{entry.number} {entry.name}: {STATES[each.state]}{screen_text}"
+
+
+def _read_back(options: Options, file: ParameterFile, sheet: Sheet) -> Sequence[ReadBack]:
+    """Return what the screen showed of each entry; raises UsageError for a text that is not readable."""
+    from amp_studio.schema import read_file
+    from amp_studio.sheet import ReadBackError, compare_screen, read_screen_readings
+
+    content = read_file(options.check, _LARGEST)
+    try:
+        return compare_screen(sheet, file, read_screen_readings(content.decode("utf-8-sig")))
+    except UnicodeDecodeError:
+        raise UsageError(f"{options.check}: there is a byte that is no UTF-8 text") from None
+    except ReadBackError as error:
+        raise UsageError(f"{options.check}: {error}") from None
 
 
 def _print(options: Options, sheet: Sheet, ticks: Ticks, found: dict[str, ReadBack]) -> None:

@@ -86,13 +86,11 @@ def run(options: Options) -> int:
     if not query.strip():
         raise UsageError("Nothing to find: give a number, a word, a value or a message of the control")
     found = _best(sources, query, options.limit)
-    nearest = "" if found else next(filter(None, (s.finder.nearest(query) for s in sources)), "")
+    nearest = "" if found else _nearest(sources, query)
     others = () if found or len(sources) > 1 else _elsewhere(query, sources[0].schema)
     if options.json:
         hits = [_as_json(hit, source) for hit, source in found]
-        named = [{"family": s.family.family, "id": hit.key, "title": hit.title} for s, hit in others]
-        elsewhere = {"elsewhere": named} if named else {}
-        print_json({"query": query, "hits": hits, "nearest": nearest} | elsewhere)
+        print_json({"query": query, "hits": hits, "nearest": nearest} | _elsewhere_json(others))
     elif found:
         _print(found, named=len(sources) > 1)
     else:
@@ -109,6 +107,10 @@ def _best(sources: Sequence[_Source], query: str, most: int) -> list[tuple[Hit, 
     if len(sources) > 1:  # what one family has exactly is not buried by what five have nearly
         found = [each for each in found if each[0].score >= found[0][0].score / 3]
     return found[:most]
+
+
+def _nearest(sources: Sequence[_Source], query: str) -> str:
+    return next(filter(None, (source.finder.nearest(query) for source in sources)), "")
 
 
 def _elsewhere(query: str, schema: Schema) -> Sequence[tuple[Schema, Hit]]:
@@ -150,6 +152,11 @@ def _sources(options: Options) -> tuple[list[_Source], list[str]]:
         machine = opened(path)
         return [_Source(machine.schema, machine)], words
     return [_Source(family(name)) for name in family_ids()], options.words
+
+
+def _elsewhere_json(others: Sequence[tuple[Schema, Hit]]) -> dict[str, list[dict[str, str]]]:
+    named = [{"family": s.family.family, "id": hit.key, "title": hit.title} for s, hit in others]
+    return {"elsewhere": named} if named else {}
 
 
 def _as_json(hit: Hit, source: _Source) -> dict[str, Any]:

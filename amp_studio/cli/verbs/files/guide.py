@@ -16,6 +16,8 @@ from amp_studio.cli.output import check_replaced, print_remarks
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from amp_studio import MachineParameters
     from amp_studio.files import ParameterFile
     from amp_studio.guide import GuideProgress, SetupStep, StepProgress
@@ -107,12 +109,11 @@ def run(options: Options) -> int:
         return _next(options, file, come, step)
     if options.json:
         print_json(_as_json(file, come, path, step))
-    elif is_changing:
+        return 0
+    if is_changing:
         print("\n".join(_changed_lines(options, file, come)))
-    elif step is not None:
-        print("\n".join(_step_lines(file, come.of(step))))
     else:
-        print("\n".join(_overview(file, come, path)))
+        print("\n".join(_overview(file, come, path) if step is None else _step_lines(file, come.of(step))))
     return 0
 
 
@@ -256,7 +257,7 @@ def _value_text(value: OpenValue) -> str:
 def _overview(file: ParameterFile, come: GuideProgress, path: Path) -> Iterator[str]:
     """Yield how far commissioning is, and a line for each step."""
     from amp_studio.files import with_local_times
-    from amp_studio.report import delivered_text, open_value
+    from amp_studio.report import delivered_text
 
     yield f"{path}: {come.done} of {len(come.needed)} steps done, {come.set} of {come.total} values set"
     order = file.schema.commissioning
@@ -266,16 +267,24 @@ def _overview(file: ParameterFile, come: GuideProgress, path: Path) -> Iterator[
     for each in come.steps:
         yield _step_line(each, width)
         if each is come.current:
-            for value in (open_value(file, address) for address in each.open[:_MOST]):
-                yield f"        {' '.join(filter(None, (value.number, value.name, value.place)))}"
-            if len(each.open) > _MOST:
-                yield f"        and {len(each.open) - _MOST} more"
+            yield from _open_lines(file, each.open)
     known = {each.step.id for each in come.steps}
     for name, who in file.header.done.items():
         if name not in known:
             yield f"[x] at the machine: {name.replace('@', ', axis ')}, ticked {with_local_times(who)}"
     if come.deferred:
         yield f"{delivered_text(come.deferred, come.deferred_to)}; validate --json lists them"
+
+
+def _open_lines(file: ParameterFile, addresses: Sequence[Address]) -> Iterator[str]:
+    """Yield the first of the values that are not set, and how many more there are."""
+    from amp_studio.report import open_value
+
+    for address in addresses[:_MOST]:
+        value = open_value(file, address)
+        yield f"        {' '.join(filter(None, (value.number, value.name, value.place)))}"
+    if len(addresses) > _MOST:
+        yield f"        and {len(addresses) - _MOST} more"
 
 
 def _step_line(each: StepProgress, width: int) -> str:

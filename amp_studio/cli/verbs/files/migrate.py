@@ -16,7 +16,9 @@ from amp_studio.cli.output import check_new
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
-    from amp_studio.meaning import Migration
+    from collections.abc import Sequence
+
+    from amp_studio.meaning import Migration, MigrationQuestion
 
 VERB = Verb(
     __doc__,
@@ -58,12 +60,8 @@ def run(options: Options) -> int:
         print(json.dumps(migration_json(migration), indent=2, ensure_ascii=False))
     else:
         print("\n".join(migration_lines(migration)))
-    if migration.written.open and not options.draft:
-        names = ", ".join(question.id for question in migration.written.open)
-        raise UsageError(
-            f"{len(migration.written.open)} questions are open, nothing was written: {names}. Answer them in"
-            " a file for --answers, or write a draft without their keys with --draft"
-        )
+    if not options.draft:
+        _check_answered(migration.written.open)
     if options.output is None:
         return 0
     if options.output.suffix.lower() == ".amp":
@@ -91,6 +89,16 @@ def _write_parameter_file(options: Options, migration: Migration) -> None:
         machine = import_text(path, options.to)
     write_new(machine, options.output)
     print_remark(f"{options.output}: a parameter file of {options.to}")
+
+
+def _check_answered(questions: Sequence[MigrationQuestion]) -> None:
+    """Raise UsageError for questions that are open."""
+    if questions:
+        names = ", ".join(question.id for question in questions)
+        raise UsageError(
+            f"{len(questions)} questions are open, nothing was written: {names}. Answer them in"
+            " a file for --answers, or write a draft without their keys with --draft"
+        )
 
 
 def _answers(path: Path) -> dict[str, str]:

@@ -97,21 +97,11 @@ def run(options: Options) -> int:
     from amp_studio.calibration import CalibrationError, compensation_of
     from amp_studio.schema import InvalidValueError, resolve_axis
 
-    by_hand = bool(options.insert or options.replace or options.delete or options.clear)
-    if by_hand and options.measured:
-        raise UsageError(
-            "points are measured (--from) or changed by hand (--insert, --replace, --delete, --clear)"
-        )
-    if options.output:
-        _check_picture(options)
+    by_hand = _is_by_hand(options)
     writes = (by_hand or bool(options.measured)) and not options.dry_run
     with edit(options.path, only_view=not writes) as machine:
         file = machine.file
         offered = compensation_of(file.schema.family.family)
-        if not offered.reversal and offered.table is None:
-            raise UsageError(
-                f"{file.schema.family.name} has neither a calibration table nor a reversal error"
-            )
         axis = resolve_axis(file.evaluation, _instances(file, offered), options.axis)
         try:
             found = _correction(options, file, offered, axis, by_hand)
@@ -129,6 +119,18 @@ def run(options: Options) -> int:
     else:
         print("\n".join(_lines(options, file, offered, axis, found, changes)))
     return 0
+
+
+def _is_by_hand(options: Options) -> bool:
+    """Return whether points are changed by hand; raises UsageError for options that exclude each other."""
+    by_hand = any((options.insert, options.replace, options.delete, options.clear))
+    if by_hand and options.measured:
+        raise UsageError(
+            "points are measured (--from) or changed by hand (--insert, --replace, --delete, --clear)"
+        )
+    if options.output:
+        _check_picture(options)
+    return by_hand
 
 
 def _check_picture(options: Options) -> None:
@@ -153,6 +155,8 @@ def _draw(options: Options, file: ParameterFile, proposal: Proposal) -> None:
 
 
 def _instances(file: ParameterFile, offered: Compensation) -> tuple[str, ...]:
+    if not offered.reversal and offered.table is None:
+        raise UsageError(f"{file.schema.family.name} has neither a calibration table nor a reversal error")
     parameter = file.schema.parameters[offered.table.parameter if offered.table else offered.reversal]
     instances = file.machine_schema.instances(parameter)
     if not instances:

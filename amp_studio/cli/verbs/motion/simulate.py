@@ -11,15 +11,16 @@ from amp_studio.cli import candidates
 from amp_studio.cli.arguments import AXIS, JSON, LANGUAGE, OUTPUT, PATH, count, path_of, seconds
 from amp_studio.cli.console import assignments, print_json, print_remark, progress
 from amp_studio.cli.errors import UsageError
+from amp_studio.cli.motion.trigger import trigger_given
 from amp_studio.cli.opened import opened
-from amp_studio.cli.output import check_replaced
+from amp_studio.cli.output import check_replaced, print_remarks
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 from amp_studio.scenarios import CHARTS, IDENTIFY
 
 if TYPE_CHECKING:
     from amp_studio import MachineParameters
     from amp_studio.files import ParameterFile
-    from amp_studio.sim import SweepWay, Trace, Trigger
+    from amp_studio.sim import SweepWay, Trace
 
 VERB = Verb(
     __doc__,
@@ -192,15 +193,7 @@ SETTING_GROUPS = ("move", "model", "tune", "sweep", "gear", "cam")
 
 def run(options: Options) -> int:
     """Move the machine; 1 where it raised an alarm."""
-    from amp_studio.sim import (
-        called_parameter,
-        laid_over,
-        machine_for,
-        named_parameter,
-        read_machine,
-        trace_summary,
-        trace_text,
-    )
+    from amp_studio.sim import called_parameter, named_parameter, trace_summary, trace_text
 
     if options.output:
         beside = filter(None, (options.record, options.machine_file))
@@ -212,33 +205,38 @@ def run(options: Options) -> int:
         raise UsageError("Name a scenario; amp-studio simulate PATH --list lists them")
     if options.scenario == IDENTIFY:
         return _identify(options, machine)
-    settings, own = _asked_for(options)
-    messages: list[str] = []
-    tried = machine.with_values(assignments(own), notify=messages.append)
-    file, axis = tried.file, _axis(options, tried)
-    if options.machine_file:
-        axis, plant = machine_for(file, read_machine(options.machine_file), axis)
-        settings = {**plant, **settings}
-    system = options.units or file.header.units
-    way = _way(options) if options.scenario == "sweep" else None
-    trace = tried.simulate(options.scenario, axis, units=system, way=way, **settings)
-    if options.against:
-        trace = laid_over(trace, options.against, _trigger(options))
-    elif options.trigger:
-        raise UsageError("--trigger belongs to --against")
+    file, trace, earlier = _simulated(options, machine)
     if options.keep is not None:
-        _keep(options, tried.file, trace)
-    for message in messages:
-        print_remark(message)
+        _keep(options, file, trace)
     if options.output:
-        is_picture = options.output.suffix.lower() in DRAWN
-        earlier = _earlier(machine, trace, settings, system) if own and is_picture else None
         _write(options, file, trace, earlier)
     if options.json:
         print_json(trace_summary(trace, lambda parameter: named_parameter(file, parameter, trace.axis)))
     else:
         print(trace_text(trace, lambda parameter: called_parameter(file, parameter, trace.axis)))
     return 1 if trace.alarms else 0
+
+
+def _simulated(options: Options, machine: MachineParameters) -> tuple[ParameterFile, Trace, Trace | None]:
+    """Return the file with the values to try, its trace, and for a picture that of the file as it is."""
+    from amp_studio.sim import laid_over, machine_for, read_machine
+
+    settings, own = _asked_for(options)
+    messages: list[str] = []
+    tried = machine.with_values(assignments(own), notify=messages.append)
+    axis = _axis(options, tried)
+    if options.machine_file:
+        axis, plant = machine_for(tried.file, read_machine(options.machine_file), axis)
+        settings = {**plant, **settings}
+    system = options.units or tried.file.header.units
+    way = _way(options) if options.scenario == "sweep" else None
+    trace = tried.simulate(options.scenario, axis, units=system, way=way, **settings)
+    if options.against:
+        trace = laid_over(trace, options.against, trigger_given(options))
+    print_remarks(messages)
+    if own and options.output and options.output.suffix.lower() in DRAWN:
+        return tried.file, trace, _earlier(machine, trace, settings, system)
+    return tried.file, trace, None
 
 
 def _keep(options: Options, file: ParameterFile, trace: Trace) -> None:
@@ -275,16 +273,6 @@ def _write(options: Options, file: ParameterFile, trace: Trace, before: Trace | 
         write_trace(trace, options.output, print_remark, before=before, chart=chart)
 
 
-def _trigger(options: Options) -> Trigger | None:
-    from amp_studio.sim import trigger_of
-
-    if options.trigger is None:
-        if options.pre_trigger is not None:
-            raise UsageError("--pre-trigger belongs to --trigger")
-        return None
-    return trigger_of(options.trigger, options.pre_trigger or 0.0)
-
-
 def _given_machine(options: Options) -> list[tuple[str, str, str]]:
     """Return what was given of the machine: figure, value, and where it is from."""
     from amp_studio.sim import read_machine
@@ -299,6 +287,8 @@ def _given_machine(options: Options) -> list[tuple[str, str, str]]:
 
 def _asked_for(options: Options) -> tuple[dict[str, Any], list[str]]:
     """Return the settings of the scenario and the machine, and the assignments of parameters."""
+    if options.trigger and not options.against:
+        raise UsageError("--trigger belongs to --against")
     spoken = _spoken(options)
     if (options.record and not spoken) or options.scale:
         raise UsageError(f"a record and its scale belong to {IDENTIFY}, not to {options.scenario}")

@@ -250,33 +250,45 @@ class Firmware:
         name = name.replace(" ", "").upper()
         if match := re.fullmatch(r"N(\d)", name):
             self._startup(int(match[1]), text)
-        elif equals and name.isdigit():
+        elif name == "X":
+            if self._is_critical:
+                raise RefusedError(CRITICAL)
+            self.state = "Idle"
+        elif name.startswith("H"):
+            self._home(name[1:])
+        elif equals:
+            self._assign(name, text)
+        else:
+            self._report(name)
+
+    def _assign(self, name: str, text: str) -> None:
+        """Do a line ``$name=text``."""
+        if name.isdigit():
             self._need_rest()
             self.settings.store(int(name), text)
             # In check mode it stays in RAM (protocol.c ``protocol_execute_realtime``); a Grbl 1.1 writes at
             # once.
             self.is_writing = self.state != "Check" or self.settings.is_classic
-        elif equals and name == "RST":
+        elif name == "RST":
             self._reset(text)
-        elif not equals and (report := self._reports().get(name)):
+        elif name == "J":
+            self._jog(text.upper().replace(" ", ""))
+        else:
+            raise RefusedError(UNKNOWN)
+
+    def _report(self, name: str) -> None:
+        """Send a report, or one setting by its number."""
+        if report := self._reports().get(name):
             if name in ("$", "+", "I"):
                 self._need_rest()
             self._send(*report())
-        elif not equals and name.isdigit() and not self.settings.is_classic:
-            setting = self.settings.named(int(name))
-            if setting is None:
-                raise RefusedError(53)
-            self._send(f"${setting.number}={setting.show()}")
-        elif name == "X":
-            if self._is_critical:
-                raise RefusedError(CRITICAL)
-            self.state = "Idle"
-        elif equals and name == "J":
-            self._jog(text.upper().replace(" ", ""))
-        elif name.startswith("H"):
-            self._home(name[1:])
-        else:
+            return
+        if not name.isdigit() or self.settings.is_classic:
             raise RefusedError(UNKNOWN)
+        setting = self.settings.named(int(name))
+        if setting is None:
+            raise RefusedError(53)
+        self._send(f"${setting.number}={setting.show()}")
 
     def _home(self, axes: str) -> None:
         """Home all axes, or one where $22 allows it; the answer comes at its end (system.c ``home``)."""
@@ -399,8 +411,8 @@ class Firmware:
         """Do the words of a block that move: G0, G1, G53, G90, G91, F, axes."""
         codes = {float(code) for code in re.findall(rf"G({_NUMBER})", line)}
         words = dict(_WORDS.findall(line))
-        self._distance = 91 if 91.0 in codes else 90 if 90.0 in codes else self._distance
-        self._mode = 0 if 0.0 in codes else 1 if 1.0 in codes else self._mode
+        self._distance = int(next((code for code in (91.0, 90.0) if code in codes), self._distance))
+        self._mode = int(next((code for code in (0.0, 1.0) if code in codes), self._mode))
         if "F" in words:
             self._feed = float(words["F"]) * (25.4 if self._unit == 20 else 1.0)
         targets = self._targets(words, self._distance, is_machine=53.0 in codes)

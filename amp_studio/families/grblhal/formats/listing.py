@@ -57,12 +57,16 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
         found.unknown |= then.kept
         found.notes.append(str(then))
     found.unknown_lines = {f"${number}": listing.lines[number] for number in kept}
-    if log.facts or log.greeting:
-        found.extra[_IDENTITY] = ([log.greeting] if log.greeting else []) + [
-            f"[{tag}:{fact}]" for tag, texts in log.facts.items() for fact in texts
-        ]
+    if identity := _identity(log):
+        found.extra[_IDENTITY] = identity
     found.notes += _notes(schema, log, chosen, fit, options)
     return found
+
+
+def _identity(log: Log) -> list[str]:
+    """Return the lines of a log that name the control."""
+    facts = [f"[{tag}:{fact}]" for tag, texts in log.facts.items() for fact in texts]
+    return [log.greeting, *facts] if log.greeting else facts
 
 
 def _offer(text: str, schema: Schema) -> TextOffer:

@@ -141,10 +141,8 @@ def read_relative(text: str) -> Relative:
 
 def _marlin(text: str) -> Relative:
     """Return the settings of a text of Marlin (M503) or RepRapFirmware (config.g) as Grbl numbers them."""
-    # ``echo:`` is Marlin alone, whose remarks may name mm/min of another code.
-    is_per_minute = bool(_PER_MINUTE.search(text)) and not re.search(r"\becho:", text)
-    is_known = is_per_minute or bool(_PER_SECOND.search(text))
-    found = Relative("RepRapFirmware (config.g)" if is_per_minute else "Marlin (M503)")
+    name, rate_factor, is_known = _dialect(text)
+    found = Relative(name)
     for n, line in enumerate(text.splitlines(), 1):
         code = _CODE.search(line)
         if code is None:
@@ -154,15 +152,31 @@ def _marlin(text: str) -> Relative:
         if code[1] == "G20":
             raise FormatError("the listing is in inches: send G21 before M503", n)
         words = dict(_WORD.findall(code[2]))
-        is_doubtful = not is_known and any(float(figure or 0) > _FASTEST for figure in words.values())
-        if code[1] != _RATES:
-            _take_words(found, code[1], words, 1)
+        factor = rate_factor if code[1] == _RATES else 1
         # A rate that may be 60 times too large is kept as text rather than set.
-        elif not is_doubtful:
-            _take_words(found, code[1], words, 1 if is_per_minute else 60)
-        if words and code[1] != "G21":
-            _keep(found, code[1], " ".join(f"{letter}{figure}" for letter, figure in words.items()))
+        if code[1] != _RATES or is_known or not _is_fast(words):
+            _take_words(found, code[1], words, factor)
+        _keep_words(found, code[1], words)
     return found
+
+
+def _dialect(text: str) -> tuple[str, int, bool]:
+    """Return the firmware, the factor of its rates to mm/min, and whether the text names their unit."""
+    # ``echo:`` is Marlin alone, whose remarks may name mm/min of another code.
+    if _PER_MINUTE.search(text) and not re.search(r"\becho:", text):
+        return "RepRapFirmware (config.g)", 1, True
+    return "Marlin (M503)", 60, bool(_PER_SECOND.search(text))
+
+
+def _is_fast(words: dict[str, str]) -> bool:
+    """Return whether a figure is too large for mm/s."""
+    return any(float(figure or 0) > _FASTEST for figure in words.values())
+
+
+def _keep_words(found: Relative, code: str, words: dict[str, str]) -> None:
+    """Keep the words of a code that are no settings of Grbl."""
+    if words and code != "G21":
+        _keep(found, code, " ".join(f"{letter}{figure}" for letter, figure in words.items()))
 
 
 def _take_words(found: Relative, code: str, words: dict[str, str], factor: int) -> None:

@@ -7,7 +7,7 @@ leave open is marked "assumed" here and in docs/protocols/num-table.md.
 from __future__ import annotations
 
 import re
-from typing import Literal
+from typing import Literal, cast
 
 from amp_studio.transfer import ControlStatus
 from amp_studio.transfer.emulated import DeviceSetup, EmulatedOptions, serve_device
@@ -233,27 +233,32 @@ class NumControl:
                 return self._enter()
             case "start" if not rest and self._doing == "asking":
                 return self._unload()
+            case "exit" | "reset" if not rest:
+                self._to_menu(silent=True)
+                return MENU
+            case "status" if not rest:
+                return (
+                    f"{self._doing} {self._job} job reference {self._parameters.job_reference} parity"
+                    f" {self._parity}"
+                )
+        return self._set_up(line, verb, rest)
+
+    def _set_up(self, line: str, verb: str, rest: str) -> str:
+        """Set what the menus of the control's maker set."""
+        match verb:
             case "reference" if re.fullmatch("[0-9]{8}", rest):
                 return self._reference(rest)
             case "comment" if rest.isascii() and rest.isprintable() and self._doing == "asking":
                 self._start = f"{self._start[:9]} {rest}"[: LONGEST - 1]
                 return f"dialogue line: {self._start}"
-            case "exit" | "reset" if not rest:
-                self._to_menu(silent=True)
-                return MENU
             case "parity" if rest in ("none", "even", "odd"):
-                self._parity = "even" if rest == "even" else "odd" if rest == "odd" else "none"
+                self._parity = cast("Parity", rest)
                 return line
             case "line" if found := re.fullmatch("([0-9]{1,6}) ([12])", rest):
                 self._baud, self._stop = int(found[1]), int(found[2])
                 return line
             case "patch" if found := re.fullmatch(r"P([0-9]{1,4})N([0-9]{1,4})=(.*)", rest):
                 return self._patch(int(found[1]), int(found[2]), found[3])
-            case "status" if not rest:
-                return (
-                    f"{self._doing} {self._job} job reference {self._parameters.job_reference} parity"
-                    f" {self._parity}"
-                )
         raise ValueError(f"not possible now, or no command: {COMMANDS}")
 
     def _select(self, job: Job) -> str:

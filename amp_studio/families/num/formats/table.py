@@ -8,7 +8,7 @@ decided where the manual is silent.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from amp_studio.files import ParameterFile
@@ -263,27 +263,41 @@ def _write(file: ParameterFile) -> str:
     layout = TableLayout.from_header(file.header.extra.get(KEY))
     heads = _heads(known, layout, file.unknown)
     alone = {a for a, (code, count) in heads.items() if count == 1 and WORD_TYPES[code].is_text}
+    cells = {**_kept_cells(file.unknown, alone), **_known_cells(file, known, heads)}
+    for word, text in cells.items():
+        _check_cell(word, text, layout, is_alone=word[0] in alone)
+    forms = {a: form for a in known.counts if (form := known.form(a, heads)) is not None}
+    return compose(cells, heads, forms, layout)
+
+
+def _kept_cells(unknown: dict[str, str], alone: Collection[int]) -> WordTexts:
+    """Return the words of the kept lines; what is a word of text by itself may have blanks."""
+    return {
+        (parameter, first + place): text
+        for (parameter, first), _, data in _kept(unknown)
+        for place, text in enumerate([data] if parameter in alone else data.split(" "))
+    }
+
+
+def _known_cells(file: ParameterFile, known: KnownWords, heads: dict[int, tuple[int, int]]) -> WordTexts:
+    """Return the words that are values of the file."""
     cells: WordTexts = {}
-    for (parameter, first), _, data in _kept(file.unknown):
-        for place, text in enumerate([data] if parameter in alone else data.split(" ")):
-            cells[parameter, first + place] = text
     for word, meanings in known.meanings.items():
         # A word with several meanings is written by the one that is active and set.
         there = tuple(meaning for meaning in meanings if meaning.address in file.values)
         if there:
             cells[word] = _spelled(file, active_meaning(file, there), known.form(word[0], heads))
-    for word, text in cells.items():
-        # Software of another index has fewer words: this one has no place there.
-        if word[0] in layout.heads and word[1] >= layout.heads[word[0]][1]:
-            message = (
-                f"the control that the table came from has {layout.heads[word[0]][1]} words of P{word[0]}"
-            )
-            raise FormatError(f"{name_of(word)}: {message}")
-        # A blank parts the values of a line.
-        if (not text or " " in text) and word[0] not in alone:
-            raise FormatError(f"{name_of(word)}: the text '{text}' would not be read as one value")
-    forms = {a: form for a in known.counts if (form := known.form(a, heads)) is not None}
-    return compose(cells, heads, forms, layout)
+    return cells
+
+
+def _check_cell(word: Word, text: str, layout: TableLayout, *, is_alone: bool) -> None:
+    # Software of another index has fewer words: this one has no place there.
+    if word[0] in layout.heads and word[1] >= layout.heads[word[0]][1]:
+        message = f"the control that the table came from has {layout.heads[word[0]][1]} words of P{word[0]}"
+        raise FormatError(f"{name_of(word)}: {message}")
+    # A blank parts the values of a line.
+    if (not text or " " in text) and not is_alone:
+        raise FormatError(f"{name_of(word)}: the text '{text}' would not be read as one value")
 
 
 def _spelled(file: ParameterFile, meaning: WordMeaning, form: Spelling | None) -> str:
