@@ -15,6 +15,8 @@ BENCH = Path(__file__).resolve().parent
 PATIENCE = 60.0
 """Seconds after which a desktop program that has painted nothing is ended."""
 PROGRAM = (sys.executable, "-m", "amp_studio.cli")
+NOT_INSTALLED = ("coverage", "scipy")
+"""Packages of the tests that numba loads where it finds them; an installed program is without them."""
 
 
 def measures(folder: Path, full: Path, printed: Path, example: Path, times: int) -> Iterator[Measure]:
@@ -48,8 +50,11 @@ def _private(folder: Path, own_bytecode: bool) -> Mapping[str, str]:
     ``own_bytecode`` keeps them apart from those of this person: the first run, which is thrown away,
     compiles every module.
     """
-    checkout = str(BENCH.parent)
-    path = os.pathsep.join(filter(None, (checkout, os.environ.get("PYTHONPATH", ""))))
+    absent = folder / "absent"
+    absent.mkdir(exist_ok=True)
+    for package in NOT_INSTALLED:
+        (absent / f"{package}.py").write_text("raise ImportError\n", "utf-8")
+    path = os.pathsep.join(filter(None, (str(absent), str(BENCH.parent), os.environ.get("PYTHONPATH", ""))))
     own = {"QT_QPA_PLATFORM": "offscreen", "XDG_CONFIG_HOME": str(folder), "PYTHONPATH": path}
     kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     if own_bytecode:

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
-_OBJECTS = 300_000
+_OBJECTS = 500_000
 """New objects before Python looks for unreachable ones: facts and values are many and stay,
 a fifth of a check's time."""
 

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
         Danger,
         ExchangeLine,
         PrintedProgram,
+        PrintedTest,
         ProgramLimit,
         TunedFigure,
         TunedGain,
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from .language import Language, language_of
     from .model import PrintedFigure
     from .output.pdf import PrintedPlace, SetReport, typeset
-    from .papers.check_list import OpenValue, PrintedTest, build_check_list, open_value, write_check_list
+    from .papers.check_list import OpenValue, build_check_list, open_value, write_check_list
     from .papers.differences import (
         SIDE_BY_SIDE,
         MachineLine,

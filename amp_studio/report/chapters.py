@@ -206,3 +206,21 @@ class ProgramState:
     numbers: str
     """Of the parameters that decide it."""
     page: str
+
+
+@dataclass(frozen=True)
+class PrintedTest:
+    """One program or procedure that tries a machine out."""
+
+    id: str
+    """As a tick names it: ``homing@0``."""
+    title: str
+    page: str
+    lines: tuple[str, ...] = ()
+    steps: tuple[tuple[str, str], ...] = ()
+    """What to do, and what must be seen."""
+    notes: tuple[str, ...] = ()
+    refusal: str = ""
+    """Why the file does not allow it."""
+    ticked: str = ""
+    """When and by whom it was ticked as done."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
-from amp_studio.files import Difference, ParameterFile
 from amp_studio.schema import Schema
 
 from .axes import place_of
@@ -12,6 +12,9 @@ from .chapters import Danger
 from .language import ENGLISH, Language
 from .model import ReportRow
 from .wording import joined_places
+
+if TYPE_CHECKING:
+    from amp_studio.files import Difference, ParameterFile
 
 
 def dangers_of(schema: Schema, rows: Iterable[ReportRow], language: Language = ENGLISH) -> tuple[Danger, ...]:

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from amp_studio.files import Notify, ParameterFile, axis_letter, with_local_times
 from amp_studio.guide import GuideProgress, StepProgress
+from amp_studio.report.chapters import PrintedTest
 from amp_studio.report.language import ENGLISH, Language, language_of
 from amp_studio.report.output.page import filled_page
 from amp_studio.report.output.pdf import filled_template, typeset
@@ -61,24 +62,6 @@ class ListedStep:
     def is_done(self) -> bool:
         """Whether its box is ticked already."""
         return self.progress.state == "done"
-
-
-@dataclass(frozen=True)
-class PrintedTest:
-    """One program or procedure that tries a machine out."""
-
-    id: str
-    """As a tick names it: ``homing@0``."""
-    title: str
-    page: str
-    lines: tuple[str, ...] = ()
-    steps: tuple[tuple[str, str], ...] = ()
-    """What to do, and what must be seen."""
-    notes: tuple[str, ...] = ()
-    refusal: str = ""
-    """Why the file does not allow it."""
-    ticked: str = ""
-    """When and by whom it was ticked as done."""
 
 
 @dataclass(frozen=True)
