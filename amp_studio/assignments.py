@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from types import NoneType
 from typing import TYPE_CHECKING
 
 from amp_studio.errors import AmpStudioError
@@ -64,7 +65,7 @@ def read_assignments(
         except UnknownParameterError as error:
             slips.append(str(error))
             continue
-        except ValueError as error:
+        except (TypeError, ValueError) as error:  # a Value of a list, for one
             slips.append(f"{param}: {error}")
             continue
         if message := resolved.remark(trial.schema):
@@ -119,11 +120,13 @@ def _with_bit(file: ParameterFile, address: Address, bit: int, text: str) -> Val
 
 
 def typed(value: NewValue | ParameterEntry) -> str | Value:
-    """Return a new value as a user types it."""
+    """Return a new value as a user types it; raises AssignmentError for what is no value."""
     if isinstance(value, ParameterEntry):
         return CLEARING_TEXT if value.value is None else f"{_plain(value.value)} {value.unit}".rstrip()
     if isinstance(value, (str, Value)):
         return value
+    if not isinstance(value, (int, float, NoneType)):
+        raise AssignmentError(f"a value is a text, a number, yes or no, a Value or None, not {value!r:.80}")
     return CLEARING_TEXT if value is None else _plain(value)
 
 

@@ -14,6 +14,7 @@ from typing import Self
 
 from amp_studio.assignments import MachineError
 from amp_studio.files import Notify
+from amp_studio.given import checked_types
 from amp_studio.machine import MachineParameters
 from amp_studio.transfer import (
     Abilities,
@@ -120,6 +121,7 @@ class ConnectedControl:
         """Return the machine that the control contains; it has no file yet. Raises ImageError."""
         return MachineParameters(decode_content(self.fetch()))
 
+    @checked_types
     def verify(self, machine: MachineParameters) -> ImageComparison:
         """Compare a machine with what the control contains, every value and every byte; nothing is
         written but the record of exchanges, where there is one.
@@ -131,6 +133,7 @@ class ConnectedControl:
         record_look("verify", exchange, family, self.address, fetched, found.summary())
         return found
 
+    @checked_types
     def download(
         self,
         machine: MachineParameters,
@@ -160,6 +163,7 @@ class ConnectedControl:
         exchange = replace(self.exchange, keep=kept, record=source)
         return download_file(machine.file, self.address, exchange, expected=expect)
 
+    @checked_types
     def restore(
         self, copy: str | Path | Copy, *, expect: str | None = None, keep: str | Path | None = None
     ) -> Outcome:
@@ -175,6 +179,7 @@ class ConnectedControl:
         return restore_copy(found, self.address, exchange, expected=expect)
 
 
+@checked_types
 def connect(
     address: str,
     family: str = "",

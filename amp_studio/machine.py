@@ -11,9 +11,10 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
-from amp_studio.assignments import MachineError, read_assignments, typed
+from amp_studio.assignments import AssignmentError, MachineError, read_assignments, typed
 from amp_studio.errors import AmpStudioError
 from amp_studio.files import ENDING, ParameterFileError, open_file
+from amp_studio.given import checked_types
 from amp_studio.schema import Value
 from amp_studio.value_rows import entry_of, value_row
 
@@ -79,6 +80,7 @@ class MachineParameters:
 
     # -- values ------------------------------------------------------------------
 
+    @checked_types
     def __getitem__(self, address: str) -> ParameterEntry:
         """Return one value by number, id or label, with ``@`` and the axis where there are several;
         ``.BIT`` is a field of a word.
@@ -122,8 +124,18 @@ class MachineParameters:
         return tried
 
     def _read(self, values: NewValues, notify: Notify) -> dict[Address, Value | None]:
-        pairs = values.items() if isinstance(values, Mapping) else values
-        return read_assignments(self.file, ((name, typed(value)) for name, value in pairs), notify)
+        pairs = list(
+            values.items()
+            if isinstance(values, Mapping)
+            else values
+            if isinstance(values, Iterable)
+            else [values]
+        )
+        if not all(
+            isinstance(pair, (tuple, list)) and len(pair) == 2 and isinstance(pair[0], str) for pair in pairs
+        ):
+            raise AssignmentError("values are {'1300@X': '5 mm'}, or pairs of an address and a value")
+        return read_assignments(self.file, [(name, typed(value)) for name, value in pairs], notify)
 
     def values(self) -> tuple[ParameterEntry, ...]:
         """Return every value that is set, in the order of the manual."""
@@ -132,6 +144,7 @@ class MachineParameters:
         addresses = (address for address in self.file.addresses() if address in self.file.values)
         return tuple(entry_of(self.file, ResolvedAddress(address)) for address in addresses)
 
+    @checked_types
     def axis(self, text: str) -> str:
         """Return the axis that is named by itself or by its letter (``1``, ``X``); raises
         UnknownParameterError.
@@ -159,7 +172,8 @@ class MachineParameters:
         validator = self.validator()
         return validator.run() if as_delivered else found_in(validator)
 
-    def validator(self, rules: Path | None = None) -> Validator:
+    @checked_types
+    def validator(self, rules: str | Path | None = None) -> Validator:
         """Return what finds the findings, where they are asked for more than once; ``run`` it first.
 
         ``rules`` is a file of a builder's own rules instead of the one beside the machine.
@@ -169,16 +183,17 @@ class MachineParameters:
 
         return validator_of(self.file, self.source, self.builder_rules(rules))
 
-    def builder_rules(self, rules: Path | None = None) -> BuilderRules:
+    def builder_rules(self, rules: str | Path | None = None) -> BuilderRules:
         """Return a builder's own rules: those beside the machine, or of the file ``rules``."""
         if rules is not None:
             from amp_studio.validate import axes_by_letter, read_builder_rules
 
-            return read_builder_rules(rules, self.schema, axes_by_letter(self.file))
+            return read_builder_rules(Path(rules), self.schema, axes_by_letter(self.file))
         from amp_studio.validate import NO_RULES, rules_beside
 
         return rules_beside(self.source, self.file) if self.source else NO_RULES
 
+    @checked_types
     def fix(
         self,
         rule: str | None = None,
@@ -213,6 +228,7 @@ class MachineParameters:
         validator.run()
         return apply_fixes(validator, is_chosen, even_doubtful=rule is not None or param is not None)
 
+    @checked_types
     def diff(self, other: MachineParameters | str | Path) -> tuple[Difference, ...]:
         """Return what differs from another machine of the same family, or from a file; raises
         MachineError.
@@ -221,6 +237,7 @@ class MachineParameters:
             other if isinstance(other, MachineParameters) else open_machine(other)
         ).differences
 
+    @checked_types
     def compare(self, other: MachineParameters) -> Comparison:
         """Return what differs from another machine of the same family, with how much is the same or not set;
         raises MachineError.
@@ -233,6 +250,7 @@ class MachineParameters:
 
     # -- what it does --------------------------------------------------------------
 
+    @checked_types
     def simulate(
         self,
         scenario: str,
@@ -257,6 +275,7 @@ class MachineParameters:
             return sweep(self.file, axis, given, units, way=way)
         return simulate(self.file, scenario, axis, given, units, like=like)
 
+    @checked_types
     def check_motion(self, axis: str | None = None) -> tuple[MotionCheck, ...]:
         """Run every scenario that the machine allows, on one axis or on all, and return the verdicts;
         raises SimulationError.
@@ -265,6 +284,7 @@ class MachineParameters:
 
         return tuple(check_motion(self.file, axis))
 
+    @checked_types
     def report(self, path: str | Path, *, notify: Notify = lambda _note: None, **contents: Any) -> bool:
         """Write the documentation as the ending of ``path`` names it (.pdf, .html, .xlsx, .csv, .json, .txt);
         ``contents`` are those of Contents.
@@ -278,11 +298,12 @@ class MachineParameters:
         try:
             chosen, own = Contents(**contents), self.builder_rules()
             return write_report(self.file, path, chosen, source=self.source, own=own, notify=notify)
-        except (TypeError, ValueError) as error:
-            raise error if isinstance(error, AmpStudioError) else MachineError(str(error)) from None
+        except (OSError, TypeError, ValueError) as error:
+            raise _refused(error) from None
 
     # -- files -----------------------------------------------------------------------
 
+    @checked_types
     def save(self, path: str | Path | None = None, *, verb: str = "library") -> None:
         """Save in place, keeping the file before as its backup, or under a new name that no file has.
 
@@ -305,13 +326,11 @@ class MachineParameters:
                 with Document(self.file, self.path, self._digest) as document:
                     document.save(verb)
         except OSError as error:
-            if isinstance(error, AmpStudioError):
-                raise
-            text = f"{error.filename}: {error.strerror}" if error.strerror else str(error)
-            raise MachineError(text) from None
+            raise _refused(error) from None
         self.path = self.source = target
         self.notes, self._digest = document.notes, document.digest
 
+    @checked_types
     def save_new(self, path: str | Path) -> None:
         """Save under a name that no file has, which the machine is called by from then on; raises as
         ``save`` does.
@@ -322,6 +341,7 @@ class MachineParameters:
         self.file.header.name = text_of_name(Path(path).stem)
         self.save(path)
 
+    @checked_types
     def export(
         self,
         path: str | Path,
@@ -340,6 +360,7 @@ class MachineParameters:
         return export_file(self.file, path, format_key, notify, secrets=secrets).account
 
 
+@checked_types
 def open_machine(
     path: str | Path, *, family: str | None = None, machine: str = "", notify: Notify = lambda _message: None
 ) -> MachineParameters:
@@ -365,6 +386,7 @@ def _is_text_of_control(path: Path) -> bool:
     return is_text_of_control(path)
 
 
+@checked_types
 def edit_machine(path: str | Path, *, only_view: bool = False) -> MachineParameters:
     """Open a parameter file so that no other program edits it until the ``with`` of the machine ends.
 
@@ -386,6 +408,7 @@ def edit_machine(path: str | Path, *, only_view: bool = False) -> MachineParamet
     return edited
 
 
+@checked_types
 def new_machine(
     family: str, machine: str | None = None, axes: Iterable[str] = (), name: str = ""
 ) -> MachineParameters:
@@ -394,10 +417,11 @@ def new_machine(
 
     try:
         return MachineParameters(new_file(family, machine, list(axes), name))
-    except (KeyError, ValueError) as error:
-        raise error if isinstance(error, AmpStudioError) else MachineError(str(error)) from None
+    except (KeyError, TypeError, ValueError) as error:
+        raise _refused(error) from None
 
 
+@checked_types
 def import_text(
     path: str | Path,
     family: str | None = None,
@@ -419,19 +443,31 @@ def import_text(
     from amp_studio.formats import import_file
 
     accounts: list[Account] = []
-    file = import_file(
-        path,
-        family,
-        format_key=format_key,
-        keep_unknown=keep_unknown,
-        machine=machine,
-        listing=listing,
-        notify=notify,
-        take_account=accounts.append,
-    )
+    try:
+        file = import_file(
+            path,
+            family,
+            format_key=format_key,
+            keep_unknown=keep_unknown,
+            machine=machine,
+            listing=listing,
+            notify=notify,
+            take_account=accounts.append,
+        )
+    except OSError as error:
+        raise _refused(error) from None
     imported = MachineParameters(file)
     (imported.account,) = accounts
     return imported
+
+
+def _refused(error: Exception) -> AmpStudioError:
+    """Return an error of the system or of Python as one of the program; one of the program as it is."""
+    if isinstance(error, AmpStudioError):
+        return error
+    if isinstance(error, OSError) and error.strerror:
+        return MachineError(f"{error.filename}: {error.strerror}")
+    return MachineError(str(error))
 
 
 def _setting(name: str) -> str:

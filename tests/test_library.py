@@ -6,6 +6,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -44,6 +45,11 @@ def control(tmp_path: Path) -> Iterator[str]:
         assert process.stdout is not None
         yield process.stdout.readline().removeprefix("listening on ").strip()
         process.communicate("quit\n", timeout=60)
+
+
+FIVE: Any = 5
+LIST: Any = [5]
+"""What is of another type than it should be."""
 
 
 def test_there_are_ten_examples_of_at_most_five_lines() -> None:
@@ -92,6 +98,28 @@ def test_values_are_set_by_text_number_yes_and_none(mill: Path) -> None:
         (lambda m: m.simulate("nothing"), amp.AmpStudioError),
         (lambda m: m.report("mill.doc"), amp.MachineError),
         (lambda m: m.report("mill.txt", colour="red"), amp.MachineError),
+        (lambda m: m.report("mill.html", language="../de"), amp.MachineError),
+        (lambda m: m.report("mill.txt", without={"nothing"}), amp.MachineError),
+        (lambda m: m.report("mill.txt", programs=["none.nc"]), amp.MachineError),
+        (lambda m: m.report("mill.txt", programs="none.nc"), amp.MachineError),
+        (lambda m: m[5], TypeError),
+        (lambda m: m.set([5]), amp.AssignmentError),
+        (lambda m: m.set({5: 5}), amp.AssignmentError),
+        (lambda m: m.set(None), amp.AssignmentError),
+        (lambda m: m.set("1300"), amp.AssignmentError),
+        (lambda m: m.set({"1300@X": b"5"}), amp.AssignmentError),
+        (lambda m: m.set({"1300@X": amp.Value(LIST)}), amp.AssignmentError),
+        (lambda m: m.axis(1), TypeError),
+        (lambda m: m.fix(rule=5), TypeError),
+        (lambda m: m.compare("mill.amp"), TypeError),
+        (lambda m: m.simulate("step", "X", like="before"), TypeError),
+        (lambda m: m.simulate("step", "X", move_feedrate=b"5"), amp.AmpStudioError),
+        (lambda m: m.save("a\0b"), TypeError),
+        (lambda _: amp.open(FIVE), TypeError),
+        (lambda _: amp.new("9pc", name=FIVE), TypeError),
+        (lambda _: amp.new("9pc", axes=FIVE), amp.MachineError),
+        (lambda _: amp.load_schema(FIVE), amp.AmpStudioError),
+        (lambda _: amp.import_text("none.set", "num"), amp.MachineError),
         (lambda m: m.save("there/is/none.amp"), amp.MachineError),
         (lambda m: m.export("mill.doc"), amp.AmpStudioError),
         (lambda _: amp.open("none.amp"), amp.AmpStudioError),

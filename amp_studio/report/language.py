@@ -236,11 +236,11 @@ def language_of(code: str, family: str = "", *more: str) -> Language:
     """
     if code == "en":
         return ENGLISH
+    name = name_of_language(code)
     if family:
         facts, shared = fact_texts(family, code), language_of(code, *more)
         facts = facts.model_copy(update={"sentences": {**shared.facts.sentences, **facts.sentences}})
         return replace(shared, facts=facts, sentences=(*_sentences(facts.patterns), *shared.sentences))
-    name = name_of_language(code)
     sentences = _own(code, "sentences")
     return Language(
         code,

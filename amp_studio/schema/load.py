@@ -66,7 +66,7 @@ class UnknownFamilyError(AmpStudioError, KeyError):
     """A family that there is not; the text is one clear sentence."""
 
     def __init__(self, text: str) -> None:
-        super().__init__(unknown_name("family", text, family_ids()))
+        super().__init__(unknown_name("family", str(text), family_ids()))
 
     def __str__(self) -> str:
         return str(self.args[0])

@@ -53,8 +53,8 @@ def number(settings: ScenarioSettings, name: str) -> float | None:
     setting = settings.get(name)
     if setting is None:
         return None
-    if isinstance(setting, (bool, str)):
-        raise SimulationError(f"{name} is {setting!r}, not a number", name)
+    if isinstance(setting, bool) or not isinstance(setting, (int, float)):
+        raise SimulationError(f"{name} is {setting!r:.80}, not a number", name)
     # float() takes "nan" and "inf" as numbers; no motion can be computed with them.
     if not math.isfinite(setting):
         raise SimulationError(f"{name} is {setting:g}; it must be finite", name)
