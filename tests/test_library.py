@@ -109,6 +109,7 @@ def test_values_are_set_by_text_number_yes_and_none(mill: Path) -> None:
         (lambda m: m.set("1300"), amp.AssignmentError),
         (lambda m: m.set({"1300@X": b"5"}), amp.AssignmentError),
         (lambda m: m.set({"1300@X": amp.Value(LIST)}), amp.AssignmentError),
+        (lambda m: m.set({"1740": amp.Value(10**5000)}), amp.AssignmentError),
         (lambda m: m.axis(1), TypeError),
         (lambda m: m.fix(rule=5), TypeError),
         (lambda m: m.compare("mill.amp"), TypeError),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from collections.abc import Iterable
 from decimal import Decimal
 from fractions import Fraction
@@ -38,6 +39,7 @@ _NUMBER = re.compile(r"\s*([+-]?[0-9.,](?:[0-9.,]|[ '_](?=[0-9]))*)((?:[eE][+-]?
 _GROUPED = re.compile(r"[+-]?[0-9]{1,3}([ '_])[0-9]{3}(?:\1[0-9]{3})*(?:[.,][0-9]+)?")
 EXACT = 2**53 - 1
 """Largest whole number up to which a double is exact."""
+_LARGEST = sys.float_info.max
 LONGEST_TEXT = 100_000
 """Signs of a text; the longest there are is a table of ballscrew compensation."""
 _RAW = re.compile(r"[+-]?[0-9]{1,16}")
@@ -154,8 +156,9 @@ def _checked(parameter: Parameter, value: Value) -> Value:
         return value
     if value.unit not in UNITS:
         raise InvalidValueError(f"{quoted(value.unit)} is not a unit")
-    if not math.isfinite(found):
-        raise InvalidValueError(f"{found} is not a number that {parameter.name} can have")
+    if not -_LARGEST <= found <= _LARGEST:  # math.isfinite takes no integer of so many digits
+        number = found if isinstance(found, float) else "An integer of so many digits"
+        raise InvalidValueError(f"{number} is not a number that {parameter.name} can have")
     if parameter.type in ("integer", "bits"):
         return Value(_whole_number(parameter, found), value.unit)
     return Value(0.0, value.unit) if found == 0 else value  # there is no -0
