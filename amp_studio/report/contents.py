@@ -68,8 +68,6 @@ class Contents:
             raise ValueError(f"Unknown units '{self.units}'. Known: {', '.join(UNIT_CHOICES)}")
         if self.paper not in PAPER_SIZES:
             raise ValueError(f"Unknown paper '{self.paper}'. Known: {', '.join(PAPER_SIZES)}")
-        if isinstance(self.programs, str):
-            raise ValueError("programs are several paths, not one text")
         if unknown := sorted({*self.without}.difference(CHAPTERS)):
             raise ValueError(f"Unknown chapter '{unknown[0]}'. Known: {', '.join(CHAPTERS)}")
         object.__setattr__(self, "without", frozenset(self.without))
