@@ -1,11 +1,17 @@
 """The find box: what it shows at each key, and where each row leads."""
 
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
 import pytest
 from PySide6.QtCore import Qt, QUrl
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtTest import QTest
+from pytestqt.qtbot import QtBot
 
 from amp_studio.schema import Value
+from amp_studio.ui.actions import find
 from amp_studio.ui.actions.find_box import FindBox
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
@@ -241,3 +247,22 @@ def test_the_panel_of_a_parameter_leads_to_the_messages_that_name_it(window: Mai
     assert "EXCESS FOLLOWING ERROR" in window.detail.page.toPlainText()
     window.detail.page.anchorClicked.emit(QUrl("message:excess-following-error"))
     assert window.findChild(MessageWindow).windowTitle() == "EXCESS FOLLOWING ERROR"
+
+
+@pytest.mark.own_window
+def test_enter_before_the_words_of_a_file_are_read_goes_there_once_they_are(
+    open_window: Callable[..., MainWindow], path: Path, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The first number typed into a file that was just opened found nothing, and Enter did something else."""
+    read = threading.Event()
+    real = find._make_ready
+    monkeypatch.setattr(find, "_make_ready", lambda *given: (read.wait(WAIT_MS / 1000), real(*given)))
+    window = open_window(path)
+    box = window.finder.box
+    box.setFocus()
+    box.begin("1740")
+    QTest.keyClick(box, Qt.Key.Key_Return)
+    assert [row.text for row in box.model.rows] == ["Preparing the search …"]
+    read.set()
+    qtbot.waitUntil(lambda: not box.is_open, timeout=WAIT_MS)
+    assert window.selected() == ("servo.feedrate_suppression", "1")

@@ -121,13 +121,15 @@ class FindSearch(Translated):
                 own, ""
             )
         finder = self._finder()
-        hits = finder.find(own, _MOST) if finder is not None else []
+        if finder is None:
+            return [FindRow(self.box.tr("Preparing the search …"), waits=True)]
+        hits = finder.find(own, _MOST)
         found = [self._with_value(hit, self.window.page) for hit in hits]
         found = sorted(found + self._among(own), key=lambda hit: -hit.score)
         if found:
             family = self.window.page.workspace.file.schema.family.family
             return rows_of(found, self._commands, family) + self._every(found)
-        return self._nothing(own, finder.nearest(own) if finder is not None else "")
+        return self._nothing(own, finder.nearest(own))
 
     def _finder(self) -> Finder | None:
         """Return the finder of the file in front once its family is indexed."""

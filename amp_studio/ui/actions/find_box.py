@@ -83,9 +83,11 @@ class FindBox(QLineEdit):
         self._window = window
         self._selects = False
         """Whether the click that is under way selects the whole question."""
+        self._is_to_choose = False
+        """Whether Enter was pressed before there was an answer: the best of it is chosen then."""
         self._was_here = False
         """Whether the cursor was here before the click: Qt gives the focus before the click."""
-        self.textEdited.connect(self.search)
+        self.textEdited.connect(self._edited)
         self.textChanged.connect(self._emptied)
 
     # -- asking ----------------------------------------------------------------------
@@ -100,7 +102,11 @@ class FindBox(QLineEdit):
         if self.text():
             self.search()
 
-    def search(self, *_: object) -> None:
+    def _edited(self, *_: object) -> None:
+        self._is_to_choose = False
+        self.search()
+
+    def search(self) -> None:
         """Ask the present question and show the rows; nothing is shown for an empty one."""
         if not self.text().strip():
             self.close_list()
@@ -112,6 +118,12 @@ class FindBox(QLineEdit):
         self._popup.raise_()
         found = sum(not row.is_head for row in self.model.rows)
         self._announce(self.tr("%n found", "", found))
+        if self._is_to_choose and not self._waits:
+            self._choose()
+
+    @property
+    def _waits(self) -> bool:
+        return bool(self.model.rows) and self.model.rows[0].waits
 
     @property
     def is_open(self) -> bool:
@@ -122,6 +134,7 @@ class FindBox(QLineEdit):
         """Hide the list; the question stays. A window that goes takes the list away
         before this field loses the focus.
         """
+        self._is_to_choose = False
         with contextlib.suppress(RuntimeError):
             self._popup.hide()
 
@@ -172,6 +185,7 @@ class FindBox(QLineEdit):
         elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
             if not self.is_open:
                 self.search()
+            self._is_to_choose = self._waits
             self._choose()
         elif key == Qt.Key.Key_Escape:
             if self.is_open:

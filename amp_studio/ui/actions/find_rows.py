@@ -53,6 +53,8 @@ class FindRow(NamedTuple):
     """Ids of all parameters that were found, to be shown in the table."""
     family: str = ""
     """The other family that has it."""
+    waits: bool = False
+    """Whether the question is asked again soon: its words are still being read."""
 
     @property
     def is_head(self) -> bool:
