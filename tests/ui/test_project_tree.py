@@ -52,8 +52,8 @@ def tree(folder: Path, path: Path, open_window: Callable[..., MainWindow], qtbot
 
 def row(tree: ProjectTree, kind: str, name: str = "") -> QTreeWidgetItem:
     """Return the row of a kind, of a name if there are several."""
-    rows = [i for i in tree._items() if i.data(0, KEY)[0] == kind and name in str(i.data(0, KEY)[1])]
-    assert len(rows) == 1, (kind, name, [i.text(0) for i in tree._items()])
+    rows = [i for i in tree._by_key.values() if i.data(0, KEY)[0] == kind and name in str(i.data(0, KEY)[1])]
+    assert len(rows) == 1, (kind, name, [i.text(0) for i in tree._by_key.values()])
     return rows[0]
 
 
@@ -104,9 +104,9 @@ def test_a_backup_is_compared_with_the_file(tree: ProjectTree) -> None:
 def test_it_follows_the_disk(tree: ProjectTree, folder: Path, path: Path, qtbot: QtBot) -> None:
     tree._settle.setInterval(0)
     (folder / "third.amp").write_bytes(path.read_bytes())
-    qtbot.waitUntil(lambda: any(i.text(0) == "third" for i in tree._items()), timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: any(i.text(0) == "third" for i in tree._by_key.values()), timeout=WAIT_MS)
     (folder / "third.amp").unlink()
-    qtbot.waitUntil(lambda: not any(i.text(0) == "third" for i in tree._items()), timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: not any(i.text(0) == "third" for i in tree._by_key.values()), timeout=WAIT_MS)
     assert tree.tree.currentItem().text(0) == "mill", "what was selected stays so"
 
 
@@ -196,12 +196,14 @@ def test_recent_projects_are_listed_without_the_open_one(
     tree._window.settings.keep_projects([*tree._window.settings.projects(), other])
     tree._content = None
     tree.refresh()
-    qtbot.waitUntil(lambda: any(i.data(0, KEY)[0] == "project" for i in tree._items()), timeout=WAIT_MS)
+    qtbot.waitUntil(
+        lambda: any(i.data(0, KEY)[0] == "project" for i in tree._by_key.values()), timeout=WAIT_MS
+    )
     assert row(tree, "project").text(0) == "other project"
 
 
 def test_the_menu_of_every_row_has_each_letter_once(tree: ProjectTree) -> None:
-    for item in tree._items():
+    for item in tree._by_key.values():
         assert doubled(a.text() for a in tree.menu_of(item).actions()) == {}
 
 
@@ -212,3 +214,15 @@ def test_a_folder_that_is_no_project_is_shown_all_the_same(open_window, path: Pa
     qtbot.waitUntil(lambda: found.tree.topLevelItemCount() > 0, timeout=WAIT_MS)
     assert found.tree.topLevelItem(0).text(0) == "machine"
     assert row(found, "file", "mill.amp").text(0) == "mill"
+
+
+def test_rows_whose_file_stays_as_it_is_are_not_written_again(tree: ProjectTree, qtbot: QtBot) -> None:
+    """In a folder of a thousand files each change of the tab wrote 5,000 marks."""
+    second = row(tree, "file", "second.amp")
+    qtbot.waitUntil(lambda: bool(second.data(0, COUNTS)), timeout=WAIT_MS)
+    changed: list[object] = []
+    tree.tree.model().dataChanged.connect(lambda *given: changed.append(given))
+    tree._mark_all()
+    assert changed == []
+    tree._page.workspace.edit("rapid", {("feedrate.rapid", "1"): Value(100.0, "mm/s")})
+    assert changed != [], "the mill is not saved now"

@@ -2,6 +2,7 @@
 and nothing that moves by itself.
 """
 
+from itertools import accumulate
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,8 @@ from PySide6.QtWidgets import QApplication, QDockWidget
 from amp_studio.schema import Value
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.table.cell_look import as_written
+from amp_studio.ui.table.column_widths import LEAST_NAMES, ContentWidths, column_widths
+from amp_studio.ui.table.more_columns import STRIP
 from amp_studio.ui.table.parameter_table import CONTROL
 from tests.campaigns import CAMPAIGN
 
@@ -278,3 +281,17 @@ def test_the_parameter_panel_keeps_its_width_from_value_to_value(opened) -> None
         widths.add(panel.width())
         assert panel.value.width() >= panel.value.minimumSizeHint().width(), address
     assert len(widths) == 1
+
+
+@pytest.mark.parametrize("room", range(150, 1300, 25))
+def test_names_have_what_the_columns_leave_free_that_are_seen_whole(room: int) -> None:
+    """Names were cut beside 160 white pixels, where the fifth axis had no room."""
+    axes = [119, 119, 119, 104, 119]
+    widths = column_widths(ContentWidths(42, 260, axes, axes, [0] * 5, 0), room)
+    wanted, left = min(42 + 260, room // 3), room - widths.frozen
+    whole = [end for end in accumulate(axes) if end <= left - STRIP]
+    assert widths.frozen == wanted or sum(axes) >= left or not whole or whole[-1] == left - STRIP
+    least = min(wanted, max(42 + LEAST_NAMES, room - sum(axes)))
+    assert whole == [end for end in accumulate(axes) if end <= room - least - STRIP], (
+        "no column leaves for it"
+    )

@@ -41,6 +41,9 @@ class ProjectTree(QWidget):
         self._page, self._files, self._window = page, files, files.window
         self.folder = page.workspace.path.parent
         self._content: FolderContent | None = None
+        self._by_key: dict[object, QTreeWidgetItem] = {}
+        self._marked: dict[object, object] = {}
+        """What each file's row shows: a folder may have a thousand of them, and most stay as they are."""
         self._reading: Task | None = None
         self.tree = PlaceTree()
         self.tree.setAccessibleName(self.tr("Project"))
@@ -113,14 +116,12 @@ class ProjectTree(QWidget):
             if self.tree.currentItem()
             else ("file", self._page.workspace.path)
         )
-        opened = {i.data(0, KEY) for i in self._items() if i.isExpanded()}
+        opened = {key for key, item in self._by_key.items() if item.isExpanded()}
         self.tree.clear()
+        self._by_key, self._marked = {}, {}
         project = self._files.project_of(self.folder)
         top = self._item(
-            self.tree,
-            ("folder", self.folder),
-            project.info.name if project else self.folder.name,
-            "folder-simple",
+            None, ("folder", self.folder), project.info.name if project else self.folder.name, "folder-simple"
         )
         top.setToolTip(0, str(self.folder))
         if project:
@@ -137,22 +138,25 @@ class ProjectTree(QWidget):
             gone = self._item(top, ("deleted", path), path.name.removesuffix(".bak"), "trash")
             gone.setData(0, RIGHT, self.tr("deleted"))
             gone.setData(0, TOKEN, "dim")
-        self._add_projects()
-        top.setExpanded(True)
-        for item in self._items():
-            key = item.data(0, KEY)
-            item.setExpanded(item is top or key in opened)
-            if key == selected:
-                self.tree.setCurrentItem(item)
         self._mark_all()
+        # With all its rows: in the tree each of their texts and marks would be a change to be painted.
+        self.tree.addTopLevelItem(top)
+        self._add_projects()
+        for key in (top.data(0, KEY), *(opened & self._by_key.keys())):
+            self._by_key[key].setExpanded(True)
+        if selected in self._by_key:
+            self.tree.setCurrentItem(self._by_key[selected])
         self._window.summaries.want(
             file.path for file in content.files if self._window.page_of(file.path) is None
         )
 
-    def _item(self, above: QTreeWidgetItem | PlaceTree, key: object, text: str, name: str) -> QTreeWidgetItem:
-        item = QTreeWidgetItem(above, [text])
+    def _item(
+        self, above: QTreeWidgetItem | PlaceTree | None, key: object, text: str, name: str
+    ) -> QTreeWidgetItem:
+        item = QTreeWidgetItem([text]) if above is None else QTreeWidgetItem(above, [text])
         item.setData(0, KEY, key)
         item.setData(0, PICTURE, (name, "dim"))
+        self._by_key[key] = item
         return item
 
     def _add_file(self, top: QTreeWidgetItem, file: FolderFile) -> None:
@@ -181,18 +185,14 @@ class ProjectTree(QWidget):
 
     # -- marks --------------------------------------------------------------------------
 
-    def _items(self) -> list[QTreeWidgetItem]:
-        return list(self.tree.findItems("*", Qt.MatchFlag.MatchWildcard | Qt.MatchFlag.MatchRecursive))
-
     def _mark_all(self, *_: object) -> None:
         if self.isVisible():
-            for item in self._items():
+            for item in self._by_key.values():
                 self._mark(item)
 
     def _mark_path(self, path: Path) -> None:
-        for item in self._items() if self.isVisible() else ():
-            if item.data(0, KEY) == ("file", path):
-                self._mark(item)
+        if self.isVisible() and (item := self._by_key.get(("file", path))) is not None:
+            self._mark(item)
 
     def _mark_own(self, *_: object) -> None:
         self._mark_path(self._page.workspace.path)
@@ -207,6 +207,10 @@ class ProjectTree(QWidget):
         page, summary = self._window.page_of(path), self._window.summaries.of(path)
         counts = _counts_of(page, summary)
         unsaved, tone = page is not None and page.workspace.is_dirty, "dim" if page is None else "text"
+        state = (counts, unsaved, tone, summary if isinstance(summary, str) else "")
+        if self._marked.get(path) == state:
+            return
+        self._marked[path] = state
         item.setData(0, PICTURE, ("circle-fill", "chg") if unsaved else ("file", tone))
         item.setData(0, COUNTS, counts)
         item.setData(0, TOKEN, tone)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 from heapq import nlargest
+from itertools import accumulate
 
 from PySide6.QtGui import QFontMetrics
 
@@ -16,6 +17,7 @@ from amp_studio.ui.base.theme import GAP3, FontRole, font
 
 from .cell_look import CellLook
 from .cell_painter import CellPainter
+from .more_columns import STRIP
 from .parameter_table import ParameterTable
 
 LEAST_COLUMN = 84
@@ -108,9 +110,18 @@ def column_widths(content: ContentWidths, room: int) -> ColumnWidths:
     wanted = min(number + content.names, int(room * MOST_FROZEN))
     # The columns have their short widths first, but names keep a width at which they can be read.
     frozen = max(min(wanted, room - sum(short)), min(wanted, number + LEAST_NAMES))
-    return ColumnWidths(
-        number, frozen, _shared(content.full, short, room - frozen), content.slots, content.block
-    )
+    columns = _shared(content.full, short, room - frozen)
+    # What the columns leave free that are seen whole beside the strip belongs to the names.
+    frozen += min(_free_beside(columns, room - frozen), wanted - frozen)
+    return ColumnWidths(number, frozen, columns, content.slots, content.block)
+
+
+def _free_beside(columns: list[int], room: int) -> int:
+    """Return the room that is left where not all columns fit, and those that do stay whole; 0 where all fit,
+    or none does.
+    """
+    ends = [end for end in accumulate(columns) if end <= room - STRIP]
+    return room - STRIP - ends[-1] if ends and sum(columns) > room else 0
 
 
 def _shared(full: list[int], short: list[int], room: int) -> list[int]:
