@@ -119,6 +119,11 @@ install_packages() {
     pip install --quiet --disable-pip-version-check --no-input --no-warn-script-location \
         --no-index --no-deps --no-build-isolation --editable . ||
         stop "amp-studio could not be installed into .venv (see above)"
+    # From its own place and in ASCII: Python reads this in the encoding of the locale, which may not have a name
+    # above the checkout.
+    for packages in .venv/lib/python3*/site-packages; do
+        echo ../../../.. >"$packages/_amp_studio.pth"
+    done
     recipe "$1" >".venv/ready-$1"
 }
 

@@ -55,3 +55,5 @@ def open_for_reading(
         raise ParameterFileError(path, None, f"{error} (name it with --family)") from None
     except FormatError as error:
         raise ParameterFileError(path, error.line, error.what) from None
+    except OSError as error:
+        raise ParameterFileError(path, None, f"cannot be read: {error.strerror}") from None

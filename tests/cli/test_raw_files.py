@@ -165,3 +165,12 @@ def test_the_machine_type_of_a_text_is_the_one_that_is_named(
     found = amp("validate", few, few, "--machine", "grbl-1.1", "--json")
     assert found.code == 0
     assert "machine type" not in found.err
+
+
+def test_a_text_longer_than_any_control_writes_is_refused_in_one_line(
+    amp: Callable[..., Outcome], tmp_path: Path
+) -> None:
+    long = tmp_path / "log of a year.txt"
+    long.write_text(LISTING + "(" + "x" * 5 * 2**20 + ")\n", "utf-8")
+    message = f"amp-studio: {long}: cannot be read: Is larger than 4 MiB, the most that is read\n"
+    assert amp("validate", long) == Outcome(2, "", message)

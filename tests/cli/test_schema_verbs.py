@@ -139,6 +139,13 @@ def test_a_number_that_a_mill_and_a_lathe_do_not_share_shows_it(amp) -> None:
     assert amp("show", "9pc", "564").out == amp("show", "9pc", "522").out == message
 
 
+def test_a_number_on_an_axis_shows_the_parameter_that_it_means_in_a_file(amp) -> None:
+    page = amp("show", "9pc", "1300").out
+    assert [amp("show", "9pc", text).out for text in ("1300@X", "1300@2", "2300@X")] == [page] * 3
+    wrong = amp("show", "9pc", "1300@9")
+    assert (wrong.code, wrong.err) == (2, "amp-studio: '1300@9': Home Calibration has @1 to @8\n")
+
+
 def test_a_printed_table_is_on_the_page_of_what_is_looked_up_in_it(amp) -> None:
     message = amp("show", "9pc", "1801").out
     assert "Velocity Proportional Gain Values for Standard Motors (page 7-55)" in message

@@ -90,6 +90,7 @@ class GrblLine:
         self._clock, self._sleep = waiting.now, waiting.sleep
         self._buffer = b""
         self._lines: deque[str] = deque()
+        self._suspended = ""  # the state in which it reports itself and reads no line
         self._owed = 0  # refusals of first lines that may still come, before any other answer
         # Opening is bounded too: a port that opens and never answers would be waited for without an end.
         self._begin(START, lingers=False)
@@ -124,10 +125,14 @@ class GrblLine:
         """Send a command and return the lines of its answer, without ``ok``.
 
         With ``writes`` the answer is waited for a moment even after a stop was asked for. Raises
-        GrblRefusalError, GrblRestartedError, LinkError, ControlSilentError, ProtocolMismatchError,
-        CancelledError.
+        ControlSuspendedError, GrblRefusalError, GrblRestartedError, LinkError, ControlSilentError,
+        ProtocolMismatchError, CancelledError.
         """
         self.go_on()
+        if self._suspended:
+            self._erase()  # it may read lines again
+        if self._suspended:
+            raise ControlSuspendedError(self._suspended)
         self._begin(ANSWER_ENDS, lingers=writes)
         self._link.write(command.encode() + b"\n")
         answer: list[str] = []
@@ -185,10 +190,14 @@ class GrblLine:
         and read all that is still to come of earlier commands.
         """
         self._begin(START, lingers=False)
+        self._link.write(b"?")
+        first = self._next(ASK, self._clock()) or ""
+        self._is_refusal(first)
+        self._notice(state_in(first))
         # So that the first line is sent at once.
         sent, sent_at, asked_at, refused = 0, -AGAIN, 0.0, 0
         is_alive = False  # it reports its state: no boot loader has swallowed the first line
-        while not refused:
+        while not refused and not self._suspended:
             now = self._clock()
             # A control that reports its state has the line and only needs time; one that is silent has
             # lost it to a boot loader.
@@ -200,9 +209,7 @@ class GrblLine:
                 asked_at = now
             line = self._next(ASK if is_alive else AGAIN, asked_at)
             if line is not None and (state := state_in(line)):
-                # It reads no line until cycle start: whatever is sent would pile up and act later.
-                if state in SUSPENDED:
-                    raise ControlSuspendedError(state)
+                self._notice(state)
                 is_alive = True
             refused += line is not None and self._is_refusal(line)
         quiet_since = self._clock()
@@ -217,6 +224,10 @@ class GrblLine:
         # Every first line is refused once; those not seen yet are still on their way.
         self._owed = max(0, sent - refused)
         self._waiting.heard()
+
+    def _notice(self, state: str) -> None:
+        """Notice a state without lines: what is sent would pile up until somebody goes on, and act then."""
+        self._suspended = state if state in SUSPENDED else ""
 
     def _is_refusal(self, line: str) -> bool:
         """Whether a line refuses a command; remembers what came unasked."""

@@ -46,24 +46,23 @@ def page_of(schema: Schema, param: str, machine: str | None = None) -> str:
     gives one page for each.
     """
     machines = [machine] if machine else [m.key for m in schema.family.machines]
-    found = schema.parameters.get(read_address(param.strip().casefold())[0])
-    if found is not None:
-        _check_instance(schema, found, param, machines)
-        wanted = [found.id]
-    else:
-        wanted = [
-            a[0]
-            for m in machines
-            for a in (
-                schema.on(m).addressed_by(param)
-                or schema.on(m).words(param)
-                or _word_of_bit(schema, param, m)
-            )
-        ]
-        if not wanted:
-            raise UnknownParameterError(*unknown(schema, param.strip()))
-    pages = [_page(schema, schema.parameters[p], machine) for p in dict.fromkeys(wanted)]
+    name = read_address(param.strip())[0]
+    found = schema.parameters.get(name.casefold())
+    wanted = [found.id] if found is not None else list(dict.fromkeys(_numbered(schema, name, machines)))
+    if not wanted:
+        raise UnknownParameterError(*unknown(schema, param.strip()))
+    for parameter_id in wanted:
+        _check_instance(schema, schema.parameters[parameter_id], param, machines)
+    pages = [_page(schema, schema.parameters[parameter_id], machine) for parameter_id in wanted]
     return ("\n" + "=" * _WIDTH + "\n").join(pages)
+
+
+def _numbered(schema: Schema, number: str, machines: Sequence[str]) -> Iterator[str]:
+    """Yield the ids of the parameters that have a number on these machines, or whose word or bit it names."""
+    for machine in machines:
+        here = schema.on(machine)
+        found = here.addressed_by(number) or here.words(number) or _word_of_bit(schema, number, machine)
+        yield from (address[0] for address in found)
 
 
 def _word_of_bit(schema: Schema, param: str, machine: str) -> list[Address]:

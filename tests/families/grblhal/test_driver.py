@@ -191,6 +191,16 @@ def test_a_control_that_reads_no_line_is_refused_at_once(bench: Bench, state: st
     assert bench.clock.now < 1.0
 
 
+def test_a_control_in_a_hold_reports_its_state_and_answers_after_it(bench: Bench) -> None:
+    for state in ("Hold:0", "Door:0"):
+        bench.firmware.operate(f"state {state}")
+        found = bench.driver.status()
+        assert (found.state, [axis.axis for axis in found.axes]) == (state, ["X", "Y", "Z"])
+    bench.firmware.operate("state Idle")
+    assert bench.driver.status().state == "Idle"
+    assert bench.driver.fetch()
+
+
 def test_an_answer_that_comes_slowly_is_no_silence(bench: Bench) -> None:
     """Silence is shown only where no byte comes, however long an answer takes."""
     stages: list[str] = []

@@ -7,6 +7,7 @@ import pytest
 
 from amp_studio.families.grblhal.formats.log import figure, is_listing, read_log
 from amp_studio.formats import import_file, is_text_of_control
+from amp_studio.schema import Value
 
 SETTINGS = {
     0: "10",
@@ -238,6 +239,20 @@ def test_data_of_other_programs_need_no_sign(form: str) -> None:
     }
     elsewhere = DATA[form].replace("110", "711")
     assert "$" in elsewhere or not is_listing(elsewhere), "numbers that no Grbl is known by"
+
+
+@pytest.mark.parametrize("head", ["[grbl]", "[grblHAL]", "[GRBL] "])
+def test_numbers_below_their_own_section_are_settings_and_no_registers(tmp_path: Path, head: str) -> None:
+    """Four whole numbers without a sign are a register table of another family as well."""
+    path = tmp_path / "machine.ini"
+    path.write_text(f"{head}\n110=500\n111=500\n112=400\n130=200\n", "utf-8")
+    read = import_file(path)
+    assert (read.schema.family.family, read.get(("axis.max_rate", "X"))) == (
+        "grblhal",
+        Value(500.0, "mm/min"),
+    )
+    path.write_text("[view]\n110=500\n111=500\n112=400\n130=200\n", "utf-8")
+    assert not is_text_of_control(path), "numbers of any program"
 
 
 def test_a_member_that_is_no_number_is_not_lost() -> None:

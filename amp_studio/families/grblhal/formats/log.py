@@ -7,7 +7,7 @@ a forum or a person puts around them.
     "$110": "500.000",                              a table or an object of another program
     | $110 | X-axis maximum rate | 500.000 | mm/min |    a table with words before the value
     $110  500.000                                   two columns
-    110=500.000                                     no sign at all, as bCNC stores them (grbl_110 = 500.000)
+    110=500.000                                     no sign, as bCNC stores them (grbl_110 = …); below [grbl]
     {"key": "$110", "value": "500.000", …}          data of another program (data.py)
     ; [BOARD:T41U5XBB]                              what the control answers to $I, plain or as a remark
     Kleine CNC, 21.12.2015:                         a heading
@@ -33,6 +33,7 @@ _THOUSANDS = re.compile(r"[+-]?[0-9]{1,3}(?:,[0-9]{3})+\.[0-9]+")
 _UNIT = r"(?:[uµm]?s(?:ec)?|mm(?:/\S+)?|steps?/\S+|rpm|hz)(?:\s.*)?"
 _SETTING = re.compile(r"\$(0|[1-9][0-9]{0,4})([\"'`*]{0,4})[ \t]*(:?=|[:|,;\t])[ \t]*")
 _BARE = re.compile(rf"(?:grbl_)?(0|[1-9][0-9]{{0,2}})[ \t]*=[ \t]*({NUMBER}|{IP})[ \t]*(?:[(;].*)?")
+_SECTION = re.compile(r"^\[grbl(?:HAL)?\][ \t]*$", re.MULTILINE | re.IGNORECASE)
 _DIGIT = re.compile("[0-9]")
 _FIGURE = re.compile(rf"(?:{IP}|{NUMBER})(?![\w.:])")
 _SPLIT = re.compile(r"^\$[ ](?=[0-9]{1,5}[ ]*=)")
@@ -162,9 +163,8 @@ def is_listing(text: str) -> bool:
     """Return whether a text is for the most part settings of a Grbl, or has at least a few of them."""
     text = with_signs(text)
     if "$" not in text:
-        return {"100", "110"} <= {
-            match[1] for line in text.splitlines() if (match := _BARE.fullmatch(line.strip()))
-        }
+        bare = {match[1] for line in text.splitlines() if (match := _BARE.fullmatch(line.strip()))}
+        return {"100", "110"} <= bare or (bool(bare) and _SECTION.search(text) is not None)
     return any(_has_settings(text, deep) for deep in (False, True)) or _without_signs(text) is not None
 
 

@@ -65,13 +65,17 @@ _ROW = re.compile(r"(\s*R?)([0-9]{1,9})(\s*[,;=]\s*|\s+)([^\s!]+)", re.IGNORECAS
 
 _DECIMAL = re.compile(r"[+-]?[0-9]+\.[0-9]+")
 _WORD = re.compile(r"[+-]?[0-9][0-9A-F]*H?", re.IGNORECASE)
+_SECTION = re.compile(r"^\s*\[\w+\]\s*$", re.MULTILINE)
 
 
 def _is_table(text: str) -> bool:
-    """Return whether most lines are rows; a table with a line that is none gets a message about that line."""
+    """Return whether most lines are rows; a table with a line that is none gets a message about that line.
+    Numbers below the head of a section ([grbl]) are of an INI.
+    """
     lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("!")]
     texts = [row[4] if (row := _ROW.match(line)) else "" for line in lines]
-    is_other = sum(bool(_DECIMAL.fullmatch(text)) for text in texts) > 2  # registers are whole numbers
+    # Registers are whole numbers.
+    is_other = sum(bool(_DECIMAL.fullmatch(text)) for text in texts) > 2 or _SECTION.search(text) is not None
     is_table = not is_other and 2 * sum(bool(_WORD.fullmatch(text)) for text in texts) > len(lines)
     return text.startswith(_TABLE_HEAD) or is_table
 
