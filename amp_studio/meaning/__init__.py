@@ -16,8 +16,8 @@ if TYPE_CHECKING:
         less_safe,
         migrate,
         migration_json,
-        migration_lines,
         targets,
+        to_measure,
     )
     from .reading import MeaningError
     from .writing import Graded, GradeKind, TargetError, WrittenMachine, inwards_high, inwards_low, not_above

@@ -7,20 +7,21 @@ import os
 import re
 import shutil
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 
 from amp_studio.schema import read_file
 
-from .migration import Migration, migration_json, migration_lines
+from .migration import Migration, migration_json
 
 _MOST = 200_000
 """Bytes of a file of answers."""
 _LINE = re.compile(r"\s*([A-Za-z][A-Za-z0-9_.]*)\s*:\s*(.*?)\s*")
 
 
-def write_migration(migration: Migration, folder: Path) -> list[str]:
-    """Write the configuration and its report into a new folder; returns the names. Raises OSError,
-    with nothing written.
+def write_migration(migration: Migration, folder: Path, lines: Iterable[str]) -> list[str]:
+    """Write the configuration and its report, in words in these lines, into a new folder; returns the
+    names. Raises OSError, with nothing written.
 
     A name with an ending is that of one file, the configuration alone. What is there already stays as it is:
     nobody knows what in it is of another machine.
@@ -32,7 +33,7 @@ def write_migration(migration: Migration, folder: Path) -> list[str]:
         return [next(iter(migration.written.texts))]
     texts = {
         **migration.written.texts,
-        "migration.txt": "\n".join((*migration_lines(migration), "")),
+        "migration.txt": "\n".join((*lines, "")),
         "migration.json": json.dumps(migration_json(migration), indent=2, ensure_ascii=False) + "\n",
     }
     if folder.exists():

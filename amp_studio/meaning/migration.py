@@ -185,15 +185,19 @@ def _other(file: ParameterFile, address: Address, param: str, raw: str) -> Migra
     if fact.outcome == "old_hardware":
         return MigratedParameter(address, param, "old_hardware", {"raw": raw})
     loses, do = fact.loses.format(name=parameter.name), fact.do or str(_NO_FACT.do)
-    return MigratedParameter(
-        address, param, "not_possible", {"loses": loses, "do": do, "raw": raw, "less_safe": fact.less_safe}
-    )
+    without = {"loses": loses, "name": parameter.name, "do": do, "raw": raw, "less_safe": fact.less_safe}
+    return MigratedParameter(address, param, "not_possible", without)
 
 
 def less_safe(migration: Migration) -> list[str]:
     """Return what is less safe than before, a sentence each; what several axes or parameters lose is one."""
     lost = [str(e.facts["loses"]) for e in migration.of("not_possible") if e.facts.get("less_safe")]
     return _of_axes(migration.written.less_safe) + _of_subjects(dict.fromkeys(lost))
+
+
+def to_measure(migration: Migration) -> list[str]:
+    """Return what has to be measured at the machine, a sentence each; what is so of several axes is one."""
+    return _of_axes(migration.written.measure)
 
 
 def _of_axes(sentences: Iterable[str]) -> list[str]:
@@ -253,72 +257,3 @@ def _question_json(
         "params": params.get(question.id, []),
         "answer": written.answered.get(question.id),
     }
-
-
-def migration_lines(migration: Migration) -> Iterator[str]:
-    """Yield a migration in words: first what is less safe, then the questions, then each parameter once."""
-    counts = {
-        o: len(migration.of(o)) for o in ("exact", "approximate", "not_possible", "asked", "old_hardware")
-    }
-    yield (
-        f"Migration of {migration.machine.name or 'a machine'} ({migration.machine.family}) to"
-        f" {migration.target}"
-    )
-    yield (
-        f"{len(migration.entries)} active parameters: {counts['exact']} taken over exactly,"
-        f" {counts['approximate']} approximated, {counts['not_possible']} not possible, {counts['asked']}"
-        f" asked, {counts['old_hardware']} of the old hardware"
-    )
-    yield from _section("Less safe than before", less_safe(migration))
-    yield from _section(
-        "Open questions: the keys that wait for them are left out",
-        [f"{q.id}: {q.question}" for q in migration.written.open],
-    )
-    yield from _section("To be measured at the machine", _of_axes(migration.written.measure))
-    if any(name.endswith(".hal") for name in migration.written.texts):
-        yield from _section("HAL is a template: it moves nothing, and nothing of the old wiring is in it", [])
-    for outcome, title in (
-        ("exact", "Taken over exactly"),
-        ("approximate", "Approximated"),
-        ("not_possible", "Not possible"),
-        ("asked", "Asked"),
-        ("old_hardware", "Of the old hardware"),
-    ):
-        yield from _section(title, list(_lines(migration.of(outcome))))
-
-
-def _section(title: str, lines: list[str]) -> Iterator[str]:
-    yield from ("", title, *(f"  {line}" for line in lines))
-
-
-def _lines(entries: list[MigratedParameter]) -> Iterator[str]:
-    """Yield the line of each entry; those that ask for the same are below it."""
-    by_task: dict[str, list[MigratedParameter]] = {}
-    for entry in entries:
-        by_task.setdefault(str(entry.facts.get("do", "")), []).append(entry)
-    for task, own in by_task.items():
-        if task:
-            yield f"{task[0].upper()}{task[1:]} ({len(own)}):"
-        yield from (f"  {_line(entry)}" if task else _line(entry) for entry in own)
-
-
-def _line(entry: MigratedParameter) -> str:
-    """Return one parameter in words, by its outcome."""
-    facts = entry.facts
-    match entry.outcome:
-        case "exact":
-            return (
-                f"{entry.param} {facts['raw']} -> {facts['key']} = {facts['value']} ({facts['formula']}, page"
-                f" {facts['page']})"
-            )
-        case "approximate":
-            return (
-                f"{entry.param} {facts['raw']} -> {facts['key']} = {facts['value']}: before, {facts['old']};"
-                f" now, {facts['new']}; safe: {facts['safe_side']}"
-            )
-        case "not_possible":
-            return f"{entry.param} {facts['raw']}: {facts['loses']}"
-        case "asked":
-            return f"{entry.param} {facts['old']}: {facts['id']} = {facts['answer'] or 'open'}"
-        case _:
-            return f"{entry.param} {facts['raw']}"

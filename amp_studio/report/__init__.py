@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     from .papers.form import form_paper
     from .papers.merge import merge_paper
     from .papers.migration import write_migration_folder
+    from .papers.migration_lines import migration_lines
     from .papers.paper import Paper, PaperTable, check_paper_ending, results_paper, write_paper
     from .papers.sheet import PrintedSheet, text_lines, write_sheet
     from .parameter.describe import definition

@@ -153,7 +153,7 @@ class CheckedMotion:
         )
         alarms = (f"{code}: {words.sentence(message)}" for code, message in self.alarms)
         why = words.sentence(self.text) if self.text else ""
-        return words.scenario(self.scenario), ", ".join(figures), " ".join(filter(None, (why, *alarms)))
+        return words.scenario(self.scenario), ", ".join(figures), "; ".join(filter(None, (why, *alarms)))
 
 
 @dataclass(frozen=True, slots=True)

@@ -124,7 +124,11 @@ class Language:
             return known
         for sentence in self.sentences:
             if (figures := sentence.found(english)) is not None:
-                return sentence.own.format_map({name: part(text) for name, text in figures.items()})
+                # A page is a name: its point stays.
+                given = {
+                    name: (self.title if name == "page" else part)(text) for name, text in figures.items()
+                }
+                return sentence.own.format_map(given)
         for pattern, own in self.title_patterns:
             if match := pattern.fullmatch(english):
                 return own.format(*map(part, match.groups()))

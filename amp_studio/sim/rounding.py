@@ -33,7 +33,8 @@ def value_text(value: float, unit: str = "", digits: int = 4) -> str:
     """Return a value with this number of digits and its unit, without trailing zeros and without an
     exponent.
     """
-    near = rounded(value, digits) + 0.0  # no "-0"
+    # Less than a position of some metres is resolved to is the rounding of the calculation.
+    near = 0.0 if abs(value) < 1e-12 else rounded(value, digits) + 0.0  # no "-0"
     text = format(Decimal(repr(float(near))), "f") if math.isfinite(near) else repr(near)
     if "." in text:
         text = text.rstrip("0").rstrip(".")

@@ -36,7 +36,7 @@ def test_the_chapter_is_there_where_it_is_asked_for(report, ending: str) -> None
     text = report(ending, check=True)
     assert "check in motion" in text.lower()
     assert "home position 0.5 mm" in text.replace("\u00a0", " ")
-    assert "The phase margin is 26 deg, below 30 1: Hard limit" in " ".join(text.split())
+    assert "The phase margin is 26 deg, below 30; 1: Hard limit" in " ".join(text.split())
     assert "check in motion" not in report(ending).lower()
 
 
@@ -44,7 +44,7 @@ def test_a_german_report_has_its_checks_in_german(report) -> None:
     text = " ".join(report("txt", check=True, language="de").split())
     assert "PRÜFUNG IN BEWEGUNG" in text
     assert "gut Referenzfahrt X Referenzposition 0,5 mm" in text
-    assert "schlecht Geschwindigkeit Y Phasenreserve: 26°, unter 30 1: Hardwareendschalter" in text
+    assert "schlecht Geschwindigkeit Y Phasenreserve: 26°, unter 30; 1: Hardwareendschalter" in text
 
 
 def test_a_german_workbook_has_german_heads(report, tmp_path: Path) -> None:

@@ -1,13 +1,14 @@
 """The paper of a migration in German: what is lost, what to do, and questions."""
 
 import re
+from pathlib import Path
 
 import pytest
 
 from amp_studio.files import open_file
 from amp_studio.files.example_files import examples_folder
 from amp_studio.meaning import migrate
-from amp_studio.report.papers.migration import migration_paper
+from amp_studio.report.papers.migration import migration_paper, write_migration_folder
 from tests.report.test_german import FUNCTION_WORDS
 
 OF_WORDS = [
@@ -51,3 +52,14 @@ def test_the_paper_names_hal_where_there_is_one(target: str, rows: int) -> None:
     file = open_file(examples_folder() / "mill-1394" / "MILL_1394.amp").file
     paper = migration_paper(migrate(file, target, {}))
     assert sum(name == "HAL" for name, _ in paper.facts) == rows
+
+
+def test_the_lines_of_a_migration_are_german_and_names_and_values_are_not(tmp_path: Path) -> None:
+    file = open_file(examples_folder() / "mill-1394" / "MILL_1394.amp").file
+    write_migration_folder(migrate(file, "linuxcnc", {}), tmp_path / "retrofit", language="de")
+    text = (tmp_path / "retrofit" / "migration.txt").read_text("utf-8")
+    assert "\nWeniger sicher als vorher\n" in text
+    assert "Vorher: eine Trapezrampe; Jetzt: eine gerade Rampe" in text
+    assert ": Axis 1-8 Word Format\n" in text, "the name of a parameter stays"
+    assert "= 165130.079, Vorzeichen offen (counts" in text, "a value and its formula are the control's"
+    assert not re.search(r"\b(before|the new|left out|page)\b", text)

@@ -3,8 +3,10 @@
 import re
 import shutil
 import subprocess
+from collections.abc import Iterator
 from html import unescape
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -23,7 +25,8 @@ from amp_studio.report.papers.differences import differences_paper, machines_pap
 from amp_studio.report.papers.form import form_paper
 from amp_studio.report.papers.paper import write_paper
 from amp_studio.report.templating.templates import TEMPLATES
-from amp_studio.schema import Value, family_ids, load_schema
+from amp_studio.schema import Value, database_folder, family_ids, load_schema
+from amp_studio.schema.yaml_reader import read_yaml
 from amp_studio.validate.plausible import relations, steps
 from tests.campaigns import CAMPAIGN, some
 
@@ -75,6 +78,33 @@ def test_steps_of_commissioning_and_drawings_are_in_german(family: str) -> None:
     assert [word for word in left if re.search(rf"\b{english}\b", word)] in ([], ["Soft limits"] * 3)
 
 
+def texts_of_programs(facts: Any, key: str = "") -> Iterator[str]:
+    """Yield the texts for a person about codes, words and whole programs."""
+    if isinstance(facts, str) and key in {"meaning", "assumed", "cycles_taken_in", "name"}:
+        yield " ".join(facts.split())
+    for name, below in facts.items() if isinstance(facts, dict) else ():
+        yield from texts_of_programs(below, name)
+    for each in facts if isinstance(facts, list) else ():
+        yield from texts_of_programs(each, key)
+
+
+@pytest.mark.parametrize(
+    "path", sorted(database_folder().glob("*/program.yaml")), ids=lambda p: p.parent.name
+)
+def test_the_words_of_a_family_for_programs_are_in_german(path: Path) -> None:
+    words = language_of("de", path.parent.name)
+    texts = sorted(set(texts_of_programs(read_yaml(path.read_text("utf-8"), references=True).data)))
+    assert len(texts) > 10
+    assert [text for text in texts if words.sentence(text) == text] == []
+
+
+def test_the_point_in_the_number_of_a_page_stays() -> None:
+    words = language_of("de", "syntec")
+    assert words.sentence("No limit of the travel is active in the way of axis X (page 3.2)") == (
+        "Auf dem Weg der Achse X ist keine Endlage aktiv (Seite 3.2)"
+    )
+
+
 def test_what_a_user_wrote_is_in_no_language(mill: ParameterFile) -> None:
     mill.header.name, mill.header.revision = "Values", "Date"
     set_value_note(mill, ("home.calibration", "1"), "Values")
@@ -117,6 +147,7 @@ def test_a_comparison_and_a_form_in_german(tmp_path: Path, mill: ParameterFile) 
             write_paper(paper, tmp_path / f"p{ending}")
         page = (tmp_path / "p.html").read_text("utf-8")
         assert '<html lang="de">' in page
+        assert ("<span>Geprüft von</span>" in page) is bool(paper.signed)
         assert ("Erlaubt" if paper is papers[2] else "Gehört zu") in page
         assert not re.search(r">(Number|Belongs to|Differ|The same|Allowed)<|no bounds| to …", page)
         assert "Parameter" in (tmp_path / "p.csv").read_text("utf-8")

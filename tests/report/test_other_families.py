@@ -4,11 +4,13 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import Header, ParameterFile, new_file
+from amp_studio.files import Header, ParameterFile, new_file, open_file
+from amp_studio.files.example_files import examples_folder
 from amp_studio.report import SORTS, Contents, print_report
 from amp_studio.report.build import build_report
 from amp_studio.report.contents import Sort
 from amp_studio.report.model import Grid
+from amp_studio.report.output.text import render_text
 from amp_studio.report.write import FORMATS
 from amp_studio.schema import Schema, Value
 from tests.campaigns import some
@@ -90,3 +92,11 @@ def test_a_family_without_an_axis_profile_has_no_axis_summary(wide: ParameterFil
     report = build_report(wide)
     assert (report.axis_heads, report.axes) == ((), ())
     assert "Of unfitted axes, left out" not in dict(report.counts)
+
+
+def test_a_number_that_is_a_name_is_whole_in_the_text() -> None:
+    text = render_text(
+        build_report(open_file(examples_folder() / "linuxcnc-mill" / "MILL.amp").file)
+    ).decode()
+    assert "\n[JOINT_0]MIN_LIMIT Least Position" in text
+    assert "\n[SPINDLE_0]MIN_FORWARD_VELOCITY Least Speed" in text

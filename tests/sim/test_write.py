@@ -133,3 +133,4 @@ def test_numbers_are_rounded_to_the_safe_side_and_written_short() -> None:
         "0.0000001",
         "10000000",
     )
+    assert value_text(1.2e-13, "mm") == "0 mm", "the rounding of the calculation is no figure"

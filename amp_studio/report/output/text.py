@@ -75,7 +75,8 @@ def _checks(report: Report, words: Language) -> Iterator[str]:
     yield from _heading(words.text("Check in motion").upper())
     for each in report.checks:
         scenario, figures, text = each.printed(words)
-        yield from _wrapped(f"{words.text(each.verdict)}  {scenario} {each.axis}  {figures}".rstrip(), "")
+        where = f"{scenario} {each.axis}".rstrip()
+        yield from _wrapped(f"{words.text(each.verdict)}  {where}  {figures}".rstrip(), "")
         if text:
             yield from _wrapped(text, "    ")
     yield ""
@@ -215,11 +216,18 @@ def _heading(title: str) -> Iterator[str]:
 
 
 def _table(rows: Iterable[ReportRow], by_place: bool, words: Language) -> Iterator[str]:
+    listed = tuple(rows)
+    # A number that is a name (LinuxCNC) is before the name of its parameter instead of in a column of eight.
+    joined = any(len(row.number) > _ROW[0] for row in listed)
     place = _ROW[2] if by_place else 0
-    widths = (_ROW[0], _ROW[1] + (0 if by_place else _ROW[2] + 1), place, *_ROW[3:])
-    yield from _beside(tuple(map(words.text, _HEAD)), widths)
+    name_width = _ROW[1] + (0 if by_place else _ROW[2] + 1) + (_ROW[0] + 1 if joined else 0)
+    widths = (0 if joined else _ROW[0], name_width, place, *_ROW[3:])
+    number, *heads = map(words.text, _HEAD)
+    if joined:
+        heads[0] = f"{number}, {heads[0]}"
+    yield from _beside((number, *heads), widths)
     before = ""
-    for row in rows:
+    for row in listed:
         name = row.name if row.id != before else ""
         value = words.text(row.bare_text) if row.is_own_word else row.text
         if small_print := row.small_print_in(words.text):
@@ -227,7 +235,10 @@ def _table(rows: Iterable[ReportRow], by_place: bool, words: Language) -> Iterat
         if row.forced:
             value += f" [{row.forced}]"
         place_text = words.text(row.place)
-        yield from _beside((row.number or "–", name, place_text, value, row.default, row.marks), widths)
+        number = row.number or "–"
+        if joined:
+            name = f"{number} {name}"
+        yield from _beside((number, name, place_text, value, row.default, row.marks), widths)
         before = row.id
 
 

@@ -6,29 +6,21 @@ from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
 
-from amp_studio.meaning import Migration, less_safe, write_migration
+from amp_studio.meaning import MigratedParameter, Migration, less_safe, to_measure, write_migration
 from amp_studio.report.language import Language, language_of
 
+from .migration_lines import OUTCOMES, lost, migration_lines
 from .paper import Paper, PaperTable, write_paper
 
 _HEADS = {
-    "exact": (
-        "Taken over exactly",
-        ("Number", "Before", "Key", "Value", "Formula"),
-        ("raw", "key", "value", "formula"),
-    ),
+    "exact": (("Number", "Before", "Key", "Value", "Formula"), ("raw", "key", "value", "formula")),
     "approximate": (
-        "Approximated",
         ("Number", "Before", "Key", "Value", "Then", "Now", "Safe"),
         ("raw", "key", "value", "old", "new", "safe_side"),
     ),
-    "not_possible": (
-        "Not possible",
-        ("Number", "Before", "What is lost", "What to do"),
-        ("raw", "loses", "do"),
-    ),
-    "asked": ("Asked", ("Number", "Before", "Question", "Answer"), ("old", "id", "answer")),
-    "old_hardware": ("Of the old hardware", ("Number", "Before"), ("raw",)),
+    "not_possible": (("Number", "Before", "What is lost", "What to do"), ("raw", "loses", "do")),
+    "asked": (("Number", "Before", "Question", "Answer"), ("old", "id", "answer")),
+    "old_hardware": (("Number", "Before"), ("raw",)),
 }
 
 
@@ -39,11 +31,11 @@ def write_migration_folder(
     language: str = "en",
 ) -> list[str]:
     """Write the configuration, the report and its paper into a new folder; returns the names. Raises OSError,
-    with nothing written. ``language`` is a code of ``language_codes``, of the paper.
+    with nothing written. ``language`` is a code of ``language_codes``, of report and paper.
 
     A name with an ending is that of a file: the configuration alone.
     """
-    written = write_migration(migration, folder)
+    written = write_migration(migration, folder, migration_lines(migration, language))
     if folder.is_dir():
         write_paper(migration_paper(migration, language=language), folder / "migration.pdf", notify=notify)
         written.append("migration.pdf")
@@ -66,22 +58,21 @@ def migration_paper(migration: Migration, language: str = "en") -> Paper:
             (1.0, 4.0),
         ),
         PaperTable(
-            worded("To be measured at the machine"), ("",), tuple((worded(text),) for text in written.measure)
+            worded("To be measured at the machine"),
+            ("",),
+            tuple((worded(text),) for text in to_measure(migration)),
         ),
     ]
-    for outcome, (title, heads, keys) in _HEADS.items():
-        rows = tuple(
-            (e.param, *(_cell(key, str(e.facts.get(key) or ""), words) for key in keys))
-            for e in migration.of(outcome)
-        )
-        tables.append(PaperTable(worded(title), tuple(map(worded, heads)), rows))
+    for outcome, (heads, keys) in _HEADS.items():
+        rows = tuple((e.param, *(_cell(e, key, words) for key in keys)) for e in migration.of(outcome))
+        tables.append(PaperTable(worded(OUTCOMES[outcome]), tuple(map(worded, heads)), rows))
     facts = (
         (worded("From"), migration.machine.family),
         (worded("To"), migration.target),
         (worded("Active parameters"), str(len(migration.entries))),
         *(
             (worded(title), words.counted(len(migration.of(outcome)), "parameter"))
-            for outcome, (title, _, _) in _HEADS.items()
+            for outcome, title in OUTCOMES.items()
         ),
     )
     if any(name.endswith(".hal") for name in migration.written.texts):
@@ -97,8 +88,11 @@ def migration_paper(migration: Migration, language: str = "en") -> Paper:
     )
 
 
-def _cell(key: str, text: str, words: Language) -> str:
+def _cell(entry: MigratedParameter, key: str, words: Language) -> str:
     """Return a cell: what is written at either control, and a formula, as it is, words in the language."""
+    text = str(entry.facts.get(key) or "")
     if key in ("raw", "key", "id", "answer"):
         return text
+    if key == "loses":
+        return lost(entry, words)
     return words.title(text) if key in ("value", "formula") else words.sentence(text)

@@ -45,8 +45,8 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Migrate a file; open questions write nothing and end with 2, unless a draft is wanted."""
-    from amp_studio.meaning import MeaningError, TargetError, migrate, migration_json, migration_lines
-    from amp_studio.report import write_migration_folder
+    from amp_studio.meaning import MeaningError, TargetError, migrate, migration_json
+    from amp_studio.report import migration_lines, write_migration_folder
 
     if options.output:
         check_new(options.output, "a migration", options.path)
