@@ -20,9 +20,11 @@ def test_of_a_table_only_what_is_set_is_printed() -> None:
 
 
 def test_numbers_of_a_workbook_are_aligned_at_the_decimal_sign_and_long_texts_have_room() -> None:
-    rows = [("A text that is longer than one line of its column has", 12), ("", -2.54), ("", 1e-9)]
+    long = " ".join(["A text that is longer than one line of its column has"] * 3)
+    rows = [(long, 12), ("", -2.54), ("", 1e-9)]
     page = load_workbook(io.BytesIO(workbook([WorkbookSheet("Values", ("text", "number"), rows)]))).active
     assert [page.cell(n, 2).number_format for n in (2, 3, 4)] == ["0_._0_0", "0.00", "General"]
     assert [page.cell(n, 2).value for n in (2, 3, 4)] == [12, -2.54, 1e-9]
     assert page.row_dimensions[2].height == 26.0
     assert page.cell(2, 1).alignment.wrap_text
+    assert page.column_dimensions["A"].width == 132, "what the other column leaves of the page"

@@ -18,8 +18,10 @@ WorkbookCell = str | float | int | None
 
 _FORBIDDEN = re.compile(r"[\[\]:*?/\\]")
 _MOST_NAME = 31
-_WIDEST = 30
-"""Characters of a column; longer texts have several lines: a page is as wide as all columns."""
+_WIDEST, _ACROSS = 30, 140
+"""Characters of a column, and of a page, which is as wide as all columns; long texts have several lines,
+and what the others leave of the page.
+"""
 _ROOM = 2
 """Characters of a column that stay blank."""
 _LINE, _MOST_LINES = 13.0, 30
@@ -61,8 +63,9 @@ def workbook(
     names: set[str] = set()
     for sheet in sheets:
         page = book.create_sheet(_name(sheet.title, names))
-        _fill(page, sheet)
-        for column, width in _widths(sheet).items():
+        widths = _widths(sheet)
+        _fill(page, sheet, widths)
+        for column, width in enumerate(widths, 1):
             page.column_dimensions[page.cell(1, column).column_letter].width = width
         if any(sheet.heads):
             page.freeze_panes = "A2"
@@ -73,7 +76,7 @@ def workbook(
     return _without_times(stream)
 
 
-def _fill(page: Any, sheet: WorkbookSheet) -> None:
+def _fill(page: Any, sheet: WorkbookSheet, widths: Sequence[int]) -> None:
     """Write heads and rows."""
     from openpyxl.styles import Alignment, Font
 
@@ -88,9 +91,9 @@ def _fill(page: Any, sheet: WorkbookSheet) -> None:
             if row is sheet.heads:
                 cell.font = Font(bold=True)
             else:
-                is_long = isinstance(content, str) and len(content) > _WIDEST - _ROOM
+                is_long = _lines(content, widths[column - 1]) > 1
                 cell.alignment = Alignment(wrap_text=is_long, vertical="top")
-        if (lines := max(map(_lines, row), default=1)) > 1:
+        if (lines := max(map(_lines, row, widths), default=1)) > 1:
             page.row_dimensions[at].height = _LINE * lines
 
 
@@ -105,11 +108,11 @@ def _put(cell: Any, content: str | float, places: int) -> None:
         cell.number_format = _aligned(own, places)
 
 
-def _lines(content: WorkbookCell) -> int:
+def _lines(content: WorkbookCell, width: int) -> int:
     """Return the lines of a cell: a spreadsheet keeps the height that a row is given."""
-    if not isinstance(content, str) or len(content) <= _WIDEST - _ROOM:
+    if not isinstance(content, str) or len(content) <= width - _ROOM:
         return 1
-    return min(len(textwrap.wrap(content, _WIDEST - _ROOM)), _MOST_LINES)
+    return min(len(textwrap.wrap(content, width - _ROOM)), _MOST_LINES)
 
 
 def _decimals(content: WorkbookCell) -> int:
@@ -174,10 +177,14 @@ def _text(text: str) -> str:
     return str(ILLEGAL_CHARACTERS_RE.sub(" ", text))[:_MOST_TEXT]
 
 
-def _widths(sheet: WorkbookSheet) -> dict[int, float]:
-    widths: dict[int, float] = {}
+def _widths(sheet: WorkbookSheet) -> list[int]:
+    """Return the characters of each column."""
+    longest: dict[int, int] = {}
     for row in (sheet.heads, *sheet.rows):
-        for column, content in enumerate(row, 1):
+        for column, content in enumerate(row):
             length = len(str(content)) if content is not None else 0
-            widths[column] = min(max(widths.get(column, 6.0), length + float(_ROOM)), _WIDEST)
-    return widths
+            longest[column] = max(longest.get(column, 6), length + _ROOM)
+    short = [width for width in longest.values() if width <= _WIDEST]
+    long = len(longest) - len(short)
+    widest = max(_WIDEST, (_ACROSS - sum(short)) // long) if long else _WIDEST
+    return [min(width, widest) for width in longest.values()]
