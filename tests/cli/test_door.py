@@ -47,7 +47,6 @@ PAST_THE_DOOR = {
         "controls/fleet.py": "files transfer",
     },
     "work of one verb alone, which the door does not offer": {
-        "files/like.py": "files",
         "files/marked.py": "find guide transfer",
         "motion/trigger.py": "sim",
         "verbs/checks/compare.py": "meaning",
@@ -65,6 +64,7 @@ PAST_THE_DOOR = {
         "verbs/files/get.py": "guide",
         "verbs/files/guide.py": "files guide validate",
         "verbs/files/migrate.py": "meaning",
+        "verbs/files/new.py": "files",
         "verbs/files/note.py": "files",
         "verbs/motion/block.py": "programs",
         "verbs/motion/program.py": "drawing files programs sim",

@@ -10,7 +10,7 @@ import contextlib
 import queue
 import threading
 import time
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
@@ -184,48 +184,40 @@ class DeviceService:
 
 
 def serve_device(
-    place: Endpoint,
-    options: EmulatedOptions,
-    factory: DeviceFactory,
-    *,
-    takes: Collection[str] = (),
-    commands: Iterable[str] | None = None,
-    say: Callable[[str], None] | None = None,
-    stop: threading.Event | None = None,
+    place: Endpoint, options: EmulatedOptions, factory: DeviceFactory, *, takes: Collection[str] = ()
 ) -> int:
-    """Run a device until ``quit``, an interrupt or ``stop``; returns the exit code 0.
+    """Run a device until ``quit`` on standard input, or an interrupt; returns the exit code 0.
 
-    Prints ``listening on ADDRESS`` when it is ready; ``takes`` are the options that the device knows;
-    ``commands`` are the operator's lines, by default those of standard input. Raises LinkError for a place
-    that cannot be listened on, ValueError for a folder of something else and for another option.
+    Prints ``listening on ADDRESS`` when it is ready; ``takes`` are the options that the device knows.
+    Raises LinkError for a place that cannot be listened on, ValueError for a folder of something else and
+    for another option.
     """
     for name in options.hardware:
         if name not in takes:
             known = f"Known: {', '.join(takes)}" if takes else "It has none"
             raise ValueError(f"Unknown option {quoted(name)} of an emulated {options.family}. {known}")
-    show = say or print_line
-    stop = stop or threading.Event()
+    stop = threading.Event()
     with contextlib.ExitStack() as stack:
         stack.enter_context(interrupts(stop.set))
         faults = read_faults(options.faults)
         memory = Memory(memory_folder(options, stack))
-        device = factory(DeviceSetup(options.family, memory, show, options.machine, options.hardware))
+        device = factory(DeviceSetup(options.family, memory, print_line, options.machine, options.hardware))
         _arm(memory, faults)
         listener = listen(place)
         stack.callback(listener.close)
-        show(f"listening on {listener.endpoint}")
+        print_line(f"listening on {listener.endpoint}")
         status = device.screen if isinstance(device, ScreenDevice) else None
-        screen = open_screen(options.screen, status, show, stack)
-        service = DeviceService(device, listener, faults=faults, say=show, stop=stop, screen=screen)
+        screen = open_screen(options.screen, status, print_line, stack)
+        service = DeviceService(device, listener, faults=faults, say=print_line, stop=stop, screen=screen)
 
         def forward() -> None:
-            for line in standard_input() if commands is None else commands:
+            for line in standard_input():
                 service.operate(line)
 
         threading.Thread(target=forward, name="operator", daemon=True).start()
         service.run()
         if stop.is_set():
-            show("bye")
+            print_line("bye")
     return 0
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from amp_studio.transfer.errors import (
-    AtControl,
     ControlBusyError,
     ControlFullError,
     ImageChangedError,
@@ -30,8 +29,8 @@ _BY_CODE: dict[int, type[TransferError]] = {
 }
 
 
-def error_of(refusal: RefusalError, at_control: AtControl = "old") -> TransferError:
+def error_of(refusal: RefusalError) -> TransferError:
     """Return the error that a control's refusal means; the control's own words are its text."""
     kind = _BY_CODE.get(refusal.code, ProtocolMismatchError)
     what = refusal.text or f"the control refuses (code {refusal.code})"
-    return kind(what, at_control)
+    return kind(what, "old")
