@@ -36,7 +36,7 @@ def was_asked() -> bool:
 
 
 @contextlib.contextmanager
-def asked_politely() -> Iterator[Stop]:
+def stop_requested() -> Iterator[Stop]:
     """Give the event that Ctrl-C or a kill sets inside, for what must end with the truth of another place.
 
     What comes later is ignored: the verb knows its result and prints it.

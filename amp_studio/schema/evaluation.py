@@ -116,9 +116,9 @@ class Evaluation:
             self.condition(asked[0])  # raises
         question = self._conditions.question(asked)
         circumstances = Circumstances(self.machine, self._model, asked[1])
-        return question.decision.is_true(self._given(question), question.names, circumstances)
+        return question.decision.is_true(self._keys_read(question), question.names, circumstances)
 
-    def _given(self, question: Question) -> tuple[ValueKey, ...]:
+    def _keys_read(self, question: Question) -> tuple[ValueKey, ...]:
         keys = self.keys
         if question.plain:
             # Most conditions read single values alone, which need no look at what kind of reference
@@ -209,7 +209,7 @@ class Evaluation:
             return [self._answer(conditions.asked(name, instance, scope)) for _, instance in parts]
         question = conditions.question(conditions.asked(name, parts[0][1], scope))
         circumstances = [Circumstances(self.machine, self._model, instance) for _, instance in parts]
-        return by_part.are_true(self._given(question), question.names, circumstances)
+        return by_part.are_true(self._keys_read(question), question.names, circumstances)
 
     def state_reads(self, address: Address) -> frozenset[Address]:
         """Return every address whose value can change the state of this one."""

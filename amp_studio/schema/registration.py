@@ -36,8 +36,8 @@ class Registration:
     ``drivers``   protocol name -> a ``DriverFactory``: ways to speak to a control, the usual one first
     ``contents``  first line of what a control contains -> the ``ContentKind`` class that reads it
     ``emulators`` protocol name -> an ``Emulate``: an emulated control that speaks it
-    ``recognised``  a ``Recognised`` (transfer/driver.py): how its controls are known where nobody has named
-                    their family
+    ``recognised``  a ``Recognised`` (transfer/driver.py): how its controls are known where their family
+                    is not named
     ``law``       the servo law (``Law``) of its axes, for the simulator
     ``sheet``     how values are keyed in at its controls (``Keying``); without it the plain way
     ``curve``     how a compensation table that is one text is read and written (``CurveText`` of the room

@@ -120,16 +120,16 @@ class CheckFormat:
         was found below it.
         """
         if not checked.is_listed:
-            yield from self._found(checked)
+            yield from self._finding_lines(checked)
             yield checked.summary
         else:
             yield checked.summary
-            for text in self._found(checked):
+            for text in self._finding_lines(checked):
                 yield indent(text, "  ")
         if checked.motion:
             yield str(checked.motion)
 
-    def _found(self, checked: FileFindings) -> Iterator[str]:
+    def _finding_lines(self, checked: FileFindings) -> Iterator[str]:
         from amp_studio.report import alike, delivered_text, same_finding_text, suppressed_text
 
         validator = checked.validator

@@ -14,7 +14,7 @@ from amp_studio.cli.console import print_json, print_remark, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.exit_codes import FAULT
 from amp_studio.cli.output import check_replaced
-from amp_studio.cli.stopping import asked_politely
+from amp_studio.cli.stopping import stop_requested
 from amp_studio.cli.verb import Options
 from amp_studio.files import Difference, ParameterFile
 from amp_studio.report import Paper, PaperTable, check_paper_ending, counted, write_paper
@@ -36,7 +36,7 @@ def verify_all_verb(options: Options) -> int:
         raise UsageError(
             f"{folder} knows no control: no download is recorded there, and no project.yaml names one"
         )
-    with asked_politely() as stop:
+    with stop_requested() as stop:
         found = drift_of_all(known, lambda address: Exchange(progress(address), stop, notify=print_remark))
     counts = {word: sum(each.result == word for each in found) for word in _CODES}
     if options.json:

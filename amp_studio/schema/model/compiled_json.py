@@ -51,7 +51,7 @@ def text_record(text: str | bytes) -> Any:
     """Return the record of such a text; raises ValueError for what is none."""
     kinds = _kinds(Model)
 
-    def made(entry: dict[str, Any]) -> Any:
+    def record_of(entry: dict[str, Any]) -> Any:
         for name, value in entry.items():
             if value.__class__ is list:
                 entry[name] = _tuple(value)
@@ -64,7 +64,7 @@ def text_record(text: str | bytes) -> Any:
         return record
 
     try:
-        return json.loads(text, object_hook=made)
+        return json.loads(text, object_hook=record_of)
     except (LookupError, TypeError, RecursionError) as error:
         raise ValueError(f"these are no records: {error}") from None
 

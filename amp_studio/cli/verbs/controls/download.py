@@ -6,7 +6,7 @@ from amp_studio.cli.arguments import EXPECT, JSON, PATH, TEXT, kept_in, several_
 from amp_studio.cli.console import print_remark, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
-from amp_studio.cli.stopping import asked_politely
+from amp_studio.cli.stopping import stop_requested
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 VERB = Verb(
@@ -47,7 +47,7 @@ def run(options: Options) -> int:
         raise UsageError(f"{path} has {errors}: nothing was sent (--accept-errors sends it anyway)")
     name = machine.schema.family.family
     check_fleet(options, options.to)
-    with asked_politely() as stop, ways_offered(name, options.to[0]):
+    with stop_requested() as stop, ways_offered(name, options.to[0]):
         if is_fleet(options, options.to):
             return download_to_several(options, machine.file, exchange_of(options, path, stop))
         control = connect(options.to[0], progress=progress(), cancel=stop, notify=print_remark)

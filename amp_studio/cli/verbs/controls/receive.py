@@ -10,7 +10,7 @@ from amp_studio.cli.console import print_remark, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.output import check_new
 from amp_studio.cli.screen import print_over
-from amp_studio.cli.stopping import asked_politely
+from amp_studio.cli.stopping import stop_requested
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ def run(options: Options) -> int:
         raise UsageError(f"{output} is a folder, and {protocol} carries no name: write -o {output / 'NAME'}")
     if not is_folder:
         check_new(output, "what is received")
-    with asked_politely() as stop:
+    with stop_requested() as stop:
         files = receive_files(
             endpoint,
             protocol,

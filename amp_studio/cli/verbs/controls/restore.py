@@ -5,7 +5,7 @@ from __future__ import annotations
 from amp_studio.cli.arguments import EXPECT, TO, kept_in, path_of
 from amp_studio.cli.console import print_remark, progress
 from amp_studio.cli.errors import UsageError
-from amp_studio.cli.stopping import asked_politely
+from amp_studio.cli.stopping import stop_requested
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 VERB = Verb(
@@ -44,7 +44,7 @@ def run(options: Options) -> int:
                 " sent (download --accept-errors sends it anyway)"
             )
         print_remark(f"{path} goes back with {errors}, as the control contained it")
-    with asked_politely() as stop:
+    with stop_requested() as stop:
         control = connect(options.to, progress=progress(), cancel=stop, notify=print_remark)
         outcome = control.restore(copy, expect=options.expect, keep=options.keep)
         return print_outcome(outcome)

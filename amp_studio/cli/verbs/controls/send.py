@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from amp_studio.cli.arguments import TO, line_options, path_of
 from amp_studio.cli.console import progress
 from amp_studio.cli.errors import UsageError
-from amp_studio.cli.stopping import asked_politely
+from amp_studio.cli.stopping import stop_requested
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def run(options: Options) -> int:
     if len(options.files) > 1 and protocol != "ymodem":
         raise UsageError(f"{protocol} sends one file at a time; ymodem sends several")
     files = [_read(path) for path in options.files]
-    with asked_politely() as stop:
+    with stop_requested() as stop:
         send_files(
             endpoint,
             protocol,

@@ -9,7 +9,7 @@ from amp_studio.cli.arguments import JSON, ON_FAULT, OUTPUT, several_controls
 from amp_studio.cli.console import print_json, print_remark, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.output import check_new, write_new
-from amp_studio.cli.stopping import asked_politely
+from amp_studio.cli.stopping import stop_requested
 from amp_studio.cli.verb import Options, Verb
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def run(options: Options) -> int:
     output, source = options.output, options.source[0]
     check_fleet(options, options.source)
     if is_fleet(options, options.source):
-        with asked_politely() as stop:
+        with stop_requested() as stop:
             from amp_studio.transfer import Exchange
 
             return upload_several(options, Exchange(cancel=stop))

@@ -8,7 +8,7 @@ from amp_studio.cli.arguments import JSON, PATH, SECRETS, TEXT, several_controls
 from amp_studio.cli.console import print_json, print_remark, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
-from amp_studio.cli.stopping import asked_politely
+from amp_studio.cli.stopping import stop_requested
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 TYPE_CHECKING = False  # the typing module is not loaded for it
@@ -53,7 +53,7 @@ def run(options: Options) -> int:
     file = machine.file
     check_fleet(options, options.control)
     if is_fleet(options, options.control):
-        with asked_politely() as stop:
+        with stop_requested() as stop:
             from amp_studio.transfer import Exchange
 
             return verify_several(

@@ -85,7 +85,7 @@ def _not_set_line(file: ParameterFile, address: Address) -> str:
     return f"  {file.machine_schema.named(address):50} not set" + (f" (in {unit_text(unit)})" if unit else "")
 
 
-def _asked_for(options: Options, file: ParameterFile) -> list[ResolvedAddress]:
+def _values_asked_for(options: Options, file: ParameterFile) -> list[ResolvedAddress]:
     """Return the values of the named parameters; else those of the file that exist, or all there are."""
     from amp_studio.schema import ResolvedAddress, resolve_all
 
@@ -103,7 +103,7 @@ def run(options: Options) -> int:
 
     machine = opened(options.path, options)
     file = machine.file
-    found = _asked_for(options, file)
+    found = _values_asked_for(options, file)
     if options.not_set:
         return _print_not_set(options, machine, {m.address for m in found} if options.params else None)
     if marks := marks_asked(options):

@@ -223,7 +223,7 @@ def _edited(
     form = offered.table
     if form is None:
         raise UsageError(f"{file.schema.family.name} has no calibration table of an axis")
-    table = _begun(options, file, offered, form, axis)
+    table = _table_to_edit(options, file, offered, form, axis)
     _, size = shown_unit(file, table)
     for text in options.delete or ():
         table = deleted(table, _number(text) * size)
@@ -237,7 +237,7 @@ def _edited(
     return {(form.parameter, axis): Value(text) if text else None}
 
 
-def _begun(
+def _table_to_edit(
     options: Options, file: ParameterFile, offered: Compensation, form: TableForm, axis: str
 ) -> CalibrationTable:
     """Return the table that is edited: that of the axis, or an empty one."""

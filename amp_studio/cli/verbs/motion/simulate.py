@@ -184,7 +184,7 @@ VERB = Verb(
 
 DRAWN = (".svg", ".png", ".pdf", ".html")
 """Endings of what has a picture in it."""
-SPOKEN = {"speed": ("spindle", "tap", "probe"), "pitch": ("tap",)}
+HAVE_OPTIONS = {"speed": ("spindle", "tap", "probe"), "pitch": ("tap",)}
 """Option -> the scenarios that it belongs to."""
 
 SETTING_GROUPS = ("move", "model", "tune", "sweep", "gear", "cam")
@@ -221,7 +221,7 @@ def _simulated(options: Options, machine: MachineParameters) -> tuple[ParameterF
     """Return the file with the values to try, its trace, and for a picture that of the file as it is."""
     from amp_studio.sim import laid_over, machine_for, read_machine
 
-    settings, own = _asked_for(options)
+    settings, own = _settings_and_assignments(options)
     messages: list[str] = []
     tried = machine.with_values(assignments(own), notify=messages.append)
     axis = _axis(options, tried)
@@ -285,17 +285,17 @@ def _given_machine(options: Options) -> list[tuple[str, str, str]]:
     return list((found | {name: (name, text, "--set") for name, text in own}).values())
 
 
-def _asked_for(options: Options) -> tuple[dict[str, Any], list[str]]:
+def _settings_and_assignments(options: Options) -> tuple[dict[str, Any], list[str]]:
     """Return the settings of the scenario and the machine, and the assignments of parameters."""
     if options.trigger and not options.against:
         raise UsageError("--trigger belongs to --against")
-    spoken = _spoken(options)
-    if (options.record and not spoken) or options.scale:
+    of_options = _settings_with_options(options)
+    if (options.record and not of_options) or options.scale:
         raise UsageError(f"a record and its scale belong to {IDENTIFY}, not to {options.scenario}")
     if options.chart and options.scenario != "frequency":
         raise UsageError(f"--chart belongs to frequency, not to {options.scenario}")
     named, own = _settings(options.assignments)
-    settings: dict[str, Any] = {**spoken, **named}
+    settings: dict[str, Any] = {**of_options, **named}
     if options.aim:
         if options.scenario != "tune":
             raise UsageError(f"--for belongs to tune, not to {options.scenario}")
@@ -303,7 +303,7 @@ def _asked_for(options: Options) -> tuple[dict[str, Any], list[str]]:
     return settings | _sweep_settings(options), own
 
 
-def _spoken(options: Options) -> dict[str, float | str]:
+def _settings_with_options(options: Options) -> dict[str, float | str]:
     """Return the settings that have an option, or a word, of their own: an S word, --speed, --pitch."""
     found: dict[str, float | str] = {}
     if options.record and options.scenario == "spindle":
@@ -315,8 +315,10 @@ def _spoken(options: Options) -> dict[str, float | str]:
         value = getattr(options, name)
         if value is None:
             continue
-        if options.scenario not in SPOKEN[name]:
-            raise UsageError(f"--{name} belongs to {' and '.join(SPOKEN[name])}, not to {options.scenario}")
+        if options.scenario not in HAVE_OPTIONS[name]:
+            raise UsageError(
+                f"--{name} belongs to {' and '.join(HAVE_OPTIONS[name])}, not to {options.scenario}"
+            )
         found[f"move.{name}"] = value
     return found
 
