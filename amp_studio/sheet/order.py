@@ -16,9 +16,12 @@ from amp_studio.validate import Finding, Interim, NewValue
 
 _TRIES_A_VALUE = 4
 _TRIES = 4_000
-"""States that all searches together may try, of which one takes 0.2 to 0.6 ms; the steps that are left
-then come in the order in which they are given. A thousand values that cannot be ordered would be tried a
-million times else.
+"""States that all searches together may try; the steps that are left then come in the order in which they
+are given. A thousand values that cannot be ordered would be tried a million times else.
+"""
+_CHECKS_A_TRY = 100
+"""Checks that are asked in 0.2 to 0.6 ms. A value that decides about others has thousands: it counts as so
+many states.
 """
 
 
@@ -74,6 +77,11 @@ def _groups(start: Interim, steps: Sequence[NewValue]) -> list[list[NewValue]]:
     return list(groups.values())
 
 
+def _effort(start: Interim, step: NewValue) -> int:
+    """Return as how many states one in which this step is tried counts."""
+    return 1 + start.effort(step.address) // _CHECKS_A_TRY
+
+
 def _ordered(
     start: Interim, steps: list[NewValue], allowed: Collection[Hashable], budget: _Budget
 ) -> list[NewValue]:
@@ -96,13 +104,14 @@ def _without_new(
     None where there is none or it takes more than half of the budget.
     """
     before = {step: NewValue(step.address, start.file.get(step.address)) for step in steps}
+    efforts = [_effort(start, step) for step in steps]
     # Which steps are done is a bit pattern. What comes of them does not depend on their order: a pattern from
     # which nothing went on is hopeless however it is reached, and is not tried again.
     everything = (1 << len(steps)) - 1
     done, path, nexts, hopeless = 0, list[int](), [0], set[int]()
     # Half of what is left for each search, so that the later, weaker ones still have some.
     tries = most = budget.left // 2
-    while done != everything and nexts and tries:
+    while done != everything and nexts and tries > 0:
         at = nexts[-1]
         if at == len(steps):  # nothing goes on from here
             hopeless.add(done)
@@ -115,7 +124,7 @@ def _without_new(
         nexts[-1] = at + 1
         if done >> at & 1 or done | 1 << at in hopeless:
             continue
-        tries -= 1
+        tries -= efforts[at]
         if bad(start.set(steps[at]), allowed, severities):
             start.set(before[steps[at]])
             continue
@@ -140,7 +149,7 @@ def _least_bad(
         # More than any step can cost, so that the first one tried is taken.
         best, least = left[0], (len(steps) ** 3, 0)
         for step in left if budget.left > 0 else ():
-            budget.left -= 1
+            budget.left -= _effort(start, step)
             new = start.set(step)
             cost = len(bad(new, allowed, ("error",))), len(bad(new, allowed, ("warning",)))
             start.set(before[step])

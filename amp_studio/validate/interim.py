@@ -54,6 +54,10 @@ class Interim:
         kept, _, _ = sort_out(tuple(new), self._own.suppressions, self.file.evaluation)
         return {finding.key: finding for finding in kept if finding.key not in before}
 
+    def effort(self, address: Address) -> int:
+        """Return how many values and rules are asked again when a value changes."""
+        return len(self._plan.range_readers.get(address, ())) + len(self._plan.rule_readers.get(address, ()))
+
     def checks_of(self, address: Address) -> frozenset[FindingPlace]:
         """Return the checks that can come to something else when a value changes."""
         return self._plan.asked_by((address,))

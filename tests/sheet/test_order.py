@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import examples_folder, open_file
+from amp_studio.files import examples_folder, new_file, open_file
 from amp_studio.schema import Value
 from amp_studio.sheet import Sheet, make_sheet, order
 from amp_studio.sheet.order import safe_order
@@ -169,3 +169,17 @@ def test_values_that_cannot_be_ordered_come_as_they_are_given_after_a_bounded_se
     monkeypatch.setattr(order, "_TRIES", 100)
     assert sorted(safe_order(start, steps, ()), key=str) == sorted(steps, key=str)
     assert len(asked) < 1_000
+
+
+def test_a_search_asks_a_bounded_number_of_checks_also_where_a_value_decides_about_thousands(
+    monkeypatch,
+) -> None:
+    mill = open_file(examples_folder() / "num-1060-mill" / "MILL_1060.amp").file
+    asked = []
+    plain = Interim.set
+    monkeypatch.setattr(
+        Interim, "set", lambda i, step: asked.append(i.effort(step.address)) or plain(i, step)
+    )
+    sheet = make_sheet(mill, new_file("num", mill.machine, ()))
+    assert len(sheet.entries) == 390
+    assert sum(asked) < 2_000_000, "11 million, or ten seconds, where every state counts the same"
