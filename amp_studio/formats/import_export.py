@@ -267,7 +267,8 @@ def _format_for_reading(content: bytes, family: str | None, format_key: str | No
     if format_key is not None:
         return _named(format_key, offered)
     text = text_to_recognise(content)
-    found = next((f for f in offered if f.recognises(text)), None)
+    # Our own table has a heading that nothing else has; listings are read out of any text around them.
+    found = next((f for f in (*GENERAL, *offered) if f.recognises(text)), None)
     if found is None:
         known = f"Known: {', '.join(f.key for f in offered)}"
         # A text of another family is the usual mistake: its name helps more than a list of formats.

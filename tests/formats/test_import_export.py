@@ -6,7 +6,7 @@ import pytest
 
 from amp_studio.cli import run
 from amp_studio.files import ParameterFile, compare, new_file, open_file
-from amp_studio.files.example_files import examples_folder
+from amp_studio.files.example_files import Example, examples, examples_folder
 from amp_studio.formats import FormatError, export_file, import_file
 from amp_studio.schema import Value
 from amp_studio.validate import Validator
@@ -21,10 +21,12 @@ def mill() -> ParameterFile:
     return new_file("9pc", "mill", ["X", "Y", "Z", "S"], "TRY")
 
 
-def test_a_table_of_values_reads_back_as_it_was(tmp_path: Path) -> None:
-    file = open_file(MILL).file
+@pytest.mark.parametrize("example", examples(), ids=lambda example: example.path.stem)
+def test_a_table_of_values_reads_back_as_it_was(tmp_path: Path, example: Example) -> None:
+    """Also in a family whose listings are read out of any text: that of Grbl took the table for one."""
+    file = open_file(example.path).file
     export_file(file, tmp_path / "mill.csv", secrets=True)
-    back = import_file(tmp_path / "mill.csv", "9pc")
+    back = import_file(tmp_path / "mill.csv", example.family)
     found = compare(file.schema, file.values, back.values)
     assert (list(found.differences), found.same) == ([], len(file.values))
 
