@@ -82,7 +82,7 @@ def arc_by_radius(x0: float, y0: float, x1: float, y1: float, radius: float, *, 
     # A half circle of rounded figures is a little below 0: that is no fault of the program.
     if inside < -1e-9 * size * size:
         raise ProgramBlockError(
-            f"The ends of the arc are {chord:.6g} mm apart: no circle of R {size:.6g}", "arc-radius"
+            f"The ends of the arc are {chord:.6g} mm apart: no circle of R {size:.6g}", "arc-too-wide"
         )
     height = math.sqrt(max(inside, 0.0))
     # Two circles of this radius go through both points: R below 0 takes the one with the longer arc.

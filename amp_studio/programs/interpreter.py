@@ -30,7 +30,7 @@ MOST_REPEATED = 150_000
 EVERY = 4096
 """Blocks from one report of progress to the next."""
 
-_PLAIN = re.compile(r"(?:\s|[A-Z]\s*[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))*", re.ASCII)
+_PLAIN = re.compile(r"(?:[ \t]|[A-Z]\s*[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))*", re.ASCII)
 _PAIRS = re.compile(r"([A-Z])\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))", re.ASCII)
 
 BlockProgress = Callable[[int], None]
@@ -167,13 +167,15 @@ class Interpreter:
         if not pairs:
             return
         # Before the block's codes: M3 beside S must not count as a spindle that turns already.
-        turns = self._modal.now.turns
+        turns, was_inverse = self._modal.now.turns, self._modal.now.is_inverse
         # Codes first, wherever they are in the block: they decide how its other words are read.
         codes = self._modal.take(tuple([letter + number for letter, number in pairs if letter in "GM"]))
         for code in codes.selects:
             # Before the move of the same block, whose end is in the new coordinates.
             self._at.select(str(code.facts.does), code)
         words = self._numbers.read(pairs, codes)
+        if codes.modal.is_inverse != was_inverse:
+            self._moves.forget_feed()
         waits = codes.waits or self._waits_for_speed(words.roles, turns=turns)
         self._keep_roles(words.roles, codes)
         if waits:
@@ -197,6 +199,8 @@ class Interpreter:
             return _PAIRS.findall(line)
         if self._refused and line.lstrip()[:1] == self._refused:
             raise BlockError("A % in a program that does not begin with one")
+        if self._path.plain_delete and re.match(r"[ \t]*/[0-9]", line):
+            raise BlockError("A number behind the / in front of a block")
         expressions = self.reader.codes.facts.expressions
         return [(word.letter, word.number) for word in words_of(line, expressions)]
 

@@ -139,14 +139,18 @@ class ModalCodes:
         # A copy: the states are kept, and a later block may come back to this one.
         active = dict(self.now.active)
         groups: set[str] = set()
+        self._refuse_together(written)
         for each in written:
+            if len(each) == 1:
+                raise BlockError(f"{each}: a code without its number", "no-digits")
             code = TypedWord(each[0], each[1:], each).code
             known = self._simulated(code, each)
             if known is None:
                 continue
             if known.group is not None:
                 if known.group.key in groups:
-                    raise BlockError(f"{each} and another code of the group {known.group.name}", "two-codes")
+                    fault = "two-motions" if known.group.key == "motion" else "two-codes"
+                    raise BlockError(f"{each} and another code of the group {known.group.name}", fault)
                 groups.add(known.group.key)
                 after = self._switched(active.get(known.group.key, ""), known, code)
                 if known.facts.does == "wait-motion" and active.get(known.group.key) == after:
@@ -158,6 +162,13 @@ class ModalCodes:
         # Where a control takes the feed before it switches units, the F of that block is in the old one.
         is_inch = self.now.is_inch if self._path.feed_first else modal.is_inch
         return BlockCodes(tuple(codes), modal, is_inch, _once(codes), **_effects(codes))
+
+    def _refuse_together(self, written: Sequence[str]) -> None:
+        """Refuse codes of which a block has one at most, though they are in no group."""
+        codes = {TypedWord(each[0], each[1:], each).code for each in written}
+        for apart in self._path.apart:
+            if len(found := sorted(codes.intersection(apart))) > 1:
+                raise BlockError(f"{found[0]} and {found[1]} in one block", "two-codes")
 
     def _switched(self, before: str, known: KnownCode, code: str) -> str:
         """Return what is active in the group of a code after it: several of those that add to each other."""
@@ -251,5 +262,10 @@ def _once(codes: Sequence[KnownCode]) -> str:
         if code.facts.does in ("scale", "turn") or (code.group is None and code.facts.does not in _OF_NO_AXIS)
     ]
     if len(taking) > 1:
-        raise BlockError(f"{taking[1].code} and another code that takes the words of the axes")
+        raise BlockError(f"{taking[1].code} and another code that takes the words of the axes", "two-motions")
+    moves = [code for code in codes if code.facts.does in MOTIONS]
+    if taking and moves and taking[0].facts.does != "dwell":
+        raise BlockError(
+            f"{taking[0].code} and {moves[0].code} both take the words of the axes", "two-motions"
+        )
     return str(taking[0].facts.does) if taking else ""

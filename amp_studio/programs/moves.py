@@ -38,6 +38,10 @@ class PathMoves:
             self._feed = feed
         self.speed = roles.get("spindle", self.speed)
 
+    def forget_feed(self) -> None:
+        """Have no feed: the kind of feed was switched to or from inverse time."""
+        self._feed = 0.0
+
     def round_corners(self, roles: dict[str, float]) -> None:
         """Round corners by the words of a block; without them as far as the control likes."""
         corner, points = roles.get("blend-tolerance"), roles.get("join-tolerance")
@@ -98,6 +102,8 @@ class PathMoves:
         if "radius" in words.roles:
             if not self._path.arcs_by_radius:
                 raise BlockError("No page prints arcs by R for this control")
+            if words.centers:
+                raise BlockError("An arc with R and with a center", "unused-words")
             arc = arc_by_radius(*ends, words.roles["radius"] * scale, clockwise=clockwise)
         else:
             if not self._path.arcs_by_radius and "level" in words.roles:
@@ -153,7 +159,7 @@ class PathMoves:
 
     def dwell(self, seconds: float) -> None:
         if seconds < 0.0:
-            raise BlockError("A dwell cannot be negative", "out-of-range")
+            raise BlockError("A dwell cannot be negative", "negative")
         if step := self._path.dwell_step:
             seconds = step * math.ceil(round(seconds / step, 6))  # 10.0000001 steps are ten
         self.rows.add(self.at.position, DWELL, self.line, 0.0, EXACT, 1, seconds=seconds)

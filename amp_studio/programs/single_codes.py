@@ -33,6 +33,8 @@ class SingleCodes:
                 self._dwell(words)
             case "reference" | "reference-check" | "reference-other" | "reference-return":
                 self._reference(codes.once, words, codes.modal)
+            case "set-position" | "local-shift" if not words.axes:
+                raise BlockError(f"{codes.codes[0].code} without an axis", "no-axes")
             case "set-position":
                 self._at.set_here(words.axes)
             case "local-shift":
@@ -51,6 +53,8 @@ class SingleCodes:
     def _dwell(self, words: BlockNumbers) -> None:
         if "dwell" not in words.roles:
             raise BlockError("A dwell without its time", "no-number")
+        if words.axes or words.distances or words.centers:
+            raise BlockError("A dwell and a move in one block are not simulated")
         self._moves.dwell(words.roles["dwell"])
 
     def _read_centers(self, words: BlockNumbers) -> None:

@@ -33,5 +33,5 @@ def read_program(path: Path) -> list[str]:
                 raise ProgramBlockError(
                     f"{name} is longer than {MOST_LINES} lines or {MOST_BYTES // 1_000_000} MB"
                 )
-            lines.append(part.strip())
+            lines.append(part.strip(" \t\r\n"))
     return lines

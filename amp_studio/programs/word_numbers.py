@@ -64,7 +64,7 @@ class WordNumbers:
     def read(self, pairs: Sequence[tuple[str, str]], codes: BlockCodes) -> BlockNumbers:
         words = BlockNumbers()
         readings = codes.readings
-        if any(letter == "N" for letter, _ in pairs[1:]):
+        if any(letter == "N" for letter, _ in pairs):
             self._check_numbers(pairs)
         for letter, text in pairs:
             if letter in "GMN":
@@ -77,7 +77,11 @@ class WordNumbers:
                 continue  # a value for the card, which moves no axis
             value = self._number(letter, text, reading) * reading.scale
             if reading.role == "feed" and value < 0.0:
-                raise BlockError(f"{letter}{text[:20]} is no feed: it must be above 0", "negative-feed")
+                raise BlockError(f"{letter}{text[:20]} is no feed: it must be above 0", "negative")
+            if reading.role == "spindle" and value < 0.0:
+                raise BlockError(
+                    f"{letter}{text[:20]} is no speed: a spindle turns back by its code", "negative"
+                )
             if reading.bounds and not reading.bounds[0] <= value <= reading.bounds[1]:
                 low, high = reading.bounds
                 raise BlockError(f"{letter}{text[:20]}: {low:g} to {high:g} are printed", "out-of-range")
@@ -89,7 +93,9 @@ class WordNumbers:
     def _check_numbers(self, pairs: Sequence[tuple[str, str]]) -> None:
         if sum(letter == "N" for letter, _ in pairs) > 1:
             raise BlockError("N is given twice in a block", "repeated")
-        if self._number_first:
+        if any(letter == "N" and text[:1] == "-" for letter, text in pairs):
+            raise BlockError("The number of a block is below 0", "negative")
+        if self._number_first and pairs[0][0] != "N":
             raise BlockError("N is not at the beginning of its block")
 
     def _number(self, letter: str, text: str, reading: WordReading) -> float:
@@ -102,12 +108,19 @@ class WordNumbers:
         if number.assumed:
             self._notes.append(sentence(number.assumed))
         if number.value is None:
-            raise BlockError(f"{letter}{text}: {number.fault or 'no number'}", "no-number")
+            raise BlockError(
+                f"{letter}{text}: {number.fault or 'no number'}", "no-number" if text else "no-digits"
+            )
         return number.value
 
     def _reading(self, letter: str, codes: BlockCodes) -> WordReading:
         self._reader.active = dict(codes.modal.active)
         here = {TypedWord(code.code[0], code.code[1:], "").code for code in codes.codes}
+        path = self._reader.codes.facts.path
+        needed = path.needs.get(letter) if path else None
+        # An arc goes on as long as its code is active; each other code needs its words beside it.
+        if needed is not None and not {*here, codes.modal.active.get("motion")}.intersection(needed):
+            raise BlockError(f"{letter}: no code of the block uses this word", "unused-words")
         use = self._reader.use(letter, here)
         if use is not None:
             return self._reading_of_role(use, codes)

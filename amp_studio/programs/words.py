@@ -17,7 +17,7 @@ _EXPRESSION = r"\([^()]*\)"
 for _ in range(DEEPEST - 1):  # parentheses inside one another; a character fits one branch alone: no search
     _EXPRESSION = rf"\((?:[^()]|{_EXPRESSION})*\)"
 _PART = re.compile(
-    r"\s+|(?P<remark>;.*|\([^)]*\))"
+    r"[ \t]+|(?P<remark>;.*|\([^)]*\))"
     r"|(?P<letter>,[A-Z]|\$?[A-Z])[ \t]*(?P<number>[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))?",
     re.ASCII,
 )

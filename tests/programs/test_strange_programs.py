@@ -131,3 +131,60 @@ def test_the_number_of_a_program_is_read_where_a_page_names_it(files: dict[str, 
     assert {fault.message for fault in faults.values() if fault is not None} == {
         "O: numbers of programs and subroutines are not simulated"
     }
+
+
+REAL = [
+    ("G X-5", "a code without its number", "error:2"),
+    ("X", "a letter without a number", "error:2"),
+    ("S-5 M3", "is no speed", "error:4"),
+    ("N-5 G1 X-5", "below 0", "error:4"),
+    ("G4 P-1", "cannot be negative", "error:4"),
+    ("/2 G1 X-5", "behind the /", ""),
+    ("G2 X-11 Y0 R5 I5", "R and with a center", "error:36"),
+    ("G2 X-11 Y0 R4", "no circle of R", "error:34"),
+    ("G92", "without an axis", "error:26"),
+    ("G92 X1 G1", "both take the words", "error:24"),
+    ("G0 G1 X-5", "another code of the group", "error:24"),
+    ("G93 G1 X-5", "has no F", "error:22"),
+    ("P1 G1 X-5", "no code of the block uses", "error:36"),
+    ("L3 G1 X-5", "no code of the block uses", "error:36"),
+    ("H1 G1 X-5", "no code of the block uses", "error:36"),
+    ("G1 X-5 R2", "no code of the block uses", "error:36"),
+]
+"""What rs274 of LinuxCNC 2.9.0~pre1 and the simulator of a grblHAL refuse, with the code of the latter."""
+
+
+@pytest.mark.parametrize("family", ["linuxcnc", "grblhal"])
+@pytest.mark.parametrize(("line", "words", "code"), REAL)
+def test_what_the_real_control_refuses_is_refused(
+    files: dict[str, ParameterFile], family: str, line: str, words: str, code: str
+) -> None:
+    found = tool_path(files[family], ["G21 G90 F500", "G1 X-1", line, "X-7"])
+    assert found.fault is not None
+    assert (found.fault.line, words in found.fault.message) == (3, True), found.fault.message
+    assert found.fault.code == (code if family == "grblhal" else "")
+
+
+@pytest.mark.parametrize("line", ["M3 M4 S100", "S100 M3 M5", "M7 M8", "Q5 G1 X-5", "D1 G1 X-5"])
+def test_a_linuxcnc_refuses_codes_and_words_that_do_not_belong_together(
+    files: dict[str, ParameterFile], line: str
+) -> None:
+    assert tool_path(files["linuxcnc"], ["G21 F500 G64", "G1 X-1", line]).fault is not None
+
+
+@pytest.mark.parametrize("family", EXAMPLES)
+@pytest.mark.parametrize("line", ["X-5\fX-6", "G X-5", "N-1 X-5", "G4 P1 G0 X-5"])
+def test_no_control_gets_a_move_that_was_guessed(
+    files: dict[str, ParameterFile], family: str, line: str
+) -> None:
+    """A G without its number was read as G0, a page feed as a blank, and a move beside a dwell was left out."""
+    found = tool_path(files[family], ["G0 X-1", line])
+    assert found.fault is not None
+    assert len(found) == 1
+
+
+def test_several_turns_of_an_arc_are_refused(files: dict[str, ParameterFile]) -> None:
+    """gcode.c 3619 of the firmware: P is the number of turns. One turn was planned."""
+    for family in ("linuxcnc", "grblhal"):
+        found = tool_path(files[family], ["G21 F500", "G2 X0 Y0 I-5 J0 P3"])
+        assert "several turns" in (found.fault.message if found.fault else "")

@@ -309,6 +309,12 @@ class ProgramPath(Model):
     alone, or nothing."""
     number_first: bool = False
     """Whether the number of a block (N) has to be its first word."""
+    needs: dict[str, tuple[str, ...]] = {}
+    """Letter -> codes, one of which has to be in its block or active: else the control refuses the word."""
+    apart: tuple[tuple[str, ...], ...] = ()
+    """Codes without a group, of which a block has one at most."""
+    plain_delete: bool = False
+    """Whether the / in front of a block has no number."""
     feed_first: bool = False
     """Whether a feed in a block that changes the unit of length is read in the unit before it."""
     speed_waits: Literal["", "always", "turning"] = ""
