@@ -45,7 +45,8 @@ def path_error_unit(length: str) -> tuple[str, float]:
 def path_error_text(error: float, length: str) -> str:
     """Return the error of a path, in mm, as a person reads it."""
     unit, times = path_error_unit(length)
-    return value_text(times * error, unit, 3)
+    # Below a picometre it is the rounding of sums.
+    return value_text(times * error if error > 1e-9 else 0.0, unit, 3)
 
 
 def axis_unit(file: ParameterFile, axis: str, length: str) -> str:

@@ -105,6 +105,17 @@ def test_an_axis_that_turns_in_an_unknown_unit_is_refused() -> None:
         migrate(other("acromill-router", {"axes.name@Y": "a"}), "linuxcnc")
 
 
+def test_a_joint_without_a_gain_follows_at_full_speed() -> None:
+    """With a gain of 50 alone a jog of a router (133 mm/s) lagged 2.7 mm and tripped at the 1 mm that a LinuxCNC
+    takes where FERROR is not known.
+    """
+    routers, mill = (
+        migrate(other(name, {}), "linuxcnc").written.texts for name in ("grblhal-router", "mill-1394")
+    )
+    assert "setp pid.0.FF1 1\n" in routers["machine.hal"]
+    assert "setp pid.0.FF1 [JOINT_0]FF1\n" in mill["machine.hal"]
+
+
 @pytest.mark.parametrize(
     ("name", "values", "sign"),
     [

@@ -20,7 +20,7 @@ net tool-change iocontrol.0.tool-change => iocontrol.0.tool-changed
 """
 _JOINT = """\
 setp pid.{n}.Pgain {gain}
-setp pid.{n}.FF1 [JOINT_{n}]FF1
+setp pid.{n}.FF1 {forward}
 net enable.{n} joint.{n}.amp-enable-out => pid.{n}.enable
 net command.{n} joint.{n}.motor-pos-cmd => pid.{n}.command
 net speed.{n} pid.{n}.output => table.{n}.in
@@ -29,11 +29,11 @@ net feedback.{n} table.{n}.out => joint.{n}.motor-pos-fb pid.{n}.feedback
 
 
 def hal_template(has_gain: Sequence[bool]) -> str:
-    """Return the template for so many joints; one without a gain in the configuration gets that
-    of the loop in the computer.
+    """Return the template for so many joints; one without a gain in the configuration gets that of the
+    loop in the computer, with the whole speed fed forward: else it lags at full speed, and trips.
     """
     names = range(len(has_gain))
-    gains = [f"[JOINT_{n}]P" if has else "50" for n, has in enumerate(has_gain)]
+    loops = [(f"[JOINT_{n}]P", f"[JOINT_{n}]FF1") if has else ("50", "1") for n, has in enumerate(has_gain)]
     loads = [
         f"loadrt pid names={','.join(f'pid.{n}' for n in names)}",
         f"loadrt integ names={','.join(f'table.{n}' for n in names)}",
@@ -45,7 +45,7 @@ def hal_template(has_gain: Sequence[bool]) -> str:
         (
             _HEAD + "\n".join(loads),
             "",
-            *(_JOINT.format(n=n, gain=gain) for n, gain in enumerate(gains)),
+            *(_JOINT.format(n=n, gain=gain, forward=ff1) for n, (gain, ff1) in enumerate(loops)),
             _TAIL,
         )
     )

@@ -225,7 +225,27 @@ def _of_ways_home() -> Iterator[Mutation]:
     yield Mutation(syntec, "dog only", {"Pr961": "dog-only"}, {"ini.0.home": 0.0}, zero=0.0)
 
 
-MUTATIONS = (*_of_9pc(), *_of_others(), *_of_57c422b(), *_of_ways_home())
+def _of_shapes() -> Iterator[Mutation]:
+    """Machines with other axes, and places of home that no limit allows."""
+    mill, num, syntec, router = "mill-1394", "num-1060-mill", "syntec-mill", "acromill-router"
+    turned = {"ini.3.min_limit": -90.0, "ini.3.max_limit": 90.0}
+    yield Mutation(mill, "rotary limits", {"4020": "yes", "4320": "90 deg", "4330": "-90 deg"}, turned)
+    alone = {"361": "unfitted", "362": "unfitted", "363": "unfitted"}
+    yield Mutation(mill, "single axis", alone, _limits(-500.0, 8.0), ends="+", compared=10)
+    six = {"365": "linear", "255": "W", "366": "rotary", "256": "C"}
+    yield Mutation(mill, "six axes", six, ends="++++++")
+    yield Mutation(mill, "other letters", {"250": "U", "251": "W"})
+    beyond = {"ini.0.home": 7.99, "ini.0.max_limit": 8.0}
+    yield Mutation(mill, "home above its limit", {"1310": "20 mm"}, beyond)
+    yield Mutation(mill, "scale of a count", {"1575": "1", "1590": "1000 mm"}, _limits(-500.0, 8.0))
+    yield Mutation(num, "scale of many counts", {"P11N0": "1", "P11N1": "99999"})
+    yield Mutation(syntec, "rotary limits", {"Pr2407": "90000", "Pr2408": "-90000"}, turned)
+    yield Mutation(router, "turns by its name", {"axes.name@Y": "a"}, refused=True)
+    inside = {"ini.0.home": 2.53, "ini.0.max_limit": 2.54}
+    yield Mutation(router, "home above its limit", {"home.preset@X": "5 in"}, inside, zero=127.0)
+
+
+MUTATIONS = (*_of_9pc(), *_of_others(), *_of_57c422b(), *_of_ways_home(), *_of_shapes())
 SCREEN = '''#!/usr/bin/python3
 """Has written what the running program uses, homes all joints, and has written where they are."""
 import pathlib, subprocess, time
