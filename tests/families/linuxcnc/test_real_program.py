@@ -16,6 +16,7 @@ import pytest
 
 from amp_studio import MachineParameters, connect
 from amp_studio.families.linuxcnc.control import running as running_program
+from amp_studio.families.linuxcnc.control.driver import IN_USE
 from amp_studio.files import open_file
 from amp_studio.files.example_files import examples_folder
 from amp_studio.formats import import_file
@@ -176,6 +177,7 @@ def test_the_running_program_uses_the_figures_of_the_file(running: Program) -> N
     assert float(hal("getp", "ini.3.min_limit")) == -1e99  # no travel limit, as before
     assert running.control.verify(MachineParameters(file)).agrees
     assert len(running_program.values_in_use(file)) == 53
+    assert running.control.identify().notice == IN_USE
 
 
 def test_a_download_is_used_after_the_next_start(running: Program, tmp_path: Path) -> None:
