@@ -1,6 +1,7 @@
 """The linear sampled model agrees with python-control, scipy and its own law run step by step."""
 
 import sys
+from dataclasses import replace
 from types import ModuleType
 from typing import Any
 from unittest.mock import MagicMock
@@ -211,7 +212,7 @@ def test_signals_that_the_law_does_not_use_add_no_poles(model: LinearModel) -> N
     assert len(model.open) == 4  # position and speed, the sum of the error and the error before
 
 
-@pytest.mark.parametrize("delay", [0.0, 0.0045, 0.04])
+@pytest.mark.parametrize("delay", [0.0, 0.0045, 0.04, 0.1999])
 def test_the_response_by_modes_is_that_of_the_matrices(delay: float) -> None:
     model = sampled(rigid(40.0, 3.0, delay), pid(20.0, 40.0, 0.6), None, PLACES, PERIOD, PERIOD)
     frequencies = np.geomspace(0.05, 249.0, 40)
@@ -219,6 +220,17 @@ def test_the_response_by_modes_is_that_of_the_matrices(delay: float) -> None:
     size = np.eye(len(model.open))
     direct = [-(model.sensed @ np.linalg.solve(each * size - model.open, model.measured))[0, 0] for each in z]
     assert model.loop(frequencies) == pytest.approx(np.array(direct), rel=1e-6)
+
+
+def test_the_way_under_a_push_is_that_of_scipy() -> None:
+    from scipy import signal
+
+    plant = replace(rigid(40.0, 3.0, 0.03), push=np.array([[0.0], [40.0]]))
+    model = sampled(plant, pid(20.0, 40.0, 0.6), None, PLACES, PERIOD, PERIOD)
+    system = model.closed, model.pushed, model.position, np.zeros((1, 1)), model.period
+    for steps in (1, 2, 7, 64, 500):
+        way = signal.dlsim(system, np.ones((steps + 1, 1)))[1][1:, 0]
+        assert model.pushed_way(steps) == pytest.approx(way, rel=1e-9)
 
 
 def test_a_delay_beyond_any_loop_is_one_sentence() -> None:

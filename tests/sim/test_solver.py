@@ -14,13 +14,12 @@ from amp_studio.schema import Value
 from amp_studio.sim import SimulationError, Trace, address_of, simulate
 from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.law import law_of
-from amp_studio.sim.tuning import solver
 from amp_studio.sim.tuning.advice import OTHER_SIGN
 from amp_studio.sim.tuning.aims import AIMS
 from amp_studio.sim.tuning.gains import gains_of
 from amp_studio.sim.tuning.levels import Candidate, levels_of
 from amp_studio.sim.tuning.loops import SOUND
-from amp_studio.sim.tuning.solver import Solved, solve
+from amp_studio.sim.tuning.solver import solve
 from amp_studio.sim.tuning.trial import Trial
 from tests.campaigns import CAMPAIGN
 from tests.sim.tuning_campaign import Plant, faults, random_plants
@@ -156,24 +155,12 @@ def test_a_candidate_shows_by_how_much_a_count_moves_its_output() -> None:
     assert math.isfinite(Candidate(axis).loops.lacks())
 
 
-def test_a_long_delay_has_fewer_tries_and_a_sentence_about_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    """An AcroMill with 30 ms of delay, 75 samples, took minutes."""
+@pytest.mark.skipif(not CAMPAIGN, reason="a search for three gains with 75 samples of delay; make campaign")
+def test_an_axis_with_a_long_delay_is_as_stiff_as_with_any_other_search() -> None:
+    """With fewer tries, as each took a third of a second, its load moved by 408 for one unit of torque, not 213."""
     file = open_file(EXAMPLES / "acromill-router" / "ROUTER.amp").file
-    law, tries = law_of("acromill"), []
-
-    def solved() -> Solved:
-        trial = Trial(file, lambda other: bind_axis(other, law, "X"))
-        bound, count = trial.bound, []
-        monkeypatch.setattr(trial, "bound", lambda numbers: (count.append(1), bound(numbers))[1])
-        found = solve(trial, AIMS["normal"])
-        tries.append(len(count))
-        return found
-
-    usual = solved()
-    monkeypatch.setattr(solver, "LONG_DELAY", 1)
-    fewer = solved()
-    assert tries[1] < tries[0] / 2
-    assert fewer.sound
-    assert sum(fewer.after.loops.yields) < 1.1 * sum(usual.after.loops.yields)
-    trace = simulate(file, "tune", "X")
-    assert any("sought with fewer tries" in text for text in trace.assumptions)
+    law = law_of("acromill")
+    trial = Trial(file, lambda other: bind_axis(other, law, "X", {"model.delay": 30.0}))
+    solved = solve(trial, AIMS["normal"])
+    assert solved.level == 0
+    assert solved.after.loops.yields[0] < 215.0

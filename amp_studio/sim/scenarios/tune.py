@@ -23,7 +23,7 @@ from amp_studio.sim.tuning.aims import AIMS, Aim
 from amp_studio.sim.tuning.levels import Candidate, levels_of
 from amp_studio.sim.tuning.linear import LinearModel
 from amp_studio.sim.tuning.loops import Loops, with_inertia
-from amp_studio.sim.tuning.solver import LONG_DELAY, Solved, delay_is_long, solve
+from amp_studio.sim.tuning.solver import Solved, solve
 from amp_studio.sim.tuning.trial import Trial
 
 FOR = "tune.for"
@@ -134,11 +134,6 @@ def _notes(solved: Solved, slowest: float, others: Sequence[Trial]) -> list[str]
         sentences.append(f"{why_not_sound(solved.after.loops)}. {none_sound(solved)}")
     elif not solved.to_change:
         sentences.append(NOTHING)
-    if delay_is_long(solved.after.axis):
-        sentences.append(
-            f"The delay is more than {LONG_DELAY} samples: the gains were sought with fewer tries and in"
-            " coarser steps, and may be much softer than possible."
-        )
     if math.isfinite(slowest):
         names = ", ".join(other.axis.axis for other in others)
         sentences.append(f"The position gain is the one that all axes of the contour can have ({names}).")

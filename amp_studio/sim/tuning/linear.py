@@ -218,11 +218,16 @@ class LinearModel(SampledLoop):
         """Return the position of the load at so many samples after one unit of torque came,
         from a sample later on.
         """
-        states, move = self.pushed, self.closed
-        while states.shape[1] < steps:  # twice as many steps each time: x[n + k] = A^n x[k] + x[n]
-            states = np.hstack([states, move @ states + states[:, -1:]])
-            move = move @ move
-        return np.asarray((self.position @ states)[0, :steps])
+        # The push is a state that stays, and the way at sample n + m is (c Aⁿ)(Aᵐ x): two short ways, each
+        # made twice as long in a step, instead of a long one of all states.
+        size = len(self.closed)
+        move = np.block([[self.closed, self.pushed], [np.zeros((1, size)), np.ones((1, 1))]])
+        rows, states = np.hstack([self.position, [[0.0]]]), np.eye(size + 1)[:, -1:]
+        while len(rows) ** 2 <= steps:
+            rows, move = np.vstack([rows, rows @ move]), move @ move
+        while len(rows) * states.shape[1] <= steps:
+            states, move = np.hstack([states, move @ states]), move @ move
+        return np.asarray((rows @ states).T.ravel()[1 : steps + 1])
 
     def bandwidth(self, *, forward: bool = True) -> float | None:
         """Return the frequency in Hz from which the axis follows less than -3 dB,
@@ -430,8 +435,31 @@ def _around(poles: Response, period: float, points: int, close: int) -> Matrix:
 
 def _response(a: Matrix, b: Matrix, c: Matrix, z: Response) -> Response:
     """Return c (z - a)^-1 b for every z."""
-    system = z[:, None, None] * np.eye(len(a)) - a
-    return np.asarray((c @ np.linalg.solve(system, np.broadcast_to(b, (len(z), *b.shape))))[:, 0, 0])
+    # A state in a queue is the one ahead of it a sample later, z x[n] = a x[ahead] + b[n]. Put into the
+    # others it leaves a system of these alone, which a delay of many samples does not enlarge.
+    first = np.arange(len(a))
+    late, added = np.ones((len(a), len(z)), complex), np.zeros((len(a), len(z)), complex)
+    for n, ahead in _queue(a):
+        first[n] = first[ahead]
+        late[n], added[n] = a[n, ahead] * late[ahead] / z, (a[n, ahead] * added[ahead] + b[n, 0]) / z
+    kept, place = np.unique(first, return_inverse=True)
+    from_where = np.flatnonzero(a[kept].any(axis=0))
+    moved = a[kept][:, from_where] * late.T[:, None, from_where] @ np.eye(len(kept))[place[from_where]]
+    system = z[:, None, None] * np.eye(len(kept)) - moved
+    found = np.linalg.solve(system, (b[kept] + a[kept] @ added).T[:, :, None])[:, :, 0]
+    return np.asarray((c @ (late * found.T[place] + added))[0])
+
+
+def _queue(a: Matrix) -> list[tuple[int, int]]:
+    """Return the states that follow one other alone, each after the one ahead of it."""
+    waiting = {n: int(np.flatnonzero(row)[0]) for n, row in enumerate(a) if np.count_nonzero(row) == 1}
+    found: list[tuple[int, int]] = []
+    # A state that follows itself, or a ring of them, is no queue and stays.
+    while ready := [(n, ahead) for n, ahead in waiting.items() if ahead not in waiting]:
+        found += ready
+        for n, _ in ready:
+            del waiting[n]
+    return found
 
 
 def _crossings(function: Callable[[Matrix], Matrix], grid: Matrix, halvings: int = HALVINGS) -> list[float]:

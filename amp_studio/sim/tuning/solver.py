@@ -16,8 +16,6 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from amp_studio.sim.law import AxisLaw
-
 from .aims import Aim
 from .filters import Filters, FilterSetting
 from .gains import Gain, GainPoint, gains_of
@@ -27,9 +25,6 @@ from .tried import Tried
 SHARES = (1.0, 0.87, 0.74, 0.6, 0.45, 0.3, 0.15)
 """Of the largest gain of a loop that are tried with every gain outside of it; 0 as well for an integral
 one."""
-LONG_DELAY, LONG_SHARES, LONG_STARTS, LONG_STEPS = 32, (1.0, 0.6, 0.3), 1, (1.25, 1.06)
-"""Samples of delay from which a try costs so much, by the cube of the states that the delay has, that fewer
-shares, starts and steps are tried: three gains with 75 samples took minutes."""
 COARSE = 2.0
 """Factor between two gains on the way down to the first sound one."""
 CLOSE = 1.06
@@ -85,11 +80,6 @@ class Solved:
         return self.after.loops.sound()
 
 
-def delay_is_long(axis: AxisLaw) -> bool:
-    """Return whether the delay of an axis is so many samples that its gains are sought with fewer tries."""
-    return axis.machine.delay > LONG_DELAY * axis.velocity_period
-
-
 class Search:
     """The candidates of one axis with one setting of its filters, each computed once."""
 
@@ -98,10 +88,6 @@ class Search:
         self._known: dict[GainPoint, Candidate | None] = {}
         self._keeps_margins: dict[tuple[GainPoint, int], bool] = {}
         self._best: dict[int, GainPoint | None] = {}
-        is_long = delay_is_long(trial.axis)
-        self._shares: tuple[float, ...] = LONG_SHARES if is_long else SHARES
-        self._steps: tuple[float, ...] = LONG_STEPS if is_long else STEPS
-        self._starts = LONG_STARTS if is_long else STARTS
         self._near: dict[int, float] = {}  # the last largest value of a gain: where the next one is sought
 
     def candidate(self, point: GainPoint) -> Candidate | None:
@@ -149,13 +135,13 @@ class Search:
         # the highest.
         starts = {point[0]: point for point in reversed(ranked)}  # the best with each innermost gain
         moved = [
-            self._moved(point, self._steps[0], levels, level)
-            for point in sorted(starts.values(), key=ranked.index)[: self._starts]
+            self._moved(point, STEPS[0], levels, level)
+            for point in sorted(starts.values(), key=ranked.index)[:STARTS]
         ]
         best = min(moved, key=lambda point: (self.yields(point), point))
         # Ever smaller steps from the best alone: from each start they would cost more and find the
         # same.
-        for step in self._steps[1:]:
+        for step in STEPS[1:]:
             best = self._moved(best, step, levels, level)
         return best
 
@@ -192,7 +178,7 @@ class Search:
         elif index == len(self.gains) - 1:
             values = (largest,)
         else:
-            values = tuple(gain.nearest(share * largest) for share in self._shares)
+            values = tuple(gain.nearest(share * largest) for share in SHARES)
         if gain.may_be_none:
             values = (*values, 0.0)
         for value in dict.fromkeys(values):
