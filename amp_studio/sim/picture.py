@@ -212,12 +212,18 @@ def _before(before: Trace | None, name: str) -> list[Curve]:
     return [Curve("before", before.columns["time_s"], before.columns[name], "before")]
 
 
-def recording_picture(recording: SignalRecord) -> Picture:
-    """Return the readings of a recording that is being made, as dots: nothing is known between them."""
+SPARSE = 50.0
+"""Readings in a second below which they are dots: nothing is known between them."""
+
+
+def recording_picture(recording: SignalRecord, begin: float = 0.0) -> Picture:
+    """Return the signals of a recording alone, ``begin`` (s) where its time is 0."""
+    time = recording.time - begin
+    dots = len(time) - 2 < SPARSE * float(time[-1] - time[0])  # one row alone, too
     panels = [
         panel_of(
             signal.replace("_", " "),
-            (Curve("", recording.time, values, "outside", dots=True),),
+            (Curve("", time, values, "outside", dots=dots),),
             _TIME,
             recording.units.get(signal, ""),
         )

@@ -115,3 +115,32 @@ def test_an_axis_that_the_control_does_not_show_ends_the_record(
     view.recorder.take(ControlStatus("9pc", "", "", "", (AxisStatus("Q", 1.0),)))
     assert view.recorder.state.text() == "The control shows no axis 1 X: Q"
     assert not view.recorder.is_recording
+
+
+def test_a_record_is_read_where_nothing_can_be_simulated(
+    view: MotionView, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    view._workspace.edit("Undo", {("servo.lead_screw_pitch", "1"): None})
+    ran(view, qtbot)
+    assert view.trace is None
+    time = np.arange(0.0, 1.0, 0.002)
+    path = tmp_path / "record.csv"
+    rows = [f"{t!r},{900.0 * t!r}" for t in time.tolist()]
+    path.write_text("\n".join(["time (s),velocity (mm/min)", *rows]))
+    monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(path), ""))
+    view.recorder.open.click()
+    ran(view, qtbot)
+    assert [(panel.title, panel.y.unit) for panel in view.plot.panels] == [("velocity", "mm/min")]
+    assert "nothing is simulated" in view.recorder.state.text()
+    form = view.recorder.trigger
+    form.editors["signal"].setCurrentIndex(form.editors["signal"].findData("velocity"))
+    form.editors["level"].setText("450")
+    form.editors["before"].setText("0.1")
+    form.entered.emit("level")
+    ran(view, qtbot)
+    (curve,) = view.plot.panels[0].curves
+    assert (curve.x[0], curve.y[0]) == (pytest.approx(-0.1), pytest.approx(360.0))
+    view.recorder.channels.item(0, 1).setText("250")
+    view.recorder.channels.item(0, 2).setText("500")
+    assert view.plot.panels[0].y.step == 250.0
+    assert "B − A" in view.values.text()

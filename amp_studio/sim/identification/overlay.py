@@ -83,12 +83,9 @@ def laid_over(trace: Trace, record: Path | SignalRecord, trigger: Trigger | None
         lag = seek(here, trace.columns[first], time, signals[first])
     else:
         first = trigger.signal
-        if first not in signals:
-            raise SimulationError(f"{name}: it has no {first.replace('_', ' ')} for the trigger")
-        there = trigger.time(name, time, signals[first])
+        kept, there = replace(recording, signals=signals).triggered(trigger)
         lag = there - trigger.time("The simulation", here, trace.columns[first])
-        kept = time >= there - trigger.before
-        time, signals = time[kept], {signal: values[kept] for signal, values in signals.items()}
+        time, signals = kept.time, dict(kept.signals)
     columns, units, result = dict(trace.columns), dict(trace.units), dict[str, Figure]()
     for signal, values in signals.items():
         over = _readings if is_coarse else _rows

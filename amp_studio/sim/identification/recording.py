@@ -7,7 +7,7 @@ from __future__ import annotations
 import re
 from collections import deque
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -45,6 +45,17 @@ class SignalRecord:
     def rate(self) -> float:
         """Rows in a second, by the median of their distances."""
         return 1.0 / float(np.median(np.diff(self.time)))
+
+    def triggered(self, trigger: Trigger) -> tuple[SignalRecord, float]:
+        """Return it from what is kept ahead of a trigger on, and when that fires; raises SimulationError."""
+        if trigger.signal not in self.signals:
+            raise SimulationError(
+                f"{self.name}: it has no {trigger.signal.replace('_', ' ')} for the trigger"
+            )
+        there = trigger.time(self.name, self.time, self.signals[trigger.signal])
+        kept = self.time >= there - trigger.before
+        signals = {signal: values[kept] for signal, values in self.signals.items()}
+        return replace(self, time=self.time[kept], signals=signals), there
 
 
 def read_recording(path: Path) -> SignalRecord:

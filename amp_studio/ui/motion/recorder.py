@@ -273,6 +273,17 @@ class RecorderPage(QWidget):
         elif self._recorder is None:
             self._show_state()
 
+    def alone(self) -> Picture | None:
+        """Return the record without a simulation, from its trigger on; None where there is none."""
+        if self.recording is None or self.is_recording:
+            return None
+        try:
+            trigger = self.chosen_trigger()
+            return recording_picture(*(self.recording.triggered(trigger) if trigger else (self.recording,)))
+        except (ValueError, SimulationError) as error:
+            self._say(error)
+            return recording_picture(self.recording)
+
     def _say(self, error: object) -> None:
         self.record.setText(self.tr("&Record at the Control"))
         self.state.setText(sentenced(str(error)))
@@ -308,6 +319,8 @@ class RecorderPage(QWidget):
         text = self.tr("{name}: {rows} rows, {rate} a second: {signals}.").format(
             name=self.recording.name, rows=rows, rate=written(f"{self.recording.rate:.4g}"), signals=signals
         )
+        if self._trace is None:
+            text += " " + self.tr("It is alone: nothing is simulated.")
         lag = self._trace.result.get("record_lag") if self._trace else None
         if lag is not None and lag[0] is not None:
             text += " " + self.tr("Shifted by {lag} s.").format(lag=written(f"{lag[0]:.4g}"))

@@ -352,7 +352,9 @@ class MotionView(PageOfFile):
     def _stop(self, error: Exception) -> None:
         """Show why there is no trace, and no old one that is not true any more."""
         self.trace = None
+        self.recorder.show_trace(None)
         self.plot.clear_picture()
+        self._redraw()
         self.figures.clear()
         self.assumptions.clear()
         self.recommendations.show_all(self._workspace.file.schema, (), self._may_apply)
@@ -404,7 +406,11 @@ class MotionView(PageOfFile):
         self.tabs.setTabText(1, title)
 
     def _redraw(self, *_: object) -> None:
-        if self.trace is not None:
+        if self.trace is None:
+            # A record can be read where nothing can be simulated, too.
+            if alone := self.recorder.alone():
+                self.plot.draw(self.recorder.scaled(alone))
+        else:
             self.chart.setVisible(self.trace.scenario == "frequency")
             picture = picture_of(self.trace, self.before, str(self.chart.currentData()))
             self.plot.draw(self.recorder.scaled(picture))
