@@ -134,7 +134,8 @@ def heading_of(panel: Scene, left: float, right: float, measure: Measure) -> lis
     no name is left out.
     """
     # In the heading: a panel is too low for a text along its vertical axis.
-    title = f"{panel.title} ({unit_text(panel.y.unit)})" if panel.y.unit else panel.title
+    unit = panel.cells.unit if panel.cells else panel.y.unit
+    title = f"{panel.title} ({unit_text(unit)})" if unit else panel.title
     pieces = [Heading(left, 0, title, strong=True)]
     x, line = left + measure(title, True) + 2.0 * _BETWEEN, 0
     if panel.subtitle:

@@ -142,12 +142,11 @@ def map_scene(
     logs = [_is_geometric(side) for side in (x[2], y[2])]
     edges = [_edges(side, log) for side, log in zip((x[2], y[2]), logs, strict=True)]
     cells = HeatMap(unit, edges[0], edges[1], values, safe, _ends(values, safe))
-    heading = f"{title} ({unit_text(unit)})" if unit else title
     up = f"{y[0]} ({unit_text(y[1])})" if y[1] else y[0]
     return Scene(
         "map",
         "",
-        heading,
+        title,
         f"upwards: {up}; pale cells are not safe",
         Scale(x[0], x[1], float(cells.x[0]), float(cells.x[-1]), logs[0]),
         Scale("", "", float(cells.y[0]), float(cells.y[-1]), logs[1]),

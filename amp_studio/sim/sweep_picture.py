@@ -5,6 +5,7 @@ or a distribution of samples.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -59,26 +60,24 @@ def _map(trace: Trace, x: Series, y: Series) -> Picture:
     )
     # The present value is seldom one of the grid.
     nearest = int(np.argmin(np.abs(y - (y[len(y) // 2] if at[1] is None else at[1]))))
-    cut = f"{_words(trace.figure)} at {_words(two)} {value_text(float(y[nearest]), trace.units[two])}"
-    panel = _panel(trace, cut, one, x, values[nearest], safe[nearest], at[0])
+    cut = f"where {_axis(trace, two)[0]} is {value_text(float(y[nearest]), trace.units[two])}"
+    panel = replace(_panel(trace, one, x, values[nearest], safe[nearest], at[0]), subtitle=cut)
     return Picture("", (), (panel,), above)
 
 
 def _axis(trace: Trace, name: str) -> tuple[str, str]:
-    return _words(name), trace.units[name]
+    return trace.called.get(name) or _words(name), trace.units[name]
 
 
 def _line(trace: Trace, x: Series) -> Picture:
     values, safe = trace.columns[trace.figure], trace.columns["safe"] == 1.0
     one = trace.over[0]
-    return Picture("", (), (_panel(trace, _words(trace.figure), one, x, values, safe, trace.limits[one][0]),))
+    return Picture("", (), (_panel(trace, one, x, values, safe, trace.limits[one][0]),))
 
 
-def _panel(
-    trace: Trace, title: str, over: str, x: Series, values: Series, safe: Series, at: float | None
-) -> Scene:
-    known = np.isfinite(values)
-    curves = [Curve(_words(trace.figure), x[known], values[known], "now")]
+def _panel(trace: Trace, over: str, x: Series, values: Series, safe: Series, at: float | None) -> Scene:
+    known, title = np.isfinite(values), _words(trace.figure)
+    curves = [Curve(title, x[known], values[known], "now")]
     if (known & safe).any():
         curves.append(Curve("safe", x[known & safe], values[known & safe], "outside", dots=True))
     marks = () if at is None else (NamedPlace("present", at),)

@@ -85,6 +85,8 @@ class Trace:
 
     over: tuple[str, ...] = ()
     """Columns that are what a sweep varies; their present values are its limits."""
+    called: Mapping[str, str] = field(default_factory=dict)
+    """Of those that are parameters: column -> number and name."""
     figure: str = ""
     """The column that a sweep is about."""
 

@@ -11,12 +11,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from amp_studio.drawing import scene_in_words
 from amp_studio.files import ParameterFile, content_of, open_file
+from amp_studio.report import language_of
 from amp_studio.sim import SimulationError, SweepWay, simulate, sweep
 from amp_studio.sim.axis.moves import move_of, until_of
 from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.law import AxisLaw, law_of
 from amp_studio.sim.picture import plot_svg
+from amp_studio.sim.sweep_picture import sweep_picture
 from amp_studio.sim.variations.batch import FIGURES, run_batch
 from amp_studio.sim.variations.composed import ComposedAxes, agrees
 from amp_studio.sim.variations.job import Axes, SweepJob
@@ -285,3 +288,19 @@ def test_a_process_apart_that_was_ended_has_no_figures() -> None:
     worker.end()
     with pytest.raises(WorkerEndedError):
         worker.figures(np.zeros((1, 1)))
+
+
+def test_a_map_names_its_gains_and_has_german_words() -> None:
+    file = file_of(MILL)
+    over = "servo.initial_gain=0.5:1:2;servo.velocity_proportional_gain=1000:2000:2"
+    picture = sweep_picture(sweep(file, "1", {"sweep.over": over, "move.duration": 0.05}, way=ALONE))
+    german = language_of("de", "9pc").sentence
+    above, cut = (scene_in_words(each, german) for each in (picture.above, *picture.panels))
+    assert (above.title, above.cells.unit, above.x.label) == (
+        "Steifigkeit",
+        "mm/%",
+        "1710 Initial Gain of Position Loop",
+    )
+    assert above.subtitle == ("nach oben: 1801 Velocity Proportional Gain; blasse Felder sind nicht sicher")
+    assert above.texts[0].text == "jetzt"
+    assert (cut.title, cut.subtitle) == ("Steifigkeit", "bei 1801 Velocity Proportional Gain = 2000")

@@ -119,46 +119,74 @@ def test_proposals_are_one_step_of_undo_and_go_into_the_record(
     assert entry.figures == (("Ms", 2.8, 1.3, ""),)
 
 
-def test_a_click_in_the_map_proposes_its_gains(
-    guided: TuningSteps, workspace: Workspace, qtbot: QtBot
-) -> None:
-    names = ("servo.initial_gain", GAIN[0])
+MAP = ("servo.initial_gain", GAIN[0])
+
+
+@pytest.fixture
+def mapped(guided: TuningSteps) -> Trace:
+    """Show a map of three by three gains, and return it."""
     grid = np.array([(one, two) for one in (0.5, 1.0, 1.5) for two in (2000.0, 4000.0, 6000.4)])
-    columns = {names[0]: grid[:, 0], names[1]: grid[:, 1], "Ms": np.linspace(1.2, 2.0, 9), "safe": np.ones(9)}
+    columns = {MAP[0]: grid[:, 0], MAP[1]: grid[:, 1], "Ms": np.linspace(1.2, 2.0, 9), "safe": np.ones(9)}
     columns["stiffness"] = np.arange(9.0)
+    units, present = dict.fromkeys(columns, ""), {MAP[0]: (1.0, ""), MAP[1]: (6000.0, "")}
+    trace = Trace("sweep", "1", "", columns, units, {}, (), (), (), present, over=MAP, figure="stiffness")
     guided._charted("sweep")
-    trace = Trace(
-        "sweep",
-        "1",
-        "",
-        columns,
-        dict.fromkeys(columns, ""),
-        {},
-        (),
-        (),
-        (),
-        {names[0]: (1.0, ""), names[1]: (6000.0, "")},
-        over=names,
-        figure="stiffness",
-    )
     guided._mapped(trace)
     guided.below.grab()  # what is not painted has no place
-    place = guided.below._map
-    at = place.at((1.45, 4100.0))
-    QTest.mouseClick(guided.below, Qt.MouseButton.LeftButton, pos=QPoint(round(at[0]), round(at[1])))
-    assert len(guided.proposed.buttons) == 3
-    guided.proposed.buttons[-1].click()
-    assert (workspace.file.get((names[0], "1")).value, workspace.file.get(GAIN).value) == (1.5, 4000)
+    return trace
+
+
+def place_on(guided: TuningSteps, point: tuple[float, float]) -> QPoint:
+    return QPoint(*map(round, guided.below._map.at(point)))
+
+
+def proposed(guided: TuningSteps) -> list[float]:
+    """Return the gains that would be applied."""
+    found: list[float] = []
+    guided._apply = lambda gains: found.extend(each.value for each in gains)
+    guided.proposed._apply = guided._apply
+    guided.proposed.buttons[2].click()
+    return found
+
+
+def test_a_click_in_the_map_proposes_its_gains(
+    guided: TuningSteps, mapped: Trace, workspace: Workspace
+) -> None:
+    QTest.mouseClick(guided.below, Qt.MouseButton.LeftButton, pos=place_on(guided, (1.45, 4100.0)))
+    assert [each.text() for each in guided.proposed.buttons] == ["Apply", "Apply", "Apply All 2"]
+    guided.proposed.buttons[2].click()
+    assert (workspace.file.get((MAP[0], "1")).value, workspace.file.get(GAIN).value) == (1.5, 4000)
     assert workspace.undo_stack.count() == 1
     assert "1.9" in guided.figures.text()
     other = Recommendation("servo.velocity_integral_gain", 92.0, "", "why", "price")
     guided.tuned = replace(
         guided.now, scenario="tune", recommendations=(other,), result={"Ms_before": (2.8, "")}
     )
-    guided.mapped = replace(trace, assumptions=("With the other gains as they are none is safe: here x.",))
+    guided.mapped = replace(mapped, assumptions=("With the other gains as they are none is safe: here x.",))
     guided._pointed(0.5, 2000.0)
     assert len(guided.proposed.buttons) == 4  # the map is of an axis with that gain too
     assert "2.8" in guided.figures.text()
+
+
+def test_the_proposed_point_of_the_map_is_dragged_and_moved_by_the_arrow_keys(
+    guided: TuningSteps, mapped: Trace
+) -> None:
+    QTest.mousePress(guided.below, Qt.MouseButton.LeftButton, pos=place_on(guided, (1.0, 2000.0)))
+    assert proposed(guided) == [1.0, 2000.0]
+    QTest.mouseMove(guided.below, place_on(guided, (1.5, 4000.0)) + QPoint(500, 0))  # beyond its edge
+    assert proposed(guided) == [1.5, 4000.0]
+    QTest.mouseRelease(guided.below, Qt.MouseButton.LeftButton)
+    for key, there in (
+        (Qt.Key.Key_Up, [1.5, 6000.0]),
+        (Qt.Key.Key_Left, [1.0, 6000.0]),
+        (Qt.Key.Key_Right, [1.5, 6000.0]),
+        (Qt.Key.Key_Down, [1.5, 4000.0]),
+    ):
+        QTest.keyClick(guided.below, key)
+        assert proposed(guided) == there
+    guided._mapped(mapped)  # another map: the keys begin at the present gains
+    QTest.keyClick(guided.below, Qt.Key.Key_Down)
+    assert proposed(guided) == [1.0, 4000.0]
 
 
 def test_what_the_steps_of_a_family_show_are_scenarios_that_it_has() -> None:

@@ -235,6 +235,7 @@ def _trace(job: SweepJob, trial: Trial, points: Matrix, matrix: Matrix, figure: 
         limits={name: (value, units[name]) for name, value in present.items()},
         move={name: value for name, value in job.move if isinstance(value, float)},
         over=tuple(each.name for each in job.varied),
+        called={each.name: trial.called(each.address[0]) for each in job.varied if each.address},
         figure=figure,
     )
 

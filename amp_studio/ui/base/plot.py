@@ -50,6 +50,14 @@ WHEEL = 0.8
 """What is visible after a step of the wheel, of what was."""
 
 
+_MAP_STEPS = {
+    Qt.Key.Key_Left: (-1, 0),
+    Qt.Key.Key_Right: (1, 0),
+    Qt.Key.Key_Down: (0, -1),
+    Qt.Key.Key_Up: (0, 1),
+}
+
+
 class Plot(QWidget):
     """One picture; the wheel zooms in around the pointer, dragging moves what is visible,
     a double click shows all of it.
@@ -58,7 +66,9 @@ class Plot(QWidget):
     read = Signal(str)
     """What the cursors read, as HTML; empty without a picture."""
     pointed = Signal(float, float)
-    """A place of the map above the panels that was clicked, in its units."""
+    """A place of the map above the panels that was clicked or dragged to, in its units."""
+    stepped = Signal(int, int)
+    """Steps to the right and upwards that the arrow keys take on the map."""
 
     def __init__(self, *, has_cursors: bool = True) -> None:
         super().__init__()
@@ -70,6 +80,8 @@ class Plot(QWidget):
         """Places along the horizontal axis."""
         self._frames: list[Placement] = []
         self._map: Placement | None = None
+        self._is_on_map = False  # the mouse was pressed there and is dragged
+        self._marked: tuple[str, tuple[float, float]] | None = None
         self._painted: QPixmap | None = None
         """All but the cursors; None where it is to be painted again."""
         self._grip: int | tuple[float, tuple[float, float]] | None = None
@@ -97,7 +109,7 @@ class Plot(QWidget):
             panels=linked([scene_in_words(panel, sentenced, unit_in_words) for panel in picture.panels]),
             above=picture.above and scene_in_words(picture.above, sentenced, unit_in_words),
         )
-        self.panels = self.picture.panels
+        self.panels, self._marked = self.picture.panels, None
         low, high = self.span
         if not same or not all(low <= place <= high for place in self.cursors):
             self._spread_cursors()
@@ -109,6 +121,11 @@ class Plot(QWidget):
         self.picture, self.panels = None, ()
         self._paint_again()
         self.read.emit("")
+
+    def mark(self, name: str, place: tuple[float, float]) -> None:
+        """Mark a place of the map by name; the next picture has none."""
+        self._marked = name, place
+        self.update()
 
     @property
     def span(self) -> tuple[float, float]:
@@ -158,6 +175,13 @@ class Plot(QWidget):
             painter.drawPixmap(0, 0, self._painted)
             if self._frames and self._has_cursors:
                 self._paint_cursors(painter)
+            if self._map is not None and self._marked is not None:
+                name, place = self._marked
+                at = QPointF(*self._map.at(place))
+                painter.setFont(caption_fonts()[0])
+                painter.setPen(QPen(colour("sel"), 2))
+                painter.drawEllipse(at, GRIP, GRIP)
+                painter.drawText(at + QPointF(GRIP + 2.0, -GRIP), name)
 
     def _paint_scenes(self, painter: QPainter) -> None:
         """Paint the panels below each other in the height that there is, each with its heading."""
@@ -232,7 +256,8 @@ class Plot(QWidget):
             place = self._map
             if place is not None and place.top <= event.position().y() <= place.top + place.height:
                 if place.left <= x <= place.left + place.width:
-                    self.pointed.emit(*place.world(x, event.position().y()))
+                    self._is_on_map = True
+                    self._point(event)
                 return
             cursor = self._cursor_at(x)
             self._grip = cursor if cursor is not None else (x, self.span)
@@ -240,7 +265,9 @@ class Plot(QWidget):
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         x = event.position().x()
-        if isinstance(self._grip, int):
+        if self._is_on_map:
+            self._point(event)
+        elif isinstance(self._grip, int):
             self.move_cursor(self._grip, self._at_share(min(max(self._share_of(x), 0.0), 1.0)))
         elif self._grip is not None:
             pressed, span = self._grip
@@ -249,8 +276,15 @@ class Plot(QWidget):
             over = self._cursor_at(x) is not None
             self.setCursor(Qt.CursorShape.SplitHCursor if over else Qt.CursorShape.ArrowCursor)
 
+    def _point(self, event: QMouseEvent) -> None:
+        """Point to the place of the map that is nearest to the pointer."""
+        if (place := self._map) is not None:
+            x = min(max(event.position().x(), place.left), place.left + place.width)
+            y = min(max(event.position().y(), place.top), place.top + place.height)
+            self.pointed.emit(*place.world(x, y))
+
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        self._grip = None
+        self._grip, self._is_on_map = None, False
         self.update()
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
@@ -285,9 +319,12 @@ class Plot(QWidget):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Move cursor A with the arrow keys, cursor B with Shift, by a hundredth of what is visible;
-        + and - zoom, Home shows all.
+        + and - zoom, Home shows all. Without cursors the arrow keys step on the map.
         """
         key = Qt.Key(event.key())
+        if key in _MAP_STEPS and self._map is not None and not self._has_cursors:
+            self.stepped.emit(*_MAP_STEPS[key])
+            return
         way = {Qt.Key.Key_Left: -0.01, Qt.Key.Key_Right: 0.01}.get(key)
         times = {Qt.Key.Key_Plus: WHEEL, Qt.Key.Key_Minus: 1.0 / WHEEL}.get(key)
         way = way if self._has_cursors else None

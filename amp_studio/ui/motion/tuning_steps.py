@@ -46,6 +46,7 @@ from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.pages import LINK
 from amp_studio.ui.forms.segment import Segment
 
+from .map_rows import nearest_row, row_beside
 from .results import RecommendationsPage
 from .settings import scrolled
 from .step_detail import StepDetail
@@ -80,6 +81,8 @@ class TuningSteps(QWidget):
         self._tasks: dict[str, Task] = {}
         self._again: set[str] = set()
         self.mapped: Trace | None = None
+        self._row: int | None = None
+        """The row of the map that is proposed; None where the gains of the solver are."""
         self.now: Trace | None = None
         self.before: Trace | None = None
         """The axis as it was when the step was opened."""
@@ -93,6 +96,7 @@ class TuningSteps(QWidget):
         self.steps.currentRowChanged.connect(lambda *_: self._open())
         self.axis.currentIndexChanged.connect(lambda *_: self._open())
         self.below.pointed.connect(self._pointed)
+        self.below.stepped.connect(self._move_point)
         self.aim.chosen.connect(self._aimed)
         self.chart.chosen.connect(self._charted)
 
@@ -322,7 +326,7 @@ class TuningSteps(QWidget):
 
     def _tuned(self, trace: Trace) -> None:
         assert self._target is not None
-        self.tuned = trace
+        self.tuned, self._row = trace, None
         if self._chart == _TUNE:
             self.below.draw(picture_of(trace))
         schema = self._target.file.schema
@@ -364,10 +368,20 @@ class TuningSteps(QWidget):
 
     def _pointed(self, x: float, y: float) -> None:
         """Propose the gains of a point of the map: the nearest that was computed."""
-        trace = self.mapped
-        if trace is None or self._target is None:
+        if self.mapped is not None:
+            self._propose_row(self.mapped, nearest_row(self.mapped, (x, y)))
+
+    def _move_point(self, *steps: int) -> None:
+        """Propose the gains beside those that are proposed on the map, or beside the present ones."""
+        if self.mapped is not None:
+            self._propose_row(self.mapped, row_beside(self.mapped, self._row, steps))
+
+    def _propose_row(self, trace: Trace, row: int) -> None:
+        if self._target is None or row == self._row:
             return
-        row = _nearest_row(trace, (x, y))
+        self._row = row
+        one, two = (float(trace.columns[name][row]) for name in trace.over)
+        self.below.mark(self.tr("proposed"), (one, two))
         is_safe = trace.columns["safe"][row] == 1.0
         why = self.tr("Point of the map: safe.") if is_safe else self.tr("Point of the map: not safe.")
         found = [
@@ -399,7 +413,7 @@ class TuningSteps(QWidget):
         return float(round(value)) if is_whole else float(f"{value:.3g}")
 
     def _mapped(self, trace: Trace) -> None:
-        self.mapped = trace
+        self.mapped, self._row = trace, None
         if self._chart == _MAP:
             self.below.draw(picture_of(trace))
 
@@ -473,16 +487,6 @@ class TuningSteps(QWidget):
         address = self._address(url.toString().removeprefix(LINK))
         if address in self.detail.fields:
             self.detail.fields[address].setFocus()
-
-
-def _nearest_row(trace: Trace, place: Sequence[float]) -> int:
-    """Return the row of a sweep that is nearest to values of what it varies, as its map is drawn."""
-    away = np.zeros(trace.rows)
-    for name, at in zip(trace.over, place, strict=True):
-        side = trace.columns[name]
-        drawn = np.log if side.min() > 0.0 < at else np.asarray
-        away += ((drawn(side) - drawn(at)) / (np.ptp(drawn(side)) or 1.0)) ** 2
-    return int(np.argmin(away))
 
 
 def _simulated(
