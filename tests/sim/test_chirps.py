@@ -10,8 +10,8 @@ from amp_studio.sim.identification.plant_fit import fit_plant
 from amp_studio.sim.identification.response import response_of_record
 from tests.campaigns import CAMPAIGN
 
-SURE = ("acceleration_per_output", "delay", "resonance", "inertia_ratio")
-"""Figures whose uncertainty is asked; viscous friction has its doubt."""
+SURE = ("acceleration_per_output", "viscous_friction", "delay", "resonance", "inertia_ratio")
+"""Figures whose uncertainty is asked."""
 FINER = 20
 """Steps of the plant in one of the record."""
 
@@ -61,7 +61,11 @@ class Chirp:
 
     def figures(self) -> dict[str, float]:
         """Return what is to be found; a torque that is kept for a sample comes half of it later."""
-        found = {"acceleration_per_output": self.size, "delay": self.delay + 0.5 * self.period}
+        found = {
+            "acceleration_per_output": self.size,
+            "viscous_friction": self.friction,
+            "delay": self.delay + 0.5 * self.period,
+        }
         if self.ratio:
             velocity = Chirp(**{**self.__dict__, "seed": 0}).plant()[0]
             swings = next(each for each in np.linalg.eigvals(velocity) if each.imag > 0.0)
@@ -124,12 +128,14 @@ def beyond(seed: int) -> list[str]:
 
 @pytest.mark.skipif(not CAMPAIGN, reason="twenty axes: make campaign")
 def test_the_uncertainties_of_twenty_chirps_contain_the_truth() -> None:
-    """Of 72 figures, by three standard deviations, and 95 % of the axes are all of theirs."""
+    """Of 92 figures, by three standard deviations, and 95 % of the axes are all of theirs."""
     missed = [each for each in map(beyond, range(20)) if each]
     assert len(missed) <= 1, missed
 
 
-@pytest.mark.parametrize("seed", [1, 4])
+@pytest.mark.parametrize("seed", [1, 2, 4])
 def test_the_uncertainty_of_a_chirp_contains_the_truth(seed: int) -> None:
-    """The delay was 0.5567 ± 0.001 ms where it was 0.55, the acceleration 77.1 ± 0.15 where it was 82.7."""
+    """The delay was 0.5567 ± 0.001 ms where it was 0.55, the acceleration 77.1 ± 0.15 where it was 82.7, and
+    the friction of the second axis, by the noise of the ends of its record, 4.5 ± 0.8 % too large.
+    """
     assert beyond(seed) == []

@@ -294,8 +294,12 @@ def _errors(response: FrequencyResponse, s: Response, shape: _Shape, fitted: Lea
     inverse = np.linalg.pinv(slopes.T @ slopes)
     freedom = 2 * count / max(1, 2 * count - len(fitted.parameters))
     alike = freedom * np.diag(inverse @ spread @ inverse)
-    shift = inverse @ (slopes.T @ _folded(response, s, shape, fitted.parameters))
-    return np.asarray(np.sqrt(np.maximum(alike, np.diag(fitted.covariance)) + shift**2))
+    off = [_folded(response, s, shape, fitted.parameters)]
+    off += [
+        np.concatenate([response.weights * e.real, response.weights * e.imag]) for e in response.open_ends
+    ]
+    shifts = sum((inverse @ (slopes.T @ each)) ** 2 for each in off)
+    return np.asarray(np.sqrt(np.maximum(alike, np.diag(fitted.covariance)) + shifts))
 
 
 def _folded(response: FrequencyResponse, s: Response, shape: _Shape, parameters: Series) -> Series:

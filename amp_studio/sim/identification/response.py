@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -35,7 +35,7 @@ LEAST_BESIDE, MOST_WINDOWS = 6, 500
 LEAST_ROWS = 1000
 HIGHEST = 0.25
 """Share of the sampling frequency up to which a record is used."""
-LEAST_EXCITATION = 1e-4
+LEAST_EXCITATION = 1e-3
 """Share of the strongest torque in a window, by its square, from which it is excited."""
 _HEADS = {
     "frequency": r"(?:frequency|frequenz|freq|f)",
@@ -75,6 +75,8 @@ class FrequencyResponse:
     """Frequencies with a coherence below LEAST_COHERENCE."""
     period: float = 0.0
     """s between two rows of the record that it is from; 0 where it is not from one."""
+    open_ends: tuple[Response, ...] = ()
+    """Of a record: by which share the response may be off as its ends are not known better."""
 
     @property
     def weights(self) -> Series:
@@ -193,7 +195,9 @@ def _heads(text: str) -> dict[str, _Column]:
     return {}
 
 
-def coherent(frequency: Series, response: Response, coherence: Series | None) -> FrequencyResponse:
+def coherent(
+    frequency: Series, response: Response, coherence: Series | None, open_ends: Sequence[Response] = ()
+) -> FrequencyResponse:
     """Return the frequencies whose coherence is high enough; raises SimulationError where these are too
     few.
     """
@@ -212,7 +216,11 @@ def coherent(frequency: Series, response: Response, coherence: Series | None) ->
             f"{int(used.sum())} frequencies are too few: at least {LEAST_POINTS} are needed"
         )
     return FrequencyResponse(
-        frequency[used], response[used], None if coherence is None else coherence[used], low
+        frequency[used],
+        response[used],
+        None if coherence is None else coherence[used],
+        low,
+        open_ends=tuple(each[used] for each in open_ends),
     )
 
 
@@ -227,19 +235,44 @@ def response_of_record(period: float, torque: Series, motion: Series, difference
     given, answered = (np.fft.rfft(each - each.mean()) for each in (driven, moved))
     frequency = np.asarray(np.fft.rfftfreq(len(driven), period), dtype=np.float64)
     middles, beside = _windows(frequency, np.abs(given) ** 2, period)
-    found = [
-        _at_middle(given[part], answered[part])
-        for part in (slice(k - beside, k + beside + 1) for k in middles)
-    ]
-    frequency, response = frequency[middles], np.array([each for each, _ in found])
+    parts = [slice(k - beside, k + beside + 1) for k in middles]
+    ahead = np.exp(2j * np.pi * frequency * period) - 1.0
+    ends, errors = _ends(given, answered, ahead, parts, differences)
+    answered = answered - ends
+    found = [_at_middle(given[part], answered[part]) for part in parts]
+    frequency, response, ahead = frequency[middles], np.array([each for each, _ in found]), ahead[middles]
+    open_ends = [error * ahead**n / (response * given[middles]) for n, error in enumerate(errors)]
     # What is above half of the sampling frequency is folded back, for a torque that is kept for
     # a sample in this share.
     folded = (frequency * period / (1.0 - frequency * period)) ** (differences + 1)
     coherence = 1.0 / (1.0 / np.maximum([each for _, each in found], 1e-9) + folded**2)
     # A difference of samples is a factor z - 1; divided out, the response is that of the motion itself. It
     # was differenced because a position drifts, and a drift leaks into all frequencies.
-    ahead = (np.exp(2j * np.pi * frequency * period) - 1.0) ** differences
-    return replace(coherent(frequency, response / ahead, coherence), period=period)
+    found_response = coherent(frequency, response / ahead**differences, coherence, open_ends)
+    return replace(found_response, period=period)
+
+
+def _ends(
+    given: Response, answered: Response, ahead: Response, parts: Sequence[slice], differences: int
+) -> tuple[Response, Series]:
+    """Return what the noise of the first and the last rows adds to all frequencies, and its standard errors.
+
+    Differences end where the record does, so that the noise of its ends is not differenced: it is a constant
+    over the frequency (of a position also one in proportion to z - 1), larger at low frequencies than all
+    other noise, and smooth where the torque is, so that no window sees it by itself.
+    """
+    basis = np.stack([ahead**n for n in range(differences)], axis=1)
+    shapes, rests = [], []
+    for part in parts:
+        own = np.linalg.qr(_powers(given[part]))[0]
+        shape, rest = (each[part] - own @ (own.conj().T @ each[part]) for each in (basis, answered))
+        noise = math.sqrt(float(np.sum(np.abs(rest) ** 2)) / (len(rest) - ORDER - 1)) or 1.0
+        shapes.append(shape / noise)
+        rests.append(rest / noise)
+    shape, rest = (np.concatenate([each.real, each.imag]) for each in map(np.concatenate, (shapes, rests)))
+    inverse = np.linalg.pinv(shape.T @ shape)
+    # Real and imaginary part have half of the noise each.
+    return np.asarray(basis @ (inverse @ (shape.T @ rest))), np.sqrt(0.5 * np.diag(inverse))
 
 
 def _windows(frequency: Series, power: Series, period: float) -> tuple[npt.NDArray[np.int64], int]:
@@ -252,12 +285,17 @@ def _windows(frequency: Series, power: Series, period: float) -> tuple[npt.NDArr
     return np.arange(first + beside, last - beside + 1, 2 * beside + 1), beside
 
 
+def _powers(given: Response) -> Response:
+    """Return the torque in a window times each power of the distance from its middle, a column each."""
+    away = np.linspace(-1.0, 1.0, len(given))
+    return np.asarray(given[:, None] * away[:, None] ** np.arange(ORDER + 1))
+
+
 def _at_middle(given: Response, answered: Response) -> tuple[complex, float]:
     """Return the response in the middle of a window, and the coherence: the share of the motion that follows
     the torque.
     """
-    away = np.linspace(-1.0, 1.0, len(given))
-    powers = given[:, None] * away[:, None] ** np.arange(ORDER + 1)
+    powers = _powers(given)
     factors = np.linalg.lstsq(powers, answered, rcond=None)[0]
     left = float(np.sum(np.abs(answered - powers @ factors) ** 2)) / (len(given) - ORDER - 1)
     whole = float(np.mean(np.abs(answered) ** 2))
