@@ -416,7 +416,10 @@ def new_machine(
     from amp_studio.files import new_file
 
     try:
-        return MachineParameters(new_file(family, machine, list(axes), name))
+        names = list(axes)
+        if not all(isinstance(axis, str) for axis in names):
+            raise TypeError(f"axes are names such as X, not {names!r:.80}")
+        return MachineParameters(new_file(family, machine, names, name))
     except (KeyError, TypeError, ValueError) as error:
         raise _refused(error) from None
 

@@ -88,6 +88,9 @@ def test_values_are_set_by_text_number_yes_and_none(mill: Path) -> None:
     assert machine["zone.overtravel_used@1"].value == "False"
 
 
+NO_CONTROLS = ("", "mill", "tcp://1", "tcp://a:99999", "serial:", "COM1?baud=x", "tcp://a:1?protocol=none")
+
+
 @pytest.mark.parametrize(
     ("act", "kind"),
     [
@@ -127,7 +130,9 @@ def test_values_are_set_by_text_number_yes_and_none(mill: Path) -> None:
         (lambda _: amp.new("none"), amp.AmpStudioError),
         (lambda _: amp.new("9pc", machine="none"), amp.MachineError),
         (lambda _: amp.new("9pc").save(), amp.MachineError),
+        (lambda _: amp.new("9pc", axes=[FIVE]), amp.MachineError),
         (lambda _: amp.connect("tcp://127.0.0.1:1").identify(), amp.AmpStudioError),
+        *((lambda _, place=place: amp.connect(place).upload(), ValueError) for place in NO_CONTROLS),
     ],
 )
 def test_an_error_is_one_of_the_program_and_changes_nothing(

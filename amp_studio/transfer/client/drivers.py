@@ -11,7 +11,15 @@ from amp_studio.schema import load_part, load_schema, quoted, registered_familie
 from amp_studio.transfer.driver import ControlDriver, DriverFactory, Recognised
 from amp_studio.transfer.errors import NoConnectionError
 from amp_studio.transfer.exchange import QUIET, Exchange
-from amp_studio.transfer.links import Endpoint, Link, LinkError, PasswordError, connect, parse_endpoint
+from amp_studio.transfer.links import (
+    Endpoint,
+    EndpointError,
+    Link,
+    LinkError,
+    PasswordError,
+    connect,
+    parse_endpoint,
+)
 from amp_studio.transfer.waiting import Waiting
 from amp_studio.transfer.ways import HOUSE, PRINT_SHEET, folder_protocols, in_order_of_ways
 
@@ -31,21 +39,23 @@ def open_driver(endpoint: Endpoint | str, family: str = "") -> ControlDriver:
     connects to nothing yet.
 
     ``?protocol=NAME`` of the endpoint chooses; else it is the first way to its controls that the family's
-    facts list. Raises ValueError for text that is no endpoint, for an unknown protocol,
+    facts list. Raises EndpointError for text that is no endpoint, for an unknown protocol,
     and for a family to whose controls no way is known.
     """
     place = parse_endpoint(endpoint) if isinstance(endpoint, str) else endpoint
     offered = protocols_of(family)
     if not offered:
-        raise ValueError(f"{load_schema(family).family.by_hand}: {PRINT_SHEET}")
+        raise EndpointError(f"{load_schema(family).family.by_hand}: {PRINT_SHEET}")
     name = place.protocol or next(iter(offered))
     if place.kind == "folder":
         name = next((each for each in folder_protocols() if each in offered), "")
         if not name:
-            raise ValueError(f"no control of {family} reads its parameters in a folder: {quoted(str(place))}")
+            raise EndpointError(
+                f"no control of {family} reads its parameters in a folder: {quoted(str(place))}"
+            )
     if name not in offered:
         of = f" of {family}" if family else ""
-        raise ValueError(f"Unknown protocol {quoted(name)}{of}. Known: {', '.join(offered)}")
+        raise EndpointError(f"Unknown protocol {quoted(name)}{of}. Known: {', '.join(offered)}")
     factory: DriverFactory = load_part(offered[name])
     return factory(place, family)
 

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from amp_studio.front_pages import front_page
 
 if TYPE_CHECKING:
-    from .endpoint import Endpoint, is_endpoint, parse_endpoint
+    from .endpoint import Endpoint, EndpointError, is_endpoint, parse_endpoint
     from .link import Link, LinkError, Listener
     from .opening import connect, listen
     from .password import PasswordError

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, Literal
 from urllib.parse import parse_qsl, quote
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.schema import quoted
 
 from .security import Security
@@ -28,6 +29,10 @@ LINE = ("baud", "bits", "parity", "stop", "flow")
 NETWORK = ("tcp", "tls", "rfc2217")
 FOLDER = "folder:"
 """What is behind it is a path as it is, question marks too: the family of a folder has one protocol."""
+
+
+class EndpointError(AmpStudioError, ValueError):
+    """A text that is no address of a control, or one at which it cannot be spoken to as was asked."""
 
 
 @dataclass(frozen=True)
@@ -83,13 +88,13 @@ class Endpoint:
         return replace(self, **{key: getattr(usual, key) for key in LINE if getattr(self, key) is None})
 
     def need_all_bytes(self, protocol: str) -> None:
-        """Raise ValueError where the line does not pass every byte as it is, which ``protocol`` needs."""
+        """Raise EndpointError where the line does not pass every byte as it is, which ``protocol`` needs."""
         if self.bits == 7 or self.flow == "xonxoff":
-            raise ValueError(f"{quoted(str(self))}: {protocol} needs 8 data bits and no XON/XOFF")
+            raise EndpointError(f"{quoted(str(self))}: {protocol} needs 8 data bits and no XON/XOFF")
 
 
 def parse_endpoint(text: str) -> Endpoint:
-    """Return the address a person wrote; raises ValueError with one sentence about what is wrong."""
+    """Return the address a person wrote; raises EndpointError with one sentence about what is wrong."""
     text = text.strip()
     for kind in NETWORK:
         if text.startswith(f"{kind}://"):
@@ -102,7 +107,7 @@ def parse_endpoint(text: str) -> Endpoint:
         return _serial(text, text)
     if text.partition("?")[0] == "pty:":
         return Endpoint("pty", **_options(text, "a pseudo terminal", ("protocol",)))
-    raise ValueError(f"{quoted(text)} is no address of a control: write {FORMS}")
+    raise EndpointError(f"{quoted(text)} is no address of a control: write {FORMS}")
 
 
 def is_endpoint(text: str) -> bool:
@@ -134,13 +139,13 @@ def _network(text: str, kind: str) -> Endpoint:
     )
     if match is None:
         name = {"tcp": "TCP", "tls": "TLS", "rfc2217": "RFC 2217"}[kind]
-        raise ValueError(
+        raise EndpointError(
             f"{quoted(text)} is no {name} address: write {kind}://host:port, for example"
             f" {kind}://192.168.0.5:7090"
         )
     port = int(match[3])
     if port > 65_535:
-        raise ValueError(f"{quoted(text)} names port {port}, and ports end at 65535")
+        raise EndpointError(f"{quoted(text)} names port {port}, and ports end at 65535")
     host = match[1] or match[2]
     if kind == "tcp":
         return Endpoint("tcp", host=host, port=port, **_options(text, "a TCP connection", ("protocol",)))
@@ -155,7 +160,7 @@ def _network(text: str, kind: str) -> Endpoint:
 def _serial(text: str, rest: str) -> Endpoint:
     device = rest.partition("?")[0]
     if not device.strip() or device != device.strip() or not device.isprintable() or "://" in device:
-        raise ValueError(f"{quoted(text)} names no port: write serial:/dev/ttyUSB0 or serial:COM3")
+        raise EndpointError(f"{quoted(text)} names no port: write serial:/dev/ttyUSB0 or serial:COM3")
     if re.fullmatch(r"com\d+", device, re.IGNORECASE):
         device = device.upper()
     return Endpoint("serial", device=device, **_options(text, "a serial line", (*LINE, "protocol")))
@@ -164,24 +169,24 @@ def _serial(text: str, rest: str) -> Endpoint:
 def _folder(text: str) -> Endpoint:
     path = text.removeprefix(FOLDER)
     if not path.strip() or not path.isprintable():
-        raise ValueError(f"{quoted(text)} names no file or folder: write folder:NAME.ini")
+        raise EndpointError(f"{quoted(text)} names no file or folder: write folder:NAME.ini")
     return Endpoint("folder", device=path)
 
 
 def _options(text: str, what: str, known: tuple[str, ...]) -> dict[str, Any]:
-    """Read the options behind the question mark; raises ValueError."""
+    """Read the options behind the question mark; raises EndpointError."""
     options: dict[str, Any] = {}
     for key, value in parse_qsl(text.partition("?")[2].replace("+", "%2B"), keep_blank_values=True):
         if key not in known:
             *most, last = map(repr, known)
             names = f"{', '.join(most)} and {last}" if most else last
-            raise ValueError(f"{quoted(text)} sets {quoted(key)}, and {what} has only {names}")
+            raise EndpointError(f"{quoted(text)} sets {quoted(key)}, and {what} has only {names}")
         if key in options:
-            raise ValueError(f"{quoted(text)} sets {quoted(key)} twice")
+            raise EndpointError(f"{quoted(text)} sets {quoted(key)} twice")
         try:
             options[key] = _READERS[key](value)
         except ValueError as error:
-            raise ValueError(f"{quoted(text)} {error}") from None
+            raise EndpointError(f"{quoted(text)} {error}") from None
     return options
 
 
