@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import csv
 import io
+from typing import Any
 
 from amp_studio.files import ParameterFile, cell_text, note_fault, read_stored, text_cell, value_note
 from amp_studio.schema import (
@@ -29,12 +30,25 @@ _HEADS = ("number", "id", "instance", "name", "value", "unit")
 _NOTE = "note"
 """A column more, where something is noted about a value of the table."""
 _MARK = "\ufeff"
+_SEPARATORS = ",;\t"
+"""A spreadsheet writes the second one where a comma is the decimal sign, and the last one as Unicode text."""
 
 
 def _recognises(text: str) -> bool:
+    return _separator(text) is not None
+
+
+def _separator(text: str) -> str | None:
+    """Return what is between the cells of a table; None for a text that is no table of values."""
     # The mark as latin-1 has it, in which texts are recognised.
-    heads = text.removeprefix(_MARK).removeprefix("ï»¿").partition("\n")[0].strip().casefold().split(",")
-    return {"id", "value"} <= {head.strip('" ') for head in heads}
+    head = text.removeprefix(_MARK).removeprefix("ï»¿").partition("\n")[0].strip().casefold()
+    heads = {sign: {each.strip('" ') for each in head.split(sign)} for sign in _SEPARATORS}
+    return next((sign for sign in _SEPARATORS if {"id", "value"} <= heads[sign]), None)
+
+
+def _rows(text: str) -> Any:
+    stream = io.StringIO(text.removeprefix(_MARK), newline="")
+    return csv.reader(stream, strict=True, delimiter=_separator(text) or _SEPARATORS[0])
 
 
 def _write(file: ParameterFile) -> str:
@@ -59,7 +73,7 @@ def _write(file: ParameterFile) -> str:
 
 
 def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
-    table = csv.reader(io.StringIO(text.removeprefix(_MARK), newline=""), strict=True)
+    table = _rows(text)
     found = TextRead()
     try:
         heads = [head.strip().casefold() for head in next(table, [])]
@@ -77,10 +91,11 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
 def _is_of(text: str, schema: Schema) -> bool:
     """Return whether a family has all ids of a table."""
     try:
-        rows = list(csv.DictReader(io.StringIO(text.removeprefix(_MARK).casefold(), newline=""), strict=True))
+        heads, *rows = _rows(text.casefold())
     except csv.Error:
         return False  # the reader names the line
-    return bool(rows) and all(cell_text(row.get("id") or "").strip() in schema.parameters for row in rows)
+    ids = (dict(zip(heads, cells, strict=False)).get("id", "") for cells in rows if any(cells))
+    return bool(rows) and all(cell_text(each).strip() in schema.parameters for each in ids)
 
 
 def _has_instance(schema: Schema, parameter: Parameter, instance: str) -> bool:
@@ -144,5 +159,13 @@ def _keep_unknown(result: TextRead, name: str, text: str, line: int, column: int
 
 
 FORMAT = TextFormat(
-    "csv", "table of values", ".csv", _recognises, _read, _write, newline="\r\n", is_of=_is_of
+    "csv",
+    "table of values",
+    ".csv",
+    _recognises,
+    _read,
+    _write,
+    newline="\r\n",
+    is_of=_is_of,
+    otherwise="cp1252",
 )

@@ -1,5 +1,6 @@
 """Text formats: what is written reads back, and what cannot be meant is reported with line and column."""
 
+import csv
 from pathlib import Path
 
 import pytest
@@ -29,6 +30,20 @@ def test_a_table_of_values_reads_back_as_it_was(tmp_path: Path, example: Example
     back = import_file(tmp_path / "mill.csv", example.family)
     found = compare(file.schema, file.values, back.values)
     assert (list(found.differences), found.same) == ([], len(file.values))
+
+
+@pytest.mark.parametrize(("sign", "encoding"), [(";", "cp1252"), (";", "utf-8-sig"), ("\t", "utf-16")])
+def test_a_table_that_a_german_spreadsheet_has_saved_is_read(
+    tmp_path: Path, sign: str, encoding: str
+) -> None:
+    path = tmp_path / "values.csv"
+    router = open_file(examples_folder() / "grblhal-router" / "GRBL_ROUTER.amp").file
+    export_file(router, path)
+    rows = csv.reader(path.read_text("utf-8-sig").splitlines())
+    lines = [sign.join(cell.replace(".", ",") if n == 4 else cell for n, cell in enumerate(r)) for r in rows]
+    path.write_bytes("\r\n".join([*lines, ""]).encode(encoding))
+    for family in ("grblhal", None):
+        assert import_file(path, family).values == router.values
 
 
 def test_the_csv_of_a_report_can_be_read_too(tmp_path: Path) -> None:
