@@ -295,3 +295,19 @@ def test_names_have_what_the_columns_leave_free_that_are_seen_whole(room: int) -
     assert whole == [end for end in accumulate(axes) if end <= room - least - STRIP], (
         "no column leaves for it"
     )
+
+
+def test_an_edit_lays_and_paints_once(opened) -> None:
+    """The heads were announced as changed at every edit: Qt laid and painted the whole table once more."""
+    window = opened("mill-1394")
+    window.go_to(EXCESS)
+    assert window.table.titles[0] == "X 1 linear"
+    followed: list[object] = []
+    announced: list[object] = []
+    window.table.headerDataChanged.connect(lambda *given: announced.append(given))
+    window.page.changed.connect(followed.append)
+    window.edits.commit(EXCESS, "12 mm")
+    assert announced == []
+    assert followed == [window.page], "actions and status line follow once too"
+    window.workspace.edit("name", {("axis.name", "1"): Value("U")})
+    assert announced != [], "another letter is another head"

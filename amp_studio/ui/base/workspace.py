@@ -72,7 +72,11 @@ class _Edit(QUndoCommand):
         # A mark can change without its value: then no change of a value names the cell to paint.
         marked = self._before.forced.items() ^ self._after.forced.items()
         addresses = [c.address for c in self._changes] + [a for a, _ in marked]
-        self._workspace.after_edit(list(dict.fromkeys(addresses)))
+        self._workspace.is_stepping = True
+        try:
+            self._workspace.after_edit(list(dict.fromkeys(addresses)))
+        finally:
+            self._workspace.is_stepping = False
 
 
 def earlier_of(document: Document) -> tuple[Earlier, ...]:
@@ -86,6 +90,8 @@ class Workspace(QObject):
 
     changed = Signal(list)
     """Addresses whose values changed (empty: any of them); findings and states are already up to date."""
+    is_stepping = False
+    """Whether a step is being made or taken back: the undo stack signals it once it has it."""
     saved = Signal()
     closed = Signal()
     unsaved_at_risk = Signal(str)

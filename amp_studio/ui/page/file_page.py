@@ -116,12 +116,16 @@ class FilePage(QWidget):
         self.findings.not_set_requested.connect(self.show_not_set)
         self.table.modelReset.connect(self._follow_table)
         self.table_view.selected.connect(self._follow_table)
-        workspace.changed.connect(self._emit_state)
+        workspace.changed.connect(self._follow_values)
         workspace.saved.connect(self._emit_state)
         workspace.undo_stack.indexChanged.connect(
             self._emit_state
         )  # a step is on the stack only after it was made
         self.left.choose()
+
+    def _follow_values(self, *_: object) -> None:
+        if not self.workspace.is_stepping:  # else the undo stack has the step, and its signal, in a moment
+            self._emit_state()
 
     def _emit_state(self, *_: object) -> None:
         self.changed.emit(self)

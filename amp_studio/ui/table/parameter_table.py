@@ -434,6 +434,7 @@ class ParameterTable(QAbstractTableModel):
     # -- following the file ----------------------------------------------------
 
     def _refresh(self, addresses: list[Address]) -> None:
+        heads = dict(self._axis_heads)
         self._axis_heads.clear()
         self.values.find_findings()
         columns, decides = self._columns(), self.workspace.file.evaluation.decides_states
@@ -449,7 +450,9 @@ class ParameterTable(QAbstractTableModel):
                 self._lay_out(columns, rows)
                 return
             self._forget_heads()  # the number of a row is that of its first value that exists
-        self.headerDataChanged.emit(Qt.Orientation.Horizontal, 0, max(0, len(columns) - 1))
+        # Only another head: Qt lays and paints the whole table once more for it, after the cells.
+        if any(self.column_head(n) != heads.get(name) for n, name in enumerate(columns) if name in heads):
+            self.headerDataChanged.emit(Qt.Orientation.Horizontal, 0, max(0, len(columns) - 1))
         self._forget_looks()
         self.values_changed.emit(addresses)
 
