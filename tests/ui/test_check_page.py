@@ -39,6 +39,7 @@ def test_every_scenario_of_the_file_is_a_row_with_its_verdict(router: Workspace,
     drawn, expected = window.plot.picture, picture_of(window.checks[1].trace)
     assert [panel.title for panel in drawn.panels] == [panel.title for panel in expected.panels]
     assert window.title.text() == "Step · Y · good"
+    assert window.table.item(1, 1).text()[0].isdigit(), "of what has no room the number stays"
     assert window.table.item(1, 0).data(Qt.ItemDataRole.AccessibleTextRole) == "Step Y: good"
     assert {check.scenario for check in window.checks} == {
         "step",

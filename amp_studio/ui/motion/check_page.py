@@ -275,12 +275,14 @@ class CheckPage(PageOfFile):
 
 
 def _figures(check: MotionCheck) -> list[str]:
-    """Return the figures of a check in words."""
-    return [_figure(name, value, unit) for name, (value, unit) in check.figures.items()]
+    """Return the figures of a check in words, each with its number first: where there is no room for all, the
+    number stays.
+    """
+    return [
+        f"{_number(value, unit)} {worded(name.replace('_', ' '))}"
+        for name, (value, unit) in check.figures.items()
+    ]
 
 
-def _figure(name: str, value: float | None, unit: str) -> str:
-    words = worded(name.replace("_", " "))
-    return (
-        f"{words} –" if value is None else f"{words} {sentenced(value_text(float(value), unit_text(unit)))}"
-    )
+def _number(value: float | None, unit: str) -> str:
+    return "–" if value is None else sentenced(value_text(float(value), unit_text(unit)))
