@@ -2,15 +2,18 @@
 and nothing that moves by itself.
 """
 
+from collections.abc import Callable
 from itertools import accumulate
 from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QEvent, QSize, Qt
+from PySide6.QtGui import QFontMetrics
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QDockWidget
 
 from amp_studio.schema import Value
+from amp_studio.ui.base.theme import font
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.table.cell_look import as_written
 from amp_studio.ui.table.column_widths import LEAST_NAMES, ContentWidths, column_widths
@@ -311,3 +314,19 @@ def test_an_edit_lays_and_paints_once(opened) -> None:
     assert followed == [window.page], "actions and status line follow once too"
     window.workspace.edit("name", {("axis.name", "1"): Value("U")})
     assert announced != [], "another letter is another head"
+
+
+@pytest.mark.usefixtures("german")
+def test_the_head_of_an_axis_is_whole_where_there_is_room(
+    open_window: Callable[..., MainWindow], path: Path
+) -> None:
+    """A German window had "4 Runda…" above a group of short values, beside 270 white pixels."""
+    window = open_window(path)
+    resized(window, 1366, 768)
+    window.go_to(("axis.type", "1"))
+    table, heads = window.table, window.table_view.horizontalHeader()
+    for column in range(len(table.columns)):
+        letter, what = table.column_head(column)
+        drawn = QFontMetrics(font("text")).horizontalAdvance(letter)
+        drawn += QFontMetrics(font("caption")).horizontalAdvance(what)
+        assert heads.sectionSize(column) >= drawn + 8 + 6 + 6, what

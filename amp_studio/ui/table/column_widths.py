@@ -13,7 +13,7 @@ from itertools import accumulate
 
 from PySide6.QtGui import QFontMetrics
 
-from amp_studio.ui.base.theme import GAP3, FontRole, font
+from amp_studio.ui.base.theme import GAP2, GAP3, FontRole, font
 
 from .cell_look import CellLook
 from .cell_painter import CellPainter
@@ -65,7 +65,10 @@ def content_widths(table: ParameterTable, painter: CellPainter) -> ContentWidths
     looks = _looks(table, every)
     slots = [max(map(painter.slot, column), default=0) for column in looks]
     block = _widest(painter, looks[0], slots[0]) if table.has_block else 0
-    full = [_widest(painter, column, slot) for column, slot in zip(looks, slots, strict=True)]
+    full = [
+        max(_widest(painter, column, slot), _head(table, n))
+        for n, (column, slot) in enumerate(zip(looks, slots, strict=True))
+    ]
     short = [_widest(painter, column, slot, is_short=True) for column, slot in zip(looks, slots, strict=True)]
     if table.has_block:
         full[0] = short[0] = _head_of_block(table)  # its cells lie across all columns
@@ -140,6 +143,12 @@ def _looks(table: ParameterTable, rows: Collection[int]) -> list[list[CellLook]]
         [look for row in rows if (look := table.look(row, column)) and look.kind != "absent"]
         for column in range(len(table.columns))
     ]
+
+
+def _head(table: ParameterTable, column: int) -> int:
+    """Return the width of the head of an axis, its letter and what it is: ``B 4 rotary``."""
+    letter, what = table.column_head(column)
+    return _widest_text([letter]) + _widest_text([what], "caption") + 2 * GAP3 + GAP2
 
 
 def _head_of_block(table: ParameterTable) -> int:
