@@ -32,8 +32,8 @@ from tests.report.test_german import EXAMPLES
 DATE = datetime(2026, 11, 29, tzinfo=UTC)
 BOTH = {"was", "rad", "minus", "linear", "motor", "proportional", "docs", "steps"}
 """Words of both languages, a folder, and the name of a unit."""
-QUOTED = ("stop motion", "rated torque", "--zero")
-"""A command, a name as a manual writes it inside a sentence, an option."""
+QUOTED = ("stop motion", "rated torque", "--zero", "exceed limit", "ferror")
+"""A command, a name as a manual writes it inside a sentence, an option, a message and a key of LinuxCNC."""
 _WORD = re.compile(r"(?<![\w.~/@])[a-z]{3,}(?![\w./=])")
 _TEXT = re.compile(r">([^<>]*[a-z][^<>]*)<")
 GERMAN = [n for n in EXAMPLES if fact_texts(open_file(EXAMPLES[n]).file.schema.family.family, "de").messages]
