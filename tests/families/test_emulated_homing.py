@@ -22,7 +22,7 @@ from tests.families.grblhal.test_emulated_motion import Bench as GrblBench
 from tests.families.ninepc.test_emulated_machine_keys import Bench as PanelBench
 from tests.families.num.emulated.test_manual_keys import Bench as NumBench
 from tests.programs.test_block import example
-from tests.sim.typical_machines import made
+from tests.sim.typical_machines import MACHINES, made
 
 GAINS = "PPU X4096|EXC AXIS0 4|PGAIN X.08|DGAIN X.00021|FFVEL X.0000015"
 """Of the bare test motor of appendix C."""
@@ -159,3 +159,21 @@ def test_a_homing_that_is_never_in_position_has_a_sentence_and_leaves_the_module
     for _ in range(10):
         bench.module.advance(0.1)
     assert bench.look()[0] > there + 10000.0
+
+
+@pytest.mark.parametrize("name", [name for name in MACHINES if name.startswith(("9pc", "num"))])
+def test_every_axis_of_a_typical_machine_comes_home_where_it_is_simulated(name: str, tmp_path: Path) -> None:
+    file = open_file(made(name, tmp_path)).file
+    machine = FileMachine(law_of(file.schema.family.family), bind_axis)
+    machine.take(file)
+    machine.make_all()
+    own = [axis for axis, each in machine._machine.axes.items() if each.law.ordered_by is None]
+    for axis in own:
+        machine.home(axis)
+    for _ in range(350):
+        machine.advance(0.1)
+    found = {axis: machine._machine.axes[axis] for axis in own}
+    assert own
+    assert all(axis.is_homed and axis.alarm is None for axis in found.values())
+    for axis, each in found.items():
+        assert each.position == pytest.approx(stop_of(file, axis), abs=0.002)
