@@ -108,7 +108,7 @@ if TYPE_CHECKING:
     from .tuning.record import add_tuning, read_tunings, recorded_tuning, value_at
     from .tuning.trial import address_of, called_parameter, named_parameter
     from .unit_system import length_unit, path_error_text, path_error_unit
-    from .variations.scenario import Way as SweepWay
+    from .variations.scenario import SweepWay
     from .write import trace_summary, trace_text, with_uncertainty, write_trace
     from .zones import Zone
 else:

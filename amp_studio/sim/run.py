@@ -24,7 +24,7 @@ from .trace import Trace
 from .tuning.advice import recommendations
 from .tuning.trial import Trial
 from .unit_system import axis_unit, in_unit, length_unit
-from .variations.scenario import Way
+from .variations.scenario import SweepWay
 
 _V = TypeVar("_V")
 POINTS = ("move.start", "move.to", "move.zone")
@@ -40,7 +40,7 @@ def simulate(
     *,
     advise: bool = True,
     like: Trace | None = None,
-    way: Way | None = None,
+    way: SweepWay | None = None,
 ) -> Trace:
     """Run a scenario with the present values of a file;
     ``axis`` None means the first axis that can be simulated.
@@ -119,7 +119,7 @@ def _of_one_axis(
     bound: AxisLaw,
     model: Mapping[str, ParameterValue],
     own: ScenarioSettings,
-    way: Way | None,
+    way: SweepWay | None,
     *,
     advise: bool,
 ) -> Trace:
@@ -199,7 +199,7 @@ def sweep(
     settings: Mapping[str, float | str] | None = None,
     system: str | None = None,
     *,
-    way: Way,
+    way: SweepWay,
 ) -> Trace:
     """Run the scenario `sweep` as `simulate` does, over the cores or the cluster that ``way`` names."""
     return simulate(file, "sweep", axis, settings, system, way=way)

@@ -59,7 +59,7 @@ PERCENTILES = (5, 25, 50, 75, 95)
 
 
 @dataclass(frozen=True)
-class Way:
+class SweepWay:
     """How a sweep is run: what `running.run_job` takes beside the job."""
 
     scheduler: str | None = None
@@ -69,7 +69,7 @@ class Way:
 
 
 def run_sweep(
-    trial: Trial, settings: ScenarioSettings, _others: Sequence[Trial] = (), way: Way = Way()
+    trial: Trial, settings: ScenarioSettings, _others: Sequence[Trial] = (), way: SweepWay = SweepWay()
 ) -> Trace:
     """Return the figures of all variations; raises SimulationError for impossible settings."""
     refuse_unknown(settings, SETTINGS)
@@ -87,7 +87,7 @@ def run_sweep(
     return _trace(job, trial, points, found, figure or ("stiffness" if loops else "settle_time"))
 
 
-def _gain_map(trial: Trial, move: ScenarioSettings, figure: str, way: Way) -> Trace:
+def _gain_map(trial: Trial, move: ScenarioSettings, figure: str, way: SweepWay) -> Trace:
     """Return the map of two gains; where none of it is safe, with the other gains as the solver has them."""
     motion = figure not in LOOP_FIGURES
     varied = _two_gains(trial, {})
@@ -152,7 +152,7 @@ def _job(
     )
 
 
-def _run(job: SweepJob, points: Matrix, way: Way) -> Matrix:
+def _run(job: SweepJob, points: Matrix, way: SweepWay) -> Matrix:
     return run_job(
         job, points, scheduler=way.scheduler, cores=way.cores, progress=way.progress, output=way.output
     )
