@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from datetime import datetime
+from math import isfinite
 from pathlib import Path
-from typing import BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from amp_studio.files import (
     RECORD,
@@ -38,7 +39,10 @@ from amp_studio.report import (
 )
 from amp_studio.validate import NO_RULES, BuilderRules
 
-_DRAWN = (".pdf", ".html")
+if TYPE_CHECKING:
+    from amp_studio.sim import Trace
+
+_DRAWN = (".pdf", ".html", ".json")
 _WIDTH, _UNIT = 640, 92
 """Of a drawing: in the width of a page its letters are 8.5 points, and it is no longer than the page."""
 _SCENARIOS = ("step", "frequency")
@@ -130,11 +134,30 @@ def motion_figures(file: ParameterFile) -> Iterator[PrintedFigure]:
             named = axis if trace.letter in ("", axis) else f"{axis} ({trace.letter})"
             drawn = plot_svg(trace, width=_WIDTH, unit=_UNIT, small_print=False)
             assumed |= dict.fromkeys(trace.assumptions)
-            yield PrintedFigure(f"{scenario.capitalize()}, axis {named}", drawn)
+            yield PrintedFigure(f"{scenario.capitalize()}, axis {named}", drawn, (), _run(trace))
     if failed:
         yield PrintedFigure("Not simulated", "", tuple(failed))
     if assumed:
         yield PrintedFigure("What was assumed", "", tuple(assumed))
+
+
+def _run(trace: Trace) -> dict[str, Any]:
+    """Return a simulation as report.json has it: its figures, and the curves as they are drawn."""
+    from amp_studio.drawing import panels_json
+    from amp_studio.sim import picture_of
+
+    finite = {n: (None if v is None or not isfinite(v) else v, unit) for n, (v, unit) in trace.result.items()}
+    return {
+        "scenario": trace.scenario,
+        "axis": trace.axis,
+        "letter": trace.letter or None,
+        "model": trace.model,
+        "figures": [{"name": n, "value": v, "unit": unit or None} for n, (v, unit) in finite.items()],
+        "alarms": [
+            {"code": a.code, "message": a.message, "time": a.time_s, "unit": "s"} for a in trace.alarms
+        ],
+        "panels": panels_json(picture_of(trace), width=_WIDTH, unit=_UNIT),
+    }
 
 
 def checks_of(file: ParameterFile) -> Iterator[CheckedMotion]:

@@ -24,6 +24,18 @@ def strokes_of(frame: Placement, curve: Curve) -> tuple[Series, Series | None]:
     What lies beyond the edges of the frame is there too where a line leads to it:
     the drawing is to be clipped.
     """
+    x, y, band = drawn_values(frame, curve)
+    if band is None:
+        return _placed(frame, x, y), None
+    least, most = band
+    outline = np.concatenate([x, x[::-1]]), np.concatenate([most, least[::-1]])
+    return _placed(frame, x, y), _placed(frame, *outline)
+
+
+def drawn_values(frame: Placement, curve: Curve) -> tuple[Series, Series, tuple[Series, Series] | None]:
+    """Return the values (n,) that are drawn of a curve, and the least and the greatest ones (n,) of its band,
+    if it fills one.
+    """
     x, y = _inside(frame, curve)
     columns = max(int(frame.width), 2)
     if curve.is_stepped:
@@ -31,11 +43,9 @@ def strokes_of(frame: Placement, curve: Curve) -> tuple[Series, Series | None]:
     # More than two samples in a column of the screen: as a line they would be a solid block.
     if (curve.is_stepped or curve.dense) and len(x) > 2 * columns:
         x, y, least, most = banded(x, y, columns)
-        return _placed(frame, x, y), _placed(
-            frame, np.concatenate([x, x[::-1]]), np.concatenate([most, least[::-1]])
-        )
+        return x, y, (least, most)
     unseen = UNSEEN * (frame.scene.y.high - frame.scene.y.low) / frame.height
-    return _placed(frame, *((x, y) if curve.dots else thinned(x, y, columns, unseen))), None
+    return (x, y, None) if curve.dots else (*thinned(x, y, columns, unseen), None)
 
 
 def cell_boxes(frame: Placement, cells: HeatMap) -> Iterator[tuple[float, float, float, float, float, bool]]:

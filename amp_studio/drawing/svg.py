@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from html import escape
 from textwrap import wrap
+from typing import Any
 
 from .frame import Placement
 from .labels import SAMPLE, Heading, Label, heading_of, labels_of
@@ -134,6 +135,31 @@ def picture_svg(
             f' font-size="12">{escape(line)}</text>'
         )
     return "\n".join([*head, *parts, "</svg>"]) + "\n"
+
+
+def panels_json(picture: Picture, *, width: int = PLOT_WIDTH, unit: int = PLOT_UNIT) -> list[dict[str, Any]]:
+    """Return the panels that ``picture_svg`` draws as plain data: of each curve the values that are drawn."""
+    scenes = (*picture.panels, *filter(None, [picture.close]))
+    places = (_place_of(scene, width - PLOT_RIGHT, 0.0, scene.share * unit) for scene in scenes)
+    return [_panel_json(place) for place in places]
+
+
+def _panel_json(frame: Placement) -> dict[str, Any]:
+    from .strokes import drawn_values  # numpy, as below
+
+    scene, curves = frame.scene, []
+    for curve in scene.curves:
+        x, y, band = drawn_values(frame, curve)
+        columns = {"x": x, "y": y, **dict(zip(("least", "most"), band or (), strict=False))}
+        # Six digits: more than a drawing shows, and a third of the size.
+        curves.append({"name": curve.name, **{n: [float(f"{v:.6g}") for v in c] for n, c in columns.items()}})
+    return {
+        "title": scene.title,
+        "x": {"name": scene.x.label, "unit": scene.x.unit or None, "log": scene.x.log},
+        "unit": scene.y.unit or None,
+        "levels": [{"name": level.name, "value": level.at} for level in scene.levels],
+        "curves": curves,
+    }
 
 
 def _place_of(scene: Scene, right: float, top: float, height: float) -> Placement:

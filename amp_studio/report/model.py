@@ -6,11 +6,11 @@ Texts are not escaped; each format escapes them itself.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
 from itertools import groupby
-from typing import Protocol
+from typing import Any, Protocol
 
 from amp_studio.schema import MASKED, ParameterState
 
@@ -282,6 +282,8 @@ class PrintedFigure:
     svg: str
     notes: tuple[str, ...] = ()
     """The text below it."""
+    run: Mapping[str, Any] | None = None
+    """The simulation that it is of, as report.json has it."""
 
 
 @dataclass(frozen=True, slots=True)

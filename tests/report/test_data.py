@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 from jsonschema import Draft7Validator
 
+from amp_studio.dossier import write_report
 from amp_studio.files import open_file
 from amp_studio.files.example_files import examples_folder
 from amp_studio.report import Contents
@@ -60,3 +61,21 @@ def test_values_are_numbers_in_their_unit_yes_and_no_and_labels(broken: dict[str
     assert values["axis.type", "4"]["value"] == "rotary"
     assert values["password.character", "1"]["value"] is None
     assert values["password.character", "1"]["set"] is True
+
+
+@pytest.mark.parametrize("path", some(EXAMPLES), ids=lambda path: path.parent.name)
+def test_motion_is_data_as_the_schema_describes_it_and_no_larger_than_it_is_drawn(
+    path: Path, schema: Draft7Validator, tmp_path: Path
+) -> None:
+    made = tmp_path / "report.json"
+    write_report(open_file(path).file, made)
+    data = json.loads(made.read_text("utf-8"))
+    assert [error.message for error in schema.iter_errors(data)] == []
+    runs = data["motion"]["runs"]
+    assert runs
+    assert len(json.dumps(runs)) < 100_000 * len(runs)
+    for run in runs:
+        assert run["figures"]
+        for curve in (curve for panel in run["panels"] for curve in panel["curves"]):
+            assert len(curve["x"]) == len(curve["y"]) > 1
+            assert len(curve["x"]) <= 4 * 640

@@ -71,6 +71,10 @@ def report_data(report: Report) -> dict[str, Any]:
         "not_set": [{"number": n or None, "name": name, "place": place} for n, name, place in report.not_set],
         "dangers": [*map(_danger, report.dangers)],
         "power_up": [*map(_fields, report.power_up)],
+        "motion": {
+            "runs": [each.run for each in report.motion if each.run],
+            "notes": [{"about": each.title, "text": note} for each in report.motion for note in each.notes],
+        },
         "checks": [*map(_check, report.checks)],
         "part_programs": [*map(asdict, report.programs)],
         "exchanges": [*map(_fields, report.exchanges)],
