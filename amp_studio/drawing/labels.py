@@ -2,14 +2,15 @@
 and for paper.
 
 Figures of the scales come first, then the names of parameters, then figures at points. A name that has no
-room beside its point goes further away and gets a line to it, then it loses its value; what has no room at
-all is left out, and a tip has it.
+room beside its point, or none clear of the lines, goes further away and gets a line to it, then it loses its
+value; what has no room at all is left out, and a tip has it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Literal
 
 from amp_studio.schema import Address, unit_text
@@ -64,6 +65,24 @@ class Box:
             and self.top < other.top + other.height
             and other.top < self.top + self.height
         )
+
+    def is_crossed(self, start: Point, end: Point) -> bool:
+        """Return whether a straight line goes through it."""
+        (x, y), (to_x, to_y), right, bottom = start, end, self.left + self.width, self.top + self.height
+        if (
+            max(x, to_x) < self.left
+            or min(x, to_x) > right
+            or max(y, to_y) < self.top
+            or min(y, to_y) > bottom
+        ):
+            return False
+        # Of a line that passes by, all corners are on one side.
+        sides = [
+            (to_x - x) * (each_y - y) - (to_y - y) * (each_x - x)
+            for each_x in (self.left, right)
+            for each_y in (self.top, bottom)
+        ]
+        return min(sides) < 0.0 < max(sides)
 
     def nearest(self, point: Point) -> Point:
         """Return the place of the rectangle that is nearest to a point."""
@@ -167,6 +186,8 @@ class _Placing:
         self._symbols = [
             Box(x - _HALF, y - _HALF, 2 * _HALF, 2 * _HALF) for x, y in (frame.at(at) for at in symbols)
         ]
+        lines = (tuple(map(frame.at, line.points)) for line in frame.scene.lines)
+        self._strokes = [stroke for line in lines for stroke in pairwise(line)]
 
     def _box(self, x: float, base: float, text: Text, value: str, align: _Align) -> Box:
         """Return the place of a text whose base line begins, has its middle or ends at x."""
@@ -180,12 +201,22 @@ class _Placing:
         top = min(box.top, self._height - self._line)
         return Box(max(left, 2.0), max(top, 0.0), box.width, box.height)
 
-    def _is_free(self, box: Box, *, symbols: bool = False) -> bool:
+    def _is_free(self, box: Box, *, symbols: bool = False, clear: bool = False) -> bool:
         if box.left + box.width > self._width or box.top + box.height > self._height:
             return False
         if any(label.box.overlaps(box) for label in self.placed):
             return False
-        return not (symbols and any(symbol.overlaps(box) for symbol in self._symbols))
+        if symbols and any(symbol.overlaps(box) for symbol in self._symbols):
+            return False
+        return not clear or self._is_clear(box)
+
+    def _is_clear(self, box: Box) -> bool:
+        """Return whether no line goes through a place, which is within the frame of a diagram."""
+        frame = self._frame
+        beyond = box.top < frame.top or box.top + box.height > frame.top + frame.height
+        if beyond and not frame.scene.equal:
+            return False
+        return not any(box.is_crossed(*stroke) for stroke in self._strokes)
 
     # -- scales --------------------------------------------------------------------
 
@@ -276,13 +307,14 @@ class _Placing:
             box = self._free_box(text, point, "", 0, symbols=False)  # a figure belongs to its point
             return self._label(text, point, box, "")
         is_area = text.anchor in ("above", "inside", "corner")
-        tries = [(text.value, _NEAR, True), ("", _NEAR, True), (text.value, _FAR, True)]
-        for value, far, symbols in (
+        tries = [(text.value, _NEAR, True, False), ("", _NEAR, True, False), (text.value, _FAR, True, False)]
+        for value, far, symbols, clear in (
+            *([] if text.anchor == "middle" else [(text.value, _NEAR, True, True)]),
             *(tries if is_area else tries[::2]),
-            (text.value, _FAR, False),
-            ("", _FAR, False),
+            (text.value, _FAR, False, False),
+            ("", _FAR, False, False),
         ):
-            box = self._free_box(text, point, value, far, symbols=symbols)
+            box = self._free_box(text, point, value, far, symbols=symbols, clear=clear)
             if box is not None:
                 return self._label(text, point, box, value)
         return None
@@ -296,19 +328,20 @@ class _Placing:
         leader = (point, end) if far > _LED else None
         return Label(box, text.text, value, bool(text.value), text.sort, text.address, leader)
 
-    def _free_box(self, text: Text, point: Point, value: str, far: int, *, symbols: bool) -> Box | None:
+    def _free_box(
+        self, text: Text, point: Point, value: str, far: int, *, symbols: bool, clear: bool = False
+    ) -> Box | None:
         """Return the first free place of a text within so many lines; where it belongs at all, first."""
         around = self._around(text, point, value, far)
         first = self._kept_inside(next(around))
-        if self._is_free(
-            first, symbols=symbols
-        ):  # most are free where they belong: no other place is asked for
+        # Most are free where they belong: no other place is asked for.
+        if self._is_free(first, symbols=symbols, clear=clear):
             return first
         places = [(box, self._kept_inside(box)) for box in around]
         # A place that had to be pushed back onto the sheet is no longer where it belongs to its point: those
         # are tried last.
         for box in (*(box for box, kept in places if kept == box), *(kept for _, kept in places)):
-            if self._is_free(box, symbols=symbols):
+            if self._is_free(box, symbols=symbols, clear=clear):
                 return box
         return None
 

@@ -1,7 +1,7 @@
 """Texts of pictures lie on no other text, in whatever size a picture is drawn."""
 
 import re
-from itertools import combinations
+from itertools import combinations, pairwise
 from pathlib import Path
 
 import pytest
@@ -40,6 +40,26 @@ def test_no_two_texts_of_a_picture_overlap_in_any_size_and_none_is_lost(example:
                 named = [label.text for label in found.placed] + [text for _, text in found.left_out]
                 for text in scene.texts:
                     assert any(each.startswith(text.text) for each in named), (picture.name, part, text.text)
+
+
+def test_the_name_of_a_speed_is_clear_of_its_ramps_on_paper() -> None:
+    file = open_file(next(path for path in EXAMPLES if path.stem == "LATHE_LS176")).file
+    (ramps,) = (picture for picture in pictures_of(file) if picture.name == "ramps")
+    for part, _ in ramps.parts:
+        scene = ramps.scene(part)
+        frame = Placement.within(scene, 720.0, 480.0)
+        found = labels_of(frame, 720.0, 480.0, measured, LINE)
+        strokes = [s for line in scene.lines for s in pairwise(map(frame.at, line.points))]
+        (name,) = (label for label in found.placed if "Rapid Feedrate" in label.text)
+        assert not any(name.box.is_crossed(*stroke) for stroke in strokes), (part, name)
+
+
+def test_a_line_crosses_a_box_where_it_goes_through_it() -> None:
+    box = Box(10.0, 10.0, 20.0, 10.0)
+    assert box.is_crossed((0.0, 0.0), (40.0, 30.0))
+    assert box.is_crossed((12.0, 12.0), (14.0, 14.0))
+    assert not box.is_crossed((0.0, 18.0), (18.0, 36.0))
+    assert not box.is_crossed((0.0, 5.0), (40.0, 5.0))
 
 
 def crowd(count: int) -> Scene:
