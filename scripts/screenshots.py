@@ -57,7 +57,11 @@ from amp_studio.ui.window.settings import UserSettings  # noqa: E402  # Qt reads
 EXCESS, RAPID, CALIBRATION = ("servo.excess_error", "1"), ("feedrate.rapid", "1"), ("home.calibration", "1")
 
 
-def settle(ready: Callable[[], object] = lambda: not Task.running) -> None:
+ENDLESS: set[Task] = set()
+"""Work that only ends with its page: nothing waits for it."""
+
+
+def settle(ready: Callable[[], object] = lambda: Task.running <= ENDLESS) -> None:
     """Let the window work until it is ready; raises TimeoutError."""
     end = time.monotonic() + PATIENCE
     while not ready():
@@ -326,6 +330,26 @@ class Stage:
         self.take("14-control-away", window, SIZES)
         control.leave()
 
+    def live(self) -> None:
+        """What an emulated control that drives an axis shows of itself."""
+        self.window.open_first(self.path("grblhal-router"))
+        control = self.window.control
+        control.start_emulated()
+        settle(lambda: control.emulated.address)
+        control.live()
+        page = control._live
+        ENDLESS.add(page.readings._task)
+        settle(lambda: page._axes and len(page._axes["X"].signals["position"]) > 10)
+        self.take("15-live", page)
+        control.emulated.send("alarm 9")
+        settle(page.faults.isVisible)
+        self.take("15-live-fault", page)
+        page.close()
+        control.emulated.stop(wait=True)
+        settle(lambda: not Task.running)
+        ENDLESS.clear()
+        self.window.open_first(self.path("mill-1394"))
+
     def motion(self) -> None:
         """A simulated movement."""
         self.window.go_to(("feedrate.rapid", "1"))
@@ -499,6 +523,7 @@ PAGES: tuple[Callable[[Stage], None], ...] = (
     Stage.pictures,
     Stage.compare,
     Stage.exchange,
+    Stage.live,
     Stage.motion,
     Stage.tuning,
     Stage.machine,

@@ -1,15 +1,21 @@
 """The published formulas as calculators."""
 
+import ast
+import inspect
+import re
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from PySide6.QtWidgets import QComboBox
 
+from amp_studio.report import language_of
 from amp_studio.schema import NO_TEXTS, Value, fact_texts, family_ids
 from amp_studio.ui.dialogs.calculator_dialog import CalculatorDialog
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.validate import calculators
+from amp_studio.validate.functions import formulas
 
 from .conftest import User, action
 
@@ -81,4 +87,26 @@ def test_a_german_calculator_asks_answers_and_refuses_in_german(
     dialog.form.set_answer("argument.controlling", "1000, 3000")
     dialog.form.set_answer("argument.follower", "800, 1500")
     assert dialog.form.answer("outcome").startswith("'schnell' passt nicht zu")
+    formula.setCurrentText("Knickpunkt der Verstärkung")
+    dialog.form.set_answer("argument.max_contouring", "4100")
+    dialog.form.set_answer("argument.gain", "-1,5")
+    assert dialog.form.answer("outcome") == "Verstärkung muss größer als null sein, nicht −1,5."
     assert window.page.detail.page.toPlainText().count("englisch") == 1
+
+
+ENGLISH = re.compile(r"\b(?:the|not|is|must|has|have|no|than|below|above)\b")
+
+
+@pytest.mark.parametrize("family", [each for each in family_ids() if fact_texts(each, "de") is not NO_TEXTS])
+def test_every_refusal_of_a_formula_is_german_in_a_german_window(family: str) -> None:
+    texts = set[str]()
+    for module in {sys.modules[each.__module__] for each in formulas(family).values()}:
+        for node in ast.walk(ast.parse(inspect.getsource(module))):
+            if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call):
+                match node.exc.args:
+                    case [ast.Constant(str(text))]:
+                        texts.add(text)
+                    case [ast.JoinedStr(parts)]:
+                        texts.add("".join(p.value if isinstance(p, ast.Constant) else "7" for p in parts))
+    german = language_of("de", family)
+    assert [text for text in texts if ENGLISH.search(german.sentence(text))] == []

@@ -20,6 +20,7 @@ from amp_studio.schema import Value
 from amp_studio.transfer.client import parameters
 from amp_studio.transfer.exchange import Exchange
 from amp_studio.ui.actions import project
+from amp_studio.ui.actions.control import STATE_ROOM
 from amp_studio.ui.base.theme import colour, scheme
 from amp_studio.ui.control.conditions import conditions_of
 from amp_studio.ui.control.differences import CONTROL, MIND
@@ -551,6 +552,29 @@ def test_a_file_does_not_take_the_last_control_of_another_family(window: MainWin
     assert exchanges.address_of(window.workspace) == here, "nobody knows what it is"
     exchanges.remember_contact(here, "connect", reached=True, family="57c422b")
     assert exchanges.address_of(window.workspace) == ""
+
+
+def test_a_file_does_not_take_the_emulated_control_of_another_family_which_is_no_habit_either(
+    window: MainWindow,
+) -> None:
+    exchanges, emulated = window.control.exchanges, window.control.emulated
+    window.settings.keep_control("")
+    emulated.address, emulated.family = "tcp://127.0.0.1:36211", "grblhal"
+    exchanges.choose(None, emulated.address)
+    assert exchanges.address_of(window.workspace) == ""
+    emulated.family = "9pc"
+    assert exchanges.address_of(window.workspace) == emulated.address
+    emulated.address = ""
+    assert exchanges.address_of(window.workspace) == ""
+
+
+@pytest.mark.parametrize("address", ["tcp://127.0.0.1:36211", "tcp://a-very-long-name-of-a-control:9600"])
+def test_the_tool_bar_never_cuts_not_from_not_connected(window: MainWindow, address: str) -> None:
+    window.control.exchanges.choose(window.workspace, address)
+    action = window.menus["control.page"]
+    window.control.show_state(action)
+    assert action.iconText().endswith("  not connected")
+    assert window.fontMetrics().horizontalAdvance(action.iconText()) <= STATE_ROOM
 
 
 def test_values_sent_from_another_page_are_sent_alone_and_what_to_mind_has_a_few_words_and_the_whole_below(

@@ -218,3 +218,22 @@ def _with_event(begin: Callable[..., None], event: type[threading.Event]) -> Cal
         self.cancelled = event()
 
     return init
+
+
+@pytest.mark.usefixtures("german")
+def test_a_german_page_has_the_faults_words_and_notes_in_german_and_no_columns_of_dashes(
+    qtbot: QtBot,
+) -> None:
+    displayed = LivePage("tcp://bench:1", "grblhal", print, readings=StoppedReadings())  # type: ignore[arg-type]  # the part that it uses
+    qtbot.addWidget(displayed)
+    fault = known_fault("grblhal", "ALARM:9", "The control is locked")
+    note = "positions in machine coordinates, in mm unless $13 is on"
+    axes = (AxisStatus("X", 1.0, unit="mm"),)
+    displayed.show_status(
+        ControlStatus("grblhal", "grbl", "router", "Alarm", axes, (fault,), {"spindle speed": 0.0}, (note,))
+    )
+    assert "Der Schalter wurde bei der Suche nicht erreicht" in displayed.faults.text()
+    assert ">Maximum travel</a>" in displayed.faults.text()
+    assert displayed.values.text() == "Spindeldrehzahl 0"
+    assert displayed.notes.text().startswith("Positionen in Maschinenkoordinaten")
+    assert [n for n in range(5) if displayed.axes.isColumnHidden(n)] == [2, 3, 4]

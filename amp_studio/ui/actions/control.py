@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QFileDialog, QStackedWidget
 
@@ -36,6 +37,8 @@ if TYPE_CHECKING:
     from amp_studio.ui.control.page import ControlPage
     from amp_studio.ui.control.session import ControlSession
 
+STATE_ROOM = 152
+"""Of the button in the tool bar for the name of a control and its state, in logical pixels."""
 COPIES = "Backups of a control (*.img *.before-*.amp);;All files (*)"
 
 
@@ -64,7 +67,11 @@ class ControlDesk(Translated):
         """Show in the action of the page the control of the file in front and its state."""
         name, state, warns = self.state_of(self.window.workspace)
         address = self.exchanges.address_of(self.window.workspace)
-        action.setIconText(f"{self._own_name_of(address)}  {state}" if address else name)
+        # The state is whole: "not connected" with its beginning cut would be the opposite.
+        letters = self.window.fontMetrics()
+        room = max(STATE_ROOM - letters.horizontalAdvance(f"  {state}"), 0)
+        short = letters.elidedText(self._own_name_of(address), Qt.TextElideMode.ElideMiddle, room)
+        action.setIconText(f"{short}  {state}" if address else name)
         action.setToolTip(self.tr("{name}: {state} (Alt+0)").format(name=name, state=state))
         action.setIcon(icon("warning-fill", "warn") if warns else icon("cpu"))
 

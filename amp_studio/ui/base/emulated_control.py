@@ -23,6 +23,7 @@ class EmulatedControl(QObject):
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         self.address = ""
+        self.family = ""
         self.screen = ""
         """The address of its screen; empty where its own protocol shows what it is doing."""
         self._stopping = False
@@ -39,7 +40,7 @@ class EmulatedControl(QObject):
 
     def start(self, family: str, machine: str) -> None:
         """Start it; ``ready`` gives the address. Its memory is that of the last time it was stopped."""
-        self._stopping = False
+        self._stopping, self.family = False, family
         state = Path(self._folder.path()) / f"{family}-{machine}"
         arguments = [
             "-m",

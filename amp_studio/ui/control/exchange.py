@@ -64,12 +64,16 @@ class ControlExchange(Translated):
         own = settings.control_of(workspace.path) if workspace is not None else ""
         # The nearest first: what was chosen for this very file counts before the machine, and that before
         # habit.
-        known = (own, project.info.control if project else "", self._emulated.address, self._last(workspace))
+        known = (own, project.info.control if project else "", self._last(workspace))
         return next(filter(None, known), "")
 
     def _last(self, workspace: Workspace | None) -> str:
-        """Return the control of the last exchange, unless it is of another family than the file."""
-        last = self.window.settings.control()
+        """Return the emulated control or that of the last exchange, unless it is of another family than the
+        file.
+        """
+        last, emulated = self.window.settings.control(), self._emulated
+        if emulated.address and (workspace is None or workspace.file.schema.family.family == emulated.family):
+            return emulated.address
         known = (control.family for control in self.window.settings.controls() if control.address == last)
         family = next(known, "")
         own = workspace.file.schema.family.family if workspace is not None else family
@@ -87,7 +91,8 @@ class ControlExchange(Translated):
 
     def choose(self, workspace: Workspace | None, address: str) -> None:
         """Remember the control of a file, and as the last one."""
-        self.window.settings.keep_control(address)
+        if address != self._emulated.address:  # its port is another one the next time
+            self.window.settings.keep_control(address)
         if workspace is not None:
             self.window.settings.keep_control_of(workspace.path, address)
 

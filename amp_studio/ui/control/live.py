@@ -27,11 +27,12 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.pictures import LiveLimits
+from amp_studio.schema import load_schema
 from amp_studio.ui.base.emulated_control import EmulatedControl
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.theme import GAP2, GAP3, font
-from amp_studio.ui.base.translated import message_in_words
+from amp_studio.ui.base.translated import message_in_words, sentenced
 from amp_studio.ui.forms.table_items import item_at
 
 from .limit_bar import LimitBar
@@ -45,6 +46,8 @@ SILENT_MS = 2000
 EVENTS = 6
 """Events that are shown."""
 PLACES = 4
+_WORDS = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
+_FIGURE = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
 
 class LivePage(QDialog):
@@ -65,7 +68,7 @@ class LivePage(QDialog):
     ) -> None:
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.address = address
+        self.address, self._family = address, family
         self._show_parameter = show_parameter
         self.readings = readings or StatusReadings(address, family)
         self.readings.read.connect(self.show_status)
@@ -105,7 +108,6 @@ class LivePage(QDialog):
         self.axes.setEditTriggers(QTableWidget.EditTrigger.NoEditTriggers)
         self.axes.verticalHeader().hide()
         self.axes.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        self.axes.horizontalHeader().setStretchLastSection(True)
         self.values = QLabel()
         self.values.setWordWrap(True)
         self.faults = QLabel()
@@ -176,7 +178,7 @@ class LivePage(QDialog):
         """Return what presses the keys of an emulated control; no other control is operated from here."""
         self.keys = QLineEdit()
         self.keys.setAccessibleName(self.tr("Keys of the emulated control"))
-        self.keys.setPlaceholderText("jog X+, release, position")
+        self.keys.setPlaceholderText(self.tr("status; a word that it does not know lists those that it does"))
         label = QLabel(self.tr("&Keys of the emulated control:"))
         label.setBuddy(self.keys)
         self.keys.returnPressed.connect(self._press)
@@ -252,7 +254,10 @@ class LivePage(QDialog):
         name = status.name or status.family
         self.state.setText(f"{name}: {status.state}" if status.state else name)
         self._show_axes(status.axes)
-        self.values.setText(", ".join(f"{key} {_value_text(value)}" for key, value in status.values.items()))
+        words = (
+            f"{sentenced(key, self._family)} {_value_text(value)}" for key, value in status.values.items()
+        )
+        self.values.setText(", ".join(words))
         self.values.setVisible(bool(status.values))
         is_new = self.happened.take(status)
         self._show_faults()
@@ -279,7 +284,11 @@ class LivePage(QDialog):
                 # Qt repaints a cell for the same text too.
                 if item.text() != text:
                     item.setText(text)
+                    item.setTextAlignment(_FIGURE if 0 < column < 4 else _WORDS)
             self._axes.setdefault(axis.axis, AxisReadings()).add(now, axis)
+        for column in range(2, self.axes.columnCount()):  # what the control does not show
+            texts = {item_at(self.axes, row, column).text() for row in range(len(axes))}
+            self.axes.setColumnHidden(column, texts <= {"", "–"})
 
     def _show_faults(self) -> None:
         parts = [self._fault_html(fault, since) for fault, since in self.happened.active.values()]
@@ -294,13 +303,18 @@ class LivePage(QDialog):
         page = self.tr(" (page {page})").format(page=fault.page) if fault.page else ""
         lines = [f"<b>{html.escape(titled(fault))}</b>{html.escape(page)} {since:%H:%M:%S}"]
         if fault.means:
-            lines.append(html.escape(fault.means))
-        lines += [f"{self.tr('Cause:')} {html.escape(each)}" for each in fault.causes]
-        lines += [f"{self.tr('Cure:')} {html.escape(each)}" for each in fault.cures]
+            lines.append(self._in_words(fault.means))
+        lines += [f"{self.tr('Cause:')} {self._in_words(each)}" for each in fault.causes]
+        lines += [f"{self.tr('Cure:')} {self._in_words(each)}" for each in fault.cures]
         if fault.params:
-            links = [f'<a href="{html.escape(each)}">{html.escape(each)}</a>' for each in fault.params]
+            known = load_schema(self._family).parameters
+            names = {each: known[each].name if each in known else each for each in fault.params}
+            links = [f'<a href="{html.escape(each)}">{html.escape(name)}</a>' for each, name in names.items()]
             lines.append(f"{self.tr('Parameters:')} {', '.join(links)}")
         return "<br>".join(lines)
+
+    def _in_words(self, text: str) -> str:
+        return html.escape(sentenced(text, self._family))
 
     def _draw(self) -> None:
         """Show the chosen axis large, and draw its readings as dots; nothing is known between them."""
@@ -316,7 +330,7 @@ class LivePage(QDialog):
         if picture is not None and readings is not None:
             self.plot.draw(picture)
             notes = notes if "following error" in readings.signals else (*notes, without_error())
-        self.notes.setText("\n".join(notes))
+        self.notes.setText("\n".join(sentenced(note, self._family) for note in notes))
 
     def _show_axis(self, axis: AxisStatus | None) -> None:
         """Show the lamps of an axis, and where it is between its limits."""

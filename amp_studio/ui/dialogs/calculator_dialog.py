@@ -14,6 +14,11 @@ from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.form import Field, FieldForm
 from amp_studio.validate import Argument, Calculator, calculate, calculators, shown_result
 
+_REFUSAL = re.compile(
+    r".+?( must (?:be (?:at most|a finite|greater than|0 to 100 %|a whole)|not be negative).*, not (\S+)\.)"
+)
+"""A refusal of any formula, after the words for what it refuses; with the figure."""
+
 
 class CalculatorDialog(QDialog):
     """Evaluates a formula while its arguments are typed."""
@@ -99,12 +104,33 @@ class CalculatorDialog(QDialog):
 
     def _titled(self, text: str) -> str:
         """Return a message with the titles of the formula and of its arguments for their names."""
-        text = sentenced(text, self._family)
+        text = sentenced(self._with_title(text), self._family)
         parts: tuple[Calculator | Argument, ...] = (self._formula, *self._formula.arguments)
         for part in parts:
             text = re.sub(rf"\b{part.name}\b", self._titles(part), text) if "_" in part.name else text
         return f"{text}.".replace("..", ".")
 
+    def _with_title(self, text: str) -> str:
+        """Return a refusal with the title of the argument that has the refused figure: what a formula calls
+        it has no words in another language.
+        """
+        match = _REFUSAL.fullmatch(text)
+        if match is None or not help_language():
+            return text
+        like = [
+            self._titles(a)
+            for a in self._formula.arguments
+            if _figure(self.form.answer(f"argument.{a.name}")) == _figure(match[2])
+        ]
+        return (like[0] if len(like) == 1 else self.tr("A value")) + match[1]
+
     def _use(self) -> None:
         if self._address and self._commit(self._address, self.form.answer("outcome")):
             self.close()
+
+
+def _figure(text: str) -> float | None:
+    try:
+        return float(text.replace(",", "."))
+    except ValueError:
+        return None

@@ -19,6 +19,7 @@ from amp_studio.report import OWN, Contents
 from amp_studio.schema import Address
 from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.task import Task, TaskProgress
+from amp_studio.ui.base.translated import message_in_words
 from amp_studio.ui.forms.message_bar import MessageBar
 from amp_studio.ui.page.file_page import FilePage
 from amp_studio.ui.window.report_options import ReportOptions, answers_of
@@ -267,7 +268,9 @@ class PreviewPanel(QWidget):
             self.bar.hide()
             return
         folder = real_path(self._page.workspace.path).parent if self._page is not None else Path()
-        text = "\n".join(notes).replace(f"{folder}{os.sep}", "")  # there is little room
+        text = "\n".join(map(message_in_words, notes)).replace(
+            f"{folder}{os.sep}", ""
+        )  # there is little room
         self.bar.say(text, "warning", (self.tr("Open the &Folder"), self.open_templates))
 
     def open_templates(self) -> None:
