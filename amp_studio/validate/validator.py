@@ -203,8 +203,10 @@ class Validator:
 
     def rules_of(self, address: Address) -> tuple[Rule, ...]:
         """Return the rules that read an address itself."""
-        # Not by what an edit wakes, which takes all addresses at once: the window asks before the first edit.
-        checks = (check for check in self._plan.checks if check.is_about(address))
+        # What an edit wakes takes all addresses at once, and the window asks before the first edit.
+        is_prepared = "rule_readers" in vars(self._plan)
+        among = self._plan.rule_readers.get(address, ()) if is_prepared else self._plan.checks
+        checks = (check for check in among if check.is_about(address))
         return tuple({check.rule.id: check.rule for check in checks}.values())
 
     def check_of(self, finding: Finding) -> RuleCheck | None:

@@ -208,8 +208,12 @@ def test_a_formula_that_is_wrong_itself_is_logged(caplog) -> None:
     assert "'wrong' failed: AttributeError" in record.getMessage()
 
 
-def test_the_rules_that_read_a_value_are_known(mill) -> None:
-    rules = [rule.id for rule in Validator(mill).rules_of(("zone.group_count", ""))]
+@pytest.mark.parametrize("is_edited", [False, True])
+def test_the_rules_that_read_a_value_are_known(mill, is_edited: bool) -> None:
+    validator = Validator(mill)
+    if is_edited:
+        validator.prepare_edits()
+    rules = [rule.id for rule in validator.rules_of(("zone.group_count", ""))]
     assert rules == [
         "9pc.zone.group-not-checked",
         "9pc.zone.group-empty",
@@ -217,7 +221,7 @@ def test_the_rules_that_read_a_value_are_known(mill) -> None:
         "9pc.powerup.zones-without-groups",
         "9pc.deskew.slave-zone",
     ]
-    assert [rule.id for rule in Validator(mill).rules_of(("zone.group_count", "2"))] == [
+    assert [rule.id for rule in validator.rules_of(("zone.group_count", "2"))] == [
         "9pc.zone.group-empty",
         "9pc.powerup.zones-without-groups",
     ]

@@ -35,6 +35,8 @@ class GroupList(QWidget):
         layout.addWidget(self.tree)
         self.setFocusProxy(self.tree)
         self._items: list[QTreeWidgetItem] = []
+        self._shown: dict[int, tuple[tuple[tuple[str, int], ...], int]] = {}
+        """Place in ``_items`` -> what is shown there."""
         self._machine = workspace.file.machine
         self._fill()
         self.tree.currentItemChanged.connect(self.choose)
@@ -118,13 +120,16 @@ class GroupList(QWidget):
         not_set = Counter(
             schema.group_of[a[0]].key for each in self._workspace.progress.steps for a in each.open
         )
-        for item in self._items:
+        for n, item in enumerate(self._items):
             keys = set(item.data(0, _KEYS))
             if keys == {_ALL}:
                 keys = {group.key for group in schema.groups}
             here = Counter(severity for severity, places in found if not keys.isdisjoint(places))
             counts = tuple((severity, here[severity]) for severity in SEVERITIES if here[severity])
-            self._show_counts(item, counts, sum(not_set[key] for key in keys))
+            here_now = counts, sum(not_set[key] for key in keys)
+            if self._shown.get(n) != here_now:  # an edit changes those of few groups
+                self._shown[n] = here_now
+                self._show_counts(item, *here_now)
 
     def _show_counts(self, item: QTreeWidgetItem, counts: tuple[tuple[str, int], ...], missing: int) -> None:
         """Show the findings of a group by severity, and how many of its values are not set."""
