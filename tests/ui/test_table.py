@@ -1,8 +1,9 @@
 """The table: a row a parameter, a column an axis."""
 
+import pytest
 from PySide6.QtCore import Qt
 
-from amp_studio.files import ParameterFile
+from amp_studio.files import ParameterFile, set_value_note
 from amp_studio.schema import Value
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
@@ -141,3 +142,37 @@ def test_the_other_cells_of_the_selected_finding_are_outlined(
     window.findings.select(finding)
     assert window.table.outlined == frozenset({("servo.feedrate_suppression", "1")})
     assert window.table.outline_severity == finding.severity
+
+
+def every_look(table: ParameterTable) -> list[str]:
+    """Return how every cell is painted."""
+    places = ((row, column) for row in range(table.rowCount()) for column in range(table.columnCount()))
+    return [repr(table.look(*place)) for place in places]
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        ("servo.gain_break_point", Value(12.0, "mm")),
+        ("servo.excess_error", Value(11.5, "mm")),
+        ("axis.type", Value("rotary")),
+    ],
+)
+def test_an_edit_paints_the_rows_that_look_other_than_before_and_few_more(
+    table: ParameterTable, workspace: Workspace, value: tuple[str, Value]
+) -> None:
+    """A finding of another row, a note of the same step, another state: none is left as it was."""
+
+    def change() -> None:
+        workspace.file.set((value[0], "1"), value[1])
+        if value[1].value == 11.5:
+            set_value_note(workspace.file, ("servo.gain_break_point", "2"), "Measured.")
+
+    before, painted = every_look(table), set[int]()
+    table.dataChanged.connect(lambda first, last: painted.update(range(first.row(), last.row() + 1)))
+    workspace.do("change", change)
+    after = every_look(table)
+    table._looks.clear()
+    assert after == every_look(table) != before
+    if value[0] == "servo.gain_break_point":
+        assert 0 < len(painted) < 10

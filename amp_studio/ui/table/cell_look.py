@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
 
-from amp_studio.files import unlike_axes, value_note, with_days_and_times
+from amp_studio.files import HeaderSnapshot, unlike_axes, value_note, with_days_and_times
 from amp_studio.report import state_name
 from amp_studio.schema import (
     Address,
@@ -203,6 +203,10 @@ class ShownValues(Translated):
         """Whether hidden parameters are shown too."""
         self.worst: dict[Address, str] = {}
         self.effective: dict[Address, Value] = {}
+        self.marks: set[tuple[Address, object]] = set()
+        """What the present findings make of the looks of values."""
+        self.header: dict[str, object] = {}
+        """That of the file when its findings were taken: notes among it."""
 
     def find_findings(self) -> None:
         """Take the severities and effective values of the present findings."""
@@ -212,6 +216,8 @@ class ShownValues(Translated):
                 for address in finding.causes:
                     worst.setdefault(address, finding.severity)
         self.worst, self.effective = worst, self.workspace.effective()
+        self.marks = {*worst.items(), *self.effective.items()}
+        self.header = HeaderSnapshot.of(self.workspace.file).header
 
     def exists(self, address: Address) -> bool:
         """Return whether an address has a cell: it is not hidden, or hidden ones are shown too."""

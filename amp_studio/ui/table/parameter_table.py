@@ -436,14 +436,11 @@ class ParameterTable(QAbstractTableModel):
     def _refresh(self, addresses: list[Address]) -> None:
         heads = dict(self._axis_heads)
         self._axis_heads.clear()
+        header, marks = self.values.header, self.values.marks
         self.values.find_findings()
         columns, decides = self._columns(), self.workspace.file.evaluation.decides_states
-        if (
-            columns != self.columns
-            or not addresses
-            or self._filter is not None
-            or any(map(decides, addresses))
-        ):
+        is_about_all = not addresses or header != self.values.header or any(map(decides, addresses))
+        if columns != self.columns or self._filter is not None or is_about_all:
             rows = self._rows(columns)
             # A reset loses scroll place, selection and open editor: only where rows or columns are others.
             if columns != self.columns or rows != self.rows:
@@ -453,7 +450,10 @@ class ParameterTable(QAbstractTableModel):
         # Only another head: Qt lays and paints the whole table once more for it, after the cells.
         if any(self.column_head(n) != heads.get(name) for n, name in enumerate(columns) if name in heads):
             self.headerDataChanged.emit(Qt.Orientation.Horizontal, 0, max(0, len(columns) - 1))
-        self._forget_looks()
+        if is_about_all:
+            self._forget_looks()
+        else:
+            self._forget_looks_of({*addresses, *(address for address, _ in marks ^ self.values.marks)})
         self.values_changed.emit(addresses)
 
     def _forget_heads(self) -> None:
@@ -463,6 +463,14 @@ class ParameterTable(QAbstractTableModel):
     def _forget_looks(self) -> None:
         self._looks.clear()
         self._repaint()
+
+    def _forget_looks_of(self, addresses: set[Address]) -> None:
+        """Paint the rows of some values once more, each as a whole: one value makes another unlike it."""
+        for number, row in enumerate(self.rows):
+            if not addresses.isdisjoint(row.cells.values()):
+                for address in row.cells.values():
+                    self._looks.pop(address, None)
+                self.dataChanged.emit(self.index(number, 0), self.index(number, len(self.columns) - 1))
 
     def _repaint(self) -> None:
         if self.rows and self.columns:
