@@ -35,8 +35,8 @@ class GroupList(QWidget):
         layout.addWidget(self.tree)
         self.setFocusProxy(self.tree)
         self._items: list[QTreeWidgetItem] = []
-        self._shown: dict[int, tuple[tuple[tuple[str, int], ...], int]] = {}
-        """Place in ``_items`` -> what is shown there."""
+        self._counted: dict[int, tuple[tuple[tuple[str, int], ...], int]] = {}
+        """Place in ``_items`` -> the counts that it has."""
         self._machine = workspace.file.machine
         self._fill()
         self.tree.currentItemChanged.connect(self.choose)
@@ -127,8 +127,8 @@ class GroupList(QWidget):
             here = Counter(severity for severity, places in found if not keys.isdisjoint(places))
             counts = tuple((severity, here[severity]) for severity in SEVERITIES if here[severity])
             here_now = counts, sum(not_set[key] for key in keys)
-            if self._shown.get(n) != here_now:  # an edit changes those of few groups
-                self._shown[n] = here_now
+            if self._counted.get(n) != here_now:  # an edit changes those of few groups
+                self._counted[n] = here_now
                 self._show_counts(item, *here_now)
 
     def _show_counts(self, item: QTreeWidgetItem, counts: tuple[tuple[str, int], ...], missing: int) -> None:
