@@ -35,7 +35,7 @@ LEAST_GAIN = 0.02
 LEAST_STATIC = 0.05
 """Share of the Coulomb friction below which what is more at the start is none."""
 BINS = 16
-DEPENDS, WORTH = 0.35, 0.02
+DEPENDS, WORTH = 0.25, 0.02
 """Share of the residual that its means by speed (or position) explain, and of the torque that they are,
 for a doubt."""
 
@@ -119,8 +119,10 @@ def static_friction(fit: FrictionFit, coulomb: float) -> StaticFriction | None:
     top = float(np.abs(fit.velocity).max())
     moves = np.abs(fit.velocity) > SLOWEST * top
     acceleration, speed = np.gradient(fit.velocity, fit.period)[moves], fit.velocity[moves]
-    table = np.column_stack([acceleration, speed, speed > 0.0, speed < 0.0]).astype(float)
-    given = fit.torque[moves]
+    # Friction that rises with the square of the speed has its own column: a wide curve of R. Stribeck's,
+    # beside less Coulomb friction, would look like it.
+    table = np.column_stack([acceleration, speed, speed > 0.0, speed < 0.0, speed * np.abs(speed)])
+    table, given = table.astype(float), fit.torque[moves]
 
     def left(over: float) -> tuple[Series, Series, Matrix]:
         joined = np.column_stack([table, _stribeck(speed, over)])
@@ -137,7 +139,7 @@ def static_friction(fit: FrictionFit, coulomb: float) -> StaticFriction | None:
     refined = least_squares(lambda there: left(math.exp(there[0]))[0], np.array([math.log(best)]))
     over = math.exp(float(refined.parameters[0]))
     rest, coefficients, joined = left(over)
-    more = float(coefficients[4])
+    more = float(coefficients[-1])
     if float(rest @ rest) > (1.0 - LEAST_GAIN) * float(plain @ plain) or over > 1.5 * STRIBECK[-1] * top:
         return None
     # The curve's own slope by its speed is a column too: how much friction there is more and over which speed
@@ -145,25 +147,29 @@ def static_friction(fit: FrictionFit, coulomb: float) -> StaticFriction | None:
     bend = 2.0 * more * (speed / over) ** 2 / over * _stribeck(speed, over)
     slopes = np.column_stack([joined, bend])
     slopes = slopes / (sizes := np.sqrt((slopes**2).sum(axis=0)) + 1e-300)
-    # Six figures have been fitted: the four of the axis, the static friction and its speed.
-    rows = max(1.0, len(given) * fit.period / max(fit.window, fit.period) - 6.0)
+    # Seven figures have been fitted: the five of the axis, the static friction and its speed.
+    rows = max(1.0, len(given) * fit.period / max(fit.window, fit.period) - 7.0)
     spread = np.diag(np.linalg.pinv(slopes.T @ slopes)) / sizes**2 * float(rest @ rest) / rows
-    error, speed_error = np.sqrt(np.maximum(spread[4:], 0.0)).tolist()
+    error, speed_error = np.sqrt(np.maximum(spread[-2:], 0.0)).tolist()
     if more < SURE * error or more < LEAST_STATIC * max(coulomb, 1e-12):
         return None
-    blur = _blur(speed, fit.window * acceleration, joined[:, 4], over)
+    blur = _blur(speed, acceleration, joined[:, -1], over, fit)
     return StaticFriction(
         EstimatedFigure(more, math.hypot(error, blur * more)),
         EstimatedFigure(over, math.hypot(speed_error, 0.5 * blur * over)),
     )
 
 
-def _blur(speed: Series, change: Series, curve: Series, over: float) -> float:
+def _blur(speed: Series, acceleration: Series, curve: Series, over: float, fit: FrictionFit) -> float:
     """Return by which share the curve is lower, and twice by which it is wider, as the speed changes within
-    the filter: its bend at the top is 2 / over², the variance of a filter of three boxes a 36th of its
-    square. A filter that reaches a standstill, where friction may have any value, shows nothing.
+    the filter: its bend at the top is 2 / over². The variance of three boxes and of the means of three rows
+    before them is (width² + 1) / 4 squared rows. A filter that reaches a standstill, where friction may have
+    any value, shows nothing.
     """
-    lower = np.where(np.abs(speed) < 0.5 * np.abs(change), 1.0, np.minimum(1.0, (change / over) ** 2 / 36.0))
+    rows = fit.window / fit.period
+    change, width = np.abs(acceleration) * fit.period, (rows + 2.0) / 3.0
+    fallen = np.minimum(1.0, (width**2 + 1.0) / 4.0 * (change / over) ** 2)
+    lower = np.where(np.abs(speed) < 0.5 * (rows + 2.0) * change, 1.0, fallen)
     return float(np.average(lower, weights=curve**2))
 
 

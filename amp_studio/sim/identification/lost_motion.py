@@ -53,7 +53,8 @@ def backlash(fit: FrictionFit, time: Series, motor: Series, load: Series) -> Est
     error = math.sqrt(float(turned @ inverse @ turned) * float(rest @ rest) / rows)
     value = float(turned @ coefficients)
     if value < SURE * error:
-        return EstimatedFigure(0.0, error)
+        # None is found, and it may be as large as what is not sure.
+        return EstimatedFigure(0.0, math.hypot(error, value))
     _, viscous, ahead, back = fit.coefficients.tolist()
     # What viscous friction yields shows the stiffness; dry friction yields by the same.
     yields = float(coefficients[3]) * (ahead - back) / viscous if viscous > 0.0 else 0.0
