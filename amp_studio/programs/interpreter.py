@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema import ProgramPath, axis_name
 
-from .block import BlockReader
+from .block import FED, BlockReader
 from .codes import KnownCode
 from .coordinates import ProgramCoordinates
 from .cycles import CycleRuns
@@ -186,6 +186,8 @@ class Interpreter:
             self._single.do(codes, words)
         elif words.axes or words.distances or words.centers:
             self._move(words, codes)
+        elif "no-feed" in self._path.faults and any(code.facts.does in FED for code in codes.codes):
+            self._moves.need_feed(codes.modal)
         self._over = codes.is_end
 
     def _waits_for_speed(self, roles: dict[str, float], *, turns: bool) -> bool:

@@ -42,6 +42,10 @@ class PathMoves:
         """Have no feed: the kind of feed was switched to or from inverse time."""
         self._feed = 0.0
 
+    def need_feed(self, modal: ModalState) -> None:
+        """Refuse a code that moves at the feed, with no place beside it, where there is no feed."""
+        self._feed_of(0.0, modal)
+
     def round_corners(self, roles: dict[str, float]) -> None:
         """Round corners by the words of a block; without them as far as the control likes."""
         corner, points = roles.get("blend-tolerance"), roles.get("join-tolerance")
@@ -55,13 +59,13 @@ class PathMoves:
         """Go in a straight line to a programmed point."""
         end = self.at.to_machine(target)
         self.at.programmed = target
-        # A block to where the axes are is no row: without a length it has no direction for its corners.
-        if end == self.at.position:
-            return
         feed = 0.0
         if kind == LINE:
             way = math.dist(end, self.at.position) if modal.is_inverse else 0.0
             feed = self._feed_of(way, modal)
+        # A block to where the axes are is no row: without a length it has no direction for its corners.
+        if end == self.at.position:
+            return
         self.rows.add(end, kind, self.line, feed, corner, modal.free)
         self.at.position = end
 

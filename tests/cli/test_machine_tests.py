@@ -88,6 +88,25 @@ def test_the_tasks_of_a_module_clear_the_printed_bits_of_its_mode(name: str) -> 
         assert "CMD_VEL!=5242880" in task.lines
 
 
+def test_the_home_and_move_tasks_of_a_module_are_those_of_5_6_and_5_7() -> None:
+    """Speeds of registers 15 and 19 times 65.536, accelerations of 21 and 23 times 0.065536."""
+    file = "57c422b-label-press/LABEL_PRESS.amp"
+    home, move = (programs_of(file, "X")[name].lines for name in ("home", "move"))
+    assert home[4:8] == (
+        "MODES%=MODES% AND 0FEH",
+        "DELAY 10 TICKS",
+        "MODES%=MODES% OR 1",
+        "CMD66%=4 \\GOSUB 25000",
+    )
+    assert home[0] == f"HOME_SPD!={round(1600 * 65.536)}"
+    assert move[1:5] == (
+        f"CMD_VEL!={round(160000 * 65.536)}",
+        f"CMD_ACC!={round(50000 * 0.065536)}",
+        f"CMD_DEC!={round(50000 * 0.065536)}",
+        "CMD66%=1 \\GOSUB 25000",
+    )
+
+
 def test_the_task_of_a_cam_begins_it_and_ends_it() -> None:
     """5-10: mode 9 is continuous and in words; 32 points of 12.5 ms."""
     task = programs_of("57c422b-label-press/LABEL_PRESS.amp", "Y")["cam"]

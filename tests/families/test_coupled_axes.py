@@ -99,3 +99,21 @@ def test_the_slave_of_a_split_axis_stops_at_the_limit_of_its_master(tmp_path: Pa
     ends = places(machine, 5.0)
     assert ends["X"] - ends["V"] == pytest.approx(0.0, abs=0.01)
     assert [axis.alarm and axis.alarm[0] for axis in machine.axes()] == ["OVERTRAVEL", "OVERTRAVEL"]
+
+
+@pytest.mark.parametrize("drives", [{"0": "0"}, {"0": "1", "1": "0"}, {"0": "1", "1": "2", "2": "0"}])
+def test_a_ring_of_synchronised_axes_is_refused_in_a_sentence(drives: dict[str, str]) -> None:
+    """P27 may name the axis itself, or one that it drives: the others still move."""
+    file = example("num-1060-mill")
+    file.set(("axes.synchronised", ""), Value(sum(1 << int(axis) for axis in drives)))
+    for axis, drive in drives.items():
+        file.set(("axes.drive_axis", axis), Value(f"axis-{drive}"))
+    machine = machine_of(file)
+    for axis in drives:
+        with pytest.raises(SimulationError, match=f"of axis {axis} is a driven axis itself"):
+            machine.home("XYZ"[int(axis)])
+        with pytest.raises(SimulationError, match=f"of axis {axis} is a driven axis itself"):
+            simulate(file, "jog", axis, {"move.speed": "normal"})
+    if len(drives) < 3:
+        machine.move({"Z": 5.0}, 10.0)
+        assert places(machine, 2.0)["Z"] == pytest.approx(5.0, abs=0.01)

@@ -3,9 +3,9 @@
 import pytest
 
 from amp_studio.schema import Value, load_schema
-from amp_studio.sim import SimulationError, simulate
+from amp_studio.sim import ProgramJob, SimulationError, simulate
 from amp_studio.validate import calculate
-from tests.programs.test_block import example
+from tests.programs.test_block import example, read, word
 
 
 @pytest.mark.parametrize(("cycle", "scans", "points"), [("1", "1", 800), ("4", "2", 1600), ("5", "3", 1334)])
@@ -85,9 +85,9 @@ PRINTED_WORDS = {
 
 def test_the_printed_words_of_a_module_are_the_bits_that_they_are_taken_for() -> None:
     schema = load_schema("57c422b")
-    for (parameter, word), names in PRINTED_WORDS.items():
-        bits = [each for each in schema.parameters[parameter].bits or () if word >> each.bit & 1]
-        assert len(bits) == word.bit_count() == len(names)
+    for (parameter, number), names in PRINTED_WORDS.items():
+        bits = [each for each in schema.parameters[parameter].bits or () if number >> each.bit & 1]
+        assert len(bits) == number.bit_count() == len(names)
         assert [name for name, bit in zip(names, bits, strict=True) if name not in bit.label] == []
     mode = {each.bit: each for each in schema.parameters["control.mode"].bits or ()}
     assert "Profile" in mode[6].label
@@ -123,3 +123,63 @@ def test_the_largest_value_of_a_time_cam() -> None:
     """57C422B, 4-50: speed x counts x R129 x 0.00125."""
     given = {"speed": "40", "counts_per_unit": "4000", "time_scans": "1"}
     assert calculate("57c422b", "cam_largest_value", given) == pytest.approx(200.0)
+
+
+@pytest.mark.parametrize("speed", [600, 1200])
+def test_a_num_homes_at_its_jog_speed(speed: int) -> None:
+    """7-8, 6-8: word 1 of P31 is the normal JOG speed."""
+    file = example("num-1060-mill")
+    file.set(("servo.jog_normal", ""), Value(speed, "mm/min"))
+    assert simulate(file, "home", "0", {}, advise=False).result["approach_feedrate"][0] == pytest.approx(
+        speed
+    )
+
+
+@pytest.mark.parametrize(
+    ("tier", "to", "code"),
+    [("second", 30, "MOT-037"), ("second", 0, "MOT-038"), ("third", 30, "MOT-041"), ("third", 0, "MOT-042")],
+)
+def test_each_side_of_the_limits_of_a_syntec_has_its_message(tier: str, to: int, code: str) -> None:
+    """3.2: beyond the positive and the negative side."""
+    file = example("syntec-mill")
+    file.set((f"limit.{tier}_negative", "1"), Value(10_000))
+    file.set((f"limit.{tier}_positive", "1"), Value(25_000))
+    file.set((f"limit.{tier}_scope", ""), Value("outside"))
+    move = {"move.start": "20,20", "move.to": f"{to},20", "move.feedrate": 3000.0}
+    zone = {"second": "2", "third": "3"}[tier]
+    found = simulate(file, "travel", "1,2", {**move, "move.zone": zone}).alarms
+    assert [alarm.code for alarm in found] == [code]
+
+
+@pytest.mark.parametrize(("code", "first", "step", "program"), [("G", 37, 2, 9010), ("M", 57, 1, 9001)])
+def test_codes_of_the_builder_call_all_programs_of_their_row(
+    code: str, first: int, step: int, program: int
+) -> None:
+    """9/PC, 20-5, 20-7: G of 37 to 55 calls 9010 to 9019, M of 57 to 65 calls 9001 to 9009."""
+    numbers = [str(101 + n) for n in range({"G": 10, "M": 9}[code])]
+    values = {str(first + step * n): number for n, number in enumerate(numbers)}
+    modes = {str(38 + 2 * n): "NOT MODAL" for n in range(10)} if code == "G" else {}
+    file = example("mill-1394", **values, **modes)
+    for n, number in enumerate(numbers):
+        assert f"calls the program {program + n}" in read(file, code + number).words[0].meaning
+
+
+@pytest.mark.parametrize(
+    ("param", "letter", "program"), [("33", "T", 9000), ("34", "S", 9029), ("35", "B", 9028)]
+)
+def test_words_call_their_program(param: str, letter: str, program: int) -> None:
+    """9/PC, 20-3."""
+    found = word(example("mill-1394", **{param: "True"}), f"{letter}2", letter=letter)
+    assert found.meaning == f"calls the program {program} with its number"
+
+
+def test_a_compatible_acromill_slows_down_in_corners_of_g64_too() -> None:
+    """Page 75: Compatibility TRUE is always G62."""
+    file, times = example("acromill-router"), {}
+    for compatible in (True, False):
+        file.set(("compat.no_cutting_mode", ""), Value(compatible))
+        for code in ("G62", "G64"):
+            path = [code, "G21 G91", "G1 X10 F3000", "X10 Y10", "X-10 Y1"]
+            plan = ProgramJob(path, [0.0] * 3, with_contour=False).run(file).plan
+            times[compatible, code] = plan.time
+    assert times[True, "G64"] == times[True, "G62"] > times[False, "G64"]

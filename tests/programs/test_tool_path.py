@@ -266,7 +266,16 @@ def test_inverse_time_is_minutes_for_the_move_on_a_9pc_and_moves_a_minute_on_a_g
 
 @pytest.mark.parametrize(
     ("program", "line"),
-    [("F0|G0 X-1 F0|G1 X-2 F10", 0), ("G1 X-1 F10|G0 X-2 F0|G1 X-3", 3), ("G1 X-1 F0", 1)],
+    [
+        ("F0|G0 X-1 F0|G1 X-2 F10", 0),
+        ("G1 X-1 F10|G0 X-2 F0|G1 X-3", 3),
+        ("G1 X-1 F0", 1),
+        # Measured on the firmware: a code is refused without a place too, and a place where the axis is.
+        ("G1 F0", 1),
+        ("F10|G1|F0|G0|G2", 5),
+        ("F10|G1 X0 F0", 2),
+        ("G93 G1 F2|G1", 2),
+    ],
 )
 def test_a_feed_of_0_is_refused_where_a_move_needs_it(program: str, line: int) -> None:
     """The firmware takes F0 in a block that moves at no feed, and refuses the next one that does."""

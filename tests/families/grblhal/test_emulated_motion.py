@@ -143,3 +143,15 @@ def test_a_critical_alarm_is_ended_by_a_reset_alone(bench: Bench, alarm: str, an
     bench.read()
     assert bench.identity_word("$X").endswith("ok")
     assert bench.status()[0] == "Idle"
+
+
+def test_a_grbl_1_1_is_deaf_after_a_critical_alarm_until_its_reset(tmp_path: Path) -> None:
+    """protocol.c of Grbl 1.1 waits for the reset in a loop that reads no line and reports nothing."""
+    bench = Bench(tmp_path, "grbl-1.1")
+    bench.firmware.operate("alarm 2")
+    assert bench.read() == "ALARM:2\r\n[MSG:Reset to continue]\r\n"
+    assert bench.identity_word("$X") == bench.identity_word("$$") == bench.identity_word("?") == ""
+    bench.firmware.receive(b"\x18")
+    assert "Grbl 1.1" in bench.read()
+    assert bench.status()[0] == "Alarm"
+    assert (bench.identity_word("G0 X1"), bench.identity_word("$X")) == ("error:9", "ok")

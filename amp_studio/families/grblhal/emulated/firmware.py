@@ -161,6 +161,8 @@ class Firmware:
         character = chr(byte)
         if byte == SOFT_RESET:
             self._soft_reset()
+        elif self._is_critical and self.settings.is_classic:
+            return  # a Grbl 1.1 does nothing, not even a report, and forgets its line (protocol.c)
         elif byte == JOG_CANCEL:
             if self._motion.state == "Jog":
                 self._motion.cancel()
@@ -429,12 +431,12 @@ class Firmware:
 
     def _alarm(self, number: int) -> None:
         """Stop in an alarm; a critical one is ended by a reset alone (protocol.c
-        ``protocol_exec_rt_system``; a Grbl 1.1 then answers nothing at all, which is not imitated).
+        ``protocol_exec_rt_system``).
         """
         self.state = "Alarm"
         self._send(f"ALARM:{number}")
-        self._is_critical = number in CRITICAL_ALARMS and not self.settings.is_classic
-        if number in CRITICAL_ALARMS:
+        self._is_critical = number in CRITICAL_ALARMS
+        if self._is_critical:
             self._send(CRITICAL_ALARMS[number])
 
     def _reports(self) -> Mapping[str, Callable[[], Iterator[str]]]:
