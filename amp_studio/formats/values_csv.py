@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from typing import Any
 
 from amp_studio.files import ParameterFile, cell_text, note_fault, read_stored, text_cell, value_note
@@ -33,6 +34,9 @@ _MARK = "\ufeff"
 _SEPARATORS = ",;\t"
 """A spreadsheet writes the second one where a comma is the decimal sign, and the last one as Unicode text."""
 
+_NAMED = re.compile('"?sep=', re.IGNORECASE)
+"""A first line that names to Excel what is between the cells."""
+
 
 def _recognises(text: str) -> bool:
     return _separator(text) is not None
@@ -41,14 +45,19 @@ def _recognises(text: str) -> bool:
 def _separator(text: str) -> str | None:
     """Return what is between the cells of a table; None for a text that is no table of values."""
     # The mark as latin-1 has it, in which texts are recognised.
-    head = text.removeprefix(_MARK).removeprefix("ï»¿").partition("\n")[0].strip().casefold()
+    lines = io.StringIO(text.removeprefix(_MARK).removeprefix("ï»¿"))
+    head = next(lines, "")
+    head = (next(lines, "") if _NAMED.match(head) else head).strip().casefold()
     heads = {sign: {each.strip('" ') for each in head.split(sign)} for sign in _SEPARATORS}
     return next((sign for sign in _SEPARATORS if {"id", "value"} <= heads[sign]), None)
 
 
 def _rows(text: str) -> Any:
     stream = io.StringIO(text.removeprefix(_MARK), newline="")
-    return csv.reader(stream, strict=True, delimiter=_separator(text) or _SEPARATORS[0])
+    rows = csv.reader(stream, strict=True, delimiter=_separator(text) or _SEPARATORS[0])
+    if _NAMED.match(stream.getvalue()):
+        next(rows)
+    return rows
 
 
 def _write(file: ParameterFile) -> str:
@@ -94,7 +103,9 @@ def _is_of(text: str, schema: Schema) -> bool:
         heads, *rows = _rows(text.casefold())
     except csv.Error:
         return False  # the reader names the line
-    ids = (dict(zip(heads, cells, strict=False)).get("id", "") for cells in rows if any(cells))
+    ids = (
+        dict(zip(heads, cells, strict=False)).get("id", "") for cells in rows if any(map(str.strip, cells))
+    )
     return bool(rows) and all(cell_text(each).strip() in schema.parameters for each in ids)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import os
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
@@ -80,7 +81,7 @@ def build_report(
     # All rows, not only the printed ones: the summary counts what the axis has.
     heads, axes = _axes(file, found.rows, now.findings)
     family = file.schema.family
-    name = source.name if source else ""
+    name = _name_of(source) if source else ""
     content = content_of(without_secrets(file))
 
     def with_part(part: str, made: Callable[[], Iterable[_T]]) -> tuple[_T, ...]:
@@ -199,13 +200,18 @@ def _facts(
 ) -> list[tuple[str, str]]:
     units = file.header.units if contents.units == "file" else UNIT_CHOICES[contents.units]
     return [
-        ("File", source.name if source else "not saved yet"),
+        ("File", _name_of(source) if source else "not saved yet"),
         _checksum(file, source, content),
         ("Schema signature", _signature(file)),
         ("Unit system", units),
         ("Order", SORTS[contents.sort]),
         ("Contents", contents.text),
     ]
+
+
+def _name_of(source: Path) -> str:
+    """Return the name of a file as a paper can have it, whatever its bytes are, and whatever the locale."""
+    return os.fsencode(source.name).decode("utf-8", "replace")
 
 
 def _checksum(file: ParameterFile, source: Path | None, content: bytes) -> tuple[str, str]:

@@ -1,5 +1,6 @@
 """Every format in every order, for machines plain, odd and empty."""
 
+import os
 from datetime import datetime
 from functools import cache
 from pathlib import Path
@@ -178,3 +179,15 @@ def test_writing_a_report_changes_nothing_in_the_file(
         print_report(mill, tmp_path / f"report{ending}")
     assert (mill.values, mill.forced) == (before, forced)
     assert mill.get(("home.calibration", "1")) == Value(12.5, "mm")
+
+
+@pytest.mark.parametrize("ending", [".pdf", ".json", ".html"])
+def test_a_name_that_is_no_text_here_is_printed_as_far_as_it_is_one(
+    ending: str, mill: ParameterFile, tmp_path: Path
+) -> None:
+    """As every name with an umlaut is where the locale is C without UTF-8, or one of an old disk is."""
+    source = tmp_path / os.fsdecode(b"m\xfcl-\xc3\xbc.amp")
+    print_report(mill, tmp_path / f"mill{ending}", source=source)
+    content = (tmp_path / f"mill{ending}").read_bytes()
+    assert content.startswith(STARTS[ending])
+    assert ending == ".pdf" or "m\ufffdl-\xfc.amp" in content.decode("utf-8")

@@ -49,7 +49,7 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
         raise _unreadable(listing, fit)
     found = TextRead(values=fit.values, machine=fit.machine)
     kept = sorted((*fit.unknown, *fit.other, *fit.unreadable))
-    found.unknown = {f"${number}": listing.text_of(number, kept) for number in kept} | log.startup
+    found.unknown = {f"${number}": text for number, text in listing.texts_of(kept).items()} | log.startup
     if relative is not None:
         found.unknown |= relative.kept
         found.notes.append(_account_of(relative))
@@ -225,10 +225,8 @@ def _fit(schema: Schema, log: Log, listing: LoggedListing, machine: str) -> _Fit
 def _texts(schema: Schema, listing: LoggedListing, known: Mapping[int, Address]) -> dict[int, str]:
     """Return the text of each setting that is its value: all that is written for a text, else the figure."""
     written = {n for n in listing.settings if n in known and schema.parameters[known[n][0]].type == "text"}
-    return {
-        n: listing.text_of(n, written) if n in written else figure(text)
-        for n, text in listing.settings.items()
-    }
+    texts = listing.texts_of(written)
+    return {n: texts[n] if n in texts else figure(text) for n, text in listing.settings.items()}
 
 
 def _readable(

@@ -19,7 +19,7 @@ A few settings that come again are changes of the listing before them.
 from __future__ import annotations
 
 import re
-from collections.abc import Container, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from html import unescape
 from typing import NamedTuple
@@ -121,18 +121,18 @@ class LoggedListing:
         self.settings[number], self.lines[number], self.remarks[number] = text, line, remark
         self.whole[number] = whole
 
-    def text_of(self, number: int, texts: Container[int]) -> str:
-        """Return the value of a setting that is a text, as those of ``texts`` are:
-        it may contain the characters that begin a remark.
+    def texts_of(self, texts: Iterable[int]) -> dict[int, str]:
+        """Return the values of the settings that are texts:
+        they may contain the characters that begin a remark.
 
         Where no figure has a remark there are none; else one begins behind a blank.
         """
-        whole = self.whole.get(number, "")
-        if not whole:
-            return self.settings[number]
-        figures = (n for n, text in self.settings.items() if n not in texts and re.fullmatch(NUMBER, text))
-        has_remarks = any(self.remarks[n] for n in figures)
-        return _REMARK_BEHIND_TEXT.split(whole, maxsplit=1)[0] if has_remarks else whole
+        wholes = {n: self.whole.get(n) or self.settings[n] for n in texts}
+        figures = (n for n, text in self.settings.items() if n not in wholes and re.fullmatch(NUMBER, text))
+        if any(self.remarks[n] for n in figures):
+            for n in filter(self.whole.get, wholes):
+                wholes[n] = _REMARK_BEHIND_TEXT.split(wholes[n], maxsplit=1)[0]
+        return wholes
 
     @property
     def first_line(self) -> int:
@@ -262,6 +262,8 @@ class _Reader:
 
     def finished(self) -> Log:
         """Return what was read."""
+        # Not where each of them is found: a log may have ten thousand that differ.
+        self.log.facts = {tag: [*dict.fromkeys(texts)] for tag, texts in self.log.facts.items()}
         self.log.listings = _whole([part for part in self.parts if part.settings])
         return self.log
 
@@ -332,9 +334,9 @@ def _settings_with_sign(whole: str, line: str, anywhere: bool) -> Iterator[_Piec
         value = _value_behind(line, ahead)
         if not value.is_certain:
             return
-        rest = _FOLLOWING.split(behind, maxsplit=1)[0].strip()
         is_plain = sign == "=" and value.is_alone and begins_plainly
-        yield number, value.text, value.remark, rest if is_plain else "", False
+        rest = _FOLLOWING.split(behind, maxsplit=1)[0].strip() if is_plain else ""
+        yield number, value.text, value.remark, rest, False
         ahead = value.following
 
 
@@ -357,9 +359,12 @@ class _ValueText(NamedTuple):
 def _value_behind(line: str, ahead: re.Match[str]) -> _ValueText:
     """Return the value behind a number and its sign, without the marks around it."""
     begin, most = ahead.end(), ahead.end() + _LONGEST_VALUE
-    end = _END_OF_VALUE.search(line, begin, most)
+    following = _SETTING.search(line, begin, most)
+    # Only as far as the next setting: a line may have ten thousand of them.
+    end = _END_OF_VALUE.search(line, begin, following.end() if following else most)
+    if end:
+        following = None
     stop = end.start() if end else len(line)
-    following = _SETTING.search(line, begin, min(stop, most))
     text = line[begin : following.start() if following else stop].strip()
     is_quoted = bool(ahead[2]) or text[:1] in ('"', "'", "`")
     text = _without_marks(text, ahead, ends_there=is_quoted or following is not None)
@@ -403,8 +408,8 @@ def _take_fact(log: Log, whole: str) -> None:
     if greeting := _GREETING.search(whole):
         log.greeting = greeting[0].strip()
     for tag, text in _FACT.findall(whole):
-        if tag in _FACTS and text not in log.facts.setdefault(tag, []):
-            log.facts[tag].append(text)
+        if tag in _FACTS:
+            log.facts.setdefault(tag, []).append(text)
 
 
 def _refuse(log: Log, parts: list[LoggedListing], number: int, line: int) -> None:

@@ -13,6 +13,7 @@ What they have in common becomes a setting by its number; everything else is kep
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from decimal import Decimal
@@ -119,6 +120,8 @@ class Relative:
     settings: dict[int, str] = field(default_factory=dict)
     kept: dict[str, str] = field(default_factory=dict)
     """What has no number in common: name -> text."""
+    counts: Counter[str] = field(default_factory=Counter)
+    """How often each code came with words that are kept."""
 
 
 def is_relative(text: str) -> bool:
@@ -193,11 +196,9 @@ def _take_words(found: Relative, code: str, words: dict[str, str], factor: int) 
 
 def _keep(found: Relative, code: str, text: str) -> None:
     """Keep the words of a code; those of one that comes again under its name and a number."""
-    name, count = code, 1
-    while name in found.kept:
-        count += 1
-        name = f"{code} ({count})"
-    found.kept[name] = text
+    found.counts[code] += 1
+    count = found.counts[code]
+    found.kept[code if count == 1 else f"{code} ({count})"] = text
 
 
 def _plain(number: Decimal) -> str:

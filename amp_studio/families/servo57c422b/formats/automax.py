@@ -65,7 +65,7 @@ _ROW = re.compile(r"(\s*R?)([0-9]{1,9})(\s*[,;=]\s*|\s+)([^\s!]+)", re.IGNORECAS
 
 _DECIMAL = re.compile(r"[+-]?[0-9]+\.[0-9]+")
 _WORD = re.compile(r"[+-]?[0-9][0-9A-F]*H?", re.IGNORECASE)
-_SECTION = re.compile(r"^\s*\[\w+\]\s*$", re.MULTILINE)
+_SECTION = re.compile(r"^[ \t]*\[\w+\][ \t\r]*$", re.MULTILINE)
 
 
 def _is_table(text: str) -> bool:
