@@ -94,7 +94,7 @@ def import_file(
         load_schema(family)  # of an unknown one nothing is a format
     content = read_file(path, _MOST_PDF if path.suffix.casefold() == ".pdf" else _MOST_BYTES)
     if is_pdf(content):
-        return _machine_of_report(path, content, family, take_account)
+        return _machine_of_report(path, content, family, notify, take_account)
     content = plain_content(content)
     chosen = _format_for_reading(content, family, format_key)
     text = _decoded(content, chosen)
@@ -117,7 +117,11 @@ def _refuse_unknown_machine(schema: Schema, machine: str) -> None:
 
 
 def _machine_of_report(
-    path: Path, content: bytes, family: str | None, take_account: Callable[[Account], object]
+    path: Path,
+    content: bytes,
+    family: str | None,
+    notify: Callable[[str], None],
+    take_account: Callable[[Account], object],
 ) -> ParameterFile:
     """Return the machine that is attached to a report; secrets are not in it. Raises FormatError."""
     attached = attached_machine(content)
@@ -129,6 +133,8 @@ def _machine_of_report(
         raise FormatError(f"the machine in it {error.what}") from None
     if family and family != file.schema.family.family:
         raise FormatError(f"the machine in it is one of {file.schema.family.name}")
+    if secrets := sorted({each.name for each in file.schema.parameters.values() if each.secret}):
+        notify(f"A report is without secret values: {', '.join(secrets)}")
     take_account(Account(written=len(file.values)))
     return file
 

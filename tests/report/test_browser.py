@@ -92,6 +92,25 @@ def test_no_script_of_the_page_fails_and_its_outline_has_no_gap(browser: Browser
     assert browser.value("document.querySelectorAll('[src^=http], link, [href^=http]').length") == 0
 
 
+@pytest.mark.parametrize("typed", ["exess", "excesss", "excass", "execss"])
+def test_one_slip_in_a_word_is_forgiven(browser: Browser, typed: str) -> None:
+    counts = []
+    for word in ("excess error", f"{typed} error"):
+        browser.click("#search")
+        browser.type(word)
+        counts.append(found(browser))
+        browser.press("Escape")
+    assert counts[0] == counts[1] != "no hits"
+
+
+def test_a_parameter_is_found_by_its_id(browser: Browser) -> None:
+    browser.click("#search")
+    browser.type("servo.excess_error")
+    browser.press("Enter")
+    assert "Excess Error" in row_at(browser)
+    assert browser.value("document.querySelector('tr.help')") is None
+
+
 def test_what_is_nowhere_is_reported(browser: Browser) -> None:
     browser.click("#search")
     browser.type("flux capacitor")

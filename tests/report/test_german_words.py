@@ -103,6 +103,14 @@ def test_the_tests_of_a_check_list_are_german() -> None:
     assert not re.search(r"\b(the|axis|and|with)\b", text.partition("PRÜFUNGEN AN DER MASCHINE")[2])
 
 
+@pytest.mark.parametrize("name", some(GERMAN))
+def test_the_notes_of_the_tests_at_the_machine_are_german(name: str) -> None:
+    file = open_file(EXAMPLES[name]).file
+    words = language_of("de", file.schema.family.family)
+    notes = [words.sentence(note) for test in machine_tests_of(file) for note in test.notes]
+    assert [note for note in notes if re.search(r"\b(the|it|from|within|and|with)\b", note)] == []
+
+
 def test_a_sheet_has_german_places_units_and_remarks() -> None:
     wanted = open_file(EXAMPLES["57c422b-label-press"]).file
     sheet = make_sheet(

@@ -9,7 +9,7 @@ import pytest
 
 from amp_studio.files import ParameterFile, open_file, without_secrets
 from amp_studio.files.example_files import examples_folder
-from amp_studio.formats import open_for_reading
+from amp_studio.formats import import_file, open_for_reading
 from amp_studio.formats.report_pdf import attached_machine
 from amp_studio.report import Contents, print_report, results_paper, write_paper
 
@@ -94,6 +94,14 @@ def test_a_script_without_a_font_is_reported_and_printed_all_the_same(
     print_report(mill, tmp_path / "odd.pdf", SHORT, notify=notes.append)
     assert (tmp_path / "odd.pdf").read_bytes().startswith(b"%PDF")
     assert notes == ["The PDF does not keep to PDF/A and PDF/UA: no font here has the character \u2d30"]
+
+
+def test_the_machine_of_a_report_is_without_its_secrets_and_the_import_names_them(printed: Path) -> None:
+    notes: list[str] = []
+    file = import_file(printed, notify=notes.append)
+    assert notes == ["A report is without secret values: Characters of the Password"]
+    missing = set(open_file(MILL).file.values) - set(file.values)
+    assert {parameter for parameter, _ in missing} == {"password.character"}
 
 
 @pytest.mark.parametrize(

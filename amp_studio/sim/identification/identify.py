@@ -297,7 +297,7 @@ _WORDS = {
     "stribeck_speed": "Stribeck speed",
     "time_shift": "time shift, torque to motion",
     "torque_forward": "dry friction and gravity, +",
-    "torque_backward": "dry friction and gravity, -",
+    "torque_backward": "dry friction and gravity, −",
 }
 MACHINE = (*list(_WORDS)[:10],)
 """Figures that are settings of the machine, in the order in which they are written."""
