@@ -46,6 +46,7 @@ import gc, sys, weakref
 from pathlib import Path
 from PySide6.QtCore import QEvent, QTimer
 from PySide6.QtWidgets import QApplication
+from amp_studio.ui.actions import pages
 from amp_studio.ui.base import garbage
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.main_window import MainWindow
@@ -53,17 +54,21 @@ application = QApplication([])
 window = MainWindow()
 window.open_first(Path(sys.argv[1]))
 assert gc.get_freeze_count() > 10_000
-left = weakref.ref(window.workspace.validator)
+for turn in (pages.open_check, pages.open_program, pages.open_tuning):
+    turn(window)
+left = [weakref.ref(each) for each in (window.workspace.validator, *window.page.pages.values())]
+assert len(left) == 4
 window.visited.menu.aboutToShow.emit()
 assert window.visited.menu.actions()[0].isEnabled(), "the menu of places has one of this file"
 window.close_page(window.page)
+Task.end_all()
 QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
 rest = application.findChild(QTimer, garbage._REST)
 assert rest.isActive() and rest.isSingleShot()
 garbage.set_apart(window)
 assert rest.interval() > garbage.REST_MS, "a file was opened: its first seconds are left in peace"
 garbage.look()
-assert left() is None
+assert [each() for each in left] == [None] * 4
 assert gc.get_freeze_count() > 10_000, "what is left is set apart again"
 """
 
