@@ -16,6 +16,7 @@ from amp_studio.report.apart import made
 from amp_studio.report.build import build_report
 from amp_studio.report.output.page import render_html
 from amp_studio.report.templating import templates as templating
+from amp_studio.report.templating.folder_copy import copied_template
 from amp_studio.report.templating.templates import TEMPLATES
 from amp_studio.report.write import FORMATS
 from tests.campaigns import CAMPAIGN
@@ -346,3 +347,20 @@ def test_apart_a_template_that_works_without_end_is_ended(
     )
     assert "works without end" in note
     assert content.startswith(b"%PDF")
+
+
+def test_a_folder_that_may_not_be_looked_into_is_a_mistake_of_the_template_and_ends_no_report(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(path: Path) -> None:
+        raise PermissionError(13, "Permission denied", str(path))
+
+    monkeypatch.setattr(Path, "is_file", refuse)
+    monkeypatch.setattr(Path, "iterdir", refuse)
+    own = templating.own_template(tmp_path, "report.typ.j2")
+    assert own is not None
+    with (
+        pytest.raises(templating.TemplateMistakeError, match=r"cannot be read: Permission denied"),
+        copied_template(own),
+    ):
+        pass

@@ -66,7 +66,10 @@ def own_template(folder: Path | None, name: str) -> Path | None:
     none.
     """
     path = folder / OWN / name if folder is not None else None
-    return path if path is not None and path.is_file() else None
+    try:
+        return path if path is not None and path.is_file() else None
+    except PermissionError:  # whoever reads it notes why, and goes on without it
+        return path
 
 
 def filled(
