@@ -11,7 +11,9 @@ from typing import Any
 import pytest
 
 import amp_studio as amp
+from amp_studio import given, sim, validate
 from amp_studio.files.example_files import examples
+from amp_studio.transfer import client
 
 PAGE = Path(__file__).parents[1] / "docs" / "library.md"
 EXAMPLES = re.findall(r"```python\n(.*?)```", PAGE.read_text("utf-8"), re.DOTALL)
@@ -170,3 +172,10 @@ def test_the_package_runs_as_a_program() -> None:
         [sys.executable, "-m", "amp_studio", "--version"], capture_output=True, text=True, check=True
     )
     assert done.stdout.split() == ["amp-studio", amp.__version__]
+
+
+def test_a_checked_type_has_the_name_by_which_annotations_know_it() -> None:
+    plain = {"str", "bytes", "Path", "None"}
+    for name in given._CHECKED - plain:
+        found = [getattr(room, name, None) for room in (amp, sim, client, validate)]
+        assert {kind.__name__ for kind in found if kind is not None} == {name}
