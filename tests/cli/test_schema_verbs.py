@@ -56,7 +56,8 @@ def test_a_definition_has_the_promised_shape(definitions) -> None:
 
 def test_a_definition_has_what_the_manual_warns_of_and_what_a_bare_number_is(definitions) -> None:
     sign, teeth = definitions["servo.position_sign"], definitions["servo.position_gear_teeth"]
-    assert sign["danger"] == [{"says": "A wrong sign can make the axis run away.", "page": "7-36"}]
+    danger = {"says": "A wrong sign can make the axis run away.", "page": "7-36"}
+    assert sign["danger"] == [{**danger, "brief": "the axis can run away"}]
     assert (teeth["bare"], "danger" in teeth) == ("teeth", False)
 
 
