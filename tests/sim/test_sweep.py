@@ -1,6 +1,8 @@
 """A sweep has the figures of single runs, whatever computes it, and goes on where it was stopped."""
 
 import json
+import os
+import signal
 import socket
 import subprocess
 import sys
@@ -197,6 +199,24 @@ def test_a_cluster_computes_what_this_computer_does() -> None:
     file = file_of("num-1060-mill/MILL_1060.amp")
     with distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as cluster:
         there = sweep(file, "0", given, way=SweepWay(scheduler=cluster.scheduler_address))
+    here = sweep(file, "0", given, way=ALONE)
+    assert np.array_equal(there.columns["Ms"], here.columns["Ms"])
+
+
+def test_a_cluster_whose_only_worker_is_killed_goes_on_when_it_is_there_again() -> None:
+    """The job was data that the worker alone had: what was left could not be computed."""
+    distributed = pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
+    given = {"sweep.over": "model.delay=1:2:2000", "sweep.figure": "Ms"}
+    file, killed = file_of("num-1060-mill/MILL_1060.amp"), []
+    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as cluster:
+
+        def kill(_stage: str, done: int, _total: int) -> None:
+            if done and not killed:
+                killed.append(cluster.workers[0].process.pid)
+                os.kill(killed[0], signal.SIGKILL)
+
+        there = sweep(file, "0", given, way=SweepWay(scheduler=cluster.scheduler_address, progress=kill))
+    assert killed
     here = sweep(file, "0", given, way=ALONE)
     assert np.array_equal(there.columns["Ms"], here.columns["Ms"])
 

@@ -9,6 +9,7 @@ chunks go to a Dask cluster (the extra ``cluster``), whose workers have the same
 from __future__ import annotations
 
 import base64
+import copy
 import hashlib
 import importlib
 import json
@@ -207,8 +208,9 @@ def _on_cluster(
         with client, client.as_current():
             if not client.scheduler_info()["workers"]:
                 raise SimulationError(f"The cluster at {scheduler} has no workers")
-            # The job goes to each worker once, not with each part.
-            shared = client.scatter(job, broadcast=True)
+            # The job goes to each worker once, not with each part; as a task, as data that was scattered is
+            # lost with the worker that has it.
+            shared = client.submit(copy.copy, job, pure=False)
             futures = {
                 client.submit(figures_of, shared, points[start : start + AT_ONCE], pure=False): start
                 for start in starts
