@@ -78,13 +78,16 @@ def _complete(words: Sequence[str]) -> int:
 
 def _run(arguments: Sequence[str], replaced: list[Target]) -> int:
     """Run one verb; ``replaced`` takes the files that it may replace."""
+    code: int | None = None
     try:
         code = _call(arguments, replaced)
         if was_asked():
             raise KeyboardInterrupt
         flush_results()
     except BrokenPipeError:  # a reader that has enough is no fault to be shown
-        return _refuse("nobody reads the results any more", replaced, quiet=True)
+        state = _refuse("nobody reads the results any more", replaced, quiet=True)
+        # What has been done before is as complete as it was.
+        return code if code is not None and state == CHANGED else state
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # a panic of the rule engine is no Exception

@@ -46,7 +46,8 @@ def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
     from .window.settings import UserSettings
 
     arguments = sys.argv[1:] if arguments is None else arguments
-    application = QApplication.instance() or QApplication(["amp-studio", *arguments])
+    # Without the files: a name that is no text where the locale is C ends Qt with a segmentation fault.
+    application = QApplication.instance() or QApplication(["amp-studio"])
     application.setApplicationName("AMP Studio")
     application.setOrganizationName("AMP Studio")
     speak(UserSettings().language())

@@ -48,12 +48,13 @@ def test_a_value_that_is_in_the_file_is_no_refusal_where_the_result_cannot_be_pr
     )
 
 
-def test_a_value_that_is_in_the_file_is_no_refusal_where_the_result_is_not_read(
-    mill: Path, unread: int
-) -> None:
+def test_what_is_done_is_a_success_where_its_reader_has_gone(mill: Path, tmp_path: Path, unread: int) -> None:
+    """As an exchange with a control is."""
     code, message = ended("set", mill, "1300=1.5", stdout=unread)
-    assert (code, b"home.calibration@1: 1.5 mm" in mill.read_bytes()) == (3, True)
+    assert (code, b"home.calibration@1: 1.5 mm" in mill.read_bytes()) == (0, True)
     assert message.startswith(f"{NOT_READ}; {mill} has been changed")
+    assert ended("report", mill, "-o", tmp_path / "mill.txt", stdout=unread)[0] == 0
+    assert ended("import", tmp_path / "mill.txt", "-o", tmp_path / "new.amp", stdout=unread)[0] == 2
 
 
 def test_a_new_file_is_shown_to_be_there(mill: Path, tmp_path: Path, full: int) -> None:

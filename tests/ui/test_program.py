@@ -41,6 +41,18 @@ window.menus['view.motion'].trigger()
 window.close()
 """
 
+OPENED = """
+import sys
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QApplication
+from amp_studio.ui import main
+from amp_studio.ui.main_window import MainWindow
+def show(window):
+    QTimer.singleShot(0, QApplication.quit)
+MainWindow.show = show
+main(sys.argv[1:])
+"""
+
 CLOSED = """
 import gc, sys, weakref
 from pathlib import Path
@@ -313,3 +325,12 @@ def test_a_closed_file_leaves_nothing_behind_once_the_window_rests(path: Path) -
         [sys.executable, "-c", CLOSED, str(path)], capture_output=True, text=True, timeout=60, check=False
     )
     assert (done.returncode, done.stdout) == (0, ""), done.stderr
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names are bytes on Linux")
+def test_a_name_that_is_no_text_of_the_locale_ends_nothing(path: Path, tmp_path: Path) -> None:
+    """It was handed to Qt, which ended with a segmentation fault."""
+    odd = tmp_path / os.fsdecode(b"m\xfcl.amp")
+    odd.write_bytes(path.read_bytes())
+    done = subprocess.run([sys.executable, "-c", OPENED, odd], capture_output=True, check=False)
+    assert (done.returncode, b"Traceback" in done.stderr) == (0, False)

@@ -41,9 +41,8 @@ def run(options: Options) -> int:
     from amp_studio import import_text
     from amp_studio.cli.accounts import print_account
     from amp_studio.cli.out_of_range import settle_values
-    from amp_studio.formats import FamilyNotGivenError
+    from amp_studio.formats import FamilyNotGivenError, FormatError
     from amp_studio.report import counted
-    from amp_studio.schema import UnknownFamilyError
 
     check_new(options.output, "an import", options.text)
     notes: list[str] = []
@@ -59,9 +58,7 @@ def run(options: Options) -> int:
         )
     except FamilyNotGivenError as error:
         raise UsageError(f"{options.text}: {error} (name it with --family)") from None
-    except UnknownFamilyError as error:
-        raise UsageError(str(error)) from None
-    except ValueError as error:
+    except FormatError as error:
         raise UsageError(f"{options.text}: {error}") from None
     for message in notes:
         print_remark(message)
