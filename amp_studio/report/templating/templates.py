@@ -68,7 +68,7 @@ def own_template(folder: Path | None, name: str) -> Path | None:
     path = folder / OWN / name if folder is not None else None
     try:
         return path if path is not None and path.is_file() else None
-    except PermissionError:  # whoever reads it notes why, and goes on without it
+    except PermissionError:  # the reader of it notes why, and goes on without it
         return path
 
 
