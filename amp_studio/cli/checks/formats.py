@@ -108,7 +108,7 @@ class CheckFormat:
         return one.printed
 
     def all(self, results: Sequence[CheckResult]) -> str:
-        """Return one document of all files."""
+        """Return one document of all files; only a format that needs all has it."""
         raise NotImplementedError
 
     def in_ascii(self, document: str) -> str:

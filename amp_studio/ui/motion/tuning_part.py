@@ -29,6 +29,7 @@ class TuningPart(QWidget):
         self._refresh()
 
     def _refresh(self, *_: object) -> None:
+        """Show the target; each part has its own. ABCMeta cannot be the metaclass of a QWidget."""
         raise NotImplementedError
 
     def _button(self, text: str, act: Callable[[], object]) -> QPushButton:
