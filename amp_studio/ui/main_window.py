@@ -229,6 +229,7 @@ class MainWindow(PartsWindow):
                 "undo": stack is not None and stack.canUndo(),
                 "redo": stack is not None and stack.canRedo(),
                 "emulated": running,
+                "emulated estop": self.control.emulated.has_estop,
                 "no emulated": workspace is not None and not running,
             }
         )

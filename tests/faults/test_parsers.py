@@ -141,7 +141,7 @@ READERS = {
     "sim/one_thread.py": "",  # sets a variable that is not there, reads none
     "sim/engine/compiled.py": "",  # one switch of numba, compared with "0"
     "sim/variations/worker.py": "",  # a job, points and figures between two processes of the program itself
-    "families/num/emulated/manual_keys.py": "",  # what the emulated control itself has written
+    "families/num/emulated/control.py": "",  # what the emulated control itself has written
     "families/ninepc/emulated/machine_keys.py": "odd commands at an emulated control",
     "find/synonyms.py": "",  # a file of the program itself
     "schema/expression.py": "",  # its own names

@@ -78,6 +78,7 @@ def test_an_action_is_able_when_what_it_needs_is_there(
         "undo": False,
         "redo": False,
         "emulated": False,
+        "emulated estop": False,
         "no emulated": state != "nothing",
         "units": state != "nothing",
         "project": False,

@@ -13,7 +13,10 @@ REGISTRATION = Registration(
         "peripheral-check": "amp_studio.families.num.lines.driver:CheckingPeripheralDriver.at",
     },
     contents={"NUM table 1": "amp_studio.families.num.lines.content:NumTableContent"},
-    emulators={"peripheral": "amp_studio.families.num.emulated.control:emulate_peripheral"},
+    emulators={
+        "house": "amp_studio.families.num.emulated.gateway:emulate",
+        "peripheral": "amp_studio.families.num.emulated.control:emulate_peripheral",
+    },
     sheet="amp_studio.families.num.sheet:KEYING",
     compensation="amp_studio.families.num.compensation:COMPENSATION",
     law="amp_studio.families.num.law:LAW",

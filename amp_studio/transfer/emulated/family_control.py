@@ -85,6 +85,14 @@ def emulators_of(family: str) -> dict[str, str]:
     )
 
 
+def protocol_of_machine(family: str) -> str:
+    """Return the protocol whose emulated control has the machine of the family behind it; "" for that of a
+    gateway, which has parameters alone where its family brings nothing to it.
+    """
+    name = next(iter(registration_of(family).emulators), HOUSE)
+    return "" if name == HOUSE else name
+
+
 def emulate_house(listen: Endpoint, options: EmulatedOptions) -> int:
     """Run an emulated control in the house protocol; it begins with the family's printed defaults."""
     if options.hardware:

@@ -127,7 +127,12 @@ class ControlDesk(Translated):
             self.window.enable()
 
     def _ready(self, address: str) -> None:
-        self.window.show_status(self.tr("Emulated control at {address}, in E-stop").format(address=address))
+        text = (
+            self.tr("Emulated control at {address}, in E-stop")
+            if self.emulated.has_estop
+            else self.tr("Emulated control at {address}")
+        )
+        self.window.show_status(text.format(address=address))
         if self.is_shown:
             self.use(address)
         elif self.window.workspace is not None:

@@ -339,7 +339,7 @@ def _control() -> Menu[PartsWindow]:
                 "control.estop",
                 tr("Emulated Control in &E-Stop"),
                 lambda w: w.control.switch_estop(),
-                needs="emulated",
+                needs="emulated estop",
                 is_on=lambda _: None,
             ),
             Action(

@@ -38,9 +38,17 @@ class EmulatedControl(QObject):
         """Whether the process is running."""
         return self._process.state() != QProcess.ProcessState.NotRunning
 
+    @property
+    def has_estop(self) -> bool:
+        """Whether it is in E-stop or not: that of a gateway, which every exchange can ask for."""
+        return self.is_running and "protocol=" not in self.address
+
     def start(self, family: str, machine: str) -> None:
         """Start it; ``ready`` gives the address. Its memory is that of the last time it was stopped."""
+        from amp_studio.transfer.emulated import protocol_of_machine
+
         self._stopping, self.family = False, family
+        own = protocol_of_machine(family)
         state = Path(self._folder.path()) / f"{family}-{machine}"
         arguments = [
             "-m",
@@ -48,7 +56,7 @@ class EmulatedControl(QObject):
             "emulate",
             family,
             "--listen",
-            "tcp://127.0.0.1:0",
+            f"tcp://127.0.0.1:0?protocol={own}" if own else "tcp://127.0.0.1:0",
             "--screen",
             "tcp://127.0.0.1:0",
             "--state",

@@ -17,7 +17,18 @@ W = TypeVar("W")
 """The window whose parts an action may use."""
 
 Needs = Literal[
-    "", "file", "edit", "axes", "project", "units", "undo", "redo", "emulated", "no emulated", "seen"
+    "",
+    "file",
+    "edit",
+    "axes",
+    "project",
+    "units",
+    "undo",
+    "redo",
+    "emulated",
+    "emulated estop",
+    "no emulated",
+    "seen",
 ]
 """What has to be there: nothing, an open file, the right to change it, axes as well, a project, several
 systems of units, a step to undo or redo, an emulated control that runs, a file and none that runs, the values

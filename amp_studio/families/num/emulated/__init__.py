@@ -1,1 +1,1 @@
-"""An emulated NUM control that loads, unloads and verifies its parameter table over a serial line."""
+"""An emulated NUM control: behind a gateway, or with its parameter table on a serial line."""

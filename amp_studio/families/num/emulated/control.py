@@ -9,6 +9,8 @@ from __future__ import annotations
 import re
 from typing import Literal, cast
 
+from amp_studio.families.num.lines.content import KIND, NumTableContent
+from amp_studio.files import ParameterFile
 from amp_studio.transfer import ControlStatus
 from amp_studio.transfer.emulated import DeviceSetup, EmulatedOptions, serve_device
 from amp_studio.transfer.links import Endpoint, Parity
@@ -40,7 +42,7 @@ class NumControl:
     def __init__(self, setup: DeviceSetup) -> None:
         self._say = setup.say
         self._parameters = ParameterMemory(setup.memory, delivered_table(setup.family))
-        self._keys = NumKeys(self._parameters)
+        self._keys = NumKeys(lambda: b"".join(self._parameters.lines()), _file_of)
         self._doing: Doing = "menu"
         self._job: Job = "load"
         self._parity: Parity = "even"
@@ -317,6 +319,11 @@ class NumControl:
             self._out.clear()
         if not silent:
             self._say(MENU)
+
+
+def _file_of(content: bytes) -> ParameterFile:
+    """Return what the control has unloaded as a file; raises ImageError."""
+    return NumTableContent().decode(f"{KIND}\n".encode() + content + bytes((XOFF,)))
 
 
 def emulate_peripheral(place: Endpoint, options: EmulatedOptions) -> int:

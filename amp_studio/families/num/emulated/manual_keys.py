@@ -2,25 +2,21 @@
 and the position page (chapters 6 and 7).
 
 Commands are keys: ``jog X+ slow`` goes on until ``release``, ``homing X`` the homing mode with the key of the
-direction of P15, ``position`` the axis page. The peripheral line carries parameters alone (chapter 13):
+direction of P15, ``position`` the axis page. The lines carry parameters alone (chapter 13):
 what the axes do is on the screen (``emulate --screen``).
 """
 
 from __future__ import annotations
 
 import contextlib
+from collections.abc import Callable
 
 from amp_studio.families.num.law import LAW
-from amp_studio.families.num.lines.content import KIND, NumTableContent
 from amp_studio.files import ParameterFile
 from amp_studio.sim import FileMachine, SimulationError, bind_axis
 from amp_studio.transfer import ControlStatus, ImageError
 from amp_studio.transfer.emulated import screen_status
 
-from .parameter_memory import ParameterMemory
-
-XOFF = b"\x13"
-"""End of a table as the control unloads it (page 13-10)."""
 VERBS = ("jog", "release", "homing", "position", "fault")
 
 
@@ -29,10 +25,12 @@ class NumKeys:
 
     words = "jog X+ [slow|normal|fast|reduced], release, homing X, position, fault drive|feedback X"
 
-    def __init__(self, parameters: ParameterMemory) -> None:
-        self._parameters = parameters
+    def __init__(self, content: Callable[[], bytes], read: Callable[[bytes], ParameterFile]) -> None:
+        """``content`` gives the parameters that the control works with, ``read`` makes a file of them."""
+        self._now, self._read = content, read
         self._machine = FileMachine(LAW, bind_axis)
         self._content = b""
+        self._was_pressed = False
 
     def advance(self, duration: float) -> None:
         """Let time pass, s."""
@@ -67,6 +65,14 @@ class NumKeys:
             raise ValueError(f"jog takes an axis with its direction: {self.words}")
         return self._machine.jog(key[:-1], 1.0 if key[-1] == "+" else -1.0, speed.strip())
 
+    def follow_estop(self, is_pressed: bool) -> None:
+        """Take the drives away, or give them back and forget what has stopped them."""
+        if is_pressed:
+            self._machine.switch_off()
+        elif self._was_pressed:
+            self._machine.reset()
+        self._was_pressed = is_pressed
+
     def screen(self, state: str) -> ControlStatus:
         """Return the axis page: every axis of the parameters, with what has stopped it."""
         with contextlib.suppress(ValueError, SimulationError):  # a table that makes no machine moves nothing
@@ -76,14 +82,10 @@ class NumKeys:
 
     def _load_parameters(self) -> None:
         """Have the machine be that of the parameters, at rest."""
-        content = b"".join(self._parameters.lines())
+        content = self._now()
         if content != self._content and not self._machine.is_busy:
-            self._machine.take(_file_of(content))
+            try:
+                self._machine.take(self._read(content))
+            except ImageError as error:
+                raise ValueError(f"the parameters make no machine: {error}") from None
             self._content = content
-
-
-def _file_of(content: bytes) -> ParameterFile:
-    try:
-        return NumTableContent().decode(f"{KIND}\n".encode() + content + XOFF)
-    except ImageError as error:
-        raise ValueError(f"the parameters make no machine: {error}") from None
