@@ -5,12 +5,13 @@ with the control's own words.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Literal
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import axis_name
+from amp_studio.schema import Address, axis_name
 
 from .binding import bind_axis
 from .errors import SimulationError
@@ -27,6 +28,10 @@ NEAR_GRID = (20.0, 80.0)
 """% of a turn between switch and marker that is sure (Syntec 2.2)."""
 WORSE = ("not possible", "good", "doubtful", "bad")
 ONE_END = "Only one end of the travel has a limit"
+ASKED = {"home": "homing", "jog": "jogging", "travel": "travel"}
+"""Scenario -> the part of an axis that reads its parameters."""
+RATES = ("feedrate", "acceleration", "linear_acceleration")
+LIMITS = ("torque_limit_positive", "torque_limit_negative")
 EVERY = "every"
 """Name of the one check of an axis that no scenario can move."""
 PROGRAMMED = "ASSUMED: {0}; the file does not give what a program does."
@@ -78,14 +83,15 @@ def _unmade(file: ParameterFile, law: Law, axis: str) -> MotionCheck | None:
     try:
         bind_axis(file, law, axis)
     except SimulationError as error:
-        return _not_possible(file, EVERY, axis, error)
+        return _not_possible(file, law, EVERY, axis, error)
     return None
 
 
 def _not_possible(
-    file: ParameterFile, scenario: str, axis: str | None, error: SimulationError
+    file: ParameterFile, law: Law, scenario: str, axis: str | None, error: SimulationError
 ) -> MotionCheck:
-    read = (error.parameter,) if error.parameter in file.schema.parameters else ()
+    named = (error.parameter,) if error.parameter in file.schema.parameters else ()
+    read = named or (_asked(file, law, scenario, axis) if axis and scenario in ASKED else ())
     return MotionCheck(
         scenario, axis or "", _letter_of(file, axis), "not possible", why=error.what, params=read
     )
@@ -111,7 +117,7 @@ def _checked(file: ParameterFile, law: Law, scenario: Scenario, axis: str | None
     try:
         runs = _ends(file, scenario, axis)
     except SimulationError as error:
-        return _not_possible(file, scenario.name, axis, error)
+        return _not_possible(file, law, scenario.name, axis, error)
     # The worse end of the travel decides.
     found = [(*_verdict(trace), trace) for trace, _, _ in runs]
     verdict, why, decided = max(found, key=lambda each: WORSE.index(each[0]))
@@ -126,7 +132,7 @@ def _checked(file: ParameterFile, law: Law, scenario: Scenario, axis: str | None
         figures |= {name + end: trace.result[name] for name in scenario.checked if name in trace.result}
         alarms += [each for each in trace.alarms if each not in alarms]
         notes |= dict.fromkeys((*assumed, *trace.assumptions))
-    params = _parameters(file, law, runs[0][0]) if verdict != "good" and instance else ()
+    params = _parameters(file, law, decided) if verdict != "good" and instance else ()
     return MotionCheck(
         scenario.name, instance, letter, verdict, figures, tuple(alarms), why, params, tuple(notes), decided
     )
@@ -207,12 +213,20 @@ def _of_loops(file: ParameterFile, law: Law, trace: Trace) -> tuple[Verdict, str
 
 def _parameters(file: ParameterFile, law: Law, trace: Trace) -> tuple[str, ...]:
     """Return the parameters behind the figures of a scenario that is not good."""
-    sources = bind_axis(file, law, trace.axis).sources
-    by_scenario: dict[str, tuple[str, ...]] = {
-        "home": (),
-        "travel": ("feedrate", "acceleration"),
-        "jog": ("feedrate", "acceleration"),
-    }
-    wanted = by_scenario.get(trace.scenario, ("position_gain", "velocity_gain", "feedrate", "acceleration"))
-    parameters = [sources[name].parameter for name in wanted if name in sources]
-    return tuple(dict.fromkeys(parameters))
+    if trace.scenario == "home":
+        return _asked(file, law, "home", trace.axis)
+    bound = bind_axis(file, law, trace.axis)
+    # An axis that does not stop has a loop that is not stable, or too little torque for its speed.
+    wanted = (*bound.gains, *RATES, *(LIMITS if trace.scenario == "travel" else ()))
+    return tuple(dict.fromkeys(bound.sources[name].parameter for name in wanted if name in bound.sources))
+
+
+def _asked(file: ParameterFile, law: Law, scenario: str, axis: str) -> tuple[str, ...]:
+    """Return the parameters that homing, jog or travel of an axis are made of, as they are read."""
+    read: list[Address] = []
+    part = getattr(bind_axis(file, law, axis, on_read=read.append), ASKED[scenario])
+    read.clear()
+    with suppress(SimulationError):
+        if part is not None:
+            part()
+    return tuple(dict.fromkeys(parameter for parameter, _ in read))

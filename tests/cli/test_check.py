@@ -80,3 +80,13 @@ def test_validate_adds_the_motion_in_words(router: Path, capsys: pytest.CaptureF
     assert run(["validate", str(router), "--motion"]) == 1, "what depends on homing is wrong now"
     assert "10 good, 0 doubtful, 0 bad" in capsys.readouterr().out
     assert run(["validate", str(router), "--motion", "--format", "sarif"]) == 2
+
+
+def test_what_is_not_good_has_the_numbers_and_names_to_look_at(
+    router: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("amp_studio.sim.motion_check.SCENARIOS", {"home": SCENARIOS["home"]})
+    mill = Path(shutil.copy(EXAMPLES / "mill-1394" / "MILL_1394.amp", router.parent))
+    assert run(["set", str(mill), "1010=minus"]) == 0
+    assert run(["check", str(mill), "--axis", "X"]) == 0
+    assert "1010 G28 Direction to Home, 1011 G28 Home Speed" in capsys.readouterr().out

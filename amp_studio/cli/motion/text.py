@@ -43,14 +43,20 @@ def _number(file: ParameterFile, parameter: str, axis: str) -> str:
     return named_parameter(file, parameter, axis)
 
 
+def _called(file: ParameterFile, parameter: str, axis: str) -> str:
+    """Return the number of a parameter and its name."""
+    number, name = _number(file, parameter, axis), file.schema.parameters[parameter].name
+    return name if number == parameter else f"{number} {name}"
+
+
 def counts(checks: Sequence[MotionCheck]) -> dict[str, int]:
     """Return verdict -> how many there are."""
     verdicts = ("good", "doubtful", "bad", "not possible")
     return {verdict: sum(check.verdict == verdict for check in checks) for verdict in verdicts}
 
 
-def text(checks: Sequence[MotionCheck]) -> str:
-    """Return the checks as a person reads them."""
+def text(file: ParameterFile, checks: Sequence[MotionCheck]) -> str:
+    """Return the checks as a person reads them, with the parameters to look at where one is not good."""
     lines = []
     for check in checks:
         figures = ", ".join(figure_text(name, value, unit) for name, (value, unit) in check.figures.items())
@@ -60,6 +66,9 @@ def text(checks: Sequence[MotionCheck]) -> str:
         lines += [
             f"{'':13}{alarm.code}: {alarm.message}" for alarm in check.alarms if alarm.message != check.why
         ]
+        if check.params:
+            named = ", ".join(_called(file, parameter, check.axis) for parameter in check.params)
+            lines.append(f"{'':13}look at {named}")
     return "\n".join((*lines, ", ".join(f"{count} {verdict}" for verdict, count in counts(checks).items())))
 
 

@@ -298,7 +298,7 @@ def usual_around(law: AxisLaw, homing: Homing, ramp: Ramp) -> Around:
     far enough to reach the homing speed.
     """
     sign = math.copysign(1.0, homing.approach or homing.leave or 1.0)
-    edge = sign * reach(law, homing.approach, ramp) if homing.approach else 0.0
+    edge = sign * switch_ahead(law, homing, ramp) if homing.approach else 0.0
     marker = edge + math.copysign(0.25 * homing.turn, homing.leave or 1.0)
     return Around(switch=edge if homing.approach else math.inf, marker=marker, scale=5.3 * homing.turn)
 
@@ -319,6 +319,14 @@ def reach(axis: AxisLaw, velocity: float, ramp: Ramp) -> float:
     """Return a distance in u over which the axis reaches a velocity and follows it."""
     speed = abs(velocity)
     return rounded_up(speed * (time_to_speed(ramp, speed) + 3.0 / axis.position_rate + 0.2), 2)
+
+
+def switch_ahead(axis: AxisLaw, homing: Homing, ramp: Ramp) -> float:
+    """Return how far the switch is where nothing is known of it, u: where the axis has its homing speed, but
+    in the middle of the way at most, where the control searches no farther than that.
+    """
+    none = homing.failures.get("switch")
+    return min(reach(axis, homing.approach, ramp), 0.5 * none.reach if none else math.inf)
 
 
 class SimulatedMachine:

@@ -13,7 +13,7 @@ import numpy as np
 from amp_studio.sim.axis.homing import Homed, home_axis
 from amp_studio.sim.axis.motion import Motion
 from amp_studio.sim.axis.moving_axis import MovingAxis
-from amp_studio.sim.axis.simulated_machine import reach
+from amp_studio.sim.axis.simulated_machine import switch_ahead
 from amp_studio.sim.command.events import Around, Homing
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, Ramp
@@ -29,7 +29,8 @@ SETTINGS = {
         "plus or minus, where no printed parameter gives the direction; default: that of the file, or plus"
     ),
     "move.switch": (
-        "distance from the start to the home switch (mm or deg); default: enough to reach the homing speed"
+        "distance from the start to the home switch (mm or deg); default: enough to reach the homing speed,"
+        " at most half of the way that is searched"
     ),
     "move.switch_length": "how long the switch stays on (mm or deg); default: to the end of the travel",
     "move.marker": (
@@ -169,7 +170,7 @@ def _around(axis: AxisLaw, homing: Homing, ramp: Ramp, settings: ScenarioSetting
     edge = 0.0
     if homing.approach:
         asked = above_zero(settings, "move.switch")
-        around = replace(around, switch=sign * (asked or reach(axis, homing.approach, ramp)))
+        around = replace(around, switch=sign * (asked or switch_ahead(axis, homing, ramp)))
         edge = around.switch
         leaves_forward = math.copysign(1.0, homing.leave) == sign and not homing.through and not homing.again
         if leaves_forward and length is None:

@@ -75,6 +75,10 @@ def test_homing_is_answered_at_its_end_and_gives_the_machine_its_place(bench: Be
 
 
 def test_a_switch_that_is_too_far_off_is_alarm_9(bench: Bench) -> None:
+    bench.identity_word("$H")
+    bench.after(60.0)
+    bench.identity_word("G91 G0 X-50 Y-50 Z-50")
+    bench.after(60.0)
     for axis in range(3):
         bench.identity_word(f"${130 + axis}=2")  # 1.5 times the travel is searched
     bench.identity_word("$H")

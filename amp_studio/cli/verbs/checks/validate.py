@@ -349,7 +349,7 @@ def _in_motion(machine: MachineParameters, *, as_document: bool) -> tuple[object
         return (
             {"checks": [], "why": error.what} if as_document else f"not checked in motion: {error.what}"
         ), 0
-    found = as_json(machine.file, checks) if as_document else text(checks)
+    found = as_json(machine.file, checks) if as_document else text(machine.file, checks)
     return found, sum(check.verdict == "bad" for check in checks)
 
 

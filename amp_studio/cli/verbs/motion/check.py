@@ -42,5 +42,5 @@ def run(options: Options) -> int:
     if options.json:
         print_json(as_json(file, checks))
     else:
-        print(text(checks))
+        print(text(file, checks))
     return int(any(check.verdict == "bad" for check in checks))
