@@ -331,24 +331,29 @@ class Stage:
         control.leave()
 
     def live(self) -> None:
-        """What an emulated control that drives an axis shows of itself."""
-        self.window.open_first(self.path("grblhal-router"))
-        control = self.window.control
+        """What emulated controls show of themselves beside the file: values that differ, one turned, a fault."""
+        for folder, fault in (("57c422b-label-press", "fault drive X"), ("grblhal-router", "alarm 9")):
+            self._live_of(folder, fault)
+        self.window.open_first(self.path("mill-1394"))
+
+    def _live_of(self, folder: str, fault: str) -> None:
+        window, control = self.window, self.window.control
+        window.open_first(self.path(folder))
         control.start_emulated()
         settle(lambda: control.emulated.address)
-        control.live()
-        page = control._live
+        window.menus["control.live"].trigger()
+        page = window.page.pages["live"]
+        settle(lambda: page.is_live and page.panel.readings.isEnabled())
         ENDLESS.add(page.readings._task)
-        settle(lambda: page._axes and len(page._axes["X"].signals["position"]) > 10)
-        self.take("15-live", page)
-        control.emulated.send("alarm 9")
-        settle(page.faults.isVisible)
-        self.take("15-live-fault", page)
-        page.close()
+        page.frame.step(1)
+        self.take(f"15-live-{folder}", window, SIZES)
+        control.emulated.send(fault)
+        settle(page.panel.faults.isVisible)
+        self.take(f"15-live-{folder}-fault", window, SIZES)
+        window.menus["control.live"].trigger()
         control.emulated.stop(wait=True)
         settle(lambda: not Task.running)
         ENDLESS.clear()
-        self.window.open_first(self.path("mill-1394"))
 
     def motion(self) -> None:
         """A simulated movement."""

@@ -25,6 +25,8 @@ class AxisStatus:
     """What it is doing, in the words of the manual."""
     known_states: tuple[str, ...] = ()
     """Every state that the control shows of an axis, on or off; those that are off are shown too."""
+    raw: str = ""
+    """The words of the control that this was read from; "" where they say no more."""
 
     def signals(self) -> dict[str, tuple[float | None, str]]:
         """Return each figure that can be recorded over the time with its unit; None where it is not shown."""
@@ -64,6 +66,8 @@ class ControlStatus:
     """Further values by name: feed, spindle, inputs."""
     assumptions: tuple[str, ...] = ()
     """What of this is inferred or assumed."""
+    raw: str = ""
+    """The words of the control that this was read from; "" where they say no more."""
 
 
 @runtime_checkable

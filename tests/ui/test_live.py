@@ -1,21 +1,29 @@
-"""The live page: figures, faults with cause and cure, and what ends it."""
+"""The page Live: what a control states of itself, beside the file, and a single value that is written."""
 
 import threading
 from collections.abc import Callable
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from amp_studio.pictures import LiveLimits
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address, Value
 from amp_studio.transfer import AxisStatus, ControlStatus, known_fault
 from amp_studio.transfer.errors import NoConnectionError
 from amp_studio.ui.control import readings as live
-from amp_studio.ui.control.live import LivePage
 from amp_studio.ui.control.readings import StatusReadings
+from amp_studio.ui.live.page import LiveView
+from amp_studio.ui.live.rows import CONTROL, MIND, NAME
+from amp_studio.ui.main_window import MainWindow
 
-from .conftest import WAIT_MS
+from .conftest import WAIT_MS, User
+
+GAIN, ERROR = ("gain.velocity", "X"), ("setup.max_position_error", "X")
 
 
 class StoppedReadings(QObject):
@@ -32,8 +40,37 @@ class StoppedReadings(QObject):
         self.is_running = True
 
     def stop(self) -> None:
-        self.is_running = False
-        self.failed.emit(None)
+        if self.is_running:
+            self.is_running = False
+            self.failed.emit(None)
+
+
+class StoppedSession(QObject):
+    """A control that contains a file, and takes single values."""
+
+    changed = Signal()
+    value_written = Signal(object)
+
+    def __init__(self, file: ParameterFile, *, takes_one: bool = True) -> None:
+        super().__init__()
+        self.address, self.family = "tcp://bench:1", file.schema.family.family
+        self.content = file
+        self.seen = SimpleNamespace(takes_one=takes_one)
+        self.phase, self.is_busy, self.error, self.refuses = "ready", False, "", ""
+        self.failure = SimpleNamespace(at_control="old")
+        self.written: list[tuple[Address, Value | None]] = []
+
+    def present(self, _file: ParameterFile) -> ParameterFile:
+        return self.content
+
+    def write_one(self, address: Address, file: ParameterFile, _path: object) -> None:
+        self.phase = "failed" if self.refuses else "done"
+        self.error = self.refuses
+        if not self.refuses:
+            self.written.append((address, file.get(address)))
+            self.content.set(address, file.get(address))
+            self.value_written.emit(address)
+        self.changed.emit()
 
 
 def status(*faults: str, error: float = 2.0) -> ControlStatus:
@@ -46,135 +83,208 @@ def status(*faults: str, error: float = 2.0) -> ControlStatus:
 
 
 @pytest.fixture
-def followed() -> list[str]:
-    """Return the parameters whose links were followed."""
-    return []
+def page(window_with: Callable[..., MainWindow], qtbot: QtBot) -> LiveView:
+    """Return the page of the example press, live, with a control that contains the same file."""
+    return made(window_with("57c422b-label-press"), qtbot)
 
 
-@pytest.fixture
-def page(qtbot: QtBot, followed: list[str]) -> LivePage:
-    displayed = LivePage("tcp://bench:1", "57c422b", followed.append, readings=StoppedReadings())  # type: ignore[arg-type]  # the part that it uses
-    qtbot.addWidget(displayed)
-    displayed.start()
-    return displayed
+def made(window: MainWindow, qtbot: QtBot, *, takes_one: bool = True) -> LiveView:
+    workspace = window.workspace_in_front
+    view = LiveView(workspace)
+    qtbot.addWidget(view)
+    session = StoppedSession(workspace.file.copy(), takes_one=takes_one)
+    view.use(session, "tcp://bench:1", "bench", readings=StoppedReadings())  # type: ignore[arg-type]  # the parts that it uses
+    schema = workspace.file.schema
+    view.show_parameters("Gains", [schema.parameters[each[0]] for each in (GAIN, ERROR)], "X")
+    view.start()
+    view.resize(1300, 700)
+    view.show()
+    return view
 
 
-def cell(page: LivePage, row: int, column: int) -> str:
-    item = page.axes.item(row, column)
+def session_of(page: LiveView) -> StoppedSession:
+    found: Any = page.session
+    assert isinstance(found, StoppedSession)
+    return found
+
+
+def cell(page: LiveView, row: int, column: int) -> str:
+    item = page.rows.item(row, column)
     return item.text() if item else ""
 
 
-def test_a_reading_shows_position_error_speed_and_the_words_of_the_control(page: LivePage) -> None:
+def test_a_reading_shows_position_error_speed_and_the_words_of_the_control(page: LiveView) -> None:
+    assert page.panel.figures["position"].text() == "–"
     page.show_status(status())
-    assert [cell(page, 0, n) for n in range(5)] == [
-        "X",
-        "1000 counts",
-        "2 counts",
-        "50 counts/s",
-        "axis busy, control loop enabled",
-    ]
-    assert cell(page, 1, 2) == "–"
-    assert page.figures.text() == "1000 counts"
-    assert "feed 20" in page.values.text()
-    assert page.toggle.text() == "&Stop"
+    figures = [page.panel.figures[name].text() for name in ("position", "error", "velocity")]
+    assert figures == ["1000", "2", "50"]
+    assert page.panel.units["velocity"].text() == "counts/s"
+    assert page.panel.values.text() == "feed 20"
+    assert "●&nbsp;axis busy" in page.panel.lamps.text()
+    page.axes.buttons["Y"].click()
+    assert page.panel.heading.text() == "Live, Y"
+    assert page.panel.figures["error"].isHidden()
 
 
-def test_states_are_lamps_and_the_axis_is_a_mark_between_its_limits(qtbot: QtBot) -> None:
-    """What the control knows and is not so has an empty lamp; without limits in the file there is no bar."""
-    asked: list[tuple[str, str]] = []
-
-    def limits(axis: str, unit: str) -> LiveLimits:
-        asked.append((axis, unit))
-        return LiveLimits(0.0, 4000.0, 2000.0) if axis == "X" else LiveLimits()
-
-    page = LivePage("tcp://bench:1", "57c422b", print, readings=StoppedReadings(), limits=limits)  # type: ignore[arg-type]  # the parts that it uses
-    qtbot.addWidget(page)
-    known = ("axis busy", "control loop enabled", "home sequence complete")
-    axis = replace(status().axes[0], known_states=known)
-    page.show_status(replace(status(), axes=(axis, status().axes[1])))
-    assert page.lamps.text().split("   ") == [
-        "●\u00a0axis busy",
-        "●\u00a0control loop enabled",
-        "○\u00a0home sequence complete",
-    ]
-    assert (page.bars["position"].share, page.bars["error"].share) == (0.25, 0.5005)
-    assert page.bar_words["error"].text() == "Following error -2000 … 2000 counts"
-    assert not page.bars["position"].isHidden()
-    page.chosen.setCurrentIndex(1)
-    assert page.bars["position"].isHidden()
-    assert asked[0] == ("X", "counts")
-
-
-def test_a_fault_comes_with_cause_cure_parameters_and_page_and_stops_the_readings(
-    page: LivePage, followed: list[str]
+def test_states_that_are_off_have_an_empty_lamp_and_the_error_is_a_mark_between_its_limits(
+    page: LiveView,
 ) -> None:
+    known = ("axis busy", "control loop enabled", "home sequence complete")
+    axis = replace(status().axes[0], known_states=known, raw="R72 = 0085H")
+    page.show_status(replace(status(), axes=(axis,)))
+    assert "○&nbsp;home sequence complete" in page.panel.lamps.text()
+    assert page.panel.raw.text() == "R72 = 0085H"
+    assert page.panel.bars["error"].share == 0.5005
+    assert [label.text() for label in page.panel.bar_words["error"]] == ["−2000", "2000"]
+    assert page.panel.bars["position"].isHidden()
+
+
+def test_a_fault_comes_with_cause_cure_parameters_and_page_and_one_that_is_over_is_history(
+    page: LiveView,
+) -> None:
+    followed: list[str] = []
+    page.linked.connect(followed.append)
     page.show_status(status())
     page.show_status(status("R73 bit 4"))
-    text = page.faults.text()
+    text = page.panel.faults.text()
     assert "R73 bit 4" in text
     assert "Cause:" in text
     assert "(page " in text
-    assert not page.readings.is_running
-    assert page.state.text() == "Stopped: the control has a fault."
-    page.faults.linkActivated.emit("setup.max_position_error")
+    assert page.is_live
+    page.panel.faults.linkActivated.emit("setup.max_position_error")
     assert followed == ["setup.max_position_error"]
+    page.show_status(status())
+    assert page.panel.faults.isHidden()
+    assert "R73 bit 4" in page.panel.events.text()
 
 
-def test_readings_that_fail_are_no_exchange_that_replaces_anything(page: LivePage, german: None) -> None:
+def test_readings_that_fail_are_no_exchange_that_replaces_anything(page: LiveView, german: None) -> None:
     """It ended in English, with "nothing was replaced in the control"."""
     page._over(NoConnectionError("no connection to the control (tcp://127.0.0.1:1: nothing listens there)"))
-    assert page.state.text() == "Keine Verbindung zur Steuerung (tcp://127.0.0.1:1: dort antwortet nichts)"
+    assert page.bar.text.text() == "Keine Verbindung zur Steuerung (tcp://127.0.0.1:1: dort antwortet nichts)"
+    assert not page.panel.readings.isEnabled()
 
 
-def test_a_control_without_a_following_error_is_drawn_by_its_position(page: LivePage) -> None:
-    axes = (AxisStatus("X", 264.0, None, None, "mm", ("limit switch",)),)
-    page.show_status(ControlStatus("grblhal", "grbl", "grblHAL", "Idle", axes))
-    assert page.plot.picture is not None
-    assert [panel.title for panel in page.plot.picture.panels] == ["position mm"]
-    assert "not shown by this control" in page.notes.text()
-
-
-def test_what_begins_between_two_readings_is_an_event(page: LivePage) -> None:
+def test_without_an_answer_for_two_seconds_the_figures_are_grey_with_their_age(page: LiveView) -> None:
     page.show_status(status())
-    axes = (AxisStatus("X", 0.0, 0.0, 0.0, "counts", ("axis done", "control loop enabled")),)
-    page.show_status(ControlStatus("57c422b", "registers", "module", "", axes))
-    assert [event[9:] for event in page.happened.events] == ["X: axis done"]
+    page._silent()
+    assert page.bar.text.text().startswith("No answer since ")
+    assert not page.panel.readings.isEnabled()
+    page.show_status(status())
+    assert page.bar.isHidden()
+    assert page.panel.readings.isEnabled()
 
 
-def test_keys_of_an_emulated_control_are_pressed_and_its_answer_is_an_event(qtbot: QtBot) -> None:
+def test_rows_show_the_file_beside_the_control_and_what_differs(page: LiveView) -> None:
+    assert (cell(page, 0, NAME), cell(page, 0, MIND)) == ("Velocity Gain", "")
+    session_of(page).content.set(GAIN, Value(104, ""))
+    session_of(page).changed.emit()
+    assert (cell(page, 0, CONTROL), cell(page, 0, MIND)) == ("104", "differs from the file")
+
+
+def test_a_value_is_turned_by_keys_written_after_one_question_and_put_back(
+    page: LiveView, user: User
+) -> None:
+    field = page.frame.field
+    assert page.frame.write.text() == "&Write 78 Now"
+    assert not page.frame.write.isEnabled()
+    QTest.keyClick(field, Qt.Key.Key_Up, Qt.KeyboardModifier.ShiftModifier)
+    QTest.keyClick(field, Qt.Key.Key_Up)
+    assert (field.text(), page.frame.write.text()) == ("89", "&Write 89 Now")
+    user.answers("Cancel")
+    QTest.keyClick(field, Qt.Key.Key_Return, Qt.KeyboardModifier.ControlModifier)
+    assert session_of(page).written == []
+    user.answers("Write Now")
+    QTest.keyClick(field, Qt.Key.Key_Return, Qt.KeyboardModifier.ControlModifier)
+    assert user.asked[-1].startswith("Write R5 Velocity Gain, X axis = 89 into bench now?")
+    assert cell(page, 0, MIND).startswith("turned, was 78 until ")
+    assert page._workspace.file.get(GAIN).value == 78
+    QTest.keyClick(field, Qt.Key.Key_Up)
+    page.frame.write.click()  # asked once
+    assert page.frame.back.text() == "Put 78 &Back"
+    QTest.keyClick(field, Qt.Key.Key_Backspace, Qt.KeyboardModifier.ControlModifier)
+    assert [value.value for _, value in session_of(page).written if value] == [89, 90, 78]
+    assert page.turned == {}
+    assert page.is_live
+
+
+def test_a_value_out_of_range_is_refused_in_the_frame_and_the_control_may_refuse_too(
+    page: LiveView, user: User
+) -> None:
+    field = page.frame.field
+    field.setText("99999")
+    field.textEdited.emit("99999")
+    assert not page.frame.write.isEnabled()
+    assert "99999" in page.frame.hint.text()
+    session_of(page).refuses = "the control loop of axis X is on (R65, bit 0): switch it off to download"
+    page.frame.step(0)
+    field.setText("80")
+    field.textEdited.emit("80")
+    user.answers("Write Now")
+    page.frame.write.click()
+    assert page.frame.hint.text().startswith("The control loop of axis X is on")
+    assert not page.frame.write.isEnabled()
+    assert page.is_live
+    page.show_status(status())  # its state is another one: it may take it now
+    assert page.frame.write.isEnabled()
+
+
+def test_a_control_that_takes_no_single_values_has_no_frame_but_the_reason(
+    window_with: Callable[..., MainWindow], qtbot: QtBot
+) -> None:
+    page = made(window_with("57c422b-label-press"), qtbot, takes_one=False)
+    assert page.frame.isHidden()
+    assert page.reason.text().startswith("Reads only: this control takes no single values")
+
+
+@pytest.mark.parametrize(
+    ("answer", "contained", "in_file"),
+    [("Put Back", 78, 78), ("Take into the File", 89, 89), ("Leave in the Control", 89, 78)],
+)
+def test_leaving_with_a_value_turned_asks_once(
+    page: LiveView, user: User, answer: str, contained: int, in_file: int
+) -> None:
+    user.answers("Write Now", answer)
+    page.write(GAIN, Value(89, ""))
+    assert page.may_turn_away()
+    assert session_of(page).content.get(GAIN).value == contained
+    assert page._workspace.file.get(GAIN).value == in_file
+    assert page.may_turn_away()
+
+
+def test_an_exchange_ends_it_and_it_can_be_started_again(page: LiveView) -> None:
+    page.show_status(status())
+    session_of(page).is_busy = True
+    session_of(page).changed.emit()
+    assert page.bar.text.text() == "Live has ended: an exchange is under way."
+    assert not page.is_live
+    session_of(page).is_busy = False
+    session_of(page).changed.emit()
+    assert not page.is_live
+    page.bar.buttons[0].click()
+    assert page.is_live
+
+
+def test_keys_of_an_emulated_control_are_pressed_and_its_answer_is_an_event(page: LiveView) -> None:
     class Keys(QObject):
         line_shown = Signal(str)
 
         def send(self, command: str) -> None:
             self.line_shown.emit(f"did {command}")
 
-    readings = StoppedReadings()
-    page = LivePage("tcp://bench:1", "9pc", print, readings=readings, emulated=Keys())  # type: ignore[arg-type]  # the parts that it uses
-    qtbot.addWidget(page)
-    page.keys.setText("jog X+")
-    page.keys.returnPressed.emit()
+    keys: Any = Keys()
+    page.use(page.session, "tcp://bench:1", "bench", keys)  # type: ignore[arg-type]  # the session of the fixture
+    page.panel.keys.setText("jog X+")
+    page.panel.keys.returnPressed.emit()
     assert page.happened.events[0].endswith("did jog X+")
-    assert readings.is_running
+    assert page.frame.head.text() == "Writes to the emulated control"
 
 
-def test_a_fault_that_is_over_goes_to_the_history(page: LivePage) -> None:
-    page.show_status(status("R73 bit 4"))
-    page.start()
+def test_what_begins_between_two_readings_is_an_event(page: LiveView) -> None:
     page.show_status(status())
-    assert len(page.happened.events) == 1
-    assert "R73 bit 4" in page.happened.events[0]
-    assert page.happened.events[0] in page.events.text()
-    assert page.readings.is_running
-
-
-def test_an_exchange_ends_it_and_it_can_be_started_again(page: LivePage) -> None:
-    page.show_status(status())
-    page.stop("Stopped: an exchange is under way.")
-    assert page.state.text() == "Stopped: an exchange is under way."
-    assert not page.axes.isEnabled()
-    page.toggle.click()
-    page.show_status(status())
-    assert page.axes.isEnabled()
+    axes = (AxisStatus("X", 0.0, 0.0, 0.0, "counts", ("axis done", "control loop enabled")),)
+    page.show_status(ControlStatus("57c422b", "registers", "module", "", axes))
+    assert [event[9:] for event in page.happened.events] == ["X: axis done"]
 
 
 def test_a_control_is_asked_at_most_five_times_a_second_and_the_line_is_closed(
@@ -221,19 +331,15 @@ def _with_event(begin: Callable[..., None], event: type[threading.Event]) -> Cal
 
 
 @pytest.mark.usefixtures("german")
-def test_a_german_page_has_the_faults_words_and_notes_in_german_and_no_columns_of_dashes(
-    qtbot: QtBot,
-) -> None:
-    displayed = LivePage("tcp://bench:1", "grblhal", print, readings=StoppedReadings())  # type: ignore[arg-type]  # the part that it uses
-    qtbot.addWidget(displayed)
+def test_a_german_page_has_the_faults_words_and_notes_in_german(page: LiveView) -> None:
+    page.panel._family = "grblhal"
     fault = known_fault("grblhal", "ALARM:9", "The control is locked")
     note = "positions in machine coordinates, in mm unless $13 is on"
     axes = (AxisStatus("X", 1.0, unit="mm"),)
-    displayed.show_status(
+    page.show_status(
         ControlStatus("grblhal", "grbl", "router", "Alarm", axes, (fault,), {"spindle speed": 0.0}, (note,))
     )
-    assert "Der Schalter wurde bei der Suche nicht erreicht" in displayed.faults.text()
-    assert ">Maximum travel</a>" in displayed.faults.text()
-    assert displayed.values.text() == "Spindeldrehzahl 0"
-    assert displayed.notes.text().startswith("Positionen in Maschinenkoordinaten")
-    assert [n for n in range(5) if displayed.axes.isColumnHidden(n)] == [2, 3, 4]
+    assert "Der Schalter wurde bei der Suche nicht erreicht" in page.panel.faults.text()
+    assert ">Maximum travel</a>" in page.panel.faults.text()
+    assert page.panel.values.text() == "Alarm, Spindeldrehzahl 0"
+    assert page.panel.notes.text().startswith("Positionen in Maschinenkoordinaten")

@@ -45,7 +45,7 @@ def status_of(identity: ControlIdentity, report: str, alarm: str = "") -> Contro
     which = "machine" if "MPos" in fields else "work"
     notes = (f"positions in {which} coordinates, in mm unless $13 is on",)
     return ControlStatus(
-        identity.family, identity.protocol, identity.name, state, axes, faults, values, notes
+        identity.family, identity.protocol, identity.name, state, axes, faults, values, notes, report
     )
 
 

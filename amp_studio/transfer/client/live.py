@@ -73,6 +73,11 @@ class LiveTuning:
         """Have the control contain again what it contained at the first look; raises as ``set``."""
         return self._send(lambda current: self._driver.refit(self._start, current), "restore", exchange)
 
+    @property
+    def content(self) -> bytes:
+        """What the control contains, as it was last read."""
+        return self._current
+
     def changes(self) -> Comparison:
         """Return what differs in the control from the first look, as it was last read."""
         present, start = self._present(), self.start_file

@@ -32,10 +32,10 @@ from .sheet import sheet_of_control, sheet_of_file
 if TYPE_CHECKING:
     from amp_studio.transfer.client import Copy
     from amp_studio.ui.control.known_list import ListedControl
-    from amp_studio.ui.control.live import LivePage
     from amp_studio.ui.control.next_step import ExchangeDirection
     from amp_studio.ui.control.page import ControlPage
     from amp_studio.ui.control.session import ControlSession
+    from amp_studio.ui.live.page import LiveView
 
 STATE_ROOM = 152
 """Of the button in the tool bar for the name of a control and its state, in logical pixels."""
@@ -56,7 +56,8 @@ class ControlDesk(Translated):
         self._workspace_of: dict[ControlSession, Workspace | None] = {}
         """The file that a session was last chosen for: it may be closed and opened again meanwhile."""
         """Address, family and file -> its exchanges."""
-        self._live: LivePage | None = None
+        self._live: LiveView | None = None
+        """The page that was live last: one control is asked at a time."""
         self.exchanges.show_page = self.open
         files.comparing.address_of = self.exchanges.chosen_address
         self.emulated.ready.connect(self._ready)
@@ -87,33 +88,13 @@ class ControlDesk(Translated):
         own = address is not None and address == self.emulated.address
         return (self.emulated.screen or address) if own else address
 
-    def live(self) -> None:
-        """Show what the control of the file in front states of itself now;
-        raises ValueError while something is sent.
-        """
-        from amp_studio.pictures import axis_limits
-        from amp_studio.ui.control.live import LivePage
-
-        workspace, seen = self.window.workspace_in_front, self.read_address()
-        if seen is None:
-            return
-        family = workspace.file.schema.family.family
-        own = self.emulated if seen in (self.emulated.address, self.emulated.screen) else None
-        page = self._live = LivePage(
-            seen,
-            family,
-            self.window.follow,
-            self.window,
-            emulated=own,
-            limits=partial(axis_limits, workspace.file),
-        )
-        self.window.beside.show(page)
-        page.start()
-
-    def _end_live(self, session: ControlSession) -> None:
-        """End the readings before an exchange takes the line."""
-        if self._live is not None and is_alive(self._live) and session.is_busy:
-            self._live.stop(self.tr("Stopped: an exchange is under way."))
+    def make_live(self, page: LiveView, workspace: Workspace, seen: str) -> None:
+        """Let a page ask the control of its file, whose status is read at an address."""
+        address = self.exchanges.address_of(workspace)
+        own = self.emulated if address == self.emulated.address else None
+        session = self._session_of(address, workspace)
+        self._live = page
+        page.use(session, seen, self._name_of(address), own)
 
     # -- the emulated control --------------------------------------------------
 
@@ -162,8 +143,6 @@ class ControlDesk(Translated):
         """Stop the emulated control."""
         for session in self._sessions.values():
             session.cancel()
-        if self._live is not None and is_alive(self._live):
-            self._live.close()
         if self._page is not None:
             self._page.several.stop_all()
         self.emulated.ended.disconnect(self._ended)
@@ -255,24 +234,28 @@ class ControlDesk(Translated):
 
     def _use(self, address: str) -> None:
         from amp_studio.transfer.links import parse_endpoint
-        from amp_studio.ui.control.session import ControlSession
 
         parse_endpoint(address)
         if self.page.known.several.isChecked():
             self.page.several.tick(address)
             return
         workspace = self.window.workspace
-        family = workspace.file.schema.family.family if workspace is not None else ""
         self.exchanges.choose(workspace, address)
+        self.page.use(self._session_of(address, workspace), self._name_of(address))
+        self._follow()
+
+    def _session_of(self, address: str, workspace: Workspace | None) -> ControlSession:
+        """Return the exchanges of a file with the control at an address."""
+        from amp_studio.ui.control.session import ControlSession
+
+        family = workspace.file.schema.family.family if workspace is not None else ""
         key = (address, family, str(workspace.path) if workspace is not None else "")
         session = self._sessions.get(key)
         if session is None:
             session = self._sessions[key] = ControlSession(address, family, self.window)
             session.ended.connect(partial(self._ended_exchange, session))
-            session.changed.connect(partial(self._end_live, session))
         self._workspace_of[session] = workspace
-        self.page.use(session, self._name_of(address))
-        self._follow()
+        return session
 
     def _ended_exchange(self, session: ControlSession, verb: ControlVerb, reached: bool) -> None:
         """Remember how an exchange ended, and the values of the control beside those of the file."""
@@ -349,6 +332,9 @@ class ControlDesk(Translated):
             return self.tr("Control"), self.tr("none chosen"), False
         family = workspace.file.schema.family.family if workspace is not None else ""
         session = self._sessions.get((address, family, str(workspace.path) if workspace is not None else ""))
+        live = self._live
+        if live is not None and is_alive(live) and live.session is session and live.is_live:
+            return self._name_of(address), self.tr("live"), False
         return self._name_of(address), *state_in_words(session)
 
     @property

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from amp_studio.ui.base.workspace import Workspace
     from amp_studio.ui.motion.view import MotionView
 
-MOTION, TUNING, CHECK, TESTS, PROGRAM = "motion", "tuning", "check", "tests", "program"
+MOTION, TUNING, CHECK, TESTS, PROGRAM, LIVE = "motion", "tuning", "check", "tests", "program", "live"
 """The names of the pages."""
 MOST_VERSIONS = 5
 """Earlier versions of a file under which a program is run."""
@@ -198,6 +198,39 @@ def _connect(workspace: Workspace, exchanges: ControlExchange) -> LiveTuning | N
     path = workspace.path
     driver = open_driver(address, workspace.file.schema.family.family)
     return LiveTuning(driver, path, address=address, record=path)
+
+
+# -- live ----------------------------------------------------------------------------
+
+
+def open_live(window: PartsWindow) -> None:
+    """Show what the control of the file in front states of itself, beside the values that the table lists;
+    raises ValueError while something is sent.
+    """
+    page = window.page_in_front
+    if not window.control.is_shown and page.turned_to == LIVE:
+        page.show_page("")
+        return
+    address = window.control.read_address()
+    if address is None:
+        return
+    load("amp_studio.sim", "amp_studio.ui.live.page")
+    from amp_studio.ui.live.page import LiveView
+
+    def make(page: FilePage) -> LiveView:
+        made = LiveView(page.workspace)
+        made.linked.connect(page.follow)
+        made.noted.connect(page.bar.say)
+        made.changed.connect(window.enable)
+        made.control_wanted.connect(window.control.open)
+        return made
+
+    made = _turn(window, LIVE, make)
+    if isinstance(made, LiveView):
+        window.control.make_live(made, page.workspace, address)
+        here = page.table_view.address()
+        made.show_parameters(page.listed_title, page.table.asked, here[1] if here else "")
+        made.start()
 
 
 # -- blocks and programs -----------------------------------------------------------

@@ -327,7 +327,7 @@ def _control() -> Menu[PartsWindow]:
             None,
             Action("control.several", tr("Se&veral Controls…"), lambda w: w.control.several()),
             Action("control.exchanges", tr("E&xchanges of This File…"), lambda w: w.control.recorded()),
-            Action("control.live", tr("&Live…"), lambda w: w.control.live(), "Ctrl+L", icon="broadcast"),
+            Action("control.live", tr("&Live"), pages.open_live, "Ctrl+L", icon="broadcast"),
             None,
             Action(
                 "control.start",

@@ -9,7 +9,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Iterable
 from contextlib import closing
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -208,21 +208,31 @@ class ControlSession(QObject):
 
     def write_one(self, address: Address, file: ParameterFile, path: Path) -> None:
         """Write one value of a file into the control now; it is read back and recorded."""
+        found: list[tuple[bytes, ParameterFile | None]] = []
 
         def work(exchange: Exchange) -> Outcome:
             from amp_studio.transfer.client import LiveTuning
 
             with closing(LiveTuning(self._driver(exchange), path, address=self.address, record=path)) as live:
                 live.look(exchange)
-                return live.set({address: file.get(address)}, exchange)
+                outcome = live.set({address: file.get(address)}, exchange)
+                found.append((live.content, live.file))
+                return outcome
 
-        self._write("download", work, path, then=lambda: self.value_written.emit(address))
+        def take() -> None:
+            if self.seen is not None:  # all that it contains was read back
+                (content, present), now = found[0], datetime.now(UTC).astimezone()
+                self.seen = replace(self.seen, content=content, file=present, when=now)
+
+        # Not as a download: the control does not contain the file now.
+        self._write("verify", work, path, first=take, then=lambda: self.value_written.emit(address))
 
     def _write(
         self,
         verb: str,
         work: Callable[[Exchange], Outcome],
         path: Path,
+        first: Callable[[], None] = lambda: None,
         then: Callable[[], None] = lambda: None,
         backup_name: str = "",
     ) -> None:
@@ -231,6 +241,7 @@ class ControlSession(QObject):
 
         def done(outcome: Outcome) -> None:
             self.outcome, self.phase = outcome, "done" if outcome.verified else "failed"
+            first()
             self.ended.emit(verb, True)
             then()
 

@@ -250,7 +250,10 @@ class FilePage(QWidget):
 
     def show_page(self, name: str) -> None:
         """Show a page that was taken in, or the values again (``""``)."""
-        if name != self.turned_to:
+        before = self.pages.get(self.turned_to)
+        if name != self.turned_to and (before is None or before.may_turn_away()):
+            if before is not None:
+                before.turned_away()
             self._stack.setCurrentWidget(self.pages[name] if name else self.middle)
             self.turned.emit()
             (self.pages[name] if name else self).setFocus()

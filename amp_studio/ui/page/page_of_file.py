@@ -22,6 +22,13 @@ class PageOfFile(QWidget):
         """Go back to the values."""
         self.left.emit()
 
+    def may_turn_away(self) -> bool:
+        """Ask about what is to be settled before another page comes; returns whether it may."""
+        return True
+
+    def turned_away(self) -> None:
+        """Rest while another page is in front."""
+
     def may_leave(self) -> bool:
         """Ask about work that is lost with the file; returns whether the file may be closed."""
         return True

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 from amp_studio.transfer import ActiveFault, AxisStatus, ControlIdentity, ControlStatus, known_fault
 
+from .content import AXIS_Y
+
 MODE, STATUS, FAULT, POSITION, VELOCITY, ERROR, PERIOD = 65, 72, 73, 74, 78, 80, 83
 SHOWN = ((MODE, 1), (STATUS, 12))
 """First register and how many are read."""
@@ -96,6 +98,10 @@ def _axis(registers: AxisRegisters) -> AxisStatus:
         "counts",
         tuple(name for bit, name in STATES.items() if status >> bit & 1),
         tuple(STATES.values()),
+        ", ".join(
+            f"R{(AXIS_Y if registers.axis == 'Y' else 0) + each} = {registers.word(each):04X}H"
+            for each in (STATUS, FAULT)
+        ),
     )
 
 

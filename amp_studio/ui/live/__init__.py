@@ -1,0 +1,1 @@
+"""Live: what a control states of itself now, beside the file, with one value at a time to turn."""

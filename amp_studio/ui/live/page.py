@@ -1,0 +1,597 @@
+"""The page Live of a file: the machine while a value is tried. Few rows, file beside control, one frame that
+writes a single value, and at the right what the control states of itself, asked at most five times a second.
+"""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable, Sequence
+from datetime import UTC, datetime
+from functools import partial
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtGui import QKeySequence, QResizeEvent, QShortcut
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
+
+from amp_studio.files import Difference, ParameterFile, RangeError, axis_instances, axis_letter
+from amp_studio.pictures import LiveLimits, axis_limits
+from amp_studio.report import dangers_of_change
+from amp_studio.schema import Address, Parameter, Value, same_value
+from amp_studio.ui.base.figures import sentence, show_value, written
+from amp_studio.ui.base.questions import ask
+from amp_studio.ui.base.theme import GAP2, HEAD, font
+from amp_studio.ui.base.translated import facts_in_words, message_in_words
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.control.readings import Happened, StatusReadings
+from amp_studio.ui.control.rows import side_by_side
+from amp_studio.ui.control.session import ControlSession
+from amp_studio.ui.forms.elided_label import ElidedLabel
+from amp_studio.ui.forms.message_bar import MessageBar
+from amp_studio.ui.forms.segment import Segment
+from amp_studio.ui.page.page_of_file import PageOfFile
+
+from .rows import LiveRows, TurnedValue
+from .sign import LiveSign
+from .status_panel import NARROW, WIDE, LiveStatusPanel
+from .write_frame import ShownValue, WriteFrame
+
+if TYPE_CHECKING:
+    from amp_studio.transfer import AxisStatus, ControlStatus
+    from amp_studio.ui.base.emulated_control import EmulatedControl
+
+SILENT_MS = 2000
+"""Milliseconds without an answer after which the figures are grey."""
+ROOMY = 1200
+"""Width of a window with room for all words."""
+RATED = 10
+"""Readings from which the rate is counted."""
+MOST_ROWS = 6
+"""Rows that have room without scrolling where there is a plot below them."""
+
+
+class LiveView(PageOfFile):
+    """Everything reads only but the frame. An exchange ends it; what was turned is asked about once."""
+
+    changed = Signal()
+    """The control is asked, or not any more."""
+    control_wanted = Signal()
+    """The page at the control is wanted: a password, another one."""
+    linked = Signal(str)
+    """A parameter is wanted by its id."""
+    noted = Signal(str)
+    """What has come to its end after the page was left."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        super().__init__()
+        self._workspace = workspace
+        self._family = workspace.file.schema.family.family
+        self.session: ControlSession | None = None
+        self.readings: StatusReadings | None = None
+        self._emulated: EmulatedControl | None = None
+        self.name = self._seen = ""
+        self._parameters: Sequence[Parameter] = ()
+        self._status: ControlStatus | None = None
+        self.turned: dict[Address, TurnedValue] = {}
+        self.happened = Happened()
+        self._begun = time.monotonic()
+        self._times: deque[float] = deque(maxlen=RATED)
+        self._answered: datetime | None = None
+        self._why = ""
+        self._then: Callable[[], object] | None = None
+        """What takes the line once the readings have left it."""
+        self._is_own = self._is_away = False
+        self._asked: set[Address] = set()
+        """Values that a person has agreed to have written from here."""
+        self._writing: tuple[Address, Value | None] | None = None
+        self._queue: list[tuple[Address, Value]] = []
+        """Values that are still to be put back."""
+        self._refused_in: object = None
+        self._silence = QTimer(self)
+        self._silence.setInterval(SILENT_MS)
+        self._silence.setSingleShot(True)
+        self._silence.timeout.connect(self._silent)
+        self._clock = QTimer(self)
+        self._clock.setInterval(1000)
+        self._clock.timeout.connect(self._show_age)
+        self._build()
+        workspace.changed.connect(self._follow_values)
+        workspace.closed.connect(self._close)
+
+    def _build(self) -> None:
+        self.setAccessibleName(self.tr("Live"))
+        self.heading = ElidedLabel()
+        self.heading.setFont(font("title", own=True))
+        lock = LiveSign("lock-simple-fill", "dim")
+        only = QLabel(self.tr("the table reads only"))
+        only.setFont(font("small"))
+        self.axes = Segment(self.tr("Axis"))
+        self.bar = MessageBar()
+        self.rows = LiveRows(self._workspace)
+        self.reason = ElidedLabel()
+        self.reason.setFont(font("small"))
+        self.reason.setContentsMargins(12, 4, 12, 4)
+        self.frame = WriteFrame(self._workspace)
+        self.panel = LiveStatusPanel(self._family)
+        framed = QWidget()
+        around = QVBoxLayout(framed)
+        around.setContentsMargins(GAP2, GAP2, GAP2, GAP2)
+        around.addWidget(self.frame)
+        self.column = QVBoxLayout()
+        self.column.setContentsMargins(0, 0, 0, 0)
+        self.column.setSpacing(0)
+        for part in (
+            side_by_side(HEAD, self.heading, lock, only, None, self.axes),
+            self.bar,
+            self.rows,
+            self.reason,
+            framed,
+        ):
+            self.column.addWidget(part, 1 if part is self.rows else 0)
+        whole = QHBoxLayout(self)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.setSpacing(0)
+        whole.addLayout(self.column, 1)
+        whole.addWidget(self.panel)
+        self.setFocusProxy(self.rows)
+        self.axes.chosen.connect(lambda _: self._choose_axis())
+        self.rows.chosen.connect(lambda _: self._show_frame())
+        self.frame.write_wanted.connect(self.write)
+        self.frame.back_wanted.connect(self.put_back)
+        self.frame.take_wanted.connect(self.take)
+        self.panel.linked.connect(self.linked)
+        self.panel.keys_pressed.connect(self._press)
+        self.panel.end.clicked.connect(self.escape)
+        for keys, act in (
+            ("Ctrl+Return", self.frame.press),
+            ("Ctrl+Backspace", self.frame.put_back),
+            ("F2", self.frame.field.setFocus),
+        ):
+            shortcut = QShortcut(QKeySequence(keys), self, act)
+            shortcut.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Leave the rows the room of the words in a small window."""
+        super().resizeEvent(event)
+        is_narrow = self.window().width() < ROOMY
+        self.panel.setFixedWidth(NARROW if is_narrow else WIDE)
+        self.rows.show_short_words(is_narrow)
+
+    # -- whom it asks ----------------------------------------------------------------
+
+    def use(
+        self,
+        session: ControlSession,
+        seen: str,
+        name: str,
+        emulated: EmulatedControl | None = None,
+        readings: StatusReadings | None = None,
+    ) -> None:
+        """Take a control: its exchanges, the address where it shows its status, what it is called, and the
+        keys of an emulated one.
+        """
+        if self.session is not session:
+            if self.session is not None:
+                self.session.changed.disconnect(self._follow_session)
+                self.session.value_written.disconnect(self._written)
+            session.changed.connect(self._follow_session)
+            session.value_written.connect(self._written)
+            self.turned.clear()
+            self._asked.clear()
+            self.happened = Happened()
+            self._status = self._answered = None
+            self.panel.show_nothing("")
+        self.session, self.name = session, name
+        if self.readings is None or seen != self._seen:
+            self._take_readings(readings or StatusReadings(seen, self._family))
+            self._seen = seen
+        if self._emulated is not None:
+            self._emulated.line_shown.disconnect(self._answer)
+        self._emulated = emulated
+        if emulated is not None:
+            emulated.line_shown.connect(self._answer)
+        self.frame.use(is_emulated=emulated is not None)
+        self.panel.show_keys(emulated is not None)
+        self.panel.place.setText(session.address)
+        self._show_control()
+
+    def _take_readings(self, readings: StatusReadings) -> None:
+        if self.readings is not None:
+            self.readings.read.disconnect(self.show_status)
+            self.readings.failed.disconnect(self._over)
+            self.readings.stop()
+        self.readings = readings
+        readings.read.connect(self.show_status)
+        readings.failed.connect(self._over)
+
+    def show_parameters(self, title: str, parameters: Sequence[Parameter], axis: str) -> None:
+        """List parameters, with those of an axis by its instance."""
+        self.heading.setText(title)
+        self._parameters = parameters
+        letter = axis_letter(self._workspace.file, axis) or axis
+        if not self.axes.buttons:
+            file = self._workspace.file
+            names = [axis_letter(file, each) or each for each in axis_instances(file)]
+            self._offer_axes(names[:8], letter)
+        elif letter in self.axes.buttons:
+            self.axes.show_choice(letter)
+        self._choose_axis()
+
+    def _offer_axes(self, names: Sequence[str], wanted: str) -> None:
+        if list(self.axes.buttons) != list(names):
+            self.axes.offer([(name, name, "") for name in names])
+        choice = wanted if wanted in names else next(iter(names), None)
+        self.axes.show_choice(choice)
+        self.axes.setVisible(len(names) > 1)
+
+    def _instance(self) -> str:
+        """Return the axis of the file that is called as the chosen one of the control."""
+        file, name = self._workspace.file, self.axes.choice or ""
+        found = (each for each in axis_instances(file) if name in (each, axis_letter(file, each)))
+        return next(found, "")
+
+    def _choose_axis(self) -> None:
+        self.rows.show_parameters(self._parameters, self._instance())
+        self._show_frame()
+        if self._status is not None:
+            self._show_axis(self._status)
+
+    # -- asking --------------------------------------------------------------------
+
+    @property
+    def is_live(self) -> bool:
+        """Whether the control is being asked."""
+        return self.readings is not None and self.readings.is_running
+
+    def start(self) -> None:
+        """Begin to ask: first what the control contains, where that takes nobody at its keys."""
+        session = self.session
+        if session is None or self.readings is None or session.is_busy:
+            return
+        if self.is_live:
+            if self._why:  # it is being stopped: again once the line is free
+                self._then = self.start
+            return
+        self._why, self._is_away = "", False
+        self.bar.hide()
+        if self._status is None:
+            self.panel.show_nothing(self.tr("no readings yet"))
+        if session.seen is None and self._takes_one():
+            self._is_own = True
+            session.read()
+            return
+        self._ask()
+
+    def _takes_one(self) -> bool:
+        """Return whether single values go into the control, which can be read at any time then."""
+        assert self.session is not None
+        if self.session.seen is not None:
+            return self.session.seen.takes_one
+        from amp_studio.transfer import TakesLiveValues
+        from amp_studio.transfer.client import open_driver
+        from amp_studio.transfer.links import EndpointError
+
+        try:
+            return isinstance(open_driver(self.session.address, self._family), TakesLiveValues)
+        except EndpointError:
+            return False
+
+    def _ask(self) -> None:
+        if self.readings is not None and not self._is_away:
+            self.readings.start()
+            self._silence.start()
+            self._clock.start()
+            self.changed.emit()
+
+    def stop(self, why: str) -> None:
+        """Ask no more, and say why."""
+        if self.readings is not None and self.readings.is_running:
+            self._why = why
+            self.readings.stop()
+
+    def turned_away(self) -> None:
+        """Rest while another page is in front."""
+        self._is_away = True
+        self.stop(self.tr("Live was left."))
+
+    def _over(self, error: object) -> None:
+        self._silence.stop()
+        self._clock.stop()
+        self.panel.grey(True)
+        self._show_age()
+        self.changed.emit()
+        if self._then is not None:
+            then, self._then = self._then, None
+            then()
+            return
+        if isinstance(error, Exception):  # of an exchange without what the control contains: this reads only
+            what = message_in_words(getattr(error, "what", "") or str(error))
+            text = f"{what[:1].upper()}{what[1:]}"
+            self.bar.say(text, "error", (self.tr("Try Again"), self.start), self._to_control())
+        elif self._why and not self._is_away:
+            self.bar.say(self._why, "advice", (self.tr("Go On"), self.start))
+
+    def _to_control(self) -> tuple[str, Callable[[], object]]:
+        return self.tr("At the Control"), self.control_wanted.emit
+
+    def _silent(self) -> None:
+        """Show that the figures are old."""
+        if self.is_live:
+            since = f"{self._answered:%H:%M:%S}" if self._answered else "–"
+            self.bar.say(
+                self.tr("No answer since {time}: the figures are the last ones.").format(time=since),
+                "warning",
+            )
+            self.panel.grey(True)
+
+    def _show_age(self) -> None:
+        """Show how often the control answers, and how old its last answer is."""
+        if self._answered is None:
+            self.panel.age.setText(self.tr("no readings yet"))
+            return
+        age = max((datetime.now(UTC).astimezone() - self._answered).total_seconds(), 0.0)
+        last = self.tr("{age} s old").format(age=written(f"{age:.1f}" if age < 10.0 else f"{age:.0f}"))
+        if self.is_live and age < 0.001 * SILENT_MS and len(self._times) > 1:
+            rate = (len(self._times) - 1) / max(self._times[-1] - self._times[0], 1e-3)
+            last = self.tr("{rate} readings a second").format(
+                rate=written(f"{rate:.0f}" if rate >= 1.0 else f"{rate:.1f}")
+            )
+        self.panel.age.setText(last)
+
+    # -- a reading -------------------------------------------------------------------
+
+    def show_status(self, status: ControlStatus) -> None:
+        """Show a reading."""
+        if not self.is_live:
+            return
+        self._silence.start()
+        self._times.append(time.monotonic())
+        is_first = self._status is None
+        self._answered, self._status = datetime.now(UTC).astimezone(), status
+        if self.bar.isVisible() and self.panel.readings.isEnabled() is False:
+            self.bar.hide()
+        if names := [axis.axis for axis in status.axes]:
+            self._offer_axes(names, self.axes.choice or names[0])
+        is_new = self.happened.take(status)
+        if is_first or is_new:
+            self._choose_axis()
+        self._show_axis(status)
+        self.panel.show_happened(self.happened)
+        self._show_age()
+        states = (status.state, tuple(axis.states for axis in status.axes), tuple(status.faults))
+        if states != self._refused_in:
+            self._refused_in = states
+            self.frame.allow()
+
+    def _show_axis(self, status: ControlStatus) -> None:
+        axis = self._axis_of(status)
+        limits = axis_limits(self._workspace.file, axis.axis, axis.unit) if axis else LiveLimits()
+        self.panel.show_status(status, axis, limits)
+
+    def _axis_of(self, status: ControlStatus) -> AxisStatus | None:
+        return next((each for each in status.axes if each.axis == self.axes.choice), None)
+
+    def _press(self, command: str) -> None:
+        """Give a command of the keys of the emulated control; an axis that is moved is to be seen."""
+        if self._emulated is not None:
+            self._emulated.send(command)
+            self.start()
+
+    def _answer(self, line: str) -> None:
+        self.happened.record_act(line)
+        self.panel.show_happened(self.happened)
+
+    # -- values ------------------------------------------------------------------------
+
+    def _present(self) -> ParameterFile | None:
+        return self.session.present(self._workspace.file) if self.session is not None else None
+
+    def _follow_values(self, *_: object) -> None:
+        self.rows.refresh()
+        self._show_frame()
+
+    def _show_control(self) -> None:
+        """Show what the control contains, as it was read last."""
+        self.rows.show_control(self._present(), self.turned)
+        self._show_frame()
+
+    def _show_frame(self) -> None:
+        """Show the frame for the current row, or why nothing can be written here."""
+        address, present = self.rows.address, self._present()
+        seen = self.session.seen if self.session is not None else None
+        why = ""
+        if present is None or seen is None:
+            why = self.tr("What the control contains was not read: At the Control (Alt+0) reads it.")
+        elif not seen.takes_one:
+            why = self.tr("Reads only: this control takes no single values. Send the file (F5).")
+        elif address is None or self._workspace.is_masked(address):
+            why = self.tr("No value here can be written alone.")
+        self.reason.setText(why)
+        self.reason.setVisible(bool(why))
+        if why or address is None or present is None:
+            self.frame.show_value(None)
+            return
+        turned = self.turned.get(address)
+        self.frame.show_value(
+            ShownValue(
+                address, present.get(address), turned.before if turned else None, is_turned=turned is not None
+            )
+        )
+
+    def write(self, address: Address, value: Value) -> None:
+        """Write a value into the control, asked once for each; it is read back and recorded."""
+        file = self._present()
+        if file is None or self.session is None:
+            return
+        file = file.copy()
+        try:
+            file.set_checked({address: value})
+        except RangeError as error:
+            self.frame.refuse(sentence(str(error)))
+            return
+        if address not in self._asked and not self._is_agreed(address, value, file):
+            return
+        self._asked.add(address)
+        before = self._present()
+        self._writing = address, before.get(address) if before is not None else None
+        self._with_line(partial(self.session.write_one, address, file, self._workspace.path))
+
+    def _is_agreed(self, address: Address, value: Value, wanted: ParameterFile) -> bool:
+        """Ask before the first time that a value is written, with what can be dangerous about it."""
+        present = self._present()
+        assert present is not None
+        change = Difference(address, value, present.get(address))
+        dangers = dangers_of_change(wanted, [change], facts_in_words(wanted.schema))
+        parameter = wanted.schema.parameters[address[0]]
+        text = self.tr("Write {name} = {value} into {control} now?").format(
+            name=self._workspace.name_of(address), value=show_value(parameter, value), control=self.name
+        )
+        text = "\n\n".join((text, *dict.fromkeys(danger.line for danger in dangers)))
+        yes = self.tr("&Write Now")
+        return ask(self, self.tr("Live"), text, yes, self.tr("Cancel"), default=1) == yes
+
+    def put_back(self, address: Address) -> None:
+        """Have the control contain again what it contained before the value was turned."""
+        turned = self.turned.get(address)
+        if turned is not None and turned.before is not None:
+            self._asked.add(address)
+            self.write(address, turned.before)
+
+    def take(self, address: Address) -> None:
+        """Take a value of the control into the file, as one step of undo."""
+        present = self._present()
+        if present is not None and self._workspace.may_edit:
+            self._workspace.edit(self.tr("Take from Live"), {address: present.get(address)})
+            self.turned.pop(address, None)
+            self._show_control()
+
+    def _with_line(self, act: Callable[[], object]) -> None:
+        """Do something that needs the line; the readings leave it for that and come back afterwards."""
+
+        def begin() -> None:
+            self._is_own = True
+            act()
+
+        if self.is_live:
+            self._then = begin
+            assert self.readings is not None
+            self.readings.stop()
+        else:
+            begin()
+
+    def _written(self, address: object) -> None:
+        """Remember what a value was before it was turned here; one that is back is not turned."""
+        if self._writing is None or self._writing[0] != address:
+            return
+        place, before = self._writing
+        self._writing = None
+        now = datetime.now(UTC).astimezone()
+        old = self.turned.pop(place, TurnedValue(before, now))
+        present = self._present()
+        theirs = present.get(place) if present is not None else None
+        if not same_value(old.before, theirs):
+            self.turned[place] = old
+        parameter = self._workspace.file.schema.parameters[place[0]]
+        text = f"{show_value(parameter, before)} → {show_value(parameter, theirs)}"
+        self._answer(
+            self.tr("{name} written: {change}").format(name=self._workspace.name_of(place), change=text)
+        )
+
+    def _follow_session(self) -> None:
+        session = self.session
+        assert session is not None
+        if session.is_busy:
+            if not self._is_own and self.is_live:
+                self.stop(self.tr("Live has ended: an exchange is under way."))
+            return
+        self._show_control()
+        if not self._is_own:
+            return
+        self._is_own = False
+        if session.phase == "failed":
+            self._failed(session)
+            if self._is_own:  # it is being read
+                return
+        elif self._queue:
+            self._put_next_back()
+            return
+        if session.phase == "away" and session.error:
+            text = message_in_words(session.error)
+            again = (self.tr("Try Again"), self.start)
+            self.bar.say(f"{text[:1].upper()}{text[1:]}", "error", again, self._to_control())
+            return
+        self._ask()
+
+    def _failed(self, session: ControlSession) -> None:
+        """Show why a value was not written; what the control contains is read where it is not known then."""
+        self._writing = None
+        self._queue.clear()
+        text = message_in_words(session.error)
+        text = f"{text[:1].upper()}{text[1:]}"
+        self.frame.refuse(text)
+        if self._is_away:
+            self.noted.emit(text)
+        self._refused_in = None
+        if session.failure is None or session.failure.at_control != "old":
+            self._is_own = True
+            session.read()
+
+    # -- leaving -------------------------------------------------------------------------
+
+    def may_turn_away(self) -> bool:
+        """Ask once about the values that were turned: put back, into the file, or left as they are."""
+        if not self.turned or self.session is None:
+            return True
+        lines = "\n".join(self._workspace.name_of(address) for address in self.turned)
+        back, keep, leave = (
+            self.tr("&Put Back"),
+            self.tr("&Take into the File"),
+            self.tr("&Leave in the Control"),
+        )
+        answer = ask(
+            self,
+            self.tr("Live"),
+            self.tr(
+                "The control contains %n values that were turned here:\n{lines}", "", len(self.turned)
+            ).format(lines=lines),
+            back,
+            keep,
+            leave,
+            self.tr("Cancel"),
+        )
+        if answer == back:
+            self._queue = [(a, t.before) for a, t in self.turned.items() if t.before is not None]
+            self._put_next_back()
+        elif answer == keep:
+            for address in list(self.turned):
+                self.take(address)
+        elif answer == leave:
+            self.turned.clear()
+            self._show_control()
+        return answer in (back, keep, leave)
+
+    def _put_next_back(self) -> None:
+        address, value = self._queue.pop(0)
+        self._asked.add(address)
+        self.write(address, value)
+
+    def may_leave(self) -> bool:
+        """Ask as for another page; while values are put back the file stays open."""
+        if not self.may_turn_away():
+            return False
+        is_busy = self.session is not None and self.session.is_busy
+        if is_busy or self._queue or self._then is not None:
+            self.bar.say(self.tr("The values are being put back: close the file after that."))
+            return False
+        return True
+
+    def escape(self) -> None:
+        """Go back to the values."""
+        self.left.emit()
+
+    def _close(self) -> None:
+        """Ask no more: the file is closed."""
+        self._is_away = True
+        if self.readings is not None:
+            self.readings.stop()
