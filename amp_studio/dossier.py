@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from datetime import datetime
 from math import isfinite
 from pathlib import Path
@@ -162,11 +163,13 @@ def _run(trace: Trace) -> dict[str, Any]:
 
 def checks_of(file: ParameterFile) -> Iterator[CheckedMotion]:
     """Yield what every scenario of a file found; nothing for a family that is not simulated."""
-    from amp_studio.motion_paper import checked_motion
+    from amp_studio.motion_paper import check_drawings, checked_motion
     from amp_studio.sim import SimulationError, check_motion
 
     try:
-        yield from map(checked_motion, check_motion(file))
+        checks = tuple(check_motion(file))
+        drawn = check_drawings(file, checks)
+        yield from (replace(checked_motion(each), drawings=drawn.get(n, ())) for n, each in enumerate(checks))
     except SimulationError:  # a family without a law, a file without axes
         return
 

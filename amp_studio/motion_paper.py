@@ -10,8 +10,11 @@ from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
+from amp_studio.drawing import Scene, scene_svg
 from amp_studio.files import Notify, ParameterFile, user
+from amp_studio.pictures import draw_homing, draw_spindle, draw_usual_approach, pictures_of
 from amp_studio.report import (
+    CheckDrawing,
     CheckedFigure,
     CheckedMotion,
     Language,
@@ -26,7 +29,9 @@ from amp_studio.schema import unit_text
 from amp_studio.sim import MotionCheck, Trace, address_of, figure_rows, named_parameter, plot_svg, value_text
 
 PAPERS = (".pdf", ".html")
-_WIDTH, _UNIT = 640, 92
+_WIDTH, _UNIT, _HEIGHT = 640, 92, 270
+_PLANS = 3
+"""Pairs of axes whose plan is printed, at most."""
 GivenFigure = tuple[str, str, str]
 """``model.…``, its value, and where it is from: a file that `identify` wrote, or the command."""
 _KINDS = {"tune": "Tuning record", "identify": "Machine from a record"}
@@ -82,8 +87,46 @@ def write_check_paper(
     title = words.text("Check in motion")
     table = PaperTable(title, heads, rows, (1.2, 1.6, 0.7, 4.0, 4.0))
     date = datetime.now().astimezone()
-    paper = Paper(title, file.header.name or name, facts, (table,), date, language=language)
+    figures = tuple(
+        PrintedFigure(
+            words.sentence(each.title), words.drawing(each.svg), tuple(map(words.sentence, each.notes))
+        )
+        for drawn in check_drawings(file, checks).values()
+        for each in drawn
+    )
+    paper = Paper(title, file.header.name or name, facts, (table,), date, figures=figures, language=language)
     write_paper(paper, path, notify)
+
+
+def check_drawings(file: ParameterFile, checks: Sequence[MotionCheck]) -> dict[int, tuple[CheckDrawing, ...]]:
+    """Return the pictures of the page Machine by the place of the check that has them, in English: the course
+    of every homing, the plan of each pair of axes, the spindle.
+    """
+    pictures = {each.name: each for each in pictures_of(file)}
+    found = dict[int, tuple[CheckDrawing, ...]]()
+    is_planned = False
+    for n, check in enumerate(checks):
+        if check.trace is None:
+            continue
+        if check.trace.course is not None:
+            found[n] = (_check_drawing(draw_homing(file, check.trace)),)
+        elif check.scenario == "travel" and "travel" in pictures and not is_planned:
+            is_planned = True
+            plans = pictures["travel"]
+            parts = [key for key, _ in plans.parts][:_PLANS]
+            found[n] = tuple(_check_drawing(draw_usual_approach(plans, part)) for part in parts)
+        elif check.scenario == "spindle" and "gears" in pictures:
+            found[n] = (_check_drawing(draw_spindle(pictures["gears"], "", check.trace)),)
+    return found
+
+
+def _check_drawing(scene: Scene) -> CheckDrawing:
+    where = scene.subtitle.partition(",")[0] if scene.name == "travel" else ""
+    return CheckDrawing(
+        f"{scene.title} {where}".rstrip(),
+        scene_svg(scene, _WIDTH, _HEIGHT, notes=False),
+        tuple(note.text for note in scene.notes if note.wrong or note.is_remark),
+    )
 
 
 def checked_motion(check: MotionCheck) -> CheckedMotion:

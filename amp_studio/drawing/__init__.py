@@ -36,7 +36,18 @@ if TYPE_CHECKING:
         Text,
     )
     from .strokes import cell_boxes, strokes_of
-    from .svg import ARROWS, BAR, BAR_ROOM, BAR_STEPS, PALE, bar_figures, panels_json, picture_svg, scene_svg
+    from .svg import (
+        ARROWS,
+        BAR,
+        BAR_ROOM,
+        BAR_STEPS,
+        PALE,
+        PLAIN,
+        bar_figures,
+        panels_json,
+        picture_svg,
+        scene_svg,
+    )
     from .ticks import figure_text, multiple, round_step
     from .words import scene_in_words
 else:

@@ -33,6 +33,7 @@ ShapeSort = Literal[
     "travel",
     "rail",
     "overlap",
+    "gap",
     "output",
     "before",
 ]
@@ -52,6 +53,7 @@ class Polyline:
     points: tuple[Point, ...]
     sort: ShapeSort = "ink"
     dashed: bool = False
+    dotted: bool = False
 
 
 @dataclass(frozen=True, eq=False)

@@ -29,6 +29,7 @@ COLOURS: dict[ShapeSort, str] = {
     "travel": "#1a1e23",
     "rail": "#7f8792",
     "overlap": "#c5cad2",
+    "gap": "#b25a00",
     "output": "#b25a00",
     "before": "#a3a9b3",
 }
@@ -41,7 +42,10 @@ FILLS: dict[ShapeSort, str] = {
     "outside": "none",
     "error": "url(#wrong)",
     "overlap": "#e8eaee",
+    "gap": "#fff1d0",
 }
+PLAIN = ("overlap", "gap")
+"""Areas without an edge."""
 LETTER, CAPITAL, STRONG = 6.6, 7.4, 1.1
 """Width of a letter, about, in points; a strong text is so many times as wide."""
 _LETTERS = {
@@ -377,7 +381,7 @@ def _grid(frame: Placement) -> Iterator[str]:
 def _area(frame: Placement, area: FilledArea) -> str:
     left, top = frame.at((area.left, area.top))
     right, bottom = frame.at((area.right, area.bottom))
-    stroke = "none" if area.sort == "overlap" else COLOURS[area.sort]
+    stroke = "none" if area.sort in PLAIN else COLOURS[area.sort]
     return (
         f'<rect x="{left:.1f}" y="{top:.1f}" width="{right - left:.1f}" height="{bottom - top:.1f}"'
         f' fill="{FILLS.get(area.sort, "none")}" stroke="{stroke}"/>'
@@ -386,7 +390,7 @@ def _area(frame: Placement, area: FilledArea) -> str:
 
 def _line(frame: Placement, line: Polyline) -> str:
     points = " ".join(f"{x:.1f},{y:.1f}" for x, y in map(frame.at, line.points))
-    dash = ' stroke-dasharray="5 4"' if line.dashed else ""
+    dash = ' stroke-dasharray="5 4"' if line.dashed else ' stroke-dasharray="2 3"' if line.dotted else ""
     # The rail is what the axis moves on: wide and pale, so that what lies on it remains visible.
     width = 6.0 if line.sort == "rail" else 2.0 if line.sort in ("now", "error") else 1.2
     return (

@@ -26,7 +26,7 @@ from .gears import draw_gears, spindles
 from .jog import draw_jog
 from .parts import axes_with, every_axis, pairs
 from .table import draw_table
-from .travel import draw_travel
+from .travel import draw_travel, ends_of_travel
 
 FASTEST = 100.0
 """%: the rapid feedrate."""
@@ -78,6 +78,10 @@ class FilePicture:
         raise KeyError(
             f"There is no part '{part}': {', '.join(name or 'one alone' for _, name in self.parts)}"
         )
+
+    def axis(self, name: str) -> str:
+        """Return what a person calls an axis."""
+        return axis_name(self.file.evaluation, name) or name
 
     def _axes_of(self, names: list[str]) -> list[str]:
         """Return the axes of these names; empty where they make no part."""
@@ -143,6 +147,14 @@ def _cam_views(file: ParameterFile, cam: CamRoles) -> PartNames:
 def _travel(file: ParameterFile, part: str, like: Scene | None) -> Scene:
     assert file.schema.pictures.travel is not None
     return draw_travel(file, file.schema.pictures.travel, tuple(part.split("+")), like)
+
+
+def travel_ends(file: ParameterFile, axes: Iterable[str]) -> list[tuple[float, float]]:
+    """Return the least and the greatest place of each axis that the limits of the picture of the travel
+    leave; infinite where none is set.
+    """
+    roles = file.schema.pictures.travel
+    return ends_of_travel(file, roles, tuple(axes)) if roles else [(-math.inf, math.inf) for _ in axes]
 
 
 def _ramps(file: ParameterFile, roles: RampRoles, part: str, like: Scene | None) -> Scene:

@@ -91,6 +91,14 @@ def _drawn(file: ParameterFile, roles: TravelRoles, axes: tuple[str, ...], like:
     return drawing.scene("travel", "+".join(axes), "Travel and zones", subtitle, x, y, equal=equal)
 
 
+def ends_of_travel(
+    file: ParameterFile, roles: TravelRoles, axes: tuple[str, ...]
+) -> list[tuple[float, float]]:
+    """Return what the travels of a family leave each axis."""
+    rows = _travels(ValueReader(file), roles, axes, file)
+    return [_inner([row[n] for _, row in rows]) for n in range(len(axes))]
+
+
 def _scales(
     figures: ValueReader, axes: tuple[str, ...], units: list[str], rows: list[list[_Ends]], homes: list[Home]
 ) -> list[Scale]:

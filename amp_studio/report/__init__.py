@@ -13,6 +13,7 @@ from amp_studio.front_pages import front_page
 if TYPE_CHECKING:
     from .axes import place_of
     from .chapters import (
+        CheckDrawing,
         CheckedFigure,
         CheckedMotion,
         Danger,

@@ -132,6 +132,15 @@ class CheckedFigure:
 
 
 @dataclass(frozen=True, slots=True)
+class CheckDrawing:
+    """A picture of a check."""
+
+    title: str
+    svg: str
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class CheckedMotion:
     """One scenario of the check in motion."""
 
@@ -143,6 +152,8 @@ class CheckedMotion:
     """What is not good."""
     alarms: tuple[tuple[str, str], ...] = ()
     """Code and message of each other alarm of the control."""
+    drawings: tuple[CheckDrawing, ...] = ()
+    """The pictures of the page Machine that it has, in English."""
 
     def printed(self, words: Language) -> tuple[str, str, str]:
         """Return scenario, figures, and what is not good with the alarms, as they are printed."""

@@ -355,6 +355,16 @@ class Report:
         )
 
     @property
+    def check_figures(self) -> tuple[PrintedFigure, ...]:
+        """The pictures of the check in motion."""
+        words = language_of(self.contents.language, self.family_id)
+        return tuple(
+            PrintedFigure(each.title, each.svg, tuple(map(words.sentence, each.notes)))
+            for check in self.checks
+            for each in check.drawings
+        )
+
+    @property
     def machine_name(self) -> str:
         """The name of the parameter file that a PDF has with it."""
         return self.file_name or f"{self.title}.amp"

@@ -66,7 +66,7 @@ if TYPE_CHECKING:
     from .listings import SimulationListing, listing
     from .machine_test import MachineTest, MachineTestStep
     from .model import assumptions
-    from .motion_check import MotionCheck, check_motion
+    from .motion_check import NEAR_GRID, LimitUse, MotionCheck, check_again, check_motion
     from .parameter_roles import ParameterRoles
     from .path.job import JobProgress, ProgramJob, ProgramVersion, WhatIf, versions, what_if
     from .path.moment import PathMoment, moment_at
@@ -98,12 +98,12 @@ if TYPE_CHECKING:
     from .probing import Probing
     from .rounding import rounded_down, rounded_up, value_text
     from .run import machine_tests, simulate, simulated_axes, sweep
-    from .scenario import Scenario, ScenarioSettings, above_zero, number, refuse_unknown
+    from .scenario import CheckPart, Scenario, ScenarioSettings, above_zero, number, refuse_unknown
     from .scenarios.columns import alarms_of, column_units, per_minute
     from .scenarios.step import SCENARIO as STEP
     from .spindle import Gear, Orient, SpeedWatch, Spindle, Tapping
     from .steady import error_at_speed, steady_signals
-    from .trace import Alarm, Figure, Recommendation, Trace, titled
+    from .trace import Alarm, Figure, HomingCourse, HomingStage, Recommendation, Trace, titled
     from .tuning.linear import linear_model
     from .tuning.record import add_tuning, read_tunings, recorded_tuning, value_at
     from .tuning.trial import address_of, called_parameter, named_parameter

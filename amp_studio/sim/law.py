@@ -185,6 +185,8 @@ class AxisLaw:
     """The axis whose orders move this one too, and the page; None for an axis that has its own orders."""
     limits: Mapping[str, float] = field(default_factory=dict)
     """Limits of the following error in u, to draw beside the curves."""
+    stops_at: str = ""
+    """The one of ``limits`` at which the control ends a motion in an alarm; "" where none does."""
     sources: Mapping[str, Source] = field(default_factory=dict)
     """Figure -> its parameter."""
     follow: Callable[[AxisLaw], Sequence[Recommendation]] = lambda _axis: ()

@@ -4,7 +4,8 @@ with the control's own words.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
@@ -16,12 +17,13 @@ from amp_studio.schema import Address, axis_name
 from .binding import bind_axis
 from .errors import SimulationError
 from .law import Law, law_of
+from .rounding import value_text
 from .run import simulate
-from .scenario import Scenario
+from .scenario import CheckPart, Scenario
 from .scenarios import SCENARIOS
 from .trace import Alarm, Figure, Trace
 from .tuning.advice import SHOWN_BY, why_not_sound
-from .tuning.loops import Loops
+from .tuning.loops import SOUND, Loops
 
 Verdict = Literal["good", "doubtful", "bad", "not possible"]
 NEAR_GRID = (20.0, 80.0)
@@ -35,6 +37,20 @@ LIMITS = ("torque_limit_positive", "torque_limit_negative")
 EVERY = "every"
 """Name of the one check of an axis that no scenario can move."""
 PROGRAMMED = "ASSUMED: {0}; the file does not give what a program does."
+
+
+@dataclass(frozen=True)
+class LimitUse:
+    """How much of its limit a scenario takes."""
+
+    share: float
+    """1 at the limit; infinite for an axis that is not stable."""
+    limit: str
+    """What the limit is."""
+    value: float | None = None
+    most: float | None = None
+    """The figure and its limit, where they are figures of the file."""
+    unit: str = ""
 
 
 @dataclass(frozen=True)
@@ -52,6 +68,12 @@ class MotionCheck:
     params: tuple[str, ...] = ()
     """Ids of the parameters to look at."""
     assumptions: tuple[str, ...] = ()
+    part: CheckPart = "following"
+    """What the scenario is about."""
+    headline: str = ""
+    """The figure that a list has room for."""
+    use: LimitUse | None = None
+    """None where nothing that is known limits it."""
     trace: Trace | None = field(default=None, compare=False, repr=False)
     """The run that decided; None where there was none."""
 
@@ -76,6 +98,24 @@ def check_motion(file: ParameterFile, axis: str | None = None) -> Iterator[Motio
             yield checked
 
 
+def check_again(
+    file: ParameterFile, scenario: str, axis: str | None, settings: Mapping[str, float | str] | None = None
+) -> MotionCheck:
+    """Return the check of one scenario of one axis once more, with settings, and in its trace with what is
+    recommended.
+    """
+    law = law_of(file.schema.family.family)
+    known = {**SCENARIOS, **law.own()}[scenario]
+    try:
+        if known.opposite and not settings:
+            runs = _ends(file, known, axis)
+        else:
+            runs = [(simulate(file, scenario, axis, {**known.programmed, **(settings or {})}), (), "")]
+    except SimulationError as error:
+        return _not_possible(file, law, scenario, axis, error)
+    return _judged(file, law, known, axis, runs)
+
+
 def _unmade(file: ParameterFile, law: Law, axis: str) -> MotionCheck | None:
     """Return the one check of an axis that no scenario can move, a spindle or one without its values; None
     for any other.
@@ -92,8 +132,10 @@ def _not_possible(
 ) -> MotionCheck:
     named = (error.parameter,) if error.parameter in file.schema.parameters else ()
     read = named or (_asked(file, law, scenario, axis) if axis and scenario in ASKED else ())
+    known = {**SCENARIOS, **law.own()}.get(scenario)
+    part: CheckPart = known.part if known else "following"
     return MotionCheck(
-        scenario, axis or "", _letter_of(file, axis), "not possible", why=error.what, params=read
+        scenario, axis or "", _letter_of(file, axis), "not possible", why=error.what, params=read, part=part
     )
 
 
@@ -113,16 +155,29 @@ def _letter_of(file: ParameterFile, axis: str | None) -> str:
 
 
 def _checked(file: ParameterFile, law: Law, scenario: Scenario, axis: str | None) -> MotionCheck:
-    instance, letter = axis or "", _letter_of(file, axis)
     try:
         runs = _ends(file, scenario, axis)
     except SimulationError as error:
         return _not_possible(file, law, scenario.name, axis, error)
+    return _judged(file, law, scenario, axis, runs)
+
+
+_Run = tuple[Trace, tuple[str, ...], str]
+"""A trace, what was taken for it, and what its figures are called after."""
+
+
+def _judged(
+    file: ParameterFile, law: Law, scenario: Scenario, axis: str | None, runs: Sequence[_Run]
+) -> MotionCheck:
+    """Return what the runs of a scenario show."""
+    instance, letter = axis or "", _letter_of(file, axis)
     # The worse end of the travel decides.
     found = [(*_verdict(trace), trace) for trace, _, _ in runs]
     verdict, why, decided = max(found, key=lambda each: WORSE.index(each[0]))
-    if verdict == "good" and scenario.name in SHOWN_BY:
-        verdict, why = _of_loops(file, law, runs[0][0])
+    stops_at = bind_axis(file, law, instance).stops_at if instance else ""
+    loops = Loops(bind_axis(file, law, decided.axis)) if scenario.name in SHOWN_BY else None
+    if verdict == "good" and loops is not None:
+        verdict, why = _of_loops(loops, scenario.name)
     if scenario.opposite and len(runs) == 1 and verdict == "good":
         verdict, why = "doubtful", ONE_END
     if verdict == "bad" and scenario.programmed:
@@ -134,8 +189,51 @@ def _checked(file: ParameterFile, law: Law, scenario: Scenario, axis: str | None
         notes |= dict.fromkeys((*assumed, *trace.assumptions))
     params = _parameters(file, law, decided) if verdict != "good" and instance else ()
     return MotionCheck(
-        scenario.name, instance, letter, verdict, figures, tuple(alarms), why, params, tuple(notes), decided
+        scenario.name,
+        instance,
+        letter,
+        verdict,
+        figures,
+        tuple(alarms),
+        why,
+        params,
+        tuple(notes),
+        scenario.part,
+        _headline(scenario, figures),
+        _use_of_loops(loops, scenario.name) if loops else _use(decided, stops_at),
+        decided,
     )
+
+
+def _headline(scenario: Scenario, figures: dict[str, Figure]) -> str:
+    """Return the figure that a list shows: the worse one of both ends of the travel."""
+    name = scenario.headline
+    ends = [end for end in (name, f"{name}_minus") if figures.get(end, (None, ""))[0] is not None]
+    found = max(ends, key=lambda end: abs(figures[end][0] or 0.0), default="")
+    return found or next((each for each, (value, _) in figures.items() if value is not None), "")
+
+
+def _use(trace: Trace, stops_at: str) -> LimitUse | None:
+    """Return how much of its limit a run takes: of the safe part of a turn, of the following error."""
+    grid = trace.result.get("home_grid", (None, ""))[0]
+    if grid is not None:
+        middle, half = 0.5 * (NEAR_GRID[1] + NEAR_GRID[0]), 0.5 * (NEAR_GRID[1] - NEAR_GRID[0])
+        return LimitUse(abs(grid - middle) / half, "the safe part of a turn between switch and marker")
+    peak, unit = trace.result.get("peak_following_error", (None, ""))
+    most = trace.limits.get(stops_at, (None, ""))[0]
+    return LimitUse(peak / most, stops_at, peak, most, unit) if peak is not None and most else None
+
+
+def _use_of_loops(loops: Loops, scenario: str) -> LimitUse | None:
+    """Return how much a loop takes of the margins that every sound axis keeps; None for one that controls no
+    position.
+    """
+    if scenario == "velocity":
+        lacks = loops.inner.lacks(SOUND.inner_phase, SOUND) if loops.inner else None
+        lacks = lacks if loops.inner_stable else math.inf
+    else:
+        lacks = loops.lacks() if loops.closed else None
+    return None if lacks is None else LimitUse(1.0 + lacks, SOUND.text())
 
 
 def _ends(
@@ -185,6 +283,9 @@ def _verdict(trace: Trace) -> tuple[Verdict, str]:
     figure = {name: value for name, (value, _) in trace.result.items() if value is not None}
     if figure.get("deviation_at_end"):
         return "doubtful", "The speed stays outside of the tolerance of its watch"
+    if "gap_low" in figure:
+        low, high = (value_text(figure[name]) for name in ("gap_low", "gap_high"))
+        return "doubtful", f"No gear has the speeds from {low} to {high} rpm"
     if trace.scenario == "home" and trace.result.get("home_position", (0.0, ""))[0] is None:
         return "bad", "The axis does not reach its home position"
     if trace.scenario == "step" and trace.result.get("in_position_time", (0.0, ""))[0] is None:
@@ -200,12 +301,11 @@ def _verdict(trace: Trace) -> tuple[Verdict, str]:
     return "good", ""
 
 
-def _of_loops(file: ParameterFile, law: Law, trace: Trace) -> tuple[Verdict, str]:
+def _of_loops(loops: Loops, scenario: str) -> tuple[Verdict, str]:
     """Return whether the loops that a scenario shows are sound: by the numbers of `tune`, so that a check
     does not call good what `frequency` changes.
     """
-    loops = Loops(bind_axis(file, law, trace.axis))
-    is_of_velocity = trace.scenario == "velocity"
+    is_of_velocity = scenario == "velocity"
     if loops.inner_sound() if is_of_velocity else not loops.closed or loops.sound():
         return "good", ""
     return "doubtful", why_not_sound(loops)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Literal
 
 from amp_studio.schema import unknown_name
 
@@ -12,6 +13,8 @@ from .axis_parameters import ParameterValue
 from .errors import SimulationError
 from .trace import Trace
 
+CheckPart = Literal["homing", "travel", "following", "spindle", "probing", "coupling"]
+"""What a check of the machine is about; in this order."""
 ScenarioSettings = Mapping[str, ParameterValue]
 
 
@@ -40,6 +43,10 @@ class Scenario:
     """The same for several axes at once, run like one of the machine; None where it takes one axis."""
     checked: tuple[str, ...] = ()
     """The figures that a check of the machine shows; () for a scenario that it leaves out."""
+    part: CheckPart = "following"
+    """Where a check of the machine lists it."""
+    headline: str = ""
+    """The figure of ``checked`` that a list has room for; "" for the first."""
     once: bool = False
     """Whether a check runs it once for the machine instead of for each axis."""
     programmed: Mapping[str, float | str] = field(default_factory=dict)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     import numpy as np
@@ -40,6 +40,37 @@ class PlaneArea:
     name: str
     x: tuple[float, float]
     y: tuple[float, float]
+
+
+class HomingStage(NamedTuple):
+    """One part of a homing, from one order to the next."""
+
+    name: str
+    """approach, leave, search, back, again or final."""
+    begin: float
+    """s"""
+    speed: float
+    """Of the command, u/min."""
+    parameter: str
+    """Id of what sets the speed; "" where none does."""
+
+
+@dataclass(frozen=True)
+class HomingCourse:
+    """What a homing met on its way: places in u from its start, in the direction of the machine."""
+
+    stages: tuple[HomingStage, ...]
+    switch: tuple[float, float] | None
+    """Where the switch comes on and goes off on the way over it, the second infinite where it stays on; None
+    for a homing without one."""
+    marker: float | None
+    """One of the markers; None where none counts."""
+    turn: float
+    """From one marker to the next."""
+    home: float | None
+    coordinate: float
+    """What the axis is called at ``home``."""
+    unit: str
 
 
 @dataclass(frozen=True)
@@ -80,6 +111,8 @@ class Trace:
     with them another axis makes the same move."""
     areas: tuple[PlaneArea, ...] = ()
     """Zones to draw in the plane of the first two axes."""
+    course: HomingCourse | None = None
+    """Of a homing."""
     doubts: tuple[str, ...] = ()
     """What is wrong or doubtful about the values that the axis was made of, each a sentence."""
 

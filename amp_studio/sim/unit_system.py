@@ -15,7 +15,7 @@ from amp_studio.schema import UNITS, canonical
 
 from .errors import SimulationError
 from .rounding import rounded, value_text
-from .trace import Figure, Recommendation, Trace
+from .trace import Figure, HomingCourse, PlaneArea, Recommendation, Trace
 
 MM_PER_INCH = 25.4
 LENGTHS = ("mm", "in")
@@ -95,6 +95,30 @@ def in_unit(trace: Trace, length: str) -> Trace:
         recommendations=tuple(_recommendation(each, length) for each in trace.recommendations),
         assumptions=tuple(in_text(text, length) for text in trace.assumptions),
         model=in_text(trace.model, length),
+        areas=tuple(_area(each) for each in trace.areas),
+        course=trace.course and _course(trace.course, length),
+    )
+
+
+def _area(area: PlaneArea) -> PlaneArea:
+    (left, right), (low, high) = area.x, area.y
+    return replace(
+        area, x=(left / MM_PER_INCH, right / MM_PER_INCH), y=(low / MM_PER_INCH, high / MM_PER_INCH)
+    )
+
+
+def _course(course: HomingCourse, length: str) -> HomingCourse:
+    factor = _factor(course.unit, length)
+    switch, marker, home = course.switch, course.marker, course.home
+    return replace(
+        course,
+        stages=tuple(each._replace(speed=each.speed / factor) for each in course.stages),
+        switch=None if switch is None else (switch[0] / factor, switch[1] / factor),
+        marker=None if marker is None else marker / factor,
+        turn=course.turn / factor,
+        home=None if home is None else home / factor,
+        coordinate=course.coordinate / factor,
+        unit=own_unit(course.unit, length),
     )
 
 

@@ -132,6 +132,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         travel=partial(events.travel, read),
         undamped=UNDAMPED if p[loop.D_GAIN] == p[loop.FBVEL] == 0.0 else "",
         limits={"excess_error": excess} if excess > 0.0 else {},
+        stops_at="excess_error",
         gains=("derivative_gain", "position_gain", "integral_gain"),
         filters=(
             LoopFilter("lopass", MOST_LOPASS / period),

@@ -37,6 +37,7 @@ def homing(read: AxisParameters, pulses: float) -> Homing:
         search=read.above_zero(ids.marker_speed) / 60.0,
         ramp=Ramp("linear", read.above_zero(ids.home_acceleration), read.above_zero(ids.home_stop)),
         order=priority,
+        speeds={"approach": ids.fast_speed, "leave": ids.slow_speed, "search": ids.marker_speed},
         page="65",
         notes=NOTES,
     )

@@ -129,10 +129,8 @@ def homing(read: AxisParameters) -> Homing:
     if not cycle & ENABLED:
         raise SimulationError("Homing is off ($22): $H is answered with error:5", ids.homing_cycle)
     sign = -1.0 if _bit(read, ids.invert_direction, MOTION.axes.index(read.axis)) else 1.0
-    seek, locate = (
-        (read.optional(name) if cycle & PER_AXIS else read.optional(name, everywhere=True)) or 0.0
-        for name in (OWN if cycle & PER_AXIS else COMMON)
-    )
+    rates = OWN if cycle & PER_AXIS else COMMON
+    seek, locate = (read.optional(name, everywhere=rates is COMMON) or 0.0 for name in rates)
     if not (seek > 0.0 and locate > 0.0):
         raise SimulationError(
             f"The homing rates of axis {read.axis} are {seek:g} and {locate:g}; both must be above 0",
@@ -164,6 +162,7 @@ def homing(read: AxisParameters) -> Homing:
             ),
         },
         order=_phase(read),
+        speeds={"approach": rates[0], "back": rates[0], "again": rates[1], "final": rates[0]},
         page=SOURCE,
         notes=HOMED,
     )

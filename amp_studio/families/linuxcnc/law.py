@@ -149,6 +149,7 @@ def bind(read: AxisParameters) -> AxisLaw:
             "steady_following_error": Prediction(abs(speed) * (1.0 - share) / rate, unit, "D1169")
         },
         limits={"ferror": ferror, "min_ferror": least},
+        stops_at="ferror",
         sources={
             "feedrate": Source(ids.axis_max_velocity, 1.0),
             "acceleration": Source(ids.max_acceleration),
@@ -196,6 +197,11 @@ def homing(joint: _Joint) -> Homing:
         # The joints of a negative step make the final move together; its order is the same.
         order=None if sequence is None else abs(int(sequence)),
         pause=MOTION.value("home_pause"),
+        speeds={
+            "approach": ids.joint_home_search_velocity,
+            "leave": ids.joint_home_latch_velocity,
+            **({"final": ids.joint_home_final_velocity} if final > 0.0 else {}),
+        },
         page="H796",
         notes=HOMED,
     )

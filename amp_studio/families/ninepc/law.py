@@ -150,6 +150,7 @@ def _alone(read: AxisParameters, master: AxisParameters | None = None) -> AxisLa
         "position_rate": loop.rate,
         "predict": partial(predictions, loop, kind.unit) if kind.loop != "open" else _nothing,
         "limits": _limits(parameters, read, loop) if kind.loop != "open" else {},
+        "stops_at": "excess error",
         "alarms": _alarms(read, kind, parameters),
         "faults": {"drive": AMPLIFIER},
         "monitors": (

@@ -97,6 +97,7 @@ def homing(read: AxisParameters, feedback: Feedback) -> Homing:
         final=speed,
         offset=read.optional(ids.home_calibration) or 0.0,
         failures={"fast": TOO_FAST},
+        speeds={"approach": ids.g28_speed, "leave": ids.speed_off_switch, "final": ids.speed_off_switch},
         page="5-4",
         notes=HOMED,
     )
@@ -120,6 +121,7 @@ def _coded(read: AxisParameters) -> Homing:
         coordinate=read.number(ids.home_position),
         final=above_zero(read, ids.speed_off_switch) / 60.0,
         scale=CodedScale(small, large, 0.5 * small, read.optional(ids.dcm_scale_zero) or 0.0),
+        speeds={"search": ids.g28_speed, "final": ids.speed_off_switch},
         page="5-5",
         notes=CODED,
     )

@@ -135,5 +135,6 @@ SCENARIO = Scenario(
     run_hard_stop,
     gains=False,
     of_machine=True,
+    part="probing",
     checked=("detection_torque", "following_error", "pressed_in"),
 )

@@ -32,7 +32,7 @@ from .formulas import approach_speed, circle_speed, increments_per_sample, measu
 from .formulas.servo import FOLLOWING_ERROR_MARGIN
 from .law_advice import advise, follow
 from .law_facts import MOTION, ids
-from .law_loop import loop
+from .law_loop import LARGEST, loop
 from .law_machine_tests import machine_tests
 from .law_pair import drive_axis, is_synchronised, refuse_chain, synchronised
 from .law_spindle import spindle, tapping
@@ -154,6 +154,7 @@ def _alone(read: AxisParameters) -> tuple[AxisLaw, float]:
         predict=lambda feedrate: predicted(words, feedrate),
         circle_feedrate=lambda radius: circle_feedrate(words, radius),
         limits=limits,
+        stops_at=LARGEST,
         sources=_sources(read, words),
         follow=follow,
         assumptions=(*notes, *_clamped(read), *ALWAYS, *NOT_SIMULATED),

@@ -54,6 +54,7 @@ def homing(read: AxisParameters, length: float) -> Homing:
         turn=MOTION.value("marker_distance"),
         coordinate=(read.optional(ids.switch_position) or 0.0) * length,
         through=not alone,
+        speeds=dict.fromkeys(("approach", "leave"), JOGS["normal"]),
         page="7-8",
         notes=notes,
     )

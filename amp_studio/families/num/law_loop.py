@@ -12,6 +12,9 @@ from . import law_sample as sample
 from .law_facts import ids
 from .law_words import Words
 
+LARGEST = "maximum following error"
+"""The limit at which the control takes its axes off."""
+
 
 def loop(
     read: AxisParameters, words: Words, notes: list[str]
@@ -43,7 +46,7 @@ def loop(
         ),
     }
     band = read.number(ids.in_position_window) * words.length
-    return p, alarms, {"maximum following error": p[sample.EMAX], "in-position window": band}
+    return p, alarms, {LARGEST: p[sample.EMAX], "in-position window": band}
 
 
 def _ahead(read: AxisParameters, words: Words, notes: list[str]) -> float:

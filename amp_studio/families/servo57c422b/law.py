@@ -158,6 +158,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         monitors=loop.MONITORS,
         alarms=_alarms(read, p),
         faults=_faults(read),
+        stops_at="maximum_position_error",
         limits={"maximum_position_error": p[loop.POSITION_ERROR]} if p[loop.POSITION_ERROR] >= 0.0 else {},
         gains=("velocity_gain", "position_gain", "integral_gain"),
         follow=follow,

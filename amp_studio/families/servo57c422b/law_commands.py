@@ -407,6 +407,7 @@ COMMANDS = {
             "The axis at rest is geared to a moving reference",
             GEAR,
             run_gear,
+            part="coupling",
             checked=("gear_ratio", "speed", "peak_following_error"),
             programmed={"gear.time": 1.0},
         ),
@@ -415,6 +416,7 @@ COMMANDS = {
             "A time cam or a position cam",
             CAM,
             run_cam,
+            part="coupling",
             checked=("points", "peak_following_error", "peak_output"),
         ),
         Scenario(
@@ -422,6 +424,7 @@ COMMANDS = {
             "A move with backlash compensation",
             BACKLASH,
             run_backlash,
+            part="coupling",
             checked=("move_1", "move_2", "peak_following_error"),
         ),
     )

@@ -38,6 +38,7 @@ def homing(read: AxisParameters) -> Homing:
         turn=MOTION.value("marker_distance"),
         coordinate=read.number(ids.command_position),
         direction_lost=True,
+        speeds={"approach": ids.command_velocity, "leave": ids.home_speed_low},
         page="4-29",
         notes=(
             UNKNOWN if word is None else bits.SWITCHES,

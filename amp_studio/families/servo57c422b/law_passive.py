@@ -98,5 +98,6 @@ SCENARIO = Scenario(
     SETTINGS,
     run_passive_home,
     gains=False,
+    part="homing",
     checked=("home_position", "time"),
 )

@@ -143,6 +143,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         alarms=_alarms(axis),
         predict=lambda feedrate: predicted(axis, feedrate),
         limits=limits,
+        stops_at="MOT-019",
         sources=_sources(read, axis),
         assumptions=(*notes, *ALWAYS),
         assumed=MOTION.reasons(

@@ -60,6 +60,7 @@ def homing(read: AxisParameters, turn: float) -> Homing:
         skipped=HALF if read.value(ids.home_grid) is True else 0.0,
         failures=_failures(read, turn),
         rest_window=math.inf if not window else window * BLU,
+        speeds={"approach": ids.first_speed, "leave": ids.second_speed, "final": ids.second_speed},
         page="2.2",
         notes=(*NOTES, WINDOW_NOTE) if window else NOTES,
     )

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Generator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from amp_studio.sim.command.events import Around, CodedScale, Failure, Homing, Ramp
 from amp_studio.sim.rounding import page_text, value_text
@@ -41,6 +41,12 @@ class Homed:
     """When the last order of a scenario was done, s."""
     alarm: str = ""
     why: str = ""
+    stages: list[tuple[str, float, float]] = field(default_factory=list)
+    """What was begun, when in s, and how fast in u/s."""
+
+    def begin(self, name: str, axis: MovingAxis, speed: float) -> None:
+        """Note that a part of the homing begins now."""
+        self.stages.append((name, axis.time, abs(speed)))
 
     def fail(self, failure: Failure) -> None:
         """Note why it failed."""
@@ -80,6 +86,7 @@ def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: H
             sign * (edge - axis.position) > way
         ):  # the axis is at the end of its way when the command has ended
             place, way = sign * math.inf, max(way - axis.behind(homing.approach), 0.0)
+        homed.begin("approach", axis, homing.approach)
         seen = yield GoOrder(homing.approach, ramp, Watch(place, sign), way)
         if seen is None:
             if not axis.is_over:
@@ -124,12 +131,14 @@ def _again(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: 
     """Back off, come onto the switch slowly and stop there at once, as often as asked."""
     sign, back = math.copysign(1.0, homing.approach), homing.pull_off
     for _ in range(homing.passes):
+        homed.begin("back", axis, homing.approach)
         yield MoveOrder(axis.position - sign * back, abs(homing.approach), ramp)
         if around.is_stuck or sign * (axis.load - edge) >= 0.0:
             off = f"The switch does not go off within {value_text(back, axis.axis.unit)}"
             # A later pass replaces the edge that an earlier one found.
             yield from _failed(homing, "stuck", ramp, homed, off)
             return
+        homed.begin("again", axis, homing.again)
         homed.left = yield GoOrder(sign * abs(homing.again), ramp, Watch(edge, sign), LOCATE * back)
         if homed.left is None:
             yield from _failed(homing, "switch", ramp, homed, "The switch does not come on again")
@@ -162,6 +171,7 @@ def _off(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: Ho
         yield StopOrder(ramp)
     homed.home = homed.marker + homing.offset
     if homing.final:
+        homed.begin("final", axis, homing.final)
         yield MoveOrder(homed.home, homing.final, ramp)
     homed.coordinate = homing.coordinate
 
@@ -176,6 +186,7 @@ def _left(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: H
     if not around.is_stuck and stuck and abs(axis.position - edge) > stuck.reach:
         way = stuck.reach
     place = sign * math.inf if around.is_stuck else edge
+    homed.begin("leave", axis, homing.leave)
     homed.left = yield GoOrder(homing.leave, ramp, Watch(place, sign), way)
     if homed.left is None and not axis.is_over:
         yield from _failed(homing, "stuck", ramp, homed, "The axis does not leave the switch")
@@ -194,6 +205,7 @@ def _next_marker(
     # A marker that the control would not wait for never comes for it.
     place = marker if around.has_markers and sign * (marker - start) <= far else sign * math.inf
     speed = math.copysign(homing.search or abs(homing.leave), homing.leave)
+    homed.begin("search", axis, speed)
     if (yield GoOrder(speed, ramp, Watch(place, sign, device=True), far)) is not None:
         homed.marker = marker
         yield StopOrder(ramp)
@@ -215,6 +227,7 @@ def _coded(
         place = sign * math.inf
     # In each period there is a marker, so that one more period than markers is enough.
     way = min(_way(axis, around, sign, scale.large), (scale.markers + 1) * scale.large)
+    homed.begin("search", axis, homing.leave)
     seen = yield GoOrder(homing.leave, ramp, Watch(place, sign, device=True), way)
     if seen is None:
         if not axis.is_over:
@@ -226,6 +239,7 @@ def _coded(
     yield StopOrder(ramp)
     homed.home = homing.coordinate - scale.zero - around.scale
     if homing.final:
+        homed.begin("final", axis, homing.final)
         yield MoveOrder(homed.home, homing.final, ramp)
     homed.coordinate = homing.coordinate
 

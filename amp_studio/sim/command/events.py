@@ -107,6 +107,9 @@ class Homing:
     """s at rest on the switch before the axis goes on."""
     ramp: Ramp | None = None
     """None for the axis' ramp of manual moves."""
+    speeds: Mapping[str, str] = field(default_factory=dict)
+    """Of approach, leave, search, again and final: the parameter that sets its speed; a search without one
+    goes on as the axis left."""
     page: str = ""
     notes: tuple[str, ...] = ()
     """What is printed with its page, and what is assumed."""

@@ -5,7 +5,7 @@ it.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,9 +18,9 @@ from amp_studio.sim.command.events import Around, Homing
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.rounding import page_text, value_text
+from amp_studio.sim.rounding import page_text, rounded_down, value_text
 from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, number, refuse_unknown
-from amp_studio.sim.trace import Alarm, Figure, Trace
+from amp_studio.sim.trace import Alarm, Figure, HomingCourse, HomingStage, Recommendation, Trace
 
 from .columns import alarms_of, column_units, per_minute
 
@@ -60,6 +60,10 @@ MOST_TURNS = 100.0
 MOST_HOMINGS = 100
 ON_SCALE = 5.3
 """Periods of a coded scale from its zero to the start."""
+HALVINGS = 7
+"""Of the speed at which an axis passes its switch: 1 % of it is near enough."""
+OF_THE_SWITCH = 0.8
+"""Share of the switch on which the axis stops at the speed that is recommended."""
 GOLDEN = 0.6180339887498949
 """Shares of the scatter come evenly: the multiples of the golden ratio without their whole part (van der
 Corput's idea)."""
@@ -109,11 +113,60 @@ def run_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
         units=column_units(axis),
         result=_figures(axis, homing, found, others, motion, bool(alarms)),
         alarms=alarms,
-        recommendations=(),
+        recommendations=tuple(_slower(axis, homing, ramp, around, found)),
         assumptions=(*_doubts(axis, homing, around, found), SEEN, *homing.notes, *assumptions(axis)),
         limits={"inposition band": (axis.inposition_band, axis.unit)},
         move={"move.switch": abs(around.switch)} if homing.approach else {},
+        course=_course(axis, homing, around, found),
     )
+
+
+def _course(axis: AxisLaw, homing: Homing, around: Around, found: Homed) -> HomingCourse:
+    """Return what was on the way, for the picture."""
+    sign = math.copysign(1.0, homing.approach)
+    switch = around.switch, math.inf if around.is_stuck else around.switch + sign * around.length
+    counts = homing.marker != "none" and around.has_markers and homing.scale is None
+    return HomingCourse(
+        stages=tuple(
+            HomingStage(name, begin, speed * 60.0, homing.speeds.get(name) or _as_left(homing, name))
+            for name, begin, speed in found.stages
+        ),
+        switch=switch if homing.approach else None,
+        marker=around.marker if counts else None,
+        turn=homing.turn,
+        home=found.home,
+        coordinate=homing.coordinate,
+        unit=axis.unit,
+    )
+
+
+def _as_left(homing: Homing, stage: str) -> str:
+    """Return what sets the speed of a search that goes on as the axis left, or came over, its switch."""
+    if stage != "search" or homing.search:
+        return ""
+    return homing.speeds.get("leave", "")
+
+
+def _slower(
+    axis: AxisLaw, homing: Homing, ramp: Ramp, around: Around, found: Homed
+) -> Iterator[Recommendation]:
+    """Yield the approach at which an axis that passed its whole switch stops on it."""
+    parameter = homing.speeds.get("approach")
+    if parameter is None or not found.alarm or found.overrun is None or found.overrun <= around.length:
+        return
+    slow, fast = 0.0, abs(homing.approach)
+    # Halved again and again: the overrun grows with the speed, but by no formula that every ramp has.
+    for _ in range(HALVINGS):
+        middle = 0.5 * (slow + fast)
+        tried = _homed(axis, replace(homing, approach=math.copysign(middle, homing.approach)), ramp, around)[
+            1
+        ]
+        stops = tried.overrun is not None and tried.overrun <= OF_THE_SWITCH * around.length
+        slow, fast = (middle, fast) if stops else (slow, middle)
+    if slow > 0.0:
+        long = value_text(around.length, axis.unit)
+        why = f"At this speed the axis stops on its switch of {long} with a fifth of it to spare"
+        yield Recommendation(parameter, rounded_down(slow * 60.0, 2), f"{axis.unit}/min", why)
 
 
 def _refuse_switch(axis: AxisLaw, homing: Homing, settings: ScenarioSettings) -> None:
@@ -313,5 +366,7 @@ SCENARIO = Scenario(
     SETTINGS,
     run_home,
     gains=False,
+    part="homing",
+    headline="home_grid",
     checked=("home_position", "home_grid", "switch_overrun", "time"),
 )

@@ -90,5 +90,10 @@ def _chosen(what: str, name: ParameterValue, known: Mapping[str, float]) -> floa
 
 
 SCENARIO = Scenario(
-    "jog", "A continuous or incremental jog", SETTINGS, run_jog, checked=("feedrate", "stop_position", "time")
+    "jog",
+    "A continuous or incremental jog",
+    SETTINGS,
+    run_jog,
+    part="travel",
+    checked=("feedrate", "stop_position", "time"),
 )

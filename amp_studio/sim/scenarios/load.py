@@ -174,5 +174,6 @@ SCENARIO = Scenario(
     "A torque comes at once on the load of a standing axis: stiffness, sag, recovery",
     SETTINGS,
     run_load,
+    headline="sag",
     checked=("stiffness", "sag", "recovery_time"),
 )

@@ -229,6 +229,8 @@ SCENARIO = Scenario(
     run_probe,
     gains=False,
     of_machine=True,
+    part="probing",
+    headline="probe_error",
     checked=("speed", "probe_error", "overrun", "band"),
     programmed={"move.speed": 100.0},
 )

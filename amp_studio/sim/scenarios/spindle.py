@@ -75,7 +75,7 @@ def run_spindle(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
     aim = command if reached is None or speed == 0.0 else command * (reached / speed)
     actual = lagged(time, aim, before, lag)
     output = np.array([gear.output_at(float(each)) if gear else 0.0 for each in command])
-    result = _of_gear(spindle, gear, commanded, lasts)
+    result = _of_gear(spindle, gear, commanded, lasts) | _gap(spindle)
     columns = {"time_s": time, "command_velocity": command, "velocity": actual, "output": output}
     units = {"time_s": "s", "command_velocity": "rpm", "velocity": "rpm", "output": spindle.unit}
     if spindle.watch and gear:
@@ -118,6 +118,15 @@ def _of_gear(spindle: Spindle, gear: Gear | None, commanded: float, lasts: float
         return {name: (None, unit) for name, unit in units.items()}
     figures = (float(gear.name), gear.output_at(commanded), lasts, commanded, gear.low, gear.high)
     return {name: (figure, unit) for (name, unit), figure in zip(units.items(), figures, strict=True)}
+
+
+def _gap(spindle: Spindle) -> dict[str, Figure]:
+    """Return the widest range of speeds between two gears that no gear has; none where there is none."""
+    gears = sorted(spindle.gears, key=lambda gear: gear.low)
+    reached = [max(gear.high for gear in gears[: n + 1]) for n in range(len(gears))]
+    gaps = [(low, gear.low) for low, gear in zip(reached, gears[1:], strict=False) if gear.low > low]
+    widest = max(gaps, key=lambda gap: gap[1] - gap[0], default=None)
+    return {} if widest is None else {"gap_low": (widest[0], "rpm"), "gap_high": (widest[1], "rpm")}
 
 
 def spindle_of(machine: BoundMachine, settings: ScenarioSettings) -> Spindle:
@@ -369,6 +378,8 @@ SCENARIO = Scenario(
     run_spindle,
     gains=False,
     of_machine=True,
+    part="spindle",
+    headline="speed",
     checked=("gear", "output", "ramp_time", "speed"),
     once=True,
     programmed={"move.speed": HIGHEST},

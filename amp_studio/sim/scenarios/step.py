@@ -107,5 +107,6 @@ SCENARIO = Scenario(
     "One commanded move of one axis, from rest to rest",
     MOVE_SETTINGS,
     run_step,
+    headline="peak_following_error",
     checked=("steady_following_error", "peak_following_error", "settle_time", "overshoot", "peak_output"),
 )

@@ -213,6 +213,8 @@ SCENARIO = Scenario(
     run_tap,
     gains=False,
     of_machine=True,
+    part="spindle",
+    headline="reversal_error",
     checked=("gear", "speed", "reversal_error", "depth_error"),
     once=True,
     programmed={"move.pitch": 1.0, "move.speed": HIGHEST},

@@ -283,6 +283,8 @@ SCENARIO = Scenario(
     run_travel,
     gains=False,
     several=run_plane,
+    part="travel",
+    headline="overrun",
     checked=("limit", "stop_position", "overrun"),
     opposite={"move.direction": "minus"},
 )

@@ -13,6 +13,7 @@ from amp_studio.drawing import (
     BAR,
     BAR_STEPS,
     PALE,
+    PLAIN,
     SAMPLE,
     Curve,
     Dot,
@@ -50,6 +51,7 @@ TOKENS: dict[ShapeSort, Token] = {
     "travel": "text",
     "rail": "edge",
     "overlap": "line",
+    "gap": "warnbg",
     "output": "warn",
     "before": "edge",
 }
@@ -59,6 +61,7 @@ TEXT_TOKENS: dict[ShapeSort, Token] = {
     "dim": "dim",
     "second": "dim",
     "outside": "rec",
+    "output": "warn",
 }
 
 RING, RING_LINE, SMALL = 6.6, 1.4, 3.2
@@ -189,7 +192,7 @@ class ScenePainter:
     def _area(self, area: FilledArea) -> None:
         box = QRectF(self._at((area.left, area.top)), self._at((area.right, area.bottom))).normalized()
         shade = colour(TOKENS[area.sort])
-        if area.sort == "overlap":
+        if area.sort in PLAIN:
             self._painter.fillRect(box, shade)
             return
         if area.sort != "outside":
@@ -208,8 +211,8 @@ class ScenePainter:
         pen = QPen(shade, 1.0 if self._is_fine else width)
         pen.setCapStyle(Qt.PenCapStyle.FlatCap)
         pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
-        if line.dashed:
-            pen.setDashPattern([4.0, 3.0])
+        if line.dashed or line.dotted:
+            pen.setDashPattern([4.0, 3.0] if line.dashed else [1.0, 1.5])
         self._painter.setPen(pen)
         self._painter.drawPolyline(QPolygonF([self._at(point) for point in line.points]))
 

@@ -1,49 +1,70 @@
-"""The page Machine of a file: every scenario that it allows with its verdict and a figure; of the chosen one
-its picture, what is not good, all figures, and parameters to look at.
+"""The page Machine of a file: every scenario that it allows as a row with its verdict, the share of its limit
+and a figure; of the chosen one its picture, what is not good and what mends it; below the plan of the travel
+and the spindle.
 """
 
 from __future__ import annotations
 
 import html
 import threading
-from bisect import bisect_right
-from collections import Counter
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
+from pathlib import Path
 
-from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtGui import QShowEvent
+from PySide6.QtCore import QEvent, QModelIndex, QObject, Qt, Signal
+from PySide6.QtGui import QKeyEvent, QKeySequence, QShortcut, QShowEvent
 from PySide6.QtWidgets import (
+    QFileDialog,
     QHBoxLayout,
-    QHeaderView,
     QLabel,
+    QMessageBox,
     QPushButton,
     QSplitter,
-    QTableWidget,
-    QTableWidgetItem,
+    QToolButton,
     QVBoxLayout,
     QWidget,
 )
 
-from amp_studio.files import ParameterFile
-from amp_studio.schema import unit_text
-from amp_studio.sim import MotionCheck, SimulationError, check_motion, picture_of, value_text
-from amp_studio.ui.base.plot import Plot
-from amp_studio.ui.base.task import Task, TaskProgress
-from amp_studio.ui.base.theme import GAP2, GAP3, ROW, Token, colour, font, icon, scheme
-from amp_studio.ui.base.translated import scenario_in_words, sentenced, worded
+from amp_studio.files import ParameterFile, RangeError, check_output
+from amp_studio.schema import Address, Value
+from amp_studio.sim import (
+    MotionCheck,
+    Recommendation,
+    SimulationError,
+    address_of,
+    check_again,
+    check_motion,
+    value_text,
+)
+from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.loading import load
+from amp_studio.ui.base.questions import show_message
+from amp_studio.ui.base.task import Task, TaskProgress, in_background
+from amp_studio.ui.base.theme import GAP, GAP2, GAP3, SMALL_ICON, colour, font, icon, scheme
+from amp_studio.ui.base.translated import language_of_window, scenario_in_words, sentenced, unit_in_words
 from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.dialogs.file_dialogs import PAPER_KINDS, path_of_kind
 from amp_studio.ui.forms.elided_label import ElidedLabel
+from amp_studio.ui.forms.segment import chip
 from amp_studio.ui.page.page_of_file import PageOfFile
 
+from .check_list import (
+    MARKS,
+    CheckRows,
+    MachineCheckList,
+    counts_of,
+    figures_of,
+    part_in_words,
+    verdict_in_words,
+)
+from .machine_cards import CheckCard, LatestWork, SpindleCard, TravelCard
 from .results import name_of
 
-MARKS: dict[str, tuple[str, Token]] = {
-    "good": ("check-circle-fill", "text"),
-    "doubtful": ("warning-fill", "warn"),
-    "bad": ("x-circle-fill", "error"),
-    "not possible": ("circle-dashed", "dim"),
-}
-"""Verdict -> its icon."""
+LEFT = 280
+"""Least width of the list in logical pixels."""
+AXES = 4
+"""Axes that have a key."""
 
 
 class _Checking(QObject):
@@ -67,8 +88,9 @@ class _Checking(QObject):
         return ""
 
 
-_ORDER = {"bad": 0, "doubtful": 1, "good": 2, "not possible": 3}
-"""Places of the verdicts in the list."""
+def _is_run(event: QEvent) -> bool:
+    """Return whether a key is F9."""
+    return isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_F9 and not event.modifiers()
 
 
 class CheckPage(PageOfFile):
@@ -83,77 +105,164 @@ class CheckPage(PageOfFile):
         super().__init__()
         self._workspace, self._show_parameter = workspace, show_parameter
         self._checking: _Checking | None = None
-        self.checks: list[MotionCheck] = []
-        self._drawn: MotionCheck | None = None
-        self._begun_with: MotionCheck | None = None
         self._task: Task | None = None
         self._is_stale = True
-        workspace.changed.connect(self._after_edit)
-        workspace.closed.connect(self.stop)
+        self._begun, self._lasted = 0.0, 0.0
+        self._axis = ""
+        """The axis that was chosen last."""
+        self._chosen = ("", "")
+        """Scenario and axis of the row that was chosen last, which stays after an edit."""
+        self._fix: dict[Address, Value | None] = {}
+        """What the offered fix sets."""
+        self.rows = CheckRows(workspace.file)
+        self.list = MachineCheckList(self.rows)
+        self.list.setAccessibleName(self.tr("Checks of the machine in motion"))
         self.setAccessibleName(self.tr("Check in Motion"))
-        self.summary = QLabel()
-        self.summary.setFont(font("text", own=True))
-        self.table = QTableWidget(0, 2)
-        self.table.setHorizontalHeaderLabels([self.tr("Scenario"), self.tr("Figure")])
-        self.table.verticalHeader().setDefaultSectionSize(ROW)
-        self.table.setAccessibleName(self.tr("Checks of the machine in motion"))
-        self.table.setEditTriggers(QTableWidget.EditTrigger.NoEditTriggers)
-        self.table.setSelectionBehavior(QTableWidget.SelectionBehavior.SelectRows)
-        self.table.setShowGrid(False)
-        self.table.verticalHeader().hide()
-        head = self.table.horizontalHeader()
-        head.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
-        head.setHighlightSections(False)
-        head.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        head.setStretchLastSection(True)
-        self.table.currentCellChanged.connect(lambda *_: self._show_detail())
-        scheme().changed.connect(self._show_detail)  # a link keeps the colour in which it was written
-        self.title = ElidedLabel()
+        self.card, self.travel, self.spindle = CheckCard(), TravelCard(), SpindleCard()
+        self._again = LatestWork()
+        self._make_head()
+        self._lay_out()
+        self._connect()
+        self.setFocusProxy(self.list)
+
+    @property
+    def checks(self) -> list[MotionCheck]:
+        """The checks so far, in the order in which they were made."""
+        return self.rows.checks
+
+    @property
+    def check(self) -> MotionCheck | None:
+        """The chosen check."""
+        return self.rows.check(self.list.currentIndex())
+
+    @property
+    def _family(self) -> str:
+        return self._workspace.file.schema.family.family
+
+    # -- how it is laid out ----------------------------------------------------------
+
+    def _make_head(self) -> None:
+        self.heading = QLabel(self.tr("Checks"))
+        strong = font("text", own=True)
+        strong.setWeight(strong.Weight.DemiBold)
+        self.heading.setFont(strong)
+        self.chips: dict[str, QToolButton] = {}
+        for verdict in MARKS:
+            button = self.chips[verdict] = chip("", verdict_in_words(verdict))
+            button.setAccessibleName(verdict_in_words(verdict))
+            button.clicked.connect(self._filter)
+        self.summary = ElidedLabel()
+        self.summary.setFont(font("small", own=True))
+        self.report = QPushButton(icon("printer"), self.tr("Rep&ort…"))
+        self.report.setToolTip(self.tr("Write the list and the pictures as a document"))
+        self.title, self.why = ElidedLabel(), ElidedLabel()
         self.title.setFont(font("title", own=True))
-        self.plot = Plot(has_cursors=False)
+        self.mark = QLabel()
+        self.assumptions = QPushButton()
+        self.assumptions.setFlat(True)
+        self.motion = QPushButton(icon("activity"), self.tr("Show the &Move"))
+        self.motion.setToolTip(self.tr("The scenario of the selected row in Motion (Enter)"))
+        self.again = QPushButton(icon("play"), self.tr("Check Aga&in"))
+        self.again.setToolTip(self.tr("Run every scenario again (F9)"))
         self.detail = QLabel()
         self.detail.setWordWrap(True)
         self.detail.setTextFormat(Qt.TextFormat.RichText)
         self.detail.setTextInteractionFlags(Qt.TextInteractionFlag.TextBrowserInteraction)
-        self.detail.setMinimumHeight(48)
-        self.detail.linkActivated.connect(self._show_parameter)
-        self.motion = QPushButton(icon("activity"), self.tr("Show the &Move"))
-        self.motion.setToolTip(self.tr("The scenario of the selected row in Motion (Enter)"))
-        self.again = QPushButton(self.tr("Check Aga&in"))
-        for button, step in ((self.motion, self._show_motion), (self.again, self.start)):
-            button.setAutoDefault(False)
-            button.clicked.connect(step)
+        for each in (self.report, self.assumptions, self.motion, self.again):
+            each.setAutoDefault(False)
         self.motion.setEnabled(False)
-        self.table.cellActivated.connect(lambda *_: self._show_motion())
-        self._lay_out()
-        self.setFocusProxy(self.table)
+        self._paint_chips()
 
     def _lay_out(self) -> None:
         left, right = QWidget(), QWidget()
-        for side, parts in (
-            (left, (self.table, self.summary)),
-            (right, (self.title, self.plot, self.detail)),
-        ):
-            column = QVBoxLayout(side)
-            column.setContentsMargins(0 if side is left else GAP2, 0, 0, 0)
-            column.setSpacing(GAP2)
-            for part in parts:
-                column.addWidget(part, int(part is self.plot or part is self.table))
-        foot = QHBoxLayout()
-        foot.addStretch()
-        foot.addWidget(self.again)
-        foot.addWidget(self.motion)
-        right_column = right.layout()
-        assert isinstance(right_column, QVBoxLayout)
-        right_column.addLayout(foot)
+        above = QHBoxLayout()
+        above.setContentsMargins(GAP3, GAP, GAP2, GAP)
+        above.setSpacing(GAP)
+        above.addWidget(self.heading, 1)
+        for button in self.chips.values():
+            above.addWidget(button)
+        below = QHBoxLayout()
+        below.setContentsMargins(GAP3, GAP, GAP2, GAP)
+        below.addWidget(self.summary, 1)
+        below.addWidget(self.report)
+        column = QVBoxLayout(left)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addLayout(above)
+        column.addWidget(self.list, 1)
+        column.addLayout(below)
+        head = QHBoxLayout()
+        head.setSpacing(GAP2)
+        head.addWidget(self.title)
+        head.addWidget(self.mark)
+        head.addWidget(self.why, 1)
+        for each in (self.assumptions, self.motion, self.again):
+            head.addWidget(each)
+        lower = QHBoxLayout()
+        lower.setSpacing(GAP2)
+        lower.addWidget(self.travel, 1)
+        lower.addWidget(self.spindle, 1)
+        main = QVBoxLayout(right)
+        main.setContentsMargins(GAP2, GAP, GAP2, GAP2)
+        main.setSpacing(GAP2)
+        main.addLayout(head)
+        main.addWidget(self.card, 5)
+        main.addWidget(self.detail)
+        main.addLayout(lower, 4)
+        left.setMinimumWidth(LEFT)
         splitter = QSplitter(Qt.Orientation.Horizontal)
-        for side, share in ((left, 3), (right, 7)):
+        for side, share in ((left, 27), (right, 73)):
             splitter.addWidget(side)
             splitter.setStretchFactor(splitter.count() - 1, share)
-        splitter.setSizes([3000, 7000])
-        column = QVBoxLayout(self)
-        column.setContentsMargins(GAP3, GAP3, GAP3, GAP3)
-        column.addWidget(splitter)
+        splitter.setSizes([2700, 7300])
+        whole = QVBoxLayout(self)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.addWidget(splitter)
+
+    def _connect(self) -> None:
+        self._workspace.changed.connect(self._after_edit)
+        self._workspace.closed.connect(self.stop)
+        self.list.selectionModel().currentChanged.connect(self._chosen_row)
+        self.list.activated.connect(lambda _index: self._show_motion())
+        self.detail.linkActivated.connect(self._show_parameter)
+        self.report.clicked.connect(self.write_report)
+        self.motion.clicked.connect(self._show_motion)
+        self.again.clicked.connect(self.start)
+        self.assumptions.clicked.connect(self._show_assumptions)
+        self.card.axis_wanted.connect(self._show_axis)
+        self.card.length_given.connect(self._home_with)
+        self.card.fix_wanted.connect(self._apply_fix)
+        for view in (self.card.scene, self.travel.scene, self.spindle.scene):
+            view.parameter_wanted.connect(lambda address: self._show_parameter(address[0]))
+        self._again.done.connect(self._take_again)
+        scheme().changed.connect(self._repaint)
+        for n in range(AXES):
+            key = QShortcut(QKeySequence(str(n + 1)), self, partial(self._show_nth, n))
+            key.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
+
+    def _repaint(self) -> None:
+        self._paint_chips()
+        self._show_detail()
+
+    def _paint_chips(self) -> None:
+        for verdict, button in self.chips.items():
+            button.setIcon(icon(*MARKS[verdict]))
+
+    # -- when it runs ------------------------------------------------------------------
+
+    def event(self, event: QEvent) -> bool:
+        """Take F9, which shows the motion elsewhere."""
+        is_taken = event.type() == QEvent.Type.ShortcutOverride and _is_run(event)
+        if is_taken:
+            event.accept()
+        return is_taken or super().event(event)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Run everything again by F9."""
+        if _is_run(event):
+            self.start()
+        else:
+            super().keyPressEvent(event)
 
     def showEvent(self, event: QShowEvent) -> None:
         super().showEvent(event)
@@ -169,13 +278,10 @@ class CheckPage(PageOfFile):
         """Check the file as it is now, on a copy; a check that is under way is cancelled."""
         self.stop()
         self._is_stale = False
-        self.checks.clear()
-        self.table.setRowCount(0)
-        self.detail.clear()
-        self.title.clear()
-        self.plot.clear_picture()
-        self._drawn = None
-        self.motion.setEnabled(False)
+        self._begun = time.monotonic()
+        self.rows.file = self._workspace.file
+        self.rows.show_checks((), self.rows.wanted)
+        self._show_detail()
         checking = self._checking = _Checking(self._workspace.file.copy())
         checking.checked.connect(self.show_check)
         task = self._task = Task(checking.run)
@@ -186,6 +292,8 @@ class CheckPage(PageOfFile):
 
     def stop(self) -> None:
         """Cancel the check that is under way."""
+        for latest in (self._again, self.travel.latest, self.spindle.latest):
+            latest.stop()
         if self._task is not None and self._checking is not None:
             # Cut off first: the thread may emit one more check before it sees that it is cancelled.
             self._checking.checked.disconnect(self.show_check)
@@ -194,95 +302,212 @@ class CheckPage(PageOfFile):
             self._task.cancelled.set()
             self._task = None
 
-    def _show_motion(self) -> None:
-        if 0 <= (row := self.table.currentRow()) < len(self.checks):
-            self.motion_wanted.emit(self.checks[row].scenario, self.checks[row].axis)
-
-    @property
-    def _family(self) -> str:
-        return self._workspace.file.schema.family.family
-
     def _over(self, why: object) -> None:
         self._task = None
-        if self.checks and self._drawn is self._begun_with:  # the person has chosen none: the worst is first
-            self.table.setCurrentCell(0, 0)
+        self._lasted = time.monotonic() - self._begun
         self._sum_up()
+        self.travel.follow(self._workspace.file.copy())
+        has_spindle = any(
+            check.part == "spindle" and check.verdict != "not possible" for check in self.checks
+        )
+        self.spindle.follow(self._workspace.file.copy(), has_spindle)
+        if self.check is None:
+            self._choose(*self._chosen)
         if why:
             self.summary.setText(str(why))
 
     def show_check(self, check: MotionCheck) -> None:
-        """Add one check: what is bad comes first, then in the order in which it was tried."""
-        row = bisect_right([_ORDER[each.verdict] for each in self.checks], _ORDER[check.verdict])
-        self.checks.insert(row, check)
-        self.table.insertRow(row)
-        mark, colour_name = MARKS[check.verdict]
-        name = " ".join(filter(None, (scenario_in_words(check.scenario), check.letter)))
-        for column, text in enumerate((name, next(iter(_figures(check)), ""))):
-            item = QTableWidgetItem(text)
-            item.setToolTip(f"{text}: {self._word(check.verdict)}")
-            if column == 0:
-                item.setIcon(icon(mark, colour_name))
-                item.setData(Qt.ItemDataRole.AccessibleTextRole, item.toolTip())
-            self.table.setItem(row, column, item)
-        if self.table.currentRow() < 0:
-            self._begun_with = check
-            self.table.setCurrentCell(0, 0)
+        """Add one check in its place."""
+        self.rows.add(check)
+        if (check.scenario, check.axis) == self._chosen:
+            self._choose(*self._chosen)
         self._sum_up()
 
-    def _word(self, verdict: str) -> str:
-        return {
-            "good": self.tr("good"),
-            "doubtful": self.tr("doubtful"),
-            "bad": self.tr("bad"),
-            "not possible": self.tr("not possible"),
-        }[verdict]
+    # -- the list ------------------------------------------------------------------------
+
+    def _filter(self) -> None:
+        wanted = [verdict for verdict, button in self.chips.items() if button.isChecked()]
+        self.rows.show_checks(self.checks, wanted)
+        self._choose(*self._chosen)
 
     def _sum_up(self) -> None:
-        counts = Counter[str](check.verdict for check in self.checks)
-        words = [f"{counts[verdict]} {self._word(verdict)}" for verdict in _ORDER if counts[verdict]]
+        counts = counts_of(self.checks)
+        for verdict, button in self.chips.items():
+            button.setText(str(counts[verdict]))
+            button.setVisible(bool(counts[verdict]) or button.isChecked())
         if self._task is not None:
-            words.append(self.tr("checking …"))
-        self.summary.setText(", ".join(words))
+            self.summary.setText(self.tr("checking …"))
+            return
+        many = self.tr("%n checks", "", len(self.checks))
+        lasted = written(value_text(self._lasted, digits=2))
+        self.summary.setText(self.tr("{checks} in {time} s").format(checks=many, time=lasted))
+
+    def _choose(self, scenario: str, axis: str) -> None:
+        """Choose the row of a scenario and axis; where there is none the first of the worst."""
+        rows = {n: row for n, row in enumerate(self.rows.rows) if isinstance(row, MotionCheck)}
+        own = [n for n, row in rows.items() if (row.scenario, row.axis) == (scenario, axis)]
+        order = list(MARKS)
+        worst = sorted(rows, key=lambda n: order.index(rows[n].verdict))
+        for at in (*own, *worst)[:1]:
+            self.list.setCurrentIndex(self.rows.index(at))
+
+    def _chosen_row(self, current: QModelIndex, _previous: QModelIndex) -> None:
+        check = self.rows.check(current)
+        if check is not None:
+            self._chosen, self._axis = (check.scenario, check.axis), check.axis or self._axis
+            self.travel.show_axis(check.axis)
+            if check.scenario == "tap" and self.spindle.isVisible():
+                self.spindle.show_view("tap")
+        self._show_detail()
+
+    def _axes_of(self, scenario: str) -> list[tuple[str, str]]:
+        """Return the axes that have a scenario, with their letters."""
+        own = {each.axis: each.letter for each in self.checks if each.scenario == scenario and each.axis}
+        return list(own.items())
+
+    def _show_axis(self, axis: str) -> None:
+        if self.check is not None:
+            self._choose(self.check.scenario, axis)
+
+    def _show_nth(self, n: int) -> None:
+        if self.check is not None:
+            axes = self._axes_of(self.check.scenario)
+            if n < len(axes):
+                self._show_axis(axes[n][0])
+
+    def _show_motion(self) -> None:
+        if self.check is not None and self.check.verdict != "not possible":
+            self.motion_wanted.emit(self.check.scenario, self.check.axis)
+
+    # -- the chosen check ------------------------------------------------------------------
 
     def _show_detail(self) -> None:
-        """Show the picture of the current check, its alarms and figures, and its parameters as links."""
-        row = self.table.currentRow()
-        if not 0 <= row < len(self.checks):
+        """Show the picture of the current check, what is not good, its figures, and its parameters."""
+        check = self.check
+        self.motion.setEnabled(check is not None and check.verdict != "not possible")
+        self._offer(())
+        if check is None:
+            for label in (self.title, self.why, self.detail):
+                label.clear()
+            self.mark.setPixmap(icon("circle-dashed", "dim").pixmap(0, 0))
+            self.assumptions.hide()
+            self.card.show_reason("")
             return
-        check = self.checks[row]
-        self.motion.setEnabled(check.verdict != "not possible")
-        titles = (scenario_in_words(check.scenario), check.letter, self._word(check.verdict))
-        self.title.setText(" · ".join(filter(None, titles)))
-        if check.trace is None:
-            self.plot.clear_picture()
-        elif check is not self._drawn:
-            self.plot.draw(picture_of(check.trace))
-        self._drawn = check
-        parts = [
-            f"<b>{alarm.code}</b> {html.escape(sentenced(alarm.message, self._family))}"
-            for alarm in check.alarms
-        ] or [html.escape(sentenced(check.why, self._family))]
-        parts.append(html.escape(", ".join(_figures(check))))
+        self._show(check)
+        if check.verdict in ("bad", "doubtful") and self._task is None:
+            self._ask_again(check, None)
+
+    def _show(self, check: MotionCheck) -> None:
+        parts = (scenario_in_words(check.scenario), check.letter)
+        self.title.setText(", ".join(filter(None, parts)))
+        mark, tint = MARKS[check.verdict]
+        self.mark.setPixmap(icon(mark, tint).pixmap(SMALL_ICON, SMALL_ICON))
+        self.mark.setAccessibleName(verdict_in_words(check.verdict))
+        self.why.setText(sentenced(check.why, self._family) or verdict_in_words(check.verdict))
+        self.why.setStyleSheet(f"color: {colour(tint).name()}")
+        self.assumptions.setText(self.tr("%n assumptions", "", len(check.assumptions)))
+        self.assumptions.setVisible(bool(check.assumptions))
+        self.card.show_check(
+            self._workspace.file, check, part_in_words(check.part), self._axes_of(check.scenario)
+        )
+        self.detail.setText("<br>".join(self._lines_of(check)))
+        self.detail.setVisible(bool(self.detail.text()))
+
+    def _lines_of(self, check: MotionCheck) -> Iterable[str]:
+        """Yield figures and parameters of a check."""
+        if figures := ", ".join(figures_of(check)):
+            yield html.escape(figures)
         if check.params:
-            names = {each: name_of(self._workspace.file.schema, each) for each in check.params}
             shade = colour("sel").name()
             links = ", ".join(
-                f'<a href="{each}" style="color:{shade}">{html.escape(name)}</a>'
-                for each, name in names.items()
+                f'<a href="{each}" style="color:{shade}">'
+                f"{html.escape(name_of(self._workspace.file.schema, each))}</a>"
+                for each in dict.fromkeys(check.params)
             )
-            parts.append(f"{self.tr('Parameters:')} {links}")
-        self.detail.setText("<br>".join(filter(None, parts)))
+            yield f"{self.tr('Parameters:')} {links}"
 
+    def _show_assumptions(self) -> None:
+        if self.check is not None:
+            text = "\n\n".join(sentenced(each, self._family) for each in self.check.assumptions)
+            title = self.tr("What was assumed")
+            show_message(self, title, text, QMessageBox.Icon.Information)
 
-def _figures(check: MotionCheck) -> list[str]:
-    """Return the figures of a check in words, each with its number first: where there is no room for all, the
-    number stays.
-    """
-    return [
-        f"{_number(value, unit)} {worded(name.replace('_', ' '))}"
-        for name, (value, unit) in check.figures.items()
-    ]
+    # -- the fix ---------------------------------------------------------------------------
 
+    def _home_with(self, length: str | None) -> None:
+        if self.check is not None:
+            self._ask_again(self.check, length)
 
-def _number(value: float | None, unit: str) -> str:
-    return "–" if value is None else sentenced(value_text(float(value), unit_text(unit)))
+    def _ask_again(self, check: MotionCheck, length: str | None) -> None:
+        """Run a check again with what is recommended, and with a switch of a length where one is given."""
+        settings = {"move.switch_length": length} if length else None
+        file, axis = self._workspace.file.copy(), check.axis or None
+        self._again.ask(partial(check_again, file, check.scenario, axis, settings))
+
+    def _take_again(self, found: object) -> None:
+        check = self.check
+        if not isinstance(found, MotionCheck) or check is None:
+            return
+        if (found.scenario, found.axis) != (check.scenario, check.axis):
+            return
+        self._show(found)
+        self._offer(found.trace.recommendations if found.trace else ())
+
+    def _offer(self, found: Sequence[Recommendation]) -> None:
+        """Offer what is recommended as one fix: gains of one loop belong together."""
+        file, check = self._workspace.file, self.check
+        usable = dict[Address, Recommendation]()
+        if check is not None and self._workspace.may_edit:
+            addresses = ((address_of(file, each.parameter, check.axis), each) for each in found)
+            usable = {address: each for address, each in addresses if address is not None}
+        self._fix = {address: self._value(address, each) for address, each in usable.items()}
+        if not usable:
+            self.card.offer_fix("")
+            return
+        words = [self._fix_in_words(address, each) for address, each in usable.items()]
+        self.card.offer_fix(words[0] if len(words) == 1 else self.tr("Set %n values", "", len(words)))
+        why = dict.fromkeys(
+            sentenced(f"{each.why} {each.price}".strip(), self._family) for each in usable.values()
+        )
+        self.card.fix.setToolTip("\n".join((*words, *why)))
+
+    def _value(self, address: Address, fix: Recommendation) -> Value:
+        old = self._workspace.file.get(address)
+        is_whole = old is not None and isinstance(old.value, int) and fix.value.is_integer()
+        return Value(int(fix.value) if is_whole else fix.value, fix.unit)
+
+    def _fix_in_words(self, address: Address, fix: Recommendation) -> str:
+        schema = self._workspace.file.schema
+        called = self._workspace.file.machine_schema.number(address) or name_of(schema, fix.parameter)
+        value = written(value_text(fix.value, unit_in_words(fix.unit), 6))
+        return self.tr("Set {parameter} to {value}").format(parameter=called, value=value)
+
+    def _apply_fix(self) -> None:
+        try:
+            self._workspace.edit(self.tr("Apply Recommendation"), self._fix)
+        except RangeError as error:
+            self.why.setText(str(error))
+
+    # -- on paper --------------------------------------------------------------------------
+
+    def write_report(self) -> None:
+        """Ask for a file, and write the list with its pictures."""
+        load("amp_studio.motion_paper")
+        from amp_studio.motion_paper import write_check_paper
+
+        path = self._workspace.path
+        near = path.with_name(f"{path.stem}-check.pdf")
+        text, kind = QFileDialog.getSaveFileName(self, self.tr("Report of the Check"), str(near), PAPER_KINDS)
+        if not text:
+            return
+        target: Path = path_of_kind(text, kind)
+        check_output(target, path)
+        file, checks, notes = self._workspace.file.copy(), list(self.checks), list[str]()
+        in_background(
+            self,
+            self.tr("Report of the Check"),
+            lambda: write_check_paper(
+                file, path.name, checks, target, notes.append, language=language_of_window()
+            ),
+        )
+        self.summary.setText("; ".join([self.tr("{path} written").format(path=target), *notes]))
