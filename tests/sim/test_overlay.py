@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from amp_studio.files import open_file
-from amp_studio.sim import SimulationError, laid_over, picture_of, simulate, trigger_of
+from amp_studio.sim import SimulationError, laid_over, picture_of, simulate, trigger_of, unit_factor
 
 MILL = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
 MOVE = {"move.distance": 20.0, "move.feedrate": 3000.0}
@@ -116,3 +116,10 @@ def test_a_level_that_is_never_passed_and_a_signal_that_is_missing_are_named(tmp
             laid_over(trace, record, trigger_of(text))
     with pytest.raises(SimulationError, match="it must be 0 or more"):
         trigger_of("velocity>1", -1.0)
+
+
+def test_a_speed_in_counts_a_second_lies_over_one_in_counts_a_minute() -> None:
+    """Counts are no unit that is converted: the readings of a 57C422B were refused."""
+    assert unit_factor("record", "velocity", "counts/s", "counts/min") == 60.0
+    with pytest.raises(SimulationError, match="is in counts/s"):
+        unit_factor("record", "velocity", "counts/s", "mm/min")

@@ -92,3 +92,14 @@ def test_a_channel_on_divisions_keeps_its_scale_where_a_part_is_looked_at() -> N
     assert (panel.y.low, panel.y.high, panel.y.step) == (0.0, 40.0, 5.0)
     part = zoomed(panel, (0.1, 0.2))
     assert (part.y.low, part.y.high, part.x.low) == (0.0, 40.0, 0.1)
+
+
+def test_a_record_that_waits_for_an_event_keeps_what_came_ahead_of_it() -> None:
+    recorder = LiveRecorder(by_event=True, before=0.4)
+    for n in range(10):
+        recorder.add(0.2 * n, {"position": (float(n), "mm")})
+    assert (recorder.has_fired, recorder.fired_after) == (False, None)
+    recorder.fire(1.8)
+    recorder.add(2.0, {"position": (10.0, "mm")})
+    assert recorder.fired_after == pytest.approx(0.6)
+    assert recorder.recording("X").signals["position"].tolist() == [6.0, 7.0, 8.0, 9.0, 10.0]

@@ -24,6 +24,7 @@ from amp_studio.ui.actions.control import STATE_ROOM
 from amp_studio.ui.base.theme import colour, scheme
 from amp_studio.ui.control.conditions import conditions_of
 from amp_studio.ui.control.differences import CONTROL, MIND
+from amp_studio.ui.control.heading import ControlHeading
 from amp_studio.ui.control.next_step import PageState, bar_message
 from amp_studio.ui.control.session import ControlSession
 from amp_studio.ui.main_window import MainWindow
@@ -597,3 +598,21 @@ def test_values_sent_from_another_page_are_sent_alone_and_what_to_mind_has_a_few
     window.control.leave()
     window.control.show("send")
     assert page.primary.text() == "Send 3 Values to the Control", "all of them, as from the tool bar"
+
+
+def test_the_name_of_a_control_is_never_cut_in_the_head(qtbot: QtBot) -> None:
+    """In a window of 1024 pixels it was ``…`` where two controls are called the same."""
+    heading = ControlHeading()
+    qtbot.addWidget(heading)
+    heading.show()  # a hidden widget hears of no size
+    letters = heading.fontMetrics()
+    heading.show_sides("MILL_1394.amp", "→", "CNC_1 (127.0.0.1:38767)")
+    whole = letters.horizontalAdvance(heading.text())
+    heading.resize(whole + 2, 24)
+    assert heading._elided() == "MILL_1394.amp  →  CNC_1 (127.0.0.1:38767)"
+    heading.resize(letters.horizontalAdvance("  →  CNC_1 (127.0.0.1:38767)") + 40, 24)
+    assert heading._elided() == "MILL_1394.amp  →  CNC_1"
+    assert heading.toolTip() == heading.text()
+    heading.resize(letters.horizontalAdvance("MILL_1394.amp  →  CNC_1") - 10, 24)
+    assert heading._elided().endswith("  →  CNC_1")
+    assert "…" in heading._elided()

@@ -56,12 +56,17 @@ class StoppedSession(QObject):
         self.address, self.family = "tcp://bench:1", file.schema.family.family
         self.content = file
         self.seen = SimpleNamespace(takes_one=takes_one)
+        self.is_seen_old = False
         self.phase, self.is_busy, self.error, self.refuses = "ready", False, "", ""
         self.failure = SimpleNamespace(at_control="old")
         self.written: list[tuple[Address, Value | None]] = []
 
     def present(self, _file: ParameterFile) -> ParameterFile:
         return self.content
+
+    def read(self) -> None:
+        self.phase = "ready"
+        self.changed.emit()
 
     def write_one(self, address: Address, file: ParameterFile, _path: object) -> None:
         self.phase = "failed" if self.refuses else "done"
@@ -135,7 +140,7 @@ def test_states_that_are_off_have_an_empty_lamp_and_the_error_is_a_mark_between_
     assert "○&nbsp;home sequence complete" in page.panel.lamps.text()
     assert page.panel.raw.text() == "R72 = 0085H"
     assert page.panel.bars["error"].share == 0.5005
-    assert [label.text() for label in page.panel.bar_words["error"]] == ["−2000", "2000"]
+    assert [label.text() for label in page.panel.bar_words["error"]] == ["Following error −2000", "2000"]
     assert page.panel.bars["position"].isHidden()
 
 
@@ -235,6 +240,13 @@ def test_a_control_that_takes_no_single_values_has_no_frame_but_the_reason(
     page = made(window_with("57c422b-label-press"), qtbot, takes_one=False)
     assert page.frame.isHidden()
     assert page.reason.text().startswith("Reads only: this control takes no single values")
+    assert page.read.isHidden()
+    session_of(
+        page
+    ).is_seen_old = True  # a file was sent meanwhile: what was read before is not there any more
+    session_of(page).changed.emit()
+    assert cell(page, 0, CONTROL) == "–"
+    assert not page.read.isHidden()
 
 
 @pytest.mark.parametrize(

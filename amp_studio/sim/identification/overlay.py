@@ -27,6 +27,7 @@ COARSE = 8.0
 """Rows of the simulation from one of the record to the next, from which it is compared at its readings
 alone.
 """
+_SECONDS = {"s": 1.0, "min": 60.0}
 _TRIED = 2000
 """Lags that are tried of a coarse record."""
 
@@ -53,6 +54,9 @@ def unit_factor(name: str, signal: str, unit: str, wanted: str) -> float:
     """
     if unit in ("", wanted):
         return 1.0
+    (way, _, time), (wanted_way, _, wanted_time) = unit.rpartition("/"), wanted.rpartition("/")
+    if way and way == wanted_way and {time, wanted_time} <= _SECONDS.keys():  # counts are no unit of ours
+        return _SECONDS[wanted_time] / _SECONDS[time]
     try:
         own, theirs = unit_named(unit), unit_named(wanted)
         if dimension(own) == dimension(theirs):

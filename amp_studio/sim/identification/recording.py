@@ -152,6 +152,10 @@ class LiveRecorder:
     trigger: Trigger | None = None
     span: float | None = None
     """s after the trigger, or the first reading, at which it ends; None to be stopped."""
+    by_event: bool = False
+    """Whether it waits for ``fire`` in the place of a trigger."""
+    before: float = 0.0
+    """s that are kept ahead of that."""
     units: dict[str, str] = field(default_factory=dict)
     has_fired: bool = False
     is_done: bool = False
@@ -182,17 +186,32 @@ class LiveRecorder:
     def _wait(self, time: float) -> None:
         """Fire, or leave out what is longer ago than is kept ahead of the trigger."""
         trigger = self.trigger
-        if trigger is None:
-            self.has_fired, self._fired = True, time
+        if trigger is None and not self.by_event:
+            self.fire(time)
             return
+        if trigger is not None and self._passes(trigger):
+            self.fire(time)
+        before = self.before if trigger is None else trigger.before
+        # The reading ahead of what is kept stays: it shows where the signal came from.
+        while len(self._rows) > 2 and self._rows[1][0] < time - before - 1e-9:
+            self._rows.popleft()
+
+    def _passes(self, trigger: Trigger) -> bool:
+        """Return whether the last reading is where a trigger fires."""
         values = [row[trigger.signal] for _, row in list(self._rows)[-2:]]
         beyond = [(value - trigger.level if trigger.rising else trigger.level - value) for value in values]
         is_there = [each >= 0.0 if trigger.is_level else each > 0.0 for each in beyond]
-        if is_there[-1] and (trigger.is_level or (len(is_there) > 1 and not is_there[0])):
+        return is_there[-1] and (trigger.is_level or (len(is_there) > 1 and not is_there[0]))
+
+    def fire(self, time: float) -> None:
+        """Begin to keep everything: what was waited for has come at a time in s."""
+        if not self.has_fired:
             self.has_fired, self._fired = True, time
-        # The reading ahead of what is kept stays: it shows where the signal came from.
-        while len(self._rows) > 2 and self._rows[1][0] < time - trigger.before - 1e-9:
-            self._rows.popleft()
+
+    @property
+    def fired_after(self) -> float | None:
+        """When it fired, in s from the first reading that is kept; None before that."""
+        return self._fired - self._rows[0][0] if self.has_fired and self._rows else None
 
     @property
     def count(self) -> int:

@@ -185,7 +185,7 @@ class ControlPage(ControlPageParts):
         """Take the name by which the control is known now."""
         if name != self.name:
             self.name = name
-            self.table.show_sides(name, self.title)
+            self.table.show_sides(name.partition(" (")[0], self.title)
             self.refresh()
 
     @property
@@ -274,7 +274,7 @@ class ControlPage(ControlPageParts):
                 secrets=secrets,
                 returns=session.backup_return() if session is not None and self.backup is not None else None,
             )
-        self.table.show_sides(self.name, self.title)
+        self.table.show_sides(self.name.partition(" (")[0], self.title)
         self._show_all(found)
 
     # -- everything follows the state ------------------------------------------------
@@ -289,7 +289,7 @@ class ControlPage(ControlPageParts):
         session, file = self.session, self.file
         arrow = "←" if self.direction == "read" else "→"
         control = self.tr("several controls") if self.known.several.isChecked() else self.name
-        self.heading.setText(f"{self.title}  {arrow}  {control or self.tr('no control chosen')}")
+        self.heading.show_sides(self.title, arrow, control or self.tr("no control chosen"))
         self.enable_choices(has_file=self.workspace is not None)
         own = file or (self.workspace.file if self.workspace is not None else None)
         self.conditions.setVisible(own is not None)

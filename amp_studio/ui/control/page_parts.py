@@ -35,6 +35,7 @@ from amp_studio.ui.forms.segment import Segment
 from .conditions import ConditionLine
 from .differences import DifferenceTable
 from .hand_sheet import HandSheet
+from .heading import ControlHeading
 from .history import ExchangeHistory
 from .known_list import KnownList
 from .rows import FOOT, side_by_side
@@ -57,8 +58,7 @@ class ControlPageParts(QWidget):
         self.several = SeveralControls(save)
         self.hand = HandSheet()
         self.history = ExchangeHistory()
-        self.heading = ElidedLabel()
-        self.heading.cut = Qt.TextElideMode.ElideMiddle
+        self.heading = ControlHeading()
         self.heading.setFont(font("text", own=True))
         self.directions = Segment(
             tr("Direction"),

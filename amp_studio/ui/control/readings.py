@@ -14,7 +14,6 @@ from PySide6.QtCore import QObject, Signal
 
 from amp_studio.drawing import Curve, Picture, Scene, panel_of
 from amp_studio.ui.base.task import Task, TaskProgress
-from amp_studio.ui.base.translated import tr
 
 if TYPE_CHECKING:
     from amp_studio.transfer import ActiveFault, AxisStatus, ControlStatus
@@ -105,7 +104,7 @@ class AxisReadings:
     def _panel(self, name: str) -> Scene:
         x, y = np.array(self.signals[name]).T
         unit = f"{self.unit}/s" if name == "velocity" else self.unit
-        return panel_of(f"{name} {unit}".strip(), (Curve("", x, y, "now", dots=True),), ("time", "s"))
+        return panel_of(name, (Curve("", x, y, "now", dots=True),), ("time", "s"), unit)
 
 
 class Happened:
@@ -158,11 +157,3 @@ def lamps_of(axis: AxisStatus) -> dict[str, bool]:
 def titled(fault: ActiveFault) -> str:
     """Return a fault in one line, with its axis."""
     return f"{fault.axis + ': ' if fault.axis else ''}{fault.code} {fault.text}".strip()
-
-
-def without_error() -> str:
-    """Return why no following error is drawn."""
-    return tr(
-        "Following error: not shown by this control. The position is the one it reports, which need not be"
-        " the one that was reached."
-    )

@@ -60,6 +60,8 @@ class ControlSession(QObject):
         self.address, self.family = address, family
         self.phase: SessionPhase = "away"
         self.seen: ReadControl | None = None
+        self.is_seen_old = False
+        """Whether something was written since it was read."""
         self.in_estop: bool | None = None
         """As it was asked last; None where there is no such state."""
         self.asked_at: datetime | None = None
@@ -134,7 +136,7 @@ class ControlSession(QObject):
             return driver.identify(exchange)
 
     def _take_seen(self, seen: ReadControl) -> None:
-        self.seen, self.phase = seen, "ready"
+        self.seen, self.phase, self.is_seen_old = seen, "ready", False
         self._take_state(seen.control)
         self.ended.emit("connect", True)
 
@@ -223,6 +225,7 @@ class ControlSession(QObject):
             if self.seen is not None:  # all that it contains was read back
                 (content, present), now = found[0], datetime.now(UTC).astimezone()
                 self.seen = replace(self.seen, content=content, file=present, when=now)
+                self.is_seen_old = False
 
         # Not as a download: the control does not contain the file now.
         self._write("verify", work, path, first=take, then=lambda: self.value_written.emit(address))
@@ -238,6 +241,7 @@ class ControlSession(QObject):
     ) -> None:
         self.outcome, self.failure, self.error, self.notes = None, None, "", []
         self.backup_name = backup_name
+        self.is_seen_old = True
 
         def done(outcome: Outcome) -> None:
             self.outcome, self.phase = outcome, "done" if outcome.verified else "failed"

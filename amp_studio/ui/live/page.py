@@ -12,26 +12,28 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, QTimer, Signal
-from PySide6.QtGui import QKeySequence, QResizeEvent, QShortcut
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtGui import QKeyEvent, QKeySequence, QResizeEvent, QShortcut
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
 from amp_studio.files import Difference, ParameterFile, RangeError, axis_instances, axis_letter
 from amp_studio.pictures import LiveLimits, axis_limits
 from amp_studio.report import dangers_of_change
-from amp_studio.schema import Address, Parameter, Value, same_value
+from amp_studio.schema import Address, Group, Parameter, Value, same_value
 from amp_studio.ui.base.figures import sentence, show_value, written
 from amp_studio.ui.base.questions import ask
-from amp_studio.ui.base.theme import GAP2, HEAD, font
+from amp_studio.ui.base.theme import COLUMN_HEAD, GAP2, HEAD, ROW, font
 from amp_studio.ui.base.translated import facts_in_words, message_in_words
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.control.readings import Happened, StatusReadings
 from amp_studio.ui.control.rows import side_by_side
 from amp_studio.ui.control.session import ControlSession
 from amp_studio.ui.forms.elided_label import ElidedLabel
+from amp_studio.ui.forms.form import fill_choices
 from amp_studio.ui.forms.message_bar import MessageBar
 from amp_studio.ui.forms.segment import Segment
 from amp_studio.ui.page.page_of_file import PageOfFile
 
+from .recorder import LiveRecording
 from .rows import LiveRows, TurnedValue
 from .sign import LiveSign
 from .status_panel import NARROW, WIDE, LiveStatusPanel
@@ -47,8 +49,8 @@ ROOMY = 1200
 """Width of a window with room for all words."""
 RATED = 10
 """Readings from which the rate is counted."""
-MOST_ROWS = 6
-"""Rows that have room without scrolling where there is a plot below them."""
+FEW_ROWS, LEAST_ROWS, MOST_ROWS, LOW = 4, 5, 8, 680
+"""Rows that have room at least, at most in a page below so many pixels, and in a higher one."""
 
 
 class LiveView(PageOfFile):
@@ -72,6 +74,8 @@ class LiveView(PageOfFile):
         self._emulated: EmulatedControl | None = None
         self.name = self._seen = ""
         self._parameters: Sequence[Parameter] = ()
+        self._listed: Sequence[Parameter] = ()
+        """What the table listed when Live was begun."""
         self._status: ControlStatus | None = None
         self.turned: dict[Address, TurnedValue] = {}
         self.happened = Happened()
@@ -101,8 +105,10 @@ class LiveView(PageOfFile):
 
     def _build(self) -> None:
         self.setAccessibleName(self.tr("Live"))
-        self.heading = ElidedLabel()
-        self.heading.setFont(font("title", own=True))
+        self.groups = QComboBox()
+        self.groups.setAccessibleName(self.tr("Values that are listed"))
+        self.groups.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.groups.setMinimumContentsLength(18)
         lock = LiveSign("lock-simple-fill", "dim")
         only = QLabel(self.tr("the table reads only"))
         only.setFont(font("small"))
@@ -111,31 +117,39 @@ class LiveView(PageOfFile):
         self.rows = LiveRows(self._workspace)
         self.reason = ElidedLabel()
         self.reason.setFont(font("small"))
-        self.reason.setContentsMargins(12, 4, 12, 4)
+        self.read = QPushButton(self.tr("&Read Values"))
+        self.read.setAutoDefault(False)
+        self.read.clicked.connect(self._read_values)
+        self.reason_row = side_by_side(HEAD, self.reason, None, self.read)
         self.frame = WriteFrame(self._workspace)
         self.panel = LiveStatusPanel(self._family)
-        framed = QWidget()
-        around = QVBoxLayout(framed)
+        self.recorder = LiveRecording(self._workspace, lambda: self._present() or self._workspace.file)
+        self.framed = QWidget()
+        around = QVBoxLayout(self.framed)
         around.setContentsMargins(GAP2, GAP2, GAP2, GAP2)
         around.addWidget(self.frame)
         self.column = QVBoxLayout()
         self.column.setContentsMargins(0, 0, 0, 0)
         self.column.setSpacing(0)
         for part in (
-            side_by_side(HEAD, self.heading, lock, only, None, self.axes),
+            side_by_side(HEAD, self.groups, lock, only, None, self.axes),
             self.bar,
             self.rows,
-            self.reason,
-            framed,
+            self.reason_row,
+            self.framed,
+            self.recorder,
         ):
-            self.column.addWidget(part, 1 if part is self.rows else 0)
+            self.column.addWidget(part, {self.rows: 2, self.recorder: 5}.get(part, 0))
         whole = QHBoxLayout(self)
         whole.setContentsMargins(0, 0, 0, 0)
         whole.setSpacing(0)
         whole.addLayout(self.column, 1)
         whole.addWidget(self.panel)
         self.setFocusProxy(self.rows)
+        # Else a long name would keep the window wide.
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored)
         self.axes.chosen.connect(lambda _: self._choose_axis())
+        self.groups.currentIndexChanged.connect(lambda _: self._choose_group())
         self.rows.chosen.connect(lambda _: self._show_frame())
         self.frame.write_wanted.connect(self.write)
         self.frame.back_wanted.connect(self.put_back)
@@ -155,6 +169,9 @@ class LiveView(PageOfFile):
         """Leave the rows the room of the words in a small window."""
         super().resizeEvent(event)
         is_narrow = self.window().width() < ROOMY
+        rows = MOST_ROWS if self.height() > LOW else LEAST_ROWS
+        self.rows.setMaximumHeight(COLUMN_HEAD + rows * ROW + 2)
+        self.rows.setMinimumHeight(COLUMN_HEAD + FEW_ROWS * ROW)
         self.panel.setFixedWidth(NARROW if is_narrow else WIDE)
         self.rows.show_short_words(is_narrow)
 
@@ -207,8 +224,9 @@ class LiveView(PageOfFile):
 
     def show_parameters(self, title: str, parameters: Sequence[Parameter], axis: str) -> None:
         """List parameters, with those of an axis by its instance."""
-        self.heading.setText(title)
-        self._parameters = parameters
+        self._parameters = self._listed = parameters
+        schema = self._workspace.file.schema
+        fill_choices(self.groups, [("", title), *((each.key, _name_of(each)) for each in schema.groups)], "")
         letter = axis_letter(self._workspace.file, axis) or axis
         if not self.axes.buttons:
             file = self._workspace.file
@@ -231,8 +249,17 @@ class LiveView(PageOfFile):
         found = (each for each in axis_instances(file) if name in (each, axis_letter(file, each)))
         return next(found, "")
 
+    def _choose_group(self) -> None:
+        """List the values of another group, or those that the table listed."""
+        key = self.groups.currentData()
+        groups = self._workspace.file.schema.groups
+        found = next((each.parameters for each in groups if each.key == key), self._listed)
+        self._parameters = tuple(found)
+        self._choose_axis()
+
     def _choose_axis(self) -> None:
         self.rows.show_parameters(self._parameters, self._instance())
+        self.recorder.show_axis(self.axes.choice or "")
         self._show_frame()
         if self._status is not None:
             self._show_axis(self._status)
@@ -257,7 +284,7 @@ class LiveView(PageOfFile):
         self.bar.hide()
         if self._status is None:
             self.panel.show_nothing(self.tr("no readings yet"))
-        if session.seen is None and self._takes_one():
+        if self._takes_one():  # again each time: what was read before may be old
             self._is_own = True
             session.read()
             return
@@ -293,6 +320,7 @@ class LiveView(PageOfFile):
     def turned_away(self) -> None:
         """Rest while another page is in front."""
         self._is_away = True
+        self.recorder.stop()
         self.stop(self.tr("Live was left."))
 
     def _over(self, error: object) -> None:
@@ -357,6 +385,8 @@ class LiveView(PageOfFile):
         if is_first or is_new:
             self._choose_axis()
         self._show_axis(status)
+        if (axis := self._axis_of(status)) is not None:
+            self.recorder.take(time.monotonic() - self._begun, axis, is_fault=is_new)
         self.panel.show_happened(self.happened)
         self._show_age()
         states = (status.state, tuple(axis.states for axis in status.axes), tuple(status.faults))
@@ -385,7 +415,10 @@ class LiveView(PageOfFile):
     # -- values ------------------------------------------------------------------------
 
     def _present(self) -> ParameterFile | None:
-        return self.session.present(self._workspace.file) if self.session is not None else None
+        session = self.session
+        if session is None or session.is_seen_old:
+            return None
+        return session.present(self._workspace.file)
 
     def _follow_values(self, *_: object) -> None:
         self.rows.refresh()
@@ -402,13 +435,15 @@ class LiveView(PageOfFile):
         seen = self.session.seen if self.session is not None else None
         why = ""
         if present is None or seen is None:
-            why = self.tr("What the control contains was not read: At the Control (Alt+0) reads it.")
+            why = self.tr("What the control contains now was not read.")
         elif not seen.takes_one:
             why = self.tr("Reads only: this control takes no single values. Send the file (F5).")
         elif address is None or self._workspace.is_masked(address):
             why = self.tr("No value here can be written alone.")
         self.reason.setText(why)
-        self.reason.setVisible(bool(why))
+        self.reason_row.setVisible(bool(why))
+        self.read.setVisible(present is None)
+        self.framed.setVisible(not why)
         if why or address is None or present is None:
             self.frame.show_value(None)
             return
@@ -418,6 +453,22 @@ class LiveView(PageOfFile):
                 address, present.get(address), turned.before if turned else None, is_turned=turned is not None
             )
         )
+
+    def _read_values(self) -> None:
+        """Read what the control contains; one that needs a person at its keys is read At the Control."""
+        if self.session is None or self.session.is_busy:
+            return
+        if self._is_keyed():
+            self.control_wanted.emit()
+        else:
+            self._with_line(self.session.read)
+
+    def _is_keyed(self) -> bool:
+        """Return whether a person has to begin each exchange at the control itself."""
+        from amp_studio.transfer.links import parse_endpoint
+
+        assert self.session is not None
+        return not self._takes_one() and parse_endpoint(self.session.address).protocol not in ("", "house")
 
     def write(self, address: Address, value: Value) -> None:
         """Write a value into the control, asked once for each; it is read back and recorded."""
@@ -586,6 +637,13 @@ class LiveView(PageOfFile):
             return False
         return True
 
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Space that no part of the page takes starts and stops the recorder."""
+        if event.key() == Qt.Key.Key_Space:
+            self.recorder.start_or_stop()
+        else:
+            super().keyPressEvent(event)
+
     def escape(self) -> None:
         """Go back to the values."""
         self.left.emit()
@@ -595,3 +653,7 @@ class LiveView(PageOfFile):
         self._is_away = True
         if self.readings is not None:
             self.readings.stop()
+
+
+def _name_of(group: Group) -> str:
+    return f"{group.name.removesuffix(' Parameters')}, {group.section}" if group.section else group.name

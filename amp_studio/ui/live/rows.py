@@ -19,7 +19,7 @@ from amp_studio.ui.forms.table_items import item_at
 
 NUMBER, NAME, FILE, CONTROL, MIND = range(5)
 _FIGURE = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-_MOST_MIND, _LEAST_MIND = 232, 120
+_MOST_MIND, _LEAST_MIND = 232, 168
 """Pixels for what differs, where there is room and where there is not."""
 
 
@@ -102,6 +102,8 @@ class LiveRows(QTableWidget):
         """Say in few words what differs, where there is little room."""
         self._is_narrow = is_narrow
         self.setColumnWidth(MIND, _LEAST_MIND if is_narrow else _MOST_MIND)
+        head = self.tr("In the control") if is_narrow else self.tr("In the control, live")
+        self.horizontalHeaderItem(CONTROL).setText(head)
         self.refresh()
 
     def refresh(self, *_: object) -> None:

@@ -38,7 +38,8 @@ if TYPE_CHECKING:
 
 EVENTS = 8
 """Events that are shown."""
-PLACES = 4
+PLACES, GROUPED = 4, 5
+"""Decimals of a figure, and digits from which they are grouped."""
 WIDE, NARROW = 320, 284
 """Widths of the panel."""
 _FIGURES = ("position", "error", "velocity")
@@ -60,7 +61,6 @@ class LiveStatusPanel(QWidget):
         self.lock.setFont(font("small"))
         self.figures = {name: QLabel("–") for name in _FIGURES}
         self.units = {name: QLabel() for name in _FIGURES}
-        self.bounds = {name: QLabel() for name in _FIGURES}
         self.bars = {
             "position": LimitBar(self.tr("Position between the ends of the travel")),
             "error": LimitBar(self.tr("Following error between its limits")),
@@ -152,21 +152,17 @@ class LiveStatusPanel(QWidget):
         for row, name in enumerate(_FIGURES):
             self.figures[name].setFont(font("figure" if name == "position" else "title"))
             self.figures[name].setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-            self.bounds[name].setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-            self.bounds[name].setFont(font("small"))
-            for column, label in enumerate(
-                (self.words[name], self.figures[name], self.units[name], self.bounds[name])
-            ):
+            for column, label in enumerate((self.words[name], self.figures[name], self.units[name])):
                 rows.addWidget(label, row, column)
-        rows.setColumnStretch(3, 1)
+        rows.setColumnStretch(2, 1)
         for row, (name, bar) in enumerate(self.bars.items()):
             low, high = self.bar_words[name]
             high.setAlignment(Qt.AlignmentFlag.AlignRight)
             low.setFont(font("small"))
             high.setFont(font("small"))
-            rows.addWidget(bar, 3 + 2 * row, 0, 1, 4)
+            rows.addWidget(bar, 3 + 2 * row, 0, 1, 3)
             rows.addWidget(low, 4 + 2 * row, 0, 1, 2)
-            rows.addWidget(high, 4 + 2 * row, 2, 1, 2)
+            rows.addWidget(high, 4 + 2 * row, 2)
         return part
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -229,11 +225,9 @@ class LiveStatusPanel(QWidget):
             self.figures[name].setText("–" if value is None else value_text(value))
             self.units[name].setText("" if value is None else f"{unit}/s" if name == "velocity" else unit)
             if name != "position":
-                for label in (self.words[name], self.figures[name], self.units[name], self.bounds[name]):
+                for label in (self.words[name], self.figures[name], self.units[name]):
                     label.setVisible(value is not None or axis is None)
         most = limits.error
-        text = self.tr("limit {value}").format(value=value_text(most)) if axis and most is not None else ""
-        self.bounds["error"].setText(text)
         self._show_bar("position", figures[0], limits.low, limits.high)
         self._show_bar("error", figures[1], None if most is None else -most, most)
 
@@ -241,8 +235,11 @@ class LiveStatusPanel(QWidget):
         is_known = value is not None and low is not None and high is not None and low < high
         if is_known and value is not None and low is not None and high is not None:
             self.bars[name].show_value(value, low, high)
-            for label, text in zip(self.bar_words[name], (low, high), strict=True):
-                label.setText(value_text(text))
+            title = {"position": self.tr("Travel"), "error": self.tr("Following error")}[name]
+            for label, text in zip(
+                self.bar_words[name], (f"{title} {value_text(low)}", value_text(high)), strict=True
+            ):
+                label.setText(text)
         for part in (self.bars[name], *self.bar_words[name]):
             part.setVisible(is_known)
 
@@ -274,9 +271,8 @@ class LiveStatusPanel(QWidget):
         self._set(self.faults, "".join(parts))
         shade = colour("dim").name()
         lines = (
-            f'<span style="color:{shade}">{html.escape(event[:8])}</span>&nbsp;'
-            f" {html.escape(event[8:].strip())}"
-            for event in happened.events[:EVENTS]
+            f'<span style="color:{shade}">{html.escape(time)}</span>&nbsp; {html.escape(text)}'
+            for time, _, text in (event.partition(" ") for event in happened.events[:EVENTS])
         )
         self._set(self.events, "<br>".join(lines))
 
@@ -322,7 +318,10 @@ def value_text(value: float | str) -> str:
     if isinstance(value, str):
         return value
     text = f"{round(value, PLACES):.{PLACES}f}".rstrip("0").rstrip(".")
-    return written("0" if text in ("-0", "") else text)
+    whole, point, rest = text.partition(".")
+    if len(whole.lstrip("-")) >= GROUPED:
+        whole = f"{int(whole):,}".replace(",", "\u202f")
+    return written("0" if text in ("-0", "") else f"{whole}{point}{rest}")
 
 
 def _line() -> QFrame:

@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 from amp_studio.files import RangeError, in_one_unit
 from amp_studio.report import takes_effect
 from amp_studio.schema import Address, InvalidValueError, Value, same_value, write_value
-from amp_studio.ui.base.figures import sentence, show_value
+from amp_studio.ui.base.figures import sentence, show_value, written
 from amp_studio.ui.base.theme import CONTROL, GAP, GAP2, GAP3, colour, font, scheme
 from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
@@ -150,9 +150,9 @@ class WriteFrame(QFrame):
         upper = QHBoxLayout()
         upper.setSpacing(GAP)
         upper.addLayout(title, 1)
-        for part in (self.less, self.field, self.more, self.unit, self.now):
+        for part in (self.less, self.field, self.more, self.unit):
             upper.addWidget(part)
-        upper.addStretch(1)
+        upper.addWidget(self.now, 1)
         upper.addSpacing(GAP2)
         upper.addWidget(self.back)
         upper.addWidget(self.write)
@@ -227,6 +227,15 @@ class WriteFrame(QFrame):
         parameter = self._workspace.file.schema.parameters[self._about.address[0]]
         return show_value(parameter, self._in_unit(value), secrets=False) if value else self.tr("not set")
 
+    def _number(self, value: Value | None) -> str:
+        """Return a value for a button, without its unit: that is beside the field."""
+        found = self._in_unit(value)
+        if found is None or not _is_number(found):
+            return self._text(value)
+        assert self._about is not None
+        parameter = self._workspace.file.schema.parameters[self._about.address[0]]
+        return written(write_value(parameter, found).partition(" ")[0])
+
     def _in_unit(self, value: Value | None) -> Value | None:
         assert self._about is not None
         (found,) = in_one_unit((value,), self._workspace.typed_unit(self._about.address))
@@ -273,11 +282,10 @@ class WriteFrame(QFrame):
         allowed = allowed_text(self._workspace, about.address)
         now = self.tr("now {value}").format(value=self._text(about.now))
         self.now.setText(f"{now}, {self.tr('allowed {range}').format(range=allowed)}" if allowed else now)
-        wanted = self._text(self._wanted)
-        self.write.setText(self.tr("&Write {value} Now").format(value=wanted))
+        self.write.setText(self.tr("&Write {value} Now").format(value=self._number(self._wanted)))
         self.write.setEnabled(not problem and not same_value(self._wanted, about.now))
         self.back.setVisible(about.is_turned)
-        self.back.setText(self.tr("Put {value} &Back").format(value=self._text(about.before)))
+        self.back.setText(self.tr("Put {value} &Back").format(value=self._number(about.before)))
         self.back.setEnabled(not self._why_off and about.before is not None)
         own = self._workspace.file.get(about.address)
         self.take.setEnabled(self._workspace.may_edit and not same_value(own, about.now))

@@ -1,0 +1,478 @@
+"""The recorder of Live: readings of an axis as dots, from a trigger on, and under them the simulation of the
+same move with the values that the control contains.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import (
+    QComboBox,
+    QFileDialog,
+    QLabel,
+    QLineEdit,
+    QMenu,
+    QPushButton,
+    QSizePolicy,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.drawing import Curve, NamedPlace, Picture, Scene, linked, panel_of, picture_svg
+from amp_studio.files import ParameterFile, write_atomic
+from amp_studio.schema import UnitError, convert, read_number
+from amp_studio.sim import (
+    LiveRecorder,
+    SignalRecord,
+    SimulationError,
+    Trace,
+    read_recording,
+    unit_factor,
+    write_recording,
+)
+from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.plot import Plot
+from amp_studio.ui.base.task import Task
+from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, colour, font, icon, scheme
+from amp_studio.ui.base.translated import sentenced, tr, unit_in_words, worded
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.control.readings import AxisReadings
+from amp_studio.ui.control.rows import side_by_side
+from amp_studio.ui.motion.run import AskedMotion, SimulatedMotion, run_motion
+
+if TYPE_CHECKING:
+    from amp_studio.transfer import AxisStatus
+
+AFTER_FAULT = 0.5
+"""s that are recorded after a fault: what led to it is kept."""
+SPARSE = 50.0
+"""Readings in a second below which they are dots: nothing is known between them."""
+FAR = 1.6
+"""A limit below this multiple of the largest error is drawn."""
+_FIELD = 52
+_LEAST_PLOT = 150
+
+
+class LiveRecording(QWidget):
+    """What is drawn below the rows: the last half minute, a record that is made, or one that is there."""
+
+    def __init__(self, workspace: Workspace, present: Callable[[], ParameterFile]) -> None:
+        """``present`` gives the values with which the recorded move is simulated."""
+        super().__init__()
+        self._workspace, self._present = workspace, present
+        self._family = workspace.file.schema.family.family
+        self._axis = ""
+        self._recent = AxisReadings()
+        self._last: AxisStatus | None = None
+        self._recorder: LiveRecorder | None = None
+        self._ends_at: float | None = None
+        self.record: SignalRecord | None = None
+        self._fired: float | None = None
+        self.trace: Trace | None = None
+        self._task: Task | None = None
+        self._remark = self._problem = ""
+        self._missing: tuple[str, ...] = ()
+        self._build()
+        scheme().changed.connect(self._show_foot)
+        workspace.closed.connect(self._let_go)
+
+    def _build(self) -> None:
+        title = QLabel(self.tr("Recorder"))
+        title.setFont(font("text", own=True))
+        self.state = QLabel()
+        self.state.setFont(font("small"))
+        self.state.setAccessibleName(self.tr("State of the recorder"))
+        self.state.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.trigger = QComboBox()
+        self.trigger.setAccessibleName(self.tr("Trigger"))
+        self.trigger.setToolTip(self.tr("What the record begins with"))
+        for key, words in (
+            ("", self.tr("by hand")),
+            ("move", self.tr("the axis moves")),
+            ("error", self.tr("error above")),
+            ("fault", self.tr("fault")),
+        ):
+            self.trigger.addItem(words, key)
+        self.level, self.before = QLineEdit(), QLineEdit("0.5")
+        self.level.setAccessibleName(self.tr("Level of the trigger"))
+        self.before.setAccessibleName(self.tr("Seconds that are kept ahead of the trigger"))
+        self.before_label = QLabel(self.tr("before (s)"))
+        for field in (self.level, self.before):
+            field.setFixedWidth(_FIELD)
+        self.open = _tool("folder-open", self.tr("Lay a record from a file over (CSV)"))
+        self.export = _tool("export", self.tr("Export the record: CSV or SVG"))
+        self.export.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        menu = QMenu(self.export)
+        self.to_csv = menu.addAction(self.tr("Record as &CSV…"), partial(self._save, "csv"))
+        self.to_svg = menu.addAction(self.tr("Picture as &SVG…"), partial(self._save, "svg"))
+        self.export.setMenu(menu)
+        self.toggle = QPushButton()
+        self.toggle.setAutoDefault(False)
+        self.toggle.setToolTip(self.tr("Space starts and stops the record"))
+        self.plot = Plot()
+        self.plot.setAccessibleName(self.tr("Readings over time, a dot for each"))
+        self.plot.setMinimumHeight(_LEAST_PLOT)
+        self.foot = QLabel()
+        self.foot.setFont(font("small"))
+        self.foot.setWordWrap(True)
+        self.foot.setTextFormat(Qt.TextFormat.PlainText)
+        self.foot.setContentsMargins(GAP3, 0, GAP3, GAP2)
+        self.foot.setAccessibleName(self.tr("Figures of the record"))
+        head = side_by_side(
+            HEAD,
+            title,
+            self.state,
+            self.trigger,
+            self.level,
+            self.before_label,
+            self.before,
+            self.open,
+            self.export,
+            self.toggle,
+        )
+        row = head.layout()
+        assert row is not None
+        row.setStretch(1, 1)  # type: ignore[attr-defined]  # a row of boxes
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(head)
+        column.addWidget(self.plot, 1)
+        column.addWidget(self.foot)
+        self.toggle.clicked.connect(self.start_or_stop)
+        self.open.clicked.connect(self._ask)
+        self.trigger.currentIndexChanged.connect(lambda _: self._show_state())
+        self.plot.read.connect(lambda _: self._show_foot())
+        self._show_state()
+
+    # -- readings ----------------------------------------------------------------
+
+    @property
+    def is_recording(self) -> bool:
+        """Whether readings are being kept."""
+        return self._recorder is not None
+
+    def show_axis(self, axis: str) -> None:
+        """Draw another axis: a record is of one alone."""
+        if axis != self._axis:
+            self.stop()
+            self._axis, self._recent, self._last = axis, AxisReadings(), None
+            self._forget()
+            self.plot.clear_picture()
+            self._show_state()
+
+    def take(self, seconds: float, axis: AxisStatus, *, is_fault: bool = False) -> None:
+        """Take a reading at a time in s; a new fault ends a record half a second later."""
+        self._recent.add(seconds, axis)
+        last, self._last = self._last, axis
+        figures = axis.signals()
+        self._missing = tuple(name for name in ("following_error", "velocity") if figures[name][0] is None)
+        if self._recorder is None:
+            if self.record is None and (picture := self._recent.picture()):
+                self.plot.draw(picture)
+                self._show_foot()
+            return
+        self._recorder.add(seconds, figures)
+        if not self._recorder.has_fired and self._fires(last, axis, is_fault):
+            self._recorder.fire(seconds)
+        if is_fault and self._recorder.has_fired and self._ends_at is None:
+            self._ends_at = seconds + AFTER_FAULT
+        if self._recorder.is_done or (self._ends_at is not None and seconds >= self._ends_at):
+            self.stop()
+        elif self._recorder.count > 1:
+            self.plot.draw(record_picture(self._recorder.recording(axis.axis), self._recorder.fired_after))
+            self._show_state()
+
+    def _fires(self, last: AxisStatus | None, axis: AxisStatus, is_fault: bool) -> bool:
+        match self.trigger.currentData():
+            case "move":
+                moved = last is not None and axis.position is not None and axis.position != last.position
+                return bool(axis.velocity) or moved
+            case "error":
+                return axis.following_error is not None and abs(axis.following_error) > self._level()
+            case "fault":
+                return is_fault
+        return False
+
+    def _level(self) -> float:
+        text = self.level.text().strip()
+        return read_number(text)[0] if text else 0.0
+
+    # -- a record ----------------------------------------------------------------
+
+    def start_or_stop(self) -> None:
+        """Begin a record, or end the one that is made."""
+        if self._recorder is not None:
+            self.stop()
+            return
+        try:
+            self._level()
+            before = read_number(self.before.text().strip() or "0")[0]
+        except ValueError as error:
+            self._problem = sentenced(str(error))
+            self._show_foot()
+            return
+        self._forget()
+        waits = bool(self.trigger.currentData())
+        self._recorder = LiveRecorder(by_event=waits, before=max(before, 0.0) if waits else 0.0)
+        self._ends_at = None
+        self._show_state()
+
+    def stop(self) -> None:
+        """End a record that is made and keep it; one reading is none."""
+        recorder, self._recorder = self._recorder, None
+        if recorder is not None and recorder.count > 1 and recorder.has_fired:
+            self.record, self._fired = recorder.recording(self._axis), recorder.fired_after
+            self._begin_with_record()
+        self._show_state()
+
+    def _begin_with_record(self) -> None:
+        self._simulate()
+        self._draw()
+        self.plot.zoom(None)  # both cursors on it
+
+    def _forget(self) -> None:
+        self.record = self.trace = self._fired = None
+        self._remark = self._problem = ""
+
+    def _ask(self) -> None:
+        """Lay a record of the machine from a table over in the same way."""
+        text, _ = QFileDialog.getOpenFileName(
+            self,
+            self.tr("Record of the Machine"),
+            str(self._workspace.path.parent),
+            self.tr("Records (*.csv *.txt);;All files (*)"),
+        )
+        if not text:
+            return
+        self.stop()
+        self._forget()
+        try:
+            self.record = read_recording(Path(text))
+        except (OSError, SimulationError) as error:
+            self._problem = sentenced(str(error))
+        else:
+            self._begin_with_record()
+        self._show_state()
+
+    # -- the simulation of it ------------------------------------------------------
+
+    def _simulate(self) -> None:
+        """Simulate the move that the record shows, in a thread."""
+        assert self.record is not None
+        file, record = self._present().copy(), self.record
+        try:
+            zeroed, settings, words = move_of(file, record)
+        except SimulationError as error:
+            self._remark = sentenced(str(error))
+            return
+        self._remark = words
+        asked = AskedMotion("step", self._instance(file), settings, file, None, None, zeroed)
+        self._let_go()
+        self._task = Task(partial(run_motion, asked))
+        self._task.done.connect(self._simulated)
+        self._task.failed.connect(self._not_simulated)
+        self._task.begin()
+
+    def _instance(self, file: ParameterFile) -> str | None:
+        from amp_studio.files import axis_instances, axis_letter
+
+        found = (each for each in axis_instances(file) if self._axis in (each, axis_letter(file, each)))
+        return next(found, None)
+
+    def _simulated(self, ran: SimulatedMotion) -> None:
+        self._task = None
+        if ran.record_error or self.record is None:
+            self._remark = sentenced(ran.record_error, self._family)
+        else:
+            self.trace = ran.trace
+        self._draw()
+        self._show_state()
+
+    def _not_simulated(self, error: Exception) -> None:
+        self._task = None
+        self._remark = self.tr("Not simulated: {why}").format(why=sentenced(str(error), self._family))
+        self._show_foot()
+
+    def _let_go(self) -> None:
+        """Ignore the result of a run that has not finished."""
+        if self._task is not None:
+            self._task.done.disconnect(self._simulated)
+            self._task.failed.disconnect(self._not_simulated)
+            self._task = None
+
+    # -- what is shown -------------------------------------------------------------
+
+    def _draw(self) -> None:
+        if self.record is not None:
+            self.plot.draw(record_picture(self.record, self._fired, self.trace))
+        self._show_foot()
+
+    def _show_state(self) -> None:
+        recorder, key = self._recorder, self.trigger.currentData()
+        self.toggle.setText(self.tr("St&op") if recorder is not None else self.tr("&Record"))
+        self.toggle.setIcon(icon("stop" if recorder is not None else "record"))
+        self.level.setVisible(key == "error")
+        for part in (self.before_label, self.before):
+            part.setVisible(bool(key))
+        for each in (self.trigger, self.level, self.before, self.open):
+            each.setEnabled(recorder is None)
+        self.export.setEnabled(recorder is None and self.record is not None)
+        text = ""
+        if recorder is not None and not recorder.has_fired:
+            text = self.tr("waits: {trigger}").format(
+                trigger=f"{self.trigger.currentText()} {self.level.text() if key == 'error' else ''}".strip()
+            )
+        elif recorder is not None:
+            text = self.tr("%n readings", "", recorder.count)
+        elif self.record is not None:
+            text = self.tr("○ machine   — simulated") if self.trace else self.tr("○ machine")
+        self.state.setText(text)
+        self.state.setToolTip(text)
+        self._show_foot()
+
+    def _show_foot(self) -> None:
+        parts = [self._problem] if self._problem else []
+        if self.record is not None:
+            parts += self._figures(self.record)
+            parts.append(self._remark)
+        for name in self._missing:
+            parts.append(
+                self.tr("{signal}: not shown by this control, so nothing is drawn").format(
+                    signal=worded(name.replace("_", " ")).capitalize()
+                )
+            )
+        parts.append(self.tr("dots are readings, nothing is known between them"))
+        self.foot.setStyleSheet(f"color: {colour('error' if self._problem else 'dim').name()};")
+        self.foot.setText("   ".join(filter(None, parts)))
+
+    def _figures(self, record: SignalRecord) -> list[str]:
+        """Return what the cursors read, and how far the simulation is away."""
+        a, b = self.plot.cursors
+        parts = [self.tr("A to B {time} s").format(time=written(f"{abs(b - a):.3f}"))]
+        for signal in _signals(record):
+            values, unit = record.signals[signal], unit_in_words(record.units.get(signal, ""))
+            one, two = (float(values[int(np.argmin(np.abs(record.time - at)))]) for at in (a, b))
+            words = worded(signal.replace("_", " "))
+            parts.append(f"{words} {written(f'{one:.5g}')} → {written(f'{two:.5g}')} {unit}")
+        if self.trace is None:
+            return parts
+        for signal in _signals(record):
+            value, unit = self.trace.result.get(f"difference_rms_{signal}", (None, ""))
+            if value is not None:
+                parts.append(
+                    self.tr("RMS machine − simulated {value}").format(
+                        value=f"{written(f'{value:.4g}')} {unit_in_words(unit)}"
+                    )
+                )
+                break
+        lag = self.trace.result["record_lag"][0]
+        if lag is not None:
+            parts.append(self.tr("shifted by {lag} s to fit").format(lag=written(f"{lag:.3f}")))
+        return parts
+
+    # -- files -----------------------------------------------------------------------
+
+    def _save(self, ending: str) -> None:
+        """Write the record as a table, or its picture."""
+        record, path = self.record, self._workspace.path
+        if record is None or self.plot.picture is None:
+            return
+        near = path.with_name(f"{path.stem}-{self._axis}.{ending}")
+        kind = {"csv": "CSV (*.csv)", "svg": "SVG (*.svg)"}[ending]
+        text, _ = QFileDialog.getSaveFileName(self, self.tr("Export"), str(near), kind)
+        if not text:
+            return
+        try:
+            if ending == "csv":
+                write_recording(record, Path(text))
+            else:
+                named = replace(self.plot.picture, title=f"{self._workspace.path.stem} {self._axis}")
+                write_atomic(Path(text), picture_svg(named).encode())
+        except OSError as error:
+            self._problem = sentenced(str(error))
+        self._show_foot()
+
+
+def move_of(file: ParameterFile, record: SignalRecord) -> tuple[SignalRecord, dict[str, float | str], str]:
+    """Return a record with its position counted from its beginning, and the settings of the move that it
+    shows, in words too; raises SimulationError where the axis did not move.
+    """
+    position = record.signals.get("position")
+    if position is None or float(np.ptp(position)) == 0.0:
+        raise SimulationError(tr("The axis did not move: nothing is simulated."))
+    unit = record.units.get("position", "")
+    distance = float(position[-1] - position[0])
+    speeds = record.signals.get("velocity")
+    if speeds is None or not float(np.max(np.abs(speeds))):
+        speeds = np.diff(position) / np.diff(record.time)
+    feed = 60.0 * float(np.max(np.abs(speeds)))
+    system = file.schema.family.units.get(file.header.units, {})
+    wanted = system.get("length", unit)
+    try:
+        factor = convert(1.0, unit, wanted) if unit not in ("", "counts", wanted) else 1.0
+    except UnitError:
+        factor = 1.0
+    way = f"{written(f'{distance:.5g}')} {unit_in_words(unit)}"
+    words = tr("simulated: {distance} at {feed}/min, as recorded, with the values of the control").format(
+        distance=way, feed=f"{written(f'{feed:.5g}')} {unit_in_words(unit)}"
+    )
+    zeroed = replace(record, signals={**record.signals, "position": position - position[0]})
+    return zeroed, {"move.distance": distance * factor, "move.feedrate": feed * factor}, words
+
+
+def _signals(record: SignalRecord) -> list[str]:
+    """Return the two signals that have room: the error, or the position without one, and the speed."""
+    first = "following_error" if "following_error" in record.signals else "position"
+    second = "velocity" if "velocity" in record.signals else "position"
+    return [each for each in dict.fromkeys((first, second)) if each in record.signals]
+
+
+def record_picture(record: SignalRecord, fired: float | None, trace: Trace | None = None) -> Picture:
+    """Return a record over its time, with its trigger, and the simulation under it shifted to fit."""
+    marks = (NamedPlace(tr("trigger"), fired),) if fired else ()
+    return Picture("", (), linked([_panel(record, signal, marks, trace) for signal in _signals(record)]))
+
+
+def _panel(record: SignalRecord, signal: str, marks: tuple[NamedPlace, ...], trace: Trace | None) -> Scene:
+    time, values, unit = record.time, record.signals[signal], record.units.get(signal, "")
+    sparse = len(time) - 2 < SPARSE * float(time[-1] - time[0])
+    curves = [Curve(tr("machine"), time, values, "now", dots=sparse)]
+    levels: list[NamedPlace] = []
+    if trace is not None and f"recorded_{signal}" in trace.columns:
+        factor = unit_factor(record.name, signal, unit, trace.units[signal])
+        zero = float(values[0]) if signal == "position" else 0.0
+        lag = trace.result["record_lag"][0] or 0.0
+        here = trace.columns["time_s"] + lag
+        seen = (here >= time[0]) & (here <= time[-1])
+        under = trace.columns[signal][seen] / factor + zero
+        curves.insert(0, Curve(tr("simulated"), here[seen], under, "before"))
+        if signal == "following_error":
+            levels = _levels(trace, float(np.max(np.abs(values))) * factor, factor)
+    return panel_of(signal.replace("_", " "), curves, ("time", "s"), unit, marks=marks, levels=levels)
+
+
+def _levels(trace: Trace, most: float, factor: float) -> list[NamedPlace]:
+    """Return the limits of the error that are near it, on both sides."""
+    near = {name: level for name, (level, _) in trace.limits.items() if level and level <= FAR * most}
+    return [
+        NamedPlace(name.replace("_", " ") if sign > 0.0 else "", sign * level / factor)
+        for name, level in near.items()
+        for sign in (1.0, -1.0)
+    ]
+
+
+def _tool(icon_name: str, text: str) -> QToolButton:
+    made = QToolButton()
+    made.setIcon(icon(icon_name))
+    made.setAutoRaise(True)
+    made.setToolTip(text)
+    made.setAccessibleName(text)
+    return made
