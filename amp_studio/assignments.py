@@ -45,37 +45,46 @@ def read_assignments(
     a number means that is printed for several. A value is cleared by ``CLEARING_TEXT`` only:
     an empty text may be a variable without a value.
     """
-    from amp_studio.schema import UnknownParameterError, fault, resolve_address
+    from amp_studio.schema import UnknownParameterError, fault
 
     trial = file.copy()
     values: dict[Address, Value | None] = {}
     slips: list[str] = []
     for param, text in assignments:
         try:
-            resolved = resolve_address(trial.evaluation, param)
-            address = resolved.address
-            if isinstance(text, Value):
-                values[address] = text
-                trial.set(address, text)
-                continue
-            value = _read_assigned(trial, param, address, resolved.bit, text)
-            if resolved.bit is None and values.get(address, value) != value:
-                raise ValueError("it is given two values")
-            values[address] = value
+            message = _assign(trial, values, param, text)
         except UnknownParameterError as error:
             slips.append(str(error))
-            continue
         except (TypeError, ValueError) as error:  # a Value of a list, for one
             slips.append(f"{param}: {error}")
-            continue
-        if message := resolved.remark(trial.schema):
-            notify(message)
-        trial.set(address, values[address])
+        else:
+            if message:
+                notify(message)
     if slips:
         faults = ((a, fault(trial.evaluation, a, v)) for a, v in values.items() if v is not None)
         slips += [f"{trial.machine_schema.short(a)}: {bad}" for a, bad in faults if bad]
         raise AssignmentError("; ".join(slips))
     return values
+
+
+def _assign(trial: ParameterFile, values: dict[Address, Value | None], param: str, text: str | Value) -> str:
+    """Set one value in the copy and in ``values``; returns which parameter its number means
+    where it is printed for several. Raises UnknownParameterError, TypeError and ValueError.
+    """
+    from amp_studio.schema import resolve_address
+
+    resolved = resolve_address(trial.evaluation, param)
+    address = resolved.address
+    if isinstance(text, Value):
+        values[address] = text
+        trial.set(address, text)
+        return ""
+    value = _read_assigned(trial, param, address, resolved.bit, text)
+    if resolved.bit is None and values.get(address, value) != value:
+        raise ValueError("it is given two values")
+    values[address] = value
+    trial.set(address, value)
+    return resolved.remark(trial.schema)
 
 
 def _read_assigned(

@@ -221,11 +221,8 @@ def _table(
     figures = [[(cell(row, at), cell(row, n)) for row in rows] for n in values]
     if len(values) > 1:
         runs = [RawRun(heads[n].rising, tuple(points)) for n, points in zip(values, figures, strict=True)]
-    elif "direction" in kinds or "run" in kinds:
-        runs = _grouped(rows, kinds, figures[0])
     else:
-        runs = parted(figures[0])
-    ignored = sum(kind == "" or (kind == "mean" and n not in values) for n, kind in enumerate(kinds))
+        runs = _runs_of_one(rows, kinds, figures[0])
     is_circle, kind = kinds[at] == "angle", kinds[values[0]]
     if is_circle and kind == "measured":
         raise MeasurementError("a circle needs the error of its radius, not the radius: angle, deviation")
@@ -234,13 +231,14 @@ def _table(
         "error" if kind == "mean" else kind,
         heads[at].unit,
         heads[values[0]].unit,
-        (*notes, *_not_read(ignored)),
+        (*notes, *_not_read(kinds, values)),
         is_circle,
     )
 
 
-def _not_read(count: int) -> Iterator[str]:
+def _not_read(kinds: Sequence[str], values: Sequence[int]) -> Iterator[str]:
     """Yield how many columns were left out, in words; nothing where none was."""
+    count = sum(kind == "" or (kind == "mean" and n not in values) for n, kind in enumerate(kinds))
     if count > 1:
         yield f"{count} columns that are neither position nor error were not read"
     elif count:
@@ -278,6 +276,15 @@ def _columns(heads: Sequence[Head]) -> tuple[int, list[int]]:
     if len({heads[n].unit for n in values}) > 1:
         raise MeasurementError("the columns of errors have several units")
     return positions[0], values
+
+
+def _runs_of_one(
+    rows: Sequence[tuple[int, list[str]]], kinds: Sequence[str], figures: Sequence[tuple[Fraction, Fraction]]
+) -> list[RawRun]:
+    """Return the runs of one column: as its lines name them, else parted where the axis turns."""
+    if "direction" in kinds or "run" in kinds:
+        return _grouped(rows, kinds, figures)
+    return parted(figures)
 
 
 def _grouped(

@@ -6,17 +6,14 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from functools import lru_cache
 from typing import NamedTuple
 
 from amp_studio.errors import AmpStudioError
 from amp_studio.schema import (
     UNITS,
     Address,
-    Default,
     Evaluation,
     MachineSchema,
-    Parameter,
     Schema,
     Scope,
     UnitError,
@@ -31,6 +28,8 @@ from amp_studio.schema import (
     unit_named,
     unknown,
 )
+
+from .printed_defaults import default_value, is_printed
 
 _SHOWN = 40
 """Instances that a message about an unknown one lists."""
@@ -180,7 +179,7 @@ class ParameterFile:
         parameter = self.schema.parameters[address[0]]
         if not parameter.secret:
             turns = self.evaluation.turns(address)
-            return _is_printed(self.schema, address[0], address[1], turns, self.values.get(address))
+            return is_printed(self.schema, address[0], address[1], turns, self.values.get(address))
         every = ((address[0], instance) for instance in self.machine_schema.instances(parameter))
         own = [address, *(a for a in every if a in self.values)]
         return all(same_value(self.get(a), self.default(a)) for a in own)
@@ -425,33 +424,6 @@ class ParameterFile:
         twin.forced.update(self.forced)
         twin.unknown.update(self.unknown)
         return twin
-
-
-def default_value(schema: Schema, evaluation: Evaluation, address: Address) -> Value | None:
-    """Return the printed default of an instance; None where the manual prints none."""
-    parameter = schema.parameters[address[0]]
-    if parameter.default is None:
-        return None
-    return _printed(parameter, parameter.default, address[1], turns=evaluation.turns(address))
-
-
-@lru_cache(maxsize=65_536)  # every view asks it of every value after every edit
-def _is_printed(schema: Schema, parameter_id: str, instance: str, turns: bool, value: Value | None) -> bool:
-    """Return whether a value is the printed default, on an axis that turns or does not; both may be none."""
-    parameter = schema.parameters[parameter_id]
-    if parameter.default is None:
-        return value is None
-    return same_value(value, _printed(parameter, parameter.default, instance, turns=turns))
-
-
-def _printed(parameter: Parameter, default: Default, instance: str, *, turns: bool) -> Value:
-    value = (default.instances or {}).get(instance, default.value)
-    if parameter.type == "boolean":
-        return Value(value in ("yes", True))
-    if isinstance(value, (str, bool)) or parameter.type == "format":
-        return Value(str(value))
-    unit = angular(default.unit) if turns else default.unit
-    return Value(int(value) if parameter.type in ("integer", "bits") else float(value), unit)
 
 
 def _refitted(unit: str, turns: bool, metric: str) -> str:

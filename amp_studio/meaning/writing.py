@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from typing import Literal
@@ -91,6 +91,24 @@ class WrittenMachine:
         if found and not float(found) > 0.0:
             raise TargetError(f"{question.id}: {quoted(found)} is not above 0. {question.question}")
         return float(found) if found else None
+
+    def letter(
+        self, axis: AxisMeaning, axes: Iterable[AxisMeaning], alike: Sequence[str], answers: Mapping[str, str]
+    ) -> str:
+        """Return the letter of an axis, one of those ``alike`` that move as it does and no other has;
+        asked for where its own cannot stay, "" while that is open. Raises TargetError.
+        """
+        taken = [a.letter for a in axes if a is not axis]
+        free = [x for x in alike if x not in taken]
+        if axis.letter in free:
+            return axis.letter
+        what = "turns" if axis.turns else "does not turn"
+        question = MigrationQuestion(
+            f"letter.{axis.name}",
+            f"Axis {axis.name} {what}: which letter shall it have ({', '.join(free)})?",
+            axis.figures["kind"].sources if "kind" in axis.figures else (),
+        )
+        return self.answer(question, answers, f"[{''.join(free)}]").upper()
 
     def home_steps(self, letters: Sequence[str], answers: Mapping[str, str]) -> list[str]:
         """Return the letters of each step of homing, none where the question is open; raises TargetError."""

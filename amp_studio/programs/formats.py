@@ -57,25 +57,31 @@ def number_of(typed: str, form: NumberFormat) -> WordNumber:
         if decimals.strip("0"):
             return WordNumber(None, f"{quoted(figures)} is no whole number")
         return WordNumber(float(typed))
+    if not point:
+        return _without_point(typed, figures, form.digits, form.justified)
     before, behind = form.digits
-    if point:
-        # Zeros outside of the format change no number: they are taken, and named as assumed.
-        if len(whole.lstrip("0")) > before or len(decimals.rstrip("0")) > behind:
-            return _too_many(figures, form.digits)
-        return WordNumber(float(typed), assumed=_zeros_assumed(whole, decimals, form.digits))
+    # Zeros outside of the format change no number: they are taken, and named as assumed.
+    if len(whole.lstrip("0")) > before or len(decimals.rstrip("0")) > behind:
+        return _too_many(figures, form.digits)
+    return WordNumber(float(typed), assumed=_zeros_assumed(whole, decimals, form.digits))
+
+
+def _without_point(typed: str, figures: str, digits: tuple[int, int], justified: Justified) -> WordNumber:
+    """Return a number by the place of its digits, which the zeros that are left out decide."""
+    before, behind = digits
     if len(figures) > before + behind:
         return WordNumber(
             None,
             f"{quoted(figures)} has more than the {before + behind} digits of the format {before}.{behind}",
         )
-    if form.justified:
+    if justified:
         # Leading zeros left out: the last digit is the last decimal. Trailing ones: the first is the
         # highest.
-        placed = figures if form.justified == "right" else figures.ljust(before + behind, "0")
+        placed = figures if justified == "right" else figures.ljust(before + behind, "0")
         # By the text, so that 12345 with three decimals is 12.345 and no product that is off by a bit.
         return WordNumber(float(f"{'-' * typed.startswith('-')}{placed}e-{behind}"))
     if len(figures.lstrip("0")) > before:
-        return _too_many(figures, form.digits)
+        return _too_many(figures, digits)
     whole_units = "that a number without a point counts whole units while no zeros are left out"
     return WordNumber(float(typed), assumed=whole_units if behind else "")
 

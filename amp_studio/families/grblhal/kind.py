@@ -183,19 +183,12 @@ def _settings_for(file: ParameterFile, present: GrblContent, current: bytes) -> 
     """
     if file.schema.family.family != FAMILY:
         raise ImageError(f"a file for {file.schema.family.name} is nothing for a Grbl control")
-    lacking: list[int] = []
-    lost: MaskBits = {}
     try:
         schema = _schema_of(present, current)
         build = _build(schema, present)
         # Of the same build only bits of axes can differ: names of all others are the same.
         kept = bits_beyond(build, build_of(file), axes_only=file.schema.signature == schema.signature)
-        if file.schema.signature != schema.signature:
-            fitted = fit_to(file, schema, present.axes)
-            if others := [misfit for misfit in fitted.misfits if not misfit.is_lacking]:
-                raise ImageError(_misfit_text(others))
-            lacking = [int(f[1]) for m in fitted.misfits if (f := re.match(r"\$(\d+)", m.name))]
-            file, lost = fitted.file, fitted.lost
+        file, lacking, lost = _of_build(file, schema, present.axes)
         unnamed = {
             int(key[1:]): text for key, text in file.unknown.items() if re.fullmatch(r"\$\d{1,5}", key)
         }
@@ -207,6 +200,21 @@ def _settings_for(file: ParameterFile, present: GrblContent, current: bytes) -> 
     kept = {n: bits for n, bits in kept.items() if n in settings and n in present.settings}
     settings |= {n: with_bits(settings[n], bits, present.settings[n]) for n, bits in kept.items()}
     return _SentSettings(settings, lacking, kept, lost)
+
+
+def _of_build(
+    file: ParameterFile, schema: Schema, axes: Sequence[str]
+) -> tuple[ParameterFile, list[int], MaskBits]:
+    """Return a file as a file of the build of a control, the numbers that the control lacks, and the bits
+    that are lost; raises ImageError for a value that it has and cannot take.
+    """
+    if file.schema.signature == schema.signature:
+        return file, [], {}
+    fitted = fit_to(file, schema, axes)
+    if others := [misfit for misfit in fitted.misfits if not misfit.is_lacking]:
+        raise ImageError(_misfit_text(others))
+    lacking = [int(f[1]) for m in fitted.misfits if (f := re.match(r"\$(\d+)", m.name))]
+    return fitted.file, lacking, fitted.lost
 
 
 def _build(schema: Schema, content: GrblContent) -> Build:
@@ -253,26 +261,16 @@ def _fitted(
     wanted: Mapping[int, str], present: GrblContent, known: Mapping[int, DescribedSetting]
 ) -> dict[int, str]:
     """Return the settings of a control after these are written; raises ImageError."""
-    settings = dict(present.settings)
     comes = _coming(wanted, present)
-    for (
-        common,
-        rates,
-    ) in COMMON_RATES.items():  # what comes is as the common rate was, and in the opposite direction
-        settings |= {
-            n: settings[common] for n in rates if n in comes and n not in settings and common in settings
-        }
-        if rates[0] in settings:
-            settings.setdefault(common, settings[rates[0]])
+    settings = _with_rates(present.settings, comes)
     for number, text in wanted.items():
         if number not in settings and number not in comes:
             continue
         reported = settings.get(number, "")
-        # A control shows a password as asterisks: sent back, they would become the password.
-        if number in known and known[number].type == PASSWORD and not text.strip("*"):
-            continue  # a mask, not a password
         # It is there already: not written, so that the memory is not worn.
-        if is_shown_as(text, reported) and _is_as_fine(text, reported):
+        if _is_masked_password(text, known.get(number)) or (
+            is_shown_as(text, reported) and _is_as_fine(text, reported)
+        ):
             continue
         try:
             check_text(known.get(number), number, text, len(present.axes))
@@ -280,6 +278,26 @@ def _fitted(
             raise ImageError(str(error)) from None
         settings[number] = _as_shown(text, reported)
     return _moved(settings, wanted, has_rates=bool(comes))
+
+
+def _is_masked_password(text: str, setting: DescribedSetting | None) -> bool:
+    """Return whether a text is the asterisks that a control shows for a password: sent back, they would
+    become the password.
+    """
+    return setting is not None and setting.type == PASSWORD and not text.strip("*")
+
+
+def _with_rates(present: Mapping[int, str], comes: set[int]) -> dict[int, str]:
+    """Return the settings of a control with the rates of single axes that come, each as the common rate was;
+    the common rate, where it is not there, is that of the first axis.
+    """
+    settings = dict(present)
+    for common, rates in COMMON_RATES.items():
+        if common in settings:
+            settings |= {n: settings[common] for n in rates if n in comes and n not in settings}
+        elif rates[0] in settings:
+            settings[common] = settings[rates[0]]
+    return settings
 
 
 def _misfit_text(misfits: Sequence[Misfit]) -> str:

@@ -194,6 +194,17 @@ class GrblLine:
         first = self._next(ASK, self._clock()) or ""
         self._is_refusal(first)
         self._notice(state_in(first))
+        sent, refused = self._send_first_line()
+        refused += self._refusals_until_quiet()
+        self._buffer = b""
+        # Every first line is refused once; those not seen yet are still on their way.
+        self._owed = max(0, sent - refused)
+        self._waiting.heard()
+
+    def _send_first_line(self) -> tuple[int, int]:
+        """Send the first line until it is refused; returns how often it was sent, and refused:
+        not at all where the control has stopped.
+        """
         # So that the first line is sent at once.
         sent, sent_at, asked_at, refused = 0, -AGAIN, 0.0, 0
         is_alive = False  # it reports its state: no boot loader has swallowed the first line
@@ -201,18 +212,23 @@ class GrblLine:
             now = self._clock()
             # A control that reports its state has the line and only needs time; one that is silent has
             # lost it to a boot loader.
-            if now - sent_at >= (START if is_alive else AGAIN):
+            again, pause = (START, ASK) if is_alive else (AGAIN, AGAIN)
+            if now - sent_at >= again:
                 self._link.write(b"?" + ERASE)  # the state is reported at once, even where no line is read
                 sent, sent_at, asked_at = sent + 1, now, now
             elif is_alive and now - asked_at >= ASK:
                 self._link.write(b"?")
                 asked_at = now
-            line = self._next(ASK if is_alive else AGAIN, asked_at)
+            line = self._next(pause, asked_at)
             if line is not None and (state := state_in(line)):
                 self._notice(state)
                 is_alive = True
             refused += line is not None and self._is_refusal(line)
-        quiet_since = self._clock()
+        return sent, refused
+
+    def _refusals_until_quiet(self) -> int:
+        """Read until nothing more comes; returns how many lines of it refuse a command."""
+        refused, quiet_since = 0, self._clock()
         while self._clock() - quiet_since < QUIET:
             self.look()
             if data := self._link.read(SLICE):
@@ -220,10 +236,7 @@ class GrblLine:
                 quiet_since = self._clock()
             while self._lines:
                 refused += self._is_refusal(self._lines.popleft())
-        self._buffer = b""
-        # Every first line is refused once; those not seen yet are still on their way.
-        self._owed = max(0, sent - refused)
-        self._waiting.heard()
+        return refused
 
     def _notice(self, state: str) -> None:
         """Notice a state without lines: what is sent would pile up until somebody goes on, and act then."""

@@ -78,18 +78,8 @@ class _SettingsWriter:
 
     def _letter(self, axis: AxisMeaning) -> str:
         """Return the letter of an axis; asked for where it has none of its kind, "" while that is open."""
-        taken = [a.letter for a in self.machine.axes if a is not axis]
-        free = [x for x in LETTERS if (x in _TURNING) == axis.turns and x not in taken]
-        if axis.letter in free:
-            return axis.letter
-        what = "turns" if axis.turns else "does not turn"
-        sources = axis.figures["kind"].sources if "kind" in axis.figures else ()
-        question = MigrationQuestion(
-            f"letter.{axis.name}",
-            f"Axis {axis.name} {what}: which letter shall it have ({', '.join(free)})?",
-            sources,
-        )
-        return self.out.answer(question, self.answers, f"[{''.join(free)}]").upper()
+        alike = [x for x in LETTERS if (x in _TURNING) == axis.turns]
+        return self.out.letter(axis, self.machine.axes, alike, self.answers)
 
     def _homing(self, places: list[tuple[AxisMeaning, int]]) -> None:
         """Write what is for all axes that home: direction, order, and how far off the switch."""

@@ -7,12 +7,14 @@ A number ends where it is none any more, whatever follows; a word has to be the 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from decimal import Decimal
 from functools import lru_cache
 
 from amp_studio.formats import FormatError
 from amp_studio.schema import (
     Address,
+    Choice,
     InvalidValueError,
     MachineSchema,
     Parameter,
@@ -89,24 +91,38 @@ def _whole(digits: str) -> int:
 
 def _read_choice(parameter: Parameter, text: str) -> Value:
     choices = parameter.choices or ()
-    word = text.casefold()
-    labels = {choice.label.casefold(): choice.key for choice in choices} | _OTHER_WORDS.get(parameter.id, {})
-    is_number = choices[0].label.isdecimal()
-    if parameter.type == "boolean":
-        digits = _WHOLE.match(text)
-        if digits:
-            return Value(bool(_whole(digits[0])))
-        if not is_number and word in _BOOLEAN:
-            return Value(_BOOLEAN[word] == "yes")
-    elif word in labels:
-        return Value(labels[word])
-    elif parameter.id == UNITS and (match := _REAL.match(text)):
-        size = float(match[0])
-        if size == 1.0 or _INCH[0] < size < _INCH[1]:
-            return Value("metric" if size == 1.0 else "inch")
-    elif is_number and (match := _WHOLE.match(text)) and str(_whole(match[0])) in labels:
-        return Value(labels[str(_whole(match[0]))])
-    raise InvalidValueError(f"it is not one of {', '.join(c.label for c in choices)}")
+    found = (
+        _yes_or_no(choices, text) if parameter.type == "boolean" else _choice_key(parameter, choices, text)
+    )
+    if found is None:
+        raise InvalidValueError(f"it is not one of {', '.join(c.label for c in choices)}")
+    return Value(found)
+
+
+def _yes_or_no(choices: Sequence[Choice], text: str) -> bool | None:
+    """Return what a number, or a word where the choices are words, means; None for neither."""
+    if digits := _WHOLE.match(text):
+        return bool(_whole(digits[0]))
+    key = None if choices[0].label.isdecimal() else _BOOLEAN.get(text.casefold())
+    return None if key is None else key == "yes"
+
+
+def _choice_key(parameter: Parameter, choices: Sequence[Choice], text: str) -> str | None:
+    """Return the key of a choice by its word or its number; None where there is none."""
+    keys = {choice.label.casefold(): choice.key for choice in choices} | _OTHER_WORDS.get(parameter.id, {})
+    if (key := keys.get(text.casefold())) is not None:
+        return key
+    if parameter.id == UNITS and (match := _REAL.match(text)):
+        return _unit_system(float(match[0]))
+    digits = _WHOLE.match(text) if choices[0].label.isdecimal() else None
+    return keys.get(str(_whole(digits[0]))) if digits else None
+
+
+def _unit_system(per_mm: float) -> str | None:
+    """Return the choice that a number of units per mm is."""
+    if per_mm == 1.0:
+        return "metric"
+    return "inch" if _INCH[0] < per_mm < _INCH[1] else None
 
 
 def _line_text(parameter: Parameter, text: str) -> str:

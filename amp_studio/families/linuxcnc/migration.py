@@ -12,7 +12,6 @@ from amp_studio.meaning import (
     AxisMeaning,
     Graded,
     MachineMeaning,
-    MigrationQuestion,
     WrittenMachine,
     inwards_high,
     inwards_low,
@@ -75,18 +74,8 @@ class _Migration:
 
     def _letter(self, axis: AxisMeaning) -> str:
         """Return the letter of an axis; LinuxCNC turns A, B and C, and no other (X44)."""
-        taken = [a.letter for a in self.machine.axes if a is not axis]
-        free = [x for x in LETTERS if (x in _TURNING) == axis.turns and x not in taken]
-        if axis.letter in free:
-            return axis.letter
-        what = "turns" if axis.turns else "does not turn"
-        source = axis.figures["kind"].sources if "kind" in axis.figures else ()
-        question = MigrationQuestion(
-            f"letter.{axis.name}",
-            f"Axis {axis.name} {what}: which letter shall it have ({', '.join(free)})?",
-            source,
-        )
-        return self.out.answer(question, self.answers, f"[{''.join(free)}]").upper()
+        alike = [x for x in LETTERS if (x in _TURNING) == axis.turns]
+        return self.out.letter(axis, self.machine.axes, alike, self.answers)
 
     def _home_order(self) -> dict[str, int]:
         """Return letter -> step of Home All; empty where it was not answered."""

@@ -38,14 +38,7 @@ class HomeKeys:
         if search is None and towards is not None and kind not in (*NOT_HOMED, "absolute"):
             search, leave = self._asked_speed(axis, towards)
         if kind == "absolute":
-            for concept in ("home.coordinate", "home.offset"):
-                self.out.grade(
-                    axis,
-                    concept,
-                    "not_possible",
-                    loses="the place where the old control took the position over: it kept it in its memory",
-                    do="measure what the encoder reports where the old control shows 0",
-                )
+            self._place_lost(axis)
         else:
             self._home_place(axis, j)
         if kind in NOT_HOMED:
@@ -59,17 +52,36 @@ class HomeKeys:
         if search is not None and leave is not None:
             self._home_speeds(axis, j, search, leave, alone=kind == "marker")
         else:
-            for concept in ("home.search", "home.leave", "home.towards"):
-                self.out.grade(
-                    axis,
-                    concept,
-                    "approximate",
-                    f"[{j}]HOME_SEARCH_VEL",
-                    "left out",
-                    "a search of the switch",
-                    "no search until the question is answered",
-                    "neither",
-                )
+            self._search_open(axis, j)
+        self._index(axis, j, kind)
+
+    def _place_lost(self, axis: AxisMeaning) -> None:
+        """Grade the place of an absolute encoder."""
+        for concept in ("home.coordinate", "home.offset"):
+            self.out.grade(
+                axis,
+                concept,
+                "not_possible",
+                loses="the place where the old control took the position over: it kept it in its memory",
+                do="measure what the encoder reports where the old control shows 0",
+            )
+
+    def _search_open(self, axis: AxisMeaning, j: str) -> None:
+        """Grade the speeds of an axis as long as the question about them is open."""
+        for concept in ("home.search", "home.leave", "home.towards"):
+            self.out.grade(
+                axis,
+                concept,
+                "approximate",
+                f"[{j}]HOME_SEARCH_VEL",
+                "left out",
+                "a search of the switch",
+                "no search until the question is answered",
+                "neither",
+            )
+
+    def _index(self, axis: AxisMeaning, j: str, kind: str) -> None:
+        """Write whether an axis homes to a marker, and grade to which."""
         index = "NO" if kind == "switch" else "YES"
         self.ini.put(j, "HOME_USE_INDEX", index, taken_from(axis, "home.kind", "approximate"))
         nearest = kind == "switch-nearest-marker"

@@ -20,23 +20,34 @@ def numbered_parameters(axes: Iterable[tuple[AxisMeaning, str]], out: WrittenMac
     rows = {number: 0.0 for base in bases for number in range(base, base + 9)}
     rows |= {5210: 0.0, 5220: 1.0, **{5230 + 20 * n: 0.0 for n in range(_SYSTEMS)}}
     for axis, letter in axes:
-        place = LETTERS.index(letter)
-        first = "home.first" if "home.first" in axis.figures else "home.coordinate"
-        for concept, base in ((first, 5161), ("home.second", 5181)):
-            value = axis.number(concept)
-            if value is not None:
-                rows[base + place] = value
-                if concept != "home.coordinate":
-                    out.grade(axis, concept, "exact", f"#{base + place}", f"{value:.6f}")
-        offsets = {
-            5221 + 20 * n + place: value
-            for n, value in enumerate(_list(axis.figures, "work.offsets")[:_SYSTEMS])
-            if value is not None
-        }
-        rows |= offsets
-        texts = ", ".join(f"{value:.6f}" for value in offsets.values())
-        out.grade(axis, "work.offsets", "exact", ", ".join(f"#{number}" for number in offsets), texts)
+        rows |= _positions(axis, LETTERS.index(letter), out)
+        rows |= _offsets(axis, LETTERS.index(letter), out)
     return "".join(f"{number}\t{value:.6f}\n" for number, value in sorted(rows.items()))
+
+
+def _positions(axis: AxisMeaning, place: int, out: WrittenMachine) -> dict[int, float]:
+    """Return number -> value of the positions of G28 and G30 of the axis at a place, and grade them."""
+    rows = {}
+    first = "home.first" if "home.first" in axis.figures else "home.coordinate"
+    for concept, base in ((first, 5161), ("home.second", 5181)):
+        value = axis.number(concept)
+        if value is not None:
+            rows[base + place] = value
+            if concept != "home.coordinate":  # which is graded with the homing
+                out.grade(axis, concept, "exact", f"#{base + place}", f"{value:.6f}")
+    return rows
+
+
+def _offsets(axis: AxisMeaning, place: int, out: WrittenMachine) -> dict[int, float]:
+    """Return number -> offset of each work coordinate system of the axis at a place, and grade them."""
+    offsets = {
+        5221 + 20 * n + place: value
+        for n, value in enumerate(_list(axis.figures, "work.offsets")[:_SYSTEMS])
+        if value is not None
+    }
+    texts = ", ".join(f"{value:.6f}" for value in offsets.values())
+    out.grade(axis, "work.offsets", "exact", ", ".join(f"#{number}" for number in offsets), texts)
+    return offsets
 
 
 def tool_table(machine: MachineMeaning, out: WrittenMachine) -> str:

@@ -40,18 +40,10 @@ SIGN = {"clockwise": 1.0, "counterclockwise": -1.0}
 
 def spindle(read: AxisParameters, number: str) -> Spindle:
     """Return a spindle; raises SimulationError where no axis is it, or it is not set."""
-    fitted = (axis for axis in MOTION.axes if read.value(ids.axis_type, at=axis) == "spindle")
-    if not any(read.value(ids.spindle_type, at=axis) == f"s{number}" for axis in fitted):
-        raise SimulationError(f"No axis is spindle {number} (3-5, 7-82)", ids.axis_type)
-    count = read.optional(ids.gear_count, at=number)
-    if count is None:
-        raise SimulationError(f"Number of Gears Used of spindle {number} is not set", ids.gear_count)
-    names = [str(n) for n in range(1, min(int(count), GEARS) + 1)]
+    names = [str(n) for n in range(1, _gear_count(read, number) + 1)]
     gears = tuple(gear for name in names if (gear := _gear(read, number, name)) is not None)
     ramped = read.value(ids.dac_ramping, at=number) is True
     notes = (SHARED, RAMPED if ramped else STEPPED)
-    fine = read.optional(ids.fine_foreground, everywhere=True)
-    scans = read.optional(ids.scans_per_logic, everywhere=True)
     # The code of a gear that is not requested is ours: the control shows none.
     return Spindle(
         number,
@@ -60,38 +52,67 @@ def spindle(read: AxisParameters, number: str) -> Spindle:
         gears,
         "12-3 to 12-9",
         notes,
-        iteration=0.0 if not ramped or fine is None else fine * (scans or 1.0) / 1000.0,
+        iteration=_logic_scan(read) if ramped else 0.0,
         orient=_orient(read, number),
         watch=_watch(read, number),
         refusal=NO_GEARS if len(gears) < len(names) else "",
     )
 
 
+def _gear_count(read: AxisParameters, number: str) -> int:
+    """Return how many gears a spindle uses; raises SimulationError where no axis is it, or it is not set."""
+    fitted = (axis for axis in MOTION.axes if read.value(ids.axis_type, at=axis) == "spindle")
+    if not any(read.value(ids.spindle_type, at=axis) == f"s{number}" for axis in fitted):
+        raise SimulationError(f"No axis is spindle {number} (3-5, 7-82)", ids.axis_type)
+    count = read.optional(ids.gear_count, at=number)
+    if count is None:
+        raise SimulationError(f"Number of Gears Used of spindle {number} is not set", ids.gear_count)
+    return min(int(count), GEARS)
+
+
+def _logic_scan(read: AxisParameters) -> float:
+    """Return s of a scan of the logic, at which a ramped output is written; 0 where it is not known."""
+    fine = read.optional(ids.fine_foreground, everywhere=True)
+    scans = read.optional(ids.scans_per_logic, everywhere=True)
+    return 0.0 if fine is None else fine * (scans or 1.0) / 1000.0
+
+
 def _gear(read: AxisParameters, number: str, name: str) -> Gear | None:
     """Return a gear; None for one without legal values."""
     at = f"{number}.{name}"
-    low, high = (read.optional(ids[f"spindle_{which}_speed"], at=at) for which in ("min", "max"))
+    low = read.optional(ids.spindle_min_speed, at=at)
+    high = read.optional(ids.spindle_max_speed, at=at)
     if low is None or high is None or not 0.0 <= low < high:
         return None
     volts = read.optional(ids.voltage_at_max, at=at)
     time, top = (
         read.optional(ids[f"tapping_{which}"], at=at) for which in ("acceleration_time", "max_speed")
     )
-    filtered = read.optional(ids.deviation_filter_time, at=number)
-    is_ramped = read.value(ids.dac_ramping, at=number) is True
-    seconds, to = ((time or 0.0) / 1000.0, top or high) if time else ((filtered or 0.0) / 1000.0, high)
+    ramp_time, ramp_top = _output_ramp(read, number, time, top, high)
     return Gear(
         name,
         low,
         high,
         full=high,
         output=10.0 if volts is None else volts,
-        ramp_time=seconds if is_ramped else 0.0,
-        ramp_top=to,
+        ramp_time=ramp_time,
+        ramp_top=ramp_top,
         gain=(read.optional(ids.spindle_gain, at=at) or 0.0) * PER_GAIN,
         tap_rate=top / 60.0 / (time / 1000.0) if time and top else 0.0,
         tap_speed=top or high,
     )
+
+
+def _output_ramp(
+    read: AxisParameters, number: str, tapping: float | None, top: float | None, high: float
+) -> tuple[float, float]:
+    """Return s that the ramp of an output takes and the rpm to which: the tapping time, in ms, to the tapping
+    speed; the filter of the deviation to the highest one where no tapping time is set. 0 s without a ramp.
+    """
+    filtered = read.optional(ids.deviation_filter_time, at=number)
+    time, ends_at = (tapping, top or high) if tapping else (filtered or 0.0, high)
+    is_ramped = read.value(ids.dac_ramping, at=number) is True
+    return (time / 1000.0 if is_ramped else 0.0), ends_at
 
 
 def _orient(read: AxisParameters, number: str) -> Orient | None:

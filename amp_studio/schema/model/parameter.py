@@ -1,6 +1,7 @@
 """What a parameter is: numbers, values, ranges, states, storage."""
 
 from collections.abc import Collection
+from functools import partial
 from typing import Annotated, Any, Literal
 
 from amp_studio.schema.units import UNITS
@@ -339,26 +340,23 @@ class Parameter(Model):
         return (self.scope,) if self.layouts is None else tuple(layout.scope for layout in self.layouts)
 
     def __post_init__(self) -> None:
-        choices, keys = self.choices or (), {choice.key for choice in self.choices or ()}
-        is_yes_no = self.type == "boolean"
-        for is_wrong, what in (
-            # What shows choices and bits masks nothing.
-            (self.secret and self.type not in ("integer", "real", "text"), "a secret is a number or a text"),
-            (self.first_axis is not None and self.type != "bits", "first_axis belongs to a word of bits"),
-            (self.type == "choice" and not choices, "a choice parameter needs choices"),
-            (
-                is_yes_no and len(choices) != 2,
-                "a yes/no parameter needs its two choices, with keys 'yes' and 'no'",
-            ),
-            (
-                is_yes_no and keys != {"yes", "no"},
-                "the choices of a yes/no parameter have the keys 'yes' and 'no'",
-            ),
-        ):
-            if is_wrong:
-                raise ValueError(what)
-        for field in ("key", "label", "code"):
-            if _is_shared(choices, field):
-                raise ValueError(f"two choices share a {field}")
+        # What shows choices and bits masks nothing.
+        if self.secret and self.type not in ("integer", "real", "text"):
+            raise ValueError("a secret is a number or a text")
+        if self.first_axis is not None and self.type != "bits":
+            raise ValueError("first_axis belongs to a word of bits")
+        self._check_choices(self.choices or ())
+
+    def _check_choices(self, choices: tuple[Choice, ...]) -> None:
+        keys = {choice.key for choice in choices}
+        if self.type == "choice" and not choices:
+            raise ValueError("a choice parameter needs choices")
+        if self.type == "boolean":
+            if len(choices) != 2:
+                raise ValueError("a yes/no parameter needs its two choices, with keys 'yes' and 'no'")
+            if keys != {"yes", "no"}:
+                raise ValueError("the choices of a yes/no parameter have the keys 'yes' and 'no'")
+        if shared := next(filter(partial(_is_shared, choices), ("key", "label", "code")), ""):
+            raise ValueError(f"two choices share a {shared}")
         if isinstance(self.default, Default) and choices:
             self.default.check_choices(keys)

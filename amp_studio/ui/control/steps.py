@@ -62,8 +62,15 @@ class ExchangeSteps(QWidget):
         self, direction: str, session: ControlSession | None, count: int, dangers: Sequence[Danger]
     ) -> None:
         """Show what will happen, or what has happened."""
-        is_sent = direction == "send"
         phase = session.phase if session else "away"
+        self._show_phase(phase)
+        whole = session is None or session.seen is None or session.seen.abilities.all_or_nothing
+        is_sent = direction == "send"
+        self._show_texts(_texts(count, whole) if is_sent else _reading(), is_sent=is_sent)
+        self._show_dangers(dangers, is_over=phase in ("done", "failed"))
+        self._show_line()
+
+    def _show_phase(self, phase: str) -> None:
         if phase == "running":
             self._title.setText(self.tr("Under way"))
         else:
@@ -72,8 +79,8 @@ class ExchangeSteps(QWidget):
             )
             # Where it failed it stays where it got to, so that the ticks show how far it was.
             self._at = len(STAGES) if phase == "done" else self._at if phase == "failed" else -1
-        whole = session is None or session.seen is None or session.seen.abilities.all_or_nothing
-        texts = _texts(count, whole) if is_sent else _reading()
+
+    def _show_texts(self, texts: Sequence[tuple[str, str]], *, is_sent: bool) -> None:
         for n, (first, second) in enumerate(self._lines):
             first.setVisible(n < len(texts))
             second.setVisible(n < len(texts))
@@ -81,7 +88,9 @@ class ExchangeSteps(QWidget):
                 mark = "✓ " if n < self._at and is_sent else f"{n + 1}  "
                 first.setText(mark + texts[n][0])
                 second.setText(texts[n][1])
-        is_over = phase in ("done", "failed")
+
+    def _show_dangers(self, dangers: Sequence[Danger], *, is_over: bool) -> None:
+        """Show each value that changes with all that is dangerous about it; nothing once it is over."""
         self._mind.setVisible(bool(dangers) and not is_over)
         self.list.setVisible(bool(dangers) and not is_over)
         self.list.clear()
@@ -95,7 +104,6 @@ class ExchangeSteps(QWidget):
             item.setData(Qt.ItemDataRole.UserRole, (parameter, instance))
             item.setToolTip("\n".join(statements))
             self.list.addItem(item)
-        self._show_line()
 
     def _show_line(self) -> None:
         self.line_changed.emit("   ".join(first.text() for first, _ in self._lines if not first.isHidden()))

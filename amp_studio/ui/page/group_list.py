@@ -111,25 +111,35 @@ class GroupList(QWidget):
 
     def update_counts(self) -> None:
         """Show how many findings and open values each group has."""
-        schema = self._workspace.file.schema
-        found = [
-            (finding.severity, {schema.group_of[a[0]].key for a in finding.causes})
-            for finding in self._workspace.listed
-            if finding.rule != NOT_SET
-        ]
-        not_set = Counter(
-            schema.group_of[a[0]].key for each in self._workspace.progress.steps for a in each.open
-        )
+        found, not_set = self._found(), self._not_set()
         for n, item in enumerate(self._items):
-            keys = set(item.data(0, _KEYS))
-            if keys == {_ALL}:
-                keys = {group.key for group in schema.groups}
+            keys = self._groups_of(item)
             here = Counter(severity for severity, places in found if not keys.isdisjoint(places))
             counts = tuple((severity, here[severity]) for severity in SEVERITIES if here[severity])
             here_now = counts, sum(not_set[key] for key in keys)
             if self._counted.get(n) != here_now:  # an edit changes those of few groups
                 self._counted[n] = here_now
                 self._show_counts(item, *here_now)
+
+    def _found(self) -> list[tuple[str, set[str]]]:
+        """Return the severity of each finding but open values, and the groups that it is about."""
+        group_of = self._workspace.file.schema.group_of
+        return [
+            (finding.severity, {group_of[a[0]].key for a in finding.causes})
+            for finding in self._workspace.listed
+            if finding.rule != NOT_SET
+        ]
+
+    def _not_set(self) -> Counter[str]:
+        """Return how many open values each group has."""
+        group_of = self._workspace.file.schema.group_of
+        steps = self._workspace.progress.steps
+        return Counter(group_of[address[0]].key for step in steps for address in step.open)
+
+    def _groups_of(self, item: QTreeWidgetItem) -> set[str]:
+        """Return the keys of the groups that a row is about."""
+        keys = set(item.data(0, _KEYS))
+        return {group.key for group in self._workspace.file.schema.groups} if keys == {_ALL} else keys
 
     def _show_counts(self, item: QTreeWidgetItem, counts: tuple[tuple[str, int], ...], missing: int) -> None:
         """Show the findings of a group by severity, and how many of its values are not set."""

@@ -119,6 +119,21 @@ class ProjectTree(QWidget):
         opened = {key for key, item in self._by_key.items() if item.isExpanded()}
         self.tree.clear()
         self._by_key, self._marked = {}, {}
+        top = self._top_item(content)
+        self._mark_all()
+        # With all its rows: in the tree each of their texts and marks would be a change to be painted.
+        self.tree.addTopLevelItem(top)
+        self._add_projects()
+        for key in (top.data(0, KEY), *(opened & self._by_key.keys())):
+            self._by_key[key].setExpanded(True)
+        if selected in self._by_key:
+            self.tree.setCurrentItem(self._by_key[selected])
+        self._window.summaries.want(
+            file.path for file in content.files if self._window.page_of(file.path) is None
+        )
+
+    def _top_item(self, content: FolderContent) -> QTreeWidgetItem:
+        """Return the row of the folder with those of its files, rules, notes and deleted files below it."""
         project = self._files.project_of(self.folder)
         top = self._item(
             None, ("folder", self.folder), project.info.name if project else self.folder.name, "folder-simple"
@@ -138,17 +153,7 @@ class ProjectTree(QWidget):
             gone = self._item(top, ("deleted", path), path.name.removesuffix(".bak"), "trash")
             gone.setData(0, RIGHT, self.tr("deleted"))
             gone.setData(0, TOKEN, "dim")
-        self._mark_all()
-        # With all its rows: in the tree each of their texts and marks would be a change to be painted.
-        self.tree.addTopLevelItem(top)
-        self._add_projects()
-        for key in (top.data(0, KEY), *(opened & self._by_key.keys())):
-            self._by_key[key].setExpanded(True)
-        if selected in self._by_key:
-            self.tree.setCurrentItem(self._by_key[selected])
-        self._window.summaries.want(
-            file.path for file in content.files if self._window.page_of(file.path) is None
-        )
+        return top
 
     def _item(
         self, above: QTreeWidgetItem | PlaceTree | None, key: object, text: str, name: str

@@ -120,17 +120,26 @@ def _codes_alone(short: dict[str, str]) -> dict[str, str]:
         families.setdefault(text.split()[0].casefold(), []).append(label)
     cut = dict(short)
     for alike in families.values():
-        words = [short[label].split() for label in alike]
-        length = _common(words)
-        rests = [" ".join(found[length:]) for found in words]
-        if len(alike) > 1 and length and all(any(c.isdigit() for c in rest) for rest in rests):
+        if len(alike) > 1:
             mark = "" if len(alike) >= len(short) - 1 else "… "
-            cut |= {label: mark + rest for label, rest in zip(alike, rests, strict=True)}
-        elif (
-            len(alike) > 1 and length == 2 and any(map(str.isdigit, words[0][0]))
-        ):  # an order number before a name
-            cut |= {label: short[label].split(maxsplit=1)[1] for label in alike}
+            cut |= _rests({label: short[label] for label in alike}, mark)
     return cut
+
+
+def _rests(alike: dict[str, str], mark: str) -> dict[str, str]:
+    """Return texts that begin alike without that, a mark before each; empty where no codes would remain."""
+    words = [text.split() for text in alike.values()]
+    length = _common(words)
+    rests = [" ".join(found[length:]) for found in words]
+    if length and all(map(_has_digit, rests)):
+        return {label: mark + rest for label, rest in zip(alike, rests, strict=True)}
+    if length == 2 and _has_digit(words[0][0]):  # an order number before a name
+        return {label: text.split(maxsplit=1)[1] for label, text in alike.items()}
+    return {}
+
+
+def _has_digit(text: str) -> bool:
+    return any(map(str.isdigit, text))
 
 
 _SHORT_WORDS = {

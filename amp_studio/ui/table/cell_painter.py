@@ -144,11 +144,41 @@ class CellPainter:
 
         A number is painted in the first ``number_room`` pixels of a cell that is wider than a column.
         """
-        colours = self._colours
         if look.kind == "absent":
-            painter.fillRect(place, colours["panel"])
+            painter.fillRect(place, self._colours["panel"])
             return
         severity = _SEVERITIES.get(look.severity)
+        self._background(painter, place, look, severity, is_selected=is_selected, is_hovered=is_hovered)
+        inner = place.adjusted(_ASIDE, 0, -_ASIDE, -1)
+        if number_room and (look.is_number or look.kind == "not set"):
+            inner.setWidth(number_room - 2 * _ASIDE)
+        if severity:
+            self._icon(painter, inner, severity[2], severity[0])
+        if look.is_locked:
+            self._icon(painter, inner, "lock-simple-fill", "dim")
+        if look.has_note:
+            self._icon(painter, inner, "note-fill", "dim")
+        if look.kind == "not set":
+            painter.setFont(self._italic)
+            painter.setPen(self._colours["dim"])
+            painter.drawText(inner, _RIGHT, self.not_set)
+        elif look.is_number:
+            self._number(painter, inner, look, slot)
+        else:
+            self._words(painter, inner, look)
+
+    def _background(
+        self,
+        painter: QPainter,
+        place: QRect,
+        look: CellLook,
+        severity: tuple[Token, Token, str] | None,
+        *,
+        is_selected: bool,
+        is_hovered: bool,
+    ) -> None:
+        """Paint what is behind a value: selection, tint of its finding or pointer, hatch, bar of a change."""
+        colours = self._colours
         if is_selected:
             painter.fillRect(place, colours["selbg" if self.is_active else "selidle"])
         elif severity:
@@ -161,23 +191,6 @@ class CellPainter:
             painter.fillRect(place, self._hatch)
         if look.is_changed:
             painter.fillRect(place.left(), place.top(), 3, place.height() - 1, colours["chg"])
-        inner = place.adjusted(_ASIDE, 0, -_ASIDE, -1)
-        if number_room and (look.is_number or look.kind == "not set"):
-            inner.setWidth(number_room - 2 * _ASIDE)
-        if severity:
-            self._icon(painter, inner, severity[2], severity[0])
-        if look.is_locked:
-            self._icon(painter, inner, "lock-simple-fill", "dim")
-        if look.has_note:
-            self._icon(painter, inner, "note-fill", "dim")
-        if look.kind == "not set":
-            painter.setFont(self._italic)
-            painter.setPen(colours["dim"])
-            painter.drawText(inner, _RIGHT, self.not_set)
-        elif look.is_number:
-            self._number(painter, inner, look, slot)
-        else:
-            self._words(painter, inner, look)
 
     not_set = "not set"
     """What is painted where there is no value, in the language of the window."""

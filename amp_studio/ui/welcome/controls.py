@@ -51,10 +51,10 @@ class WelcomeControls(QWidget):
         forget = QShortcut(QKeySequence("Del"), self.list)
         forget.setContext(Qt.ShortcutContext.WidgetShortcut)
         forget.activated.connect(lambda: self._on_current(self._forget))
-        self.connect_button = self._button(
+        self.connect_button = welcome_button(
             self.tr("Connect"), "link-simple", lambda: self._on_current(partial(self._guarded, self._connect))
         )
-        self.upload_button = self._button(self.tr("Upload…"), "arrow-line-up", self._upload_current)
+        self.upload_button = welcome_button(self.tr("Upload…"), "arrow-line-up", self._upload_current)
         self.none = QLabel(self.tr("No control has been reached yet. Upload reads one into a new file."))
         self.none.setFont(font("small"))
         self.none.setWordWrap(True)
@@ -78,16 +78,6 @@ class WelcomeControls(QWidget):
         column.addWidget(self.none)
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
         self.setFocusProxy(self.list)
-
-    def _button(self, text: str, name: str, act: Callable[[], object]) -> QToolButton:
-        button = QToolButton()
-        button.setText(text)
-        button.setIcon(icon(name))
-        button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-        button.setProperty("segment", "only")
-        button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        button.clicked.connect(lambda *_: act())
-        return button
 
     def show_controls(self) -> None:
         """List the controls that are known, the latest first."""
@@ -167,3 +157,15 @@ class WelcomeControls(QWidget):
         menu.addAction(self.tr("&Upload…"), self._upload_current)
         menu.addAction(self.tr("&Remove from the List"), partial(self._forget, control))
         pop_up(menu, self.list.viewport().mapToGlobal(place))
+
+
+def welcome_button(text: str, name: str, act: Callable[[], object]) -> QToolButton:
+    """Return a button with an icon, as those of this page are."""
+    button = QToolButton()
+    button.setText(text)
+    button.setIcon(icon(name))
+    button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+    button.setProperty("segment", "only")
+    button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+    button.clicked.connect(lambda *_: act())
+    return button

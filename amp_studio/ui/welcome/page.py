@@ -20,7 +20,6 @@ from PySide6.QtWidgets import (
     QListWidgetItem,
     QMenu,
     QScrollArea,
-    QToolButton,
     QVBoxLayout,
     QWidget,
 )
@@ -31,7 +30,7 @@ from amp_studio.ui.actions.control import ControlDesk
 from amp_studio.ui.actions.file import Files
 from amp_studio.ui.base.modal import pop_up
 from amp_studio.ui.base.task import Task
-from amp_studio.ui.base.theme import CONTROL, GAP, GAP2, GAP3, GAP4, GAP6, font, icon
+from amp_studio.ui.base.theme import CONTROL, GAP, GAP2, GAP3, GAP4, GAP6, font
 from amp_studio.ui.base.time_words import in_words
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.forms.folder_view import show_in_folder
@@ -39,7 +38,7 @@ from amp_studio.ui.forms.message_bar import MessageBar
 from amp_studio.ui.window.recent_files import changed_at, folder_of
 from amp_studio.ui.window.studio_window import StudioWindow
 
-from .controls import WelcomeControls
+from .controls import WelcomeControls, welcome_button
 from .list import KEY, ROW, WelcomeList, WelcomeRow
 
 _WIDEST, _NARROW = 1130, 860
@@ -185,13 +184,8 @@ class WelcomePage(QWidget):
             (self.tr("Open…"), "folder-open", self._files.open),
             (self.tr("Open Project…"), "folder-simple", self._open_project),
         ):
-            button = QToolButton()
-            button.setText(text)
-            button.setIcon(icon(name))
-            button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-            button.setProperty("segment", "only")
-            button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-            button.clicked.connect(partial(self._window.guarded, act, text.replace("&", "").rstrip("…")))
+            title = text.replace("&", "").rstrip("…")
+            button = welcome_button(text, name, partial(self._window.guarded, act, title))
             row.addWidget(button)
             self._beside_families.append(button)
         row.addStretch()

@@ -196,11 +196,7 @@ class Docks(Translated):
     def show_page(self, page: FilePage | None) -> None:
         """Show the panels of a page; without one the docks leave until there is one again."""
         if page is None:
-            if not self._is_first and self._arranged is None:
-                self._widen()
-                self._arranged = self._window.saveState()
-            for dock in (*self.docks, self.preview):
-                dock.hide()
+            self._hide_all()
             return
         page.findings.follow_fold(self._is_folded)
         for title, panel in page.panels.items():
@@ -209,16 +205,28 @@ class Docks(Translated):
             self._stacks[title].setFocusProxy(panel)
         self._bottom.setFocusProxy(self._bottom.currentWidget() or self._stacks["Findings"])
         if self._is_first or self._arranged is not None:
-            kept = self._settings.arrangement() if self._is_first else self._arranged
-            was_folded = not self._is_first and self._is_folded
-            self._is_first, self._arranged = False, None
-            self.reset()
-            if kept is not None:
-                self._restore(kept)
-            self.fold(was_folded or not page.findings.has_findings)
-            self.fit(self._size)
+            self._show_again(is_folded=not page.findings.has_findings)
         elif not page.findings.has_findings:
             self.fold(True)
+
+    def _hide_all(self) -> None:
+        """Hide the docks and remember how they were arranged."""
+        if not self._is_first and self._arranged is None:
+            self._widen()
+            self._arranged = self._window.saveState()
+        for dock in (*self.docks, self.preview):
+            dock.hide()
+
+    def _show_again(self, *, is_folded: bool) -> None:
+        """Arrange the docks as they were before the last page went, or in the last session."""
+        kept = self._settings.arrangement() if self._is_first else self._arranged
+        was_folded = not self._is_first and self._is_folded
+        self._is_first, self._arranged = False, None
+        self.reset()
+        if kept is not None:
+            self._restore(kept)
+        self.fold(was_folded or is_folded)
+        self.fit(self._size)
 
     def _restore(self, kept: QByteArray) -> None:
         """Arrange the docks as they were, unless that leaves the table no room

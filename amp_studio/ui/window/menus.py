@@ -87,8 +87,7 @@ class Menus(Mapping[str, QAction], Generic[W]):
 
     def _do(self, row: Action[W], action: QAction, name: str) -> None:
         self._window.guarded(partial(row.does, self._window), name)
-        if row.is_on is not None and (is_on := row.is_on(self._window)) is not None:
-            action.setChecked(is_on)  # also where it was refused
+        self._show_state(row, action)  # also where it was refused
 
     # -- what depends on the file in front -----------------------------------------
 
@@ -96,21 +95,28 @@ class Menus(Mapping[str, QAction], Generic[W]):
         """Enable what can be done now, and show what depends on the file in front;
         ``can`` has whether each need is met.
         """
-        window, workspace = self._window, self._window.workspace
         for key, row in self._rows.items():
-            action, able = self._actions[key], can[row.needs]
-            able = able and (can["seen"] or not (row.of_a_cell or row.of_selected))
-            if row.why_not is not None and workspace is not None:
-                reason = row.why_not(workspace)
-                able = able and not reason
-                action.setToolTip(reason or tip_of(action))
-            action.setEnabled(able)
-            if row.is_on is not None and (is_on := row.is_on(window)) is not None:
-                action.setChecked(is_on)
-            if row.follows is not None:
-                row.follows(window, action)
+            able = can[row.needs] and (can["seen"] or not (row.of_a_cell or row.of_selected))
+            self._enable(row, self._actions[key], able)
         for choice, menu, group in self._choices:
             self._offer(choice, menu, group, can[choice.needs])
+
+    def _enable(self, row: Action[W], action: QAction, able: bool) -> None:
+        """Enable one action, unless the file in front has a reason against it, and show its state."""
+        workspace = self._window.workspace
+        if row.why_not is not None and workspace is not None:
+            reason = row.why_not(workspace)
+            able = able and not reason
+            action.setToolTip(reason or tip_of(action))
+        action.setEnabled(able)
+        self._show_state(row, action)
+        if row.follows is not None:
+            row.follows(self._window, action)
+
+    def _show_state(self, row: Action[W], action: QAction) -> None:
+        """Check an action that is on or off as it is now."""
+        if row.is_on is not None and (is_on := row.is_on(self._window)) is not None:
+            action.setChecked(is_on)
 
     def _offer(self, choice: ChoiceMenu[W], menu: QMenu, group: QActionGroup, able: bool) -> None:
         """Fill the menu of a choice where it has other rows now, and check the present one."""

@@ -11,6 +11,7 @@ import hashlib
 import json
 import re
 from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Set as AbstractSet
 from typing import Any
 
 from amp_studio.sim import SimulationError
@@ -164,20 +165,29 @@ class Firmware:
         elif self._is_critical and self.settings.is_classic:
             return  # a Grbl 1.1 does nothing, not even a report, and forgets its line (protocol.c)
         elif byte == JOG_CANCEL:
-            if self._motion.state == "Jog":
-                self._motion.cancel()
-                self.state = "Idle"
+            self._cancel_jog()
         elif character in "?!~" and not self._line.startswith("$"):
             self._real_time(character)
         elif character in "\r\n":
             self._end_line(character)
-        elif byte in (0x7F, 0x08) and not self.settings.is_classic:
+        else:
+            self._edit_line(byte)
+
+    def _cancel_jog(self) -> None:
+        """End a jog where the axes are; nothing while none is under way."""
+        if self._motion.state == "Jog":
+            self._motion.cancel()
+            self.state = "Idle"
+
+    def _edit_line(self, byte: int) -> None:
+        """Add a character to the line, or take the last one back."""
+        if byte in (0x7F, 0x08) and not self.settings.is_classic:
             self._line = self._line[:-1]
-        elif byte > (0x1F if self._line else 0x20) and byte < 0x80:
+        elif byte > (0x1F if self._line else 0x20) and byte < 0x80:  # no blank at its beginning
             limit = CLASSIC_LINE if self.settings.is_classic else LINE
             # The buffer of the firmware has room for the line and the zero at its end.
             self._overflows = self._overflows or len(self._line) >= limit - 1
-            self._line = (self._line + character)[: limit - 1]
+            self._line = (self._line + chr(byte))[: limit - 1]
 
     def _soft_reset(self) -> None:
         """Start again as Ctrl-X does, in the middle of whatever is under way."""
@@ -413,8 +423,7 @@ class Firmware:
         """Do the words of a block that move: G0, G1, G53, G90, G91, F, axes."""
         codes = {float(code) for code in re.findall(rf"G({_NUMBER})", line)}
         words = dict(_WORDS.findall(line))
-        self._distance = int(next((code for code in (91.0, 90.0) if code in codes), self._distance))
-        self._mode = int(next((code for code in (0.0, 1.0) if code in codes), self._mode))
+        self._select(codes)
         if "F" in words:
             self._feed = float(words["F"]) * (25.4 if self._unit == 20 else 1.0)
         targets = self._targets(words, self._distance, is_machine=53.0 in codes)
@@ -428,6 +437,11 @@ class Firmware:
             raise _AnswerLater
         if self.state != "Check":
             self._move(targets, self._feed if self._mode == 1 else None)
+
+    def _select(self, codes: AbstractSet[float]) -> None:
+        """Keep the modes that the codes of a block choose: G90 or G91, G0 or G1."""
+        self._distance = int(next((code for code in (91.0, 90.0) if code in codes), self._distance))
+        self._mode = int(next((code for code in (0.0, 1.0) if code in codes), self._mode))
 
     def _alarm(self, number: int) -> None:
         """Stop in an alarm; a critical one is ended by a reset alone (protocol.c

@@ -162,21 +162,23 @@ class StoredSettings:
         """Change what a setting moves (``set_homing_enable``, ``set_reset_actions``,
         ``set_homing_feedrates``).
         """
-        homing = self._whole(22)
         if number == 22:
-            if not homing & 1:
-                homing = 0
-                self._set(22, 0)
-                self._set(20, 0)
-                self._set(40, 0)
+            if not self._whole(22) & 1:
+                for needs_homing in (22, 20, 40):
+                    self._set(needs_homing, 0)
             if not self.is_classic:
-                self._set(676, self._whole(676) & ~1 | (0 if homing & 1 << 7 else 1))
+                self._set(676, self._whole(676) & ~1 | (0 if self._whole(22) & 1 << 7 else 1))
         if number == 676:
-            self._set(22, homing & ~(1 << 7) | (0 if self._whole(676) & 1 else 1 << 7))
+            self._set(22, self._whole(22) & ~(1 << 7) | (0 if self._whole(676) & 1 else 1 << 7))
+        self._move_rates(number)
+
+    def _move_rates(self, number: int) -> None:
+        """Change the rates of homing of single axes with the common ones, and those with the first axis."""
+        is_common = number == 22 and not self._whole(22) & 1 << 9
         for common, first in ((24, 180), (25, 190)):
             if number == first and first in self.all:
                 self.all[common].value = self.all[first].value
-            elif first in self.all and (number == common or (number == 22 and not homing & 1 << 9)):
+            elif first in self.all and (number == common or is_common):
                 for axis in range(len(self.axes)):
                     self.all[first + axis].value = self.all[common].value
 

@@ -426,27 +426,30 @@ def _whole(parts: list[LoggedListing]) -> list[LoggedListing]:
     least = max(_LEAST, max((len(part.settings) for part in parts), default=0) / 2)
     listings: list[LoggedListing] = []
     for part in parts:
-        is_whole = len(part.settings) >= least
-        if is_whole and listings and len(listings[-1].settings) < least:
-            earlier = listings.pop()  # settings that were sent before they were listed
-            if not part.is_apart:
-                for number in earlier.settings.keys() - part.settings.keys():
-                    part.put(
-                        number,
-                        earlier.settings[number],
-                        earlier.lines[number],
-                        earlier.remarks[number],
-                        earlier.whole[number],
-                    )
+        is_last_whole = not listings or len(listings[-1].settings) >= least
+        if not listings or len(part.settings) >= least:
+            if not is_last_whole:
+                earlier = listings.pop()  # settings that were sent before they were listed
+                _fill_in(part, earlier)
             listings.append(part)
-        elif is_whole or not listings:
-            listings.append(part)
-        elif part.is_apart and len(listings[-1].settings) >= least:
+        elif part.is_apart and is_last_whole:
             listings[-1].aside |= {part.lines[n]: f"${n}={text}" for n, text in part.settings.items()}
         else:
             _change(listings[-1], part)
+    return _without_repeats(listings)
+
+
+def _without_repeats(listings: list[LoggedListing]) -> list[LoggedListing]:
+    """Return the last of those listings that are the same."""
     last = {tuple(sorted(part.settings.items())): part for part in listings}
     return [part for part in listings if last[tuple(sorted(part.settings.items()))] is part]
+
+
+def _fill_in(listing: LoggedListing, earlier: LoggedListing) -> None:
+    """Put settings into a listing that lacks them, unless it was parted from what is before it."""
+    if not listing.is_apart:
+        for n in earlier.settings.keys() - listing.settings.keys():
+            listing.put(n, earlier.settings[n], earlier.lines[n], earlier.remarks[n], earlier.whole[n])
 
 
 def _change(listing: LoggedListing, changes: LoggedListing) -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from collections.abc import Mapping, Sequence
 
 from amp_studio.files import ParameterFile
 from amp_studio.formats import (
@@ -230,8 +231,8 @@ def _acts_at_once(file: ParameterFile, address: Address) -> bool:
 def _filled(layout: list[str], settings: list[tuple[int, int]], statements: dict[int, str]) -> str:
     """Return a task as it was kept, with the values of now; a new one comes beside the register before it."""
     lines = list(read_lines("\n".join(layout)))
-    marks = [_marked_registers(s) for line in lines for s in line.statements]
-    there = [first for first, _ in settings if any(first in m for m in marks)]
+    marked = _registers_in(lines)
+    there = [first for first, _ in settings if first in marked]
     beside = neighbours([first for first, _ in settings], there)
     front = [statements[n] for n in beside.get(None, [])]
     text = []
@@ -241,14 +242,26 @@ def _filled(layout: list[str], settings: list[tuple[int, int]], statements: dict
             if not mine:
                 line.replace(statement, [unescaped(statement.text)])
             else:
-                found = [r for first in mine if first in statements for r in (first, *beside.get(first, []))]
-                line.replace(statement, front + [statements[r] for r in found])
+                line.replace(statement, front + _statements_at(mine, beside, statements))
                 front = []
         text.append(line.text)
     if front:
         # No kept register comes before these: they go to the front of the first line.
         text[0] = lines[0].with_first(front)
     return "\n".join([*text, ""])
+
+
+def _registers_in(lines: Sequence[BasicLine]) -> set[int]:
+    """Return the registers that have a mark in a task."""
+    return {register for line in lines for s in line.statements for register in _marked_registers(s)}
+
+
+def _statements_at(
+    mark: tuple[int, ...], beside: Mapping[int | None, Sequence[int]], statements: Mapping[int, str]
+) -> list[str]:
+    """Return the statements of the registers of a mark that are set, each with the new ones beside it."""
+    present = [first for first in mark if first in statements]
+    return [statements[r] for first in present for r in (first, *beside.get(first, []))]
 
 
 def _marked_registers(statement: BasicStatement) -> tuple[int, ...]:
@@ -260,16 +273,7 @@ def _marked_registers(statement: BasicStatement) -> tuple[int, ...]:
 def _read_task(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     variables, machine = Variables(schema), schema.family.default_machine
     lines = list(read_lines("\n".join(_lines(text))))
-    settings: dict[int, Written] = {}  # by the id of its statement
-    for line in lines:
-        for statement in line.statements:
-            try:
-                settings[id(statement)] = _setting(statement, variables)
-            except FormatError:
-                if not options.keep_unknown:
-                    raise
-            if re.match(r"IF\b", statement.text, re.IGNORECASE):
-                break  # what follows in the line hangs on the condition (page 4-48)
+    settings = _settings(lines, variables, keep_unknown=options.keep_unknown)
     if options.keep_unknown:  # which of several values counts, the run of the task decides
         counts = Counter(one.register for one in settings.values())
         settings = {key: one for key, one in settings.items() if counts[one.register] == 1}
@@ -281,6 +285,23 @@ def _read_task(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     found = TextRead(meaning.values, machine=machine)
     keep_lines(found, _KIND, [_row(line, settings) for line in lines])
     return found
+
+
+def _settings(lines: Sequence[BasicLine], variables: Variables, *, keep_unknown: bool) -> dict[int, Written]:
+    """Return the ``id`` of each statement that sets something -> what it writes; raises FormatError for any
+    other one, unless it is kept.
+    """
+    settings: dict[int, Written] = {}
+    for line in lines:
+        for statement in line.statements:
+            try:
+                settings[id(statement)] = _setting(statement, variables)
+            except FormatError:
+                if not keep_unknown:
+                    raise
+            if re.match(r"IF\b", statement.text, re.IGNORECASE):
+                break  # what follows in the line hangs on the condition (page 4-48)
+    return settings
 
 
 def _row(line: BasicLine, settings: dict[int, Written]) -> PassthroughLine:
