@@ -220,9 +220,9 @@ def programs_of(file: ParameterFile, paths: Sequence[Path]) -> Iterator[PrintedP
     from amp_studio.sim import ProgramJob, contour_text, limited_by, path_picture
 
     for path in paths:
-        run = ProgramJob(read_program(path)).run(file)
+        run = ProgramJob(read_program(path, file)).run(file)
         drawn = ""
-        if len(run.plan.path):
+        if run.plan.moves:
             drawn = picture_svg(path_picture(file, run), width=_WIDTH, unit=_UNIT, small_print=False)
         yield PrintedProgram(
             text_of_name(path.name),

@@ -31,7 +31,11 @@ def print_json(data: Any) -> None:
     """Print one JSON document; a terminal without UTF-8 gets it in ASCII."""
     import json
 
-    print(json.dumps(data, ensure_ascii=(sys.stdout.encoding or "").lower() != "utf-8", indent=2))
+    is_ascii = (sys.stdout.encoding or "").lower() != "utf-8"
+    # As it comes: the rows of a long program would not fit into memory.
+    for part in json.JSONEncoder(ensure_ascii=is_ascii, indent=2).iterencode(data):
+        sys.stdout.write(part)
+    print()
 
 
 def family(name: str) -> Schema:

@@ -78,7 +78,7 @@ def check_output(path: Path, *inputs: Path) -> None:
 
 def write_atomic(
     path: Path,
-    content: bytes | Callable[[bytes | None], bytes],
+    content: bytes | Callable[[bytes | None], bytes] | Iterator[bytes],
     expected: str | None = "",
     keep_backup: bool = True,
     *,
@@ -87,7 +87,8 @@ def write_atomic(
 ) -> str:
     """Replace a file by new content, all or nothing.
 
-    ``content`` may be worked out from the previous content, None where there is no file. ``expected`` is the
+    ``content`` may be worked out from the previous content, None where there is no file, or come in parts, of
+    which no digest is returned. ``expected`` is the
     digest the file on disk must still have (None: there must be no file; "": do not look). The previous file
     becomes the backup. A companion is readable by those who may read its file, and takes the place of a link
     instead of following it.
@@ -125,7 +126,7 @@ def write_atomic(
         sync_folder(real.parent)
     for message in notes:
         notify(f"{path.name}: {message}")
-    return digest(made)
+    return digest(made) if isinstance(made, bytes) else ""
 
 
 _replaced: set[Path] = set()
@@ -184,7 +185,9 @@ def _as_save_error(path: Path) -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def _staged(path: Path, content: bytes, like: Path | None, notes: list[str]) -> Iterator[Path]:
+def _staged(
+    path: Path, content: bytes | Iterator[bytes], like: Path | None, notes: list[str]
+) -> Iterator[Path]:
     """Write and sync a temporary file beside ``path``, with owner and mode of ``like``;
     it is gone afterwards.
     """
@@ -196,7 +199,8 @@ def _staged(path: Path, content: bytes, like: Path | None, notes: list[str]) -> 
         # Closed to others until it has the mode of the file that it replaces.
         handle = os.open(temporary, flags, 0o666 if like is None else 0o600)
         try:
-            write_all(handle, content)
+            for part in (content,) if isinstance(content, bytes) else content:
+                write_all(handle, part)
             if like is not None and sys.platform != "win32":
                 notes += keep_attributes(like, handle)
             # Before the rename: else the name could reach the disk before the content, and a power cut would

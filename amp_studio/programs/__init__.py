@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from .at_power_up import PowerUp, PowerUpLine, power_up
     from .block import BlockReader, BlockWord, ReadBlock
     from .formats import NumberFormat, digits_of, number_of
-    from .interpreter import path_letters, tool_path
+    from .interpreter import path_letters, path_parts
     from .source import read_program
     from .toolpath import ARC, DWELL, EXACT, KEPT, LINE, MOST_ROWS, PLANES, RAPID, ROUNDED, SLOW, ToolPath
     from .words import ProgramBlockError

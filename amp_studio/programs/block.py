@@ -99,12 +99,33 @@ class BlockReader:
 
     def _read_words(self, words: Sequence[TypedWord], here: set[str]) -> Iterator[BlockWord]:
         seen: set[str] = set()
+        letters = {word.letter for word in words}
         for word in words:
             read = self._word(word, here)
+            if not read.fault and (fault := self._fault_beside(word.letter, letters, here)):
+                read = replace(read, fault=fault)
             if word.letter in seen and word.letter not in "GM" and not read.fault:
                 read = replace(read, assumed=f"which {word.letter}-word counts where a block has two")
             seen.add(word.letter)
             yield read
+
+    def _fault_beside(self, letter: str, letters: set[str], here: set[str]) -> str:
+        """Return what is wrong with a word beside the others of its block; "" for nothing."""
+        if self.is_unused(letter, here):
+            return "no code of the block uses this word"
+        for code in here & self.codes.known.keys():
+            facts = self.codes.known[code].facts
+            if facts.pairs.get(letter, letter) not in letters:
+                return f"{facts.unpaired}: {facts.code} with {letter} needs {facts.pairs[letter]} too"
+        return ""
+
+    def is_unused(self, letter: str, here: set[str]) -> bool:
+        """Return whether the control refuses a letter, as it has no code beside it that uses it."""
+        path = self.codes.facts.path
+        needed = path.needs.get(letter) if path else None
+        # Arcs and cycles go on as long as their code is active; each other code needs its words beside it.
+        goes_on = (self.active.get(key) for key in ("motion", "cycle"))
+        return needed is not None and not {*here, *goes_on}.intersection(needed)
 
     def _macro_call(self, words: tuple[TypedWord, ...]) -> tuple[BlockWord, ...] | None:
         """Return a call whose other words are values of variables; None for another block."""

@@ -164,7 +164,7 @@ class CycleRuns:
             for move in moves:
                 self._do(move, third, modal)
             # Repeats of pecks make many rows of one block, and the interpreter counts only between blocks.
-            if len(self._moves.rows.kind) > MOST_ROWS:
+            if self._moves.rows.count > MOST_ROWS:
                 raise ProgramBlockError(f"The program has more than {MOST_ROWS} moves")
 
     def _hole(

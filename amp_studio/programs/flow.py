@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import islice
 
 from .codes import ControlCodes
 from .expression import worth
@@ -50,12 +51,18 @@ class ProgramFlow:
     """The way of a control through the lines."""
 
     def __init__(
-        self, lines: Sequence[str], parameters: dict[int, float], codes: ControlCodes, notes: list[str]
+        self,
+        lines: Sequence[str],
+        count: int,
+        parameters: dict[int, float],
+        codes: ControlCodes,
+        notes: list[str],
     ) -> None:
-        """``parameters`` are those that the program sets, ``notes`` gets what is assumed; its methods
-        raise ProgramBlockError.
+        """``count`` lines are those of the program, ``parameters`` those that it sets, ``notes`` gets what is
+        assumed; its methods raise ProgramBlockError.
         """
-        self._lines, self._parameters, self._codes, self._notes = lines, parameters, codes, notes
+        self._lines, self._count = lines, count
+        self._parameters, self._codes, self._notes = parameters, codes, notes
         self._facts = codes.facts
         path = codes.facts.path
         self._depth = path.depth if path else 0
@@ -139,7 +146,7 @@ class ProgramFlow:
 
     def _place(self, label: int) -> int:
         if self._labels is None:
-            self._labels = _labels(self._lines)
+            self._labels = _labels(islice(self._lines, self._count))
         if label not in self._labels:
             raise BlockError(f"No block has the number N{label}")
         return self._labels[label]
@@ -201,7 +208,7 @@ class ProgramFlow:
         self.at = self._place(level.call.label)
 
 
-def _labels(lines: Sequence[str]) -> dict[int, int]:
+def _labels(lines: Iterable[str]) -> dict[int, int]:
     """Return number of a block -> its line from 0, the first of each number."""
     labels: dict[int, int] = {}
     for n, line in enumerate(lines):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import islice
 
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema import ProgramPath, axis_name
@@ -97,20 +98,30 @@ class Interpreter:
 
     # -- the program ---------------------------------------------------------------
 
-    def run(self, lines: Sequence[str], progress: BlockProgress | None = None) -> ToolPath:
-        """Return the path of a program, as far as the control can go."""
+    def run(
+        self, lines: Sequence[str], progress: BlockProgress | None = None, most: int = MOST_ROWS
+    ) -> Iterator[ToolPath]:
+        """Yield the path of a program, as far as the control can go, whenever there are ``most`` rows of it;
+        the last part may have none, and has how the program ended.
+        """
         fault = None
         try:
             self._start_up()
-            self._run(self._own_lines(lines), progress)
+            for _ in self._run(lines, progress):
+                if len(self._moves.rows) >= most:
+                    yield self._taken(None)
             self._note_cycles_taken_in(lines)
         except BlockError as error:
             block = lines[self.line - 1] if 0 < self.line <= len(lines) else ""
             code = self._path.faults.get(error.key, "")
             fault = ProgramFault(self.line, block[:80], str(error), code)
-        return self._moves.rows.path(
-            self.start, self.blocks, fault, self.notes, zero_known=self._has_zero or self._has_offsets
-        )
+        yield self._taken(fault)
+
+    def _taken(self, fault: ProgramFault | None) -> ToolPath:
+        known = self._has_zero or self._has_offsets
+        # Notes of a long program are alike: those of each block would grow with it.
+        self.notes[:] = dict.fromkeys(self.notes)
+        return self._moves.rows.take(self.blocks, fault, self.notes, zero_known=known)
 
     def _start_up(self) -> None:
         """Run the block that the control runs when it starts."""
@@ -119,25 +130,33 @@ class Interpreter:
             if isinstance(value, str):
                 self._block(value.upper())
 
-    def _own_lines(self, lines: Sequence[str]) -> Sequence[str]:
-        """Return the lines of the program: those up to a % that ends it."""
-        if any(line.lstrip()[:1] == "/" for line in lines):
+    def _own_lines(self, lines: Sequence[str]) -> int:
+        """Return how many lines the program has: those up to a % that ends it."""
+        first, begins, ends = {"/": -1, "%": -1}, -1, -1
+        for n, line in enumerate(lines):
+            begin = line.lstrip()[:1]
+            begins = n if begin and begins < 0 else begins
+            if begin in first and first[begin] < 0:
+                first[begin] = n
+            if begin == "%" and n != begins:
+                ends = n
+                break
+        if first["/"] >= 0:
             self.notes.append("Blocks with / in front are run, as while the control skips none.")
-        marks = [n for n, line in enumerate(lines) if line.lstrip()[:1] == "%"]
-        begins = next((n for n, line in enumerate(lines) if line.strip()), -1)
-        ends = next((n for n in marks if n != begins), None)
-        if self._path.percent == "nothing" or ends is None:
-            return lines
-        if self._path.percent == "pair" and begins not in marks:
+        if self._path.percent == "nothing" or ends < 0:
+            return len(lines)
+        if self._path.percent == "pair" and begins != first["%"]:
             self._refused = "%"
-            return lines
-        if any(line.strip() for line in lines[ends + 1 :]):
+            return len(lines)
+        if any(line.strip() for line in islice(lines, ends + 1, None)):
             self.notes.append(f"The % in line {ends + 1} ends the program: the blocks behind it are not run.")
-        return lines[:ends]
+        return ends
 
-    def _run(self, lines: Sequence[str], progress: BlockProgress | None) -> None:
-        flow, rows = ProgramFlow(lines, self.parameters, self.reader.codes, self.notes), self._moves.rows
-        while flow.at < len(lines) and not self._over:
+    def _run(self, lines: Sequence[str], progress: BlockProgress | None) -> Iterator[None]:
+        """Run the lines, a block from one to the next."""
+        count, rows = self._own_lines(lines), self._moves.rows
+        flow = ProgramFlow(lines, count, self.parameters, self.reader.codes, self.notes)
+        while flow.at < count and not self._over:
             line = in_capitals(lines[flow.at])
             flow.at += 1
             self.line = self._moves.line = flow.at
@@ -145,15 +164,15 @@ class Interpreter:
             if self.blocks % EVERY == 0 and progress is not None:
                 progress(self.blocks)
             # Only what is repeated counts: a long program without a loop is as long as it is.
-            if max(self.blocks - len(lines) - MOST_REPEATED, len(rows.kind) - MOST_ROWS) > 0:
+            if max(self.blocks - count - MOST_REPEATED, rows.count - MOST_ROWS) > 0:
                 raise BlockError(f"The program has no end within {self.blocks - 1} blocks")
-            if flow.take(line):
-                continue
-            before = len(rows.kind)
-            self._block(line)
-            # A dwell is a row and no move: after it nothing is called.
-            if flow.calls_after_moves and len(rows.kind) > before and rows.kind[-1] != DWELL:
-                flow.call_after_move()
+            if not flow.take(line):
+                before = rows.count
+                self._block(line)
+                # A dwell is a row and no move: after it nothing is called.
+                if flow.calls_after_moves and rows.count > before and rows.last_kind != DWELL:
+                    flow.call_after_move()
+            yield
 
     def _note_cycles_taken_in(self, lines: Sequence[str]) -> None:
         missing = self._path.cycles_taken_in
@@ -181,7 +200,7 @@ class Interpreter:
         if waits:
             self._moves.rest(codes.pauses)
         if codes.zones is not None:
-            self._switch_zones(codes.zones, words)
+            self._switch_zones(codes.zones, words, {letter for letter, _ in pairs})
         if codes.once:
             self._single.do(codes, words)
         elif words.axes or words.distances or words.centers:
@@ -196,6 +215,8 @@ class Interpreter:
         return self._path.speed_waits == "always" or (turns and roles["spindle"] != self._moves.speed)
 
     def _letters_and_numbers(self, line: str) -> Sequence[tuple[str, str]]:
+        if 0 < self._path.longest < len(line):
+            raise BlockError(f"A block has at most {self._path.longest} characters")
         # Most lines are plain words, for which two patterns are faster than the reader of words.
         if _PLAIN.fullmatch(line):
             return _PAIRS.findall(line)
@@ -209,12 +230,17 @@ class Interpreter:
     def _keep_roles(self, roles: dict[str, float], codes: BlockCodes) -> None:
         if roles:
             self._moves.keep(roles)
+        if roles.get("tool"):
+            self.notes.append(self._path.tools_listed)
         if "length-offset" in roles and codes.once != "set-data":
             self._at.choose_length(int(roles["length-offset"]))
         if codes.sets_rounding:
             self._moves.round_corners(roles)
 
-    def _switch_zones(self, code: KnownCode, words: BlockNumbers) -> None:
+    def _switch_zones(self, code: KnownCode, words: BlockNumbers, letters: set[str]) -> None:
+        for letter, other in code.facts.pairs.items():
+            if letter in letters and other not in letters:
+                raise BlockError(f"{code.code} with {letter} needs {other} too", "unpaired")
         if words.axes or words.distances or words.centers:
             raise BlockError(f"{code.code} with places beside it is not simulated: {code.facts.meaning}")
         self._moves.rows.guard_by(code.facts.zones)
@@ -267,9 +293,24 @@ def tool_path(
     start: Sequence[float] | None = None,
     zero: Mapping[str, float] | None = None,
     retract: float | None = None,
-    progress: BlockProgress | None = None,
 ) -> ToolPath:
     """Return the path of a program under a file; raises ProgramBlockError for a family of which no page
     prints one.
     """
-    return Interpreter(file, start, zero, retract).run(lines, progress)
+    # More than there are rows: one part.
+    (path,) = Interpreter(file, start, zero, retract).run(lines, most=2 * MOST_ROWS)
+    return path
+
+
+def path_parts(
+    file: ParameterFile,
+    lines: Sequence[str],
+    most: int,
+    *,
+    start: Sequence[float] | None = None,
+    zero: Mapping[str, float] | None = None,
+    retract: float | None = None,
+    progress: BlockProgress | None = None,
+) -> Iterator[ToolPath]:
+    """Return the path of `tool_path` in parts of about ``most`` rows."""
+    return Interpreter(file, start, zero, retract).run(lines, progress, most)

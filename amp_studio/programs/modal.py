@@ -165,6 +165,9 @@ class ModalCodes:
 
     def _refuse_together(self, written: Sequence[str]) -> None:
         """Refuse codes of which a block has one at most, though they are in no group."""
+        most = self._path.most_m
+        if most and sum(each[0] == "M" for each in written) > most:
+            raise BlockError(f"A block has at most {most} M codes", "two-codes")
         codes = {TypedWord(each[0], each[1:], each).code for each in written}
         for apart in self._path.apart:
             if len(found := sorted(codes.intersection(apart))) > 1:

@@ -20,7 +20,7 @@ class PathMoves:
 
     def __init__(self, file: ParameterFile, path: ProgramPath, at: ProgramCoordinates) -> None:
         self._file, self._path, self.at = file, path, at
-        self.rows = RowsWriter(tuple(at.letters))
+        self.rows = RowsWriter(tuple(at.letters), at.position)
         self.line = 0
         """Of the program, from 1."""
         self._feed: float | None = None
@@ -158,7 +158,7 @@ class PathMoves:
         times = [self._file.evaluation.canonical((param, "")) for param in pauses]
         seconds = 1e-3 * sum(time for time in times if isinstance(time, float | int))
         # Behind a dwell, or before the first move, everything is at rest already.
-        if seconds or (len(self.rows.kind) and self.rows.kind[-1] != DWELL):
+        if seconds or self.rows.last_kind not in (-1, DWELL):
             self.dwell(seconds)
 
     def dwell(self, seconds: float) -> None:

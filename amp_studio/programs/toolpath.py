@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -21,6 +22,21 @@ PLANES = ((0, 1, 2), (2, 0, 1), (1, 2, 0))
 MOST_ROWS = 4_000_000
 MOST_ROUNDINGS = 200
 """Different ones in a program; a row has a byte for its own."""
+COLUMNS = (
+    "ends",
+    "kind",
+    "line",
+    "feed",
+    "center",
+    "sweep",
+    "plane",
+    "seconds",
+    "corner",
+    "free",
+    "rounding",
+    "zones",
+)
+"""Of a `ToolPath`."""
 Floats = npt.NDArray[np.float64]
 Bytes = npt.NDArray[np.uint8]
 
@@ -94,31 +110,53 @@ class ToolPath:
     def __len__(self) -> int:
         return len(self.kind)
 
+    @property
+    def columns(self) -> list[npt.NDArray[Any]]:
+        """What there is of each row, (rows,) or (rows, …), and where the path begins, (1, axes)."""
+        return [getattr(self, name) for name in COLUMNS] + [self.start[None, :]]
 
-@dataclass
+    def with_columns(self, columns: Sequence[npt.NDArray[Any]]) -> ToolPath:
+        """Return a path of other rows."""
+        *rows, start = columns
+        named: dict[str, Any] = dict(zip(COLUMNS, rows, strict=True))
+        return replace(self, **named, start=start[0])
+
+    def rows(self, first: int, last: int) -> ToolPath:
+        """Return the rows from ``first`` to before ``last`` as a path."""
+        begin = self.ends[first - 1] if first else self.start
+        return self.with_columns([*(each[first:last] for each in self.columns[:-1]), begin[None, :]])
+
+
 class RowsWriter:
     """The rows of a path while a program is read."""
 
-    axes: tuple[str, ...]
-    # Arrays of numbers, not lists: a float as an object takes four times the memory.
-    ends: array[float] = field(default_factory=lambda: array("d"))
-    kind: array[int] = field(default_factory=lambda: array("B"))
-    line: array[int] = field(default_factory=lambda: array("i"))
-    feed: array[float] = field(default_factory=lambda: array("d"))
-    arcs: array[float] = field(default_factory=lambda: array("d"))
-    """Center and sweep of a row."""
-    plane: array[int] = field(default_factory=lambda: array("B"))
-    seconds: array[float] = field(default_factory=lambda: array("d"))
-    corner: array[int] = field(default_factory=lambda: array("B"))
-    free: array[int] = field(default_factory=lambda: array("B"))
-    rounding: array[int] = field(default_factory=lambda: array("B"))
-    roundings: list[Rounding] = field(default_factory=lambda: [NO_ROUNDING])
-    active: int = 0
-    """Place of the rounding of the next rows."""
-    zones: array[int] = field(default_factory=lambda: array("B"))
-    zone_sets: list[tuple[str, ...] | None] = field(default_factory=lambda: [None])
-    active_zones: int = 0
-    """Place of the zones of the next rows."""
+    def __init__(self, axes: tuple[str, ...], start: Sequence[float]) -> None:
+        self._axes, self._start = axes, list(start)
+        self.roundings: list[Rounding] = [NO_ROUNDING]
+        self.active = 0
+        """Place of the rounding of the next rows."""
+        self.zone_sets: list[tuple[str, ...] | None] = [None]
+        self.active_zones = 0
+        """Place of the zones of the next rows."""
+        self.count = 0
+        """Of all rows so far."""
+        self.last_kind = -1
+        """Of the last row; -1 before the first."""
+        self._begin()
+
+    def _begin(self) -> None:
+        """Begin with no rows."""
+        # Arrays of numbers, not lists: a float as an object takes four times the memory.
+        self._ends, self._feed, self._seconds = array("d"), array("d"), array("d")
+        self._arcs = array("d")
+        """Center and sweep of a row."""
+        self._line = array("i")
+        self._kind, self._plane, self._corner, self._free = (array("B") for _ in range(4))
+        self._rounding, self._zones = array("B"), array("B")
+
+    def __len__(self) -> int:
+        """Return how many rows are here, which were not taken away."""
+        return len(self._kind)
 
     def add(
         self,
@@ -133,17 +171,18 @@ class RowsWriter:
         seconds: float = 0.0,
     ) -> None:
         """Add a row."""
-        self.ends.extend(end)
-        self.kind.append(kind)
-        self.line.append(line)
-        self.feed.append(feed)
-        self.arcs.extend(arc)
-        self.plane.append(plane)
-        self.seconds.append(seconds)
-        self.corner.append(corner)
-        self.free.append(free)
-        self.rounding.append(self.active)
-        self.zones.append(self.active_zones)
+        self._ends.extend(end)
+        self._kind.append(kind)
+        self._line.append(line)
+        self._feed.append(feed)
+        self._arcs.extend(arc)
+        self._plane.append(plane)
+        self._seconds.append(seconds)
+        self._corner.append(corner)
+        self._free.append(free)
+        self._rounding.append(self.active)
+        self._zones.append(self.active_zones)
+        self.count, self.last_kind = self.count + 1, kind
 
     def guard_by(self, zones: tuple[str, ...]) -> None:
         """Have these zones on in the next rows, and no others."""
@@ -159,38 +198,37 @@ class RowsWriter:
             self.roundings.append(rounding)
         self.active = self.roundings.index(rounding)
 
-    def path(
-        self,
-        start: Sequence[float],
-        blocks: int,
-        fault: ProgramFault | None,
-        assumptions: Sequence[str],
-        *,
-        zero_known: bool,
+    def take(
+        self, blocks: int, fault: ProgramFault | None, assumptions: Sequence[str], *, zero_known: bool
     ) -> ToolPath:
-        """Return the path of the rows."""
-        rows = len(self.kind)
-        # The numbers themselves, not a copy: the writer ends here.
-        arcs = np.frombuffer(self.arcs).reshape(rows, 3)
-        return ToolPath(
-            axes=self.axes,
-            start=np.array(start, np.float64),
-            ends=np.frombuffer(self.ends).reshape(rows, len(self.axes)),
-            kind=np.frombuffer(self.kind, np.uint8),
-            line=np.frombuffer(self.line, np.int32),
-            feed=np.frombuffer(self.feed),
+        """Return the rows since the last time as a path, and go on with none."""
+        rows, start = len(self), np.array(self._start, np.float64)
+        # The numbers themselves, not a copy: others take their place.
+        arcs = np.frombuffer(self._arcs).reshape(rows, 3)
+        ends = np.frombuffer(self._ends).reshape(rows, len(self._axes))
+        path = ToolPath(
+            axes=self._axes,
+            start=start,
+            ends=ends,
+            kind=np.frombuffer(self._kind, np.uint8),
+            line=np.frombuffer(self._line, np.int32),
+            feed=np.frombuffer(self._feed),
             center=arcs[:, :2],
             sweep=arcs[:, 2],
-            plane=np.frombuffer(self.plane, np.uint8),
-            seconds=np.frombuffer(self.seconds),
-            corner=np.frombuffer(self.corner, np.uint8),
-            free=np.frombuffer(self.free, np.uint8),
-            rounding=np.frombuffer(self.rounding, np.uint8),
+            plane=np.frombuffer(self._plane, np.uint8),
+            seconds=np.frombuffer(self._seconds),
+            corner=np.frombuffer(self._corner, np.uint8),
+            free=np.frombuffer(self._free, np.uint8),
+            rounding=np.frombuffer(self._rounding, np.uint8),
             roundings=tuple(self.roundings),
-            zones=np.frombuffer(self.zones, np.uint8),
+            zones=np.frombuffer(self._zones, np.uint8),
             zone_sets=tuple(self.zone_sets),
             blocks=blocks,
             fault=fault,
             assumptions=tuple(dict.fromkeys(assumptions)),
             zero_known=zero_known,
         )
+        if rows:
+            self._start = ends[-1].tolist()
+        self._begin()
+        return path

@@ -116,10 +116,7 @@ class WordNumbers:
     def _reading(self, letter: str, codes: BlockCodes) -> WordReading:
         self._reader.active = dict(codes.modal.active)
         here = {TypedWord(code.code[0], code.code[1:], "").code for code in codes.codes}
-        path = self._reader.codes.facts.path
-        needed = path.needs.get(letter) if path else None
-        # An arc goes on as long as its code is active; each other code needs its words beside it.
-        if needed is not None and not {*here, codes.modal.active.get("motion")}.intersection(needed):
+        if self._reader.is_unused(letter, here):
             raise BlockError(f"{letter}: no code of the block uses this word", "unused-words")
         use = self._reader.use(letter, here)
         if use is not None:

@@ -82,7 +82,10 @@ class ShapedPath:
     """u/s2 along the path."""
     joint: RowBounds
     """u/s at the end of a row."""
-    assumptions: tuple[str, ...] = ()
+    move: Indices
+    """(rows,): which of the moves that it is made of each row belongs to."""
+    begins: Indices
+    """(moves,): the row of the program that begins where a move does; -1 where none does."""
 
 
 CornerRule = Callable[[Corners], Sequence[tuple[PathLimit, PathRows]]]
@@ -118,8 +121,11 @@ class PathRules:
     """u between an arc and the straight pieces that the control makes of it; None for true arcs."""
     look_ahead: PathLimit | None = None
     """Blocks that are known, the present one too; None for all."""
-    shape: Callable[[ToolPath, Geometry], ShapedPath] | None = None
-    """What the control makes of a path; None where it goes along the rows of the program."""
+    shape: Callable[[ToolPath, Geometry, bool], ShapedPath] | None = None
+    """shape(path, its geometry, whether it is all that is left) -> what the control makes of a path; None
+    where it goes along the rows of the program. A move depends on the one before it and the two after it, and
+    on the rows from its begin on; the last one of a path that goes on is left out.
+    """
     pause: float = 0.0
     """s that it needs at each stop between rows."""
     rapid_rests: bool = False

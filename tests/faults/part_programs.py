@@ -6,7 +6,8 @@ from pathlib import Path
 
 from amp_studio.files import ParameterFile, open_file
 from amp_studio.files.example_files import examples_folder
-from amp_studio.programs import ProgramBlockError, read_program, tool_path
+from amp_studio.programs import ProgramBlockError, read_program
+from amp_studio.programs.interpreter import tool_path
 from amp_studio.sim import ProgramJob, SimulationError
 
 from .texts import mutants, violations

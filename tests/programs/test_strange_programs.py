@@ -5,7 +5,8 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile
-from amp_studio.programs import read_program, tool_path
+from amp_studio.programs import BlockReader, read_program
+from amp_studio.programs.interpreter import tool_path
 
 from .test_block import example
 
@@ -88,7 +89,7 @@ def test_a_program_of_any_hand_is_read(
 def test_lines_end_in_each_way(tmp_path: Path, ends: bytes) -> None:
     path = tmp_path / "a.nc"
     path.write_bytes(b"\xef\xbb\xbf" + ends.join((b"G1 X-1 F100", b"(Fr\xe4ser)", b"X-2", b"")))
-    assert read_program(path) == ["G1 X-1 F100", "(Fr\ufffdser)", "X-2"]
+    assert [*read_program(path)] == ["G1 X-1 F100", "(Fr\ufffdser)", "X-2"]
 
 
 def test_blocks_behind_the_percent_are_not_run_where_it_ends_the_program(
@@ -188,3 +189,76 @@ def test_several_turns_of_an_arc_are_refused(files: dict[str, ParameterFile]) ->
     for family in ("linuxcnc", "grblhal"):
         found = tool_path(files[family], ["G21 F500", "G2 X0 Y0 I-5 J0 P3"])
         assert "several turns" in (found.fault.message if found.fault else "")
+
+
+@pytest.mark.parametrize(
+    ("content", "line", "words"),
+    [
+        (b"\xef\xbb\xbfG1 X-5 F500\n", 1, "is no word"),
+        (b"G1 X-5 F500\rG1 X-6\rM2\r", 1, "G1 and another code of the group motion"),
+        (b"F500\nG1 X-5 (" + b"a" * 250 + b")\n", 2, "at most 252 characters"),
+        (b"G1 X-5 F500 M3 M7 M48 M0 M6\n", 1, "at most 4 M codes"),
+    ],
+    ids=["mark", "returns", "long", "codes"],
+)
+def test_a_file_that_a_linuxcnc_refuses_is_refused(
+    files: dict[str, ParameterFile], tmp_path: Path, content: bytes, line: int, words: str
+) -> None:
+    """Measured with rs274: Bad character, Two g codes used from same modal group, Command too long, Too many m codes."""
+    path = tmp_path / "a.ngc"
+    path.write_bytes(content)
+    fault = tool_path(files["linuxcnc"], read_program(path, files["linuxcnc"])).fault
+    assert fault is not None
+    assert fault.line == line
+    assert words in fault.message
+    if b"M48" not in content:
+        other = tool_path(files["grblhal"], read_program(path, files["grblhal"]))
+        assert other.fault is None
+
+
+def test_a_return_alone_is_a_blank_to_a_linuxcnc(files: dict[str, ParameterFile], tmp_path: Path) -> None:
+    """rs274 makes one move of both lines."""
+    path = tmp_path / "a.ngc"
+    path.write_bytes(b"G1 X-5 F500\rY-6\r")
+    found = tool_path(files["linuxcnc"], read_program(path, files["linuxcnc"]))
+    assert found.fault is None
+    assert found.ends[:, :2].tolist() == [[-5.0, -6.0]]
+
+
+def test_a_tool_is_assumed_to_be_in_the_tool_table_of_a_linuxcnc(files: dict[str, ParameterFile]) -> None:
+    """rs274: Requested tool 99 not found in the tool table; T0 is none."""
+    for block, is_named in (("T99 M6", True), ("T0 M6", False)):
+        notes = tool_path(files["linuxcnc"], [block, "G1 X-5 F500"]).assumptions
+        assert any("tool table" in note for note in notes) == is_named
+
+
+@pytest.mark.parametrize("block", ["G2 X-10 I-5 J0 P3", "G1 X-5 P3", "G1 X-5 L2", "G1 X-5 Q1", "G1 X-5 R2"])
+def test_a_word_that_no_code_of_an_acromill_uses_is_refused(
+    files: dict[str, ParameterFile], block: str
+) -> None:
+    """Pages 24 to 41 name no such word: a P in an arc was left out, and the arc was one turn."""
+    fault = tool_path(files["acromill"], ["G21 G1 X-1 F500", block]).fault
+    assert fault is not None
+    assert "no code of the block uses this word" in fault.message
+    assert BlockReader(files["acromill"]).read(block).faults
+    cycle = ["G21 F500", "G82 X-5 Z-5 R-1 P0.5", "X-9 P1", "X-12 L2", "G80"]
+    assert tool_path(files["acromill"], cycle).fault is None
+
+
+@pytest.mark.parametrize(
+    ("block", "fault"),
+    [
+        ("G22 X10.", "X10.: COR-109: G22 with X needs I too"),
+        ("G22 X10. I5. Y5.", "Y5.: COR-109: G22 with Y needs J too"),
+        ("G22 K5.", "K5.: COR-109: G22 with K needs Z too"),
+        ("G22 X10. I5. Z5. K0.", ""),
+        ("G22", ""),
+    ],
+)
+def test_a_range_of_a_syntec_has_both_of_its_ends(
+    files: dict[str, ParameterFile], block: str, fault: str
+) -> None:
+    """Slide 3.4: G22 X_ alone is COR-109, the arguments of a group come together."""
+    assert BlockReader(files["syntec"]).read(block).faults == ((fault,) if fault else ())
+    found = tool_path(files["syntec"], [block, "G00 X-5."]).fault
+    assert (found is not None and found.code == "COR-109") == bool(fault)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from amp_studio.files import ParameterFile
-from amp_studio.programs import ARC, DWELL, RAPID, ProgramBlockError, ToolPath, read_program, tool_path
-from amp_studio.programs.interpreter import MOST_REPEATED
+from amp_studio.programs import ARC, DWELL, RAPID, ProgramBlockError, ToolPath, read_program
+from amp_studio.programs.interpreter import MOST_REPEATED, tool_path
 from amp_studio.programs.toolpath import LINE
 from amp_studio.programs.words import LONGEST
 
@@ -316,7 +316,7 @@ def test_a_lone_return_ends_a_block_and_the_mark_of_utf_8_is_none(tmp_path: Path
     """Three blocks of such a file were read as one."""
     file = tmp_path / "a.nc"
     file.write_bytes(b"\xef\xbb\xbfG90\rG0 X1\r\rY2")
-    assert read_program(file) == ["G90", "G0 X1", "", "Y2"]
+    assert [*read_program(file)] == ["G90", "G0 X1", "", "Y2"]
 
 
 def test_the_format_of_a_number_is_that_of_the_unit_of_its_block() -> None:

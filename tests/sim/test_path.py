@@ -10,13 +10,13 @@ import pytest
 
 from amp_studio.assignments import read_assignments
 from amp_studio.files import ParameterFile, new_file
-from amp_studio.programs import path_letters, tool_path
+from amp_studio.programs import path_letters
+from amp_studio.programs.interpreter import tool_path
 from amp_studio.sim import (
     PathRules,
     ProgramJob,
     Ramp,
     SimulationError,
-    moment_at,
     run_axis,
     simulate,
     typed_steps,
@@ -29,11 +29,14 @@ from amp_studio.sim.command.changes import change_time, change_way, peaks, reach
 from amp_studio.sim.command.pieces import change, length
 from amp_studio.sim.law import law_of
 from amp_studio.sim.path.contour import distances
+from amp_studio.sim.path.moment import moment_in
+from amp_studio.sim.path.passes import lowest_sums
 from amp_studio.sim.path.picture import MOST_POINTS, path_picture
-from amp_studio.sim.path.planner import ProgramPlan, lowest_sums, plan_program
+from amp_studio.sim.path.planned import PlannedProgram
+from amp_studio.sim.path.planner import ProgramPlan
 from amp_studio.sim.path.profiles import axis_profiles
 from amp_studio.sim.path.program import ProgramRun, run_program
-from amp_studio.sim.path.result import limit_letters, line_rows
+from amp_studio.sim.path.result import LinesOfTime, limit_letters, line_rows
 from amp_studio.sim.path_rules import Corners, PathLimit
 from amp_studio.sim.zones import Zone
 from tests.programs.test_block import example
@@ -64,7 +67,13 @@ def rules(acceleration: float = 500.0, **others: object) -> PathRules:
 
 
 def planned(file: ParameterFile, lines: list[str], with_rules: PathRules) -> ProgramPlan:
-    return plan_program(tool_path(file, lines), with_rules)
+    return program_of(file, lines, with_rules).whole
+
+
+def program_of(file: ParameterFile, lines: list[str], with_rules: PathRules) -> PlannedProgram:
+    program = PlannedProgram([tool_path(file, lines)], with_rules)
+    program.add_up(0.0)
+    return program
 
 
 def fine_time(plan: ProgramPlan, joint: np.ndarray, top: np.ndarray, acceleration: float) -> float:
@@ -150,9 +159,7 @@ def test_ramps_up_and_down_may_differ(router: ParameterFile) -> None:
         "axis_acceleration": {"X": PathLimit(200.0, ("up", ""))},
         "axis_deceleration": {"X": PathLimit(800.0, ("down", ""))},
     }
-    plan = plan_program(
-        tool_path(router, ["G21 F60000", "X-10"]), PathRules(feed_ramp=LINEAR, rapid_ramp=LINEAR, **slopes)
-    )
+    plan = planned(router, ["G21 F60000", "X-10"], PathRules(feed_ramp=LINEAR, rapid_ramp=LINEAR, **slopes))
     peak = math.sqrt(2.0 * 10.0 * 160.0)
     assert plan.peak[0] == pytest.approx(peak)
     assert plan.time == pytest.approx(peak / 200.0 + peak / 800.0)
@@ -162,7 +169,7 @@ def test_a_9pc_keeps_each_axis_to_its_feedrates_ramps_and_velocity_step() -> Non
     """Pages 9-1, 9-2, 10-7 to 10-10, of the example: 5000 and 10000 mm/min, 694.4 mm/s2, 4.23333 mm/s."""
     file = example("mill-1394")
     text = "G21 G90|G00 X60. Y60.|G01 X120. F9999.|Y0.|M03|G61 X0.|M30"
-    plan = run(file, text, with_contour=False).plan
+    plan = run(file, text, with_contour=False).plan.whole
     speeds = [10000.0 / 60.0 * math.sqrt(2.0), *[5000.0 / 60.0] * 3]
     assert plan.peak.tolist() == pytest.approx(speeds, rel=1e-9)
     assert plan.leave[1] == pytest.approx(4.23333, rel=1e-4)
@@ -182,23 +189,23 @@ def test_a_program_takes_the_time_that_a_real_grblhal_needed(program: RealProgra
     file.set_checked(read_assignments(file, known.items()))
     job = ProgramJob(program.lines, start=[0.0, 0.0, 0.0], with_contour=False)
     found = job.run(file)
-    first = found.plan.start[
-        np.flatnonzero(found.plan.geometry.length)[0]
+    first = found.plan.whole.start[
+        np.flatnonzero(found.plan.whole.geometry.length)[0]
     ]  # its time begins with the first move
     assert found.plan.time - first == pytest.approx(program.time, rel=0.01)
-    assert (250.0 * found.plan.geometry.ends[-1]).tolist() == pytest.approx(program.end, abs=0.501)
+    assert (250.0 * found.plan.whole.geometry.ends[-1]).tolist() == pytest.approx(program.end, abs=0.501)
 
 
 def test_every_second_is_given_to_one_limit(router: ParameterFile) -> None:
-    plan = planned(router, ZIGZAG, rules())
+    plan = program_of(router, ZIGZAG, rules())
     assert plan.time_by_cause.sum() == pytest.approx(plan.time)
-    assert sum(plan.time_of_lines().values()) == pytest.approx(plan.time)
+    assert sum(row["time_s"] for row in LinesOfTime(plan)) == pytest.approx(plan.time, abs=1e-4)
     named = {limit.param: time for limit, time in zip(plan.causes, plan.time_by_cause, strict=True)}
     assert named["acceleration", ""] > 0.0
 
 
 def run(file: ParameterFile, text: str, **given: bool) -> ProgramRun:
-    return run_program(file, tool_path(file, [block.strip() for block in text.split("|")]), **given)
+    return run_program(file, [tool_path(file, [block.strip() for block in text.split("|")])], **given)
 
 
 def test_an_acromill_goes_from_rest_to_rest_in_rapid(router: ParameterFile) -> None:
@@ -206,20 +213,20 @@ def test_an_acromill_goes_from_rest_to_rest_in_rapid(router: ParameterFile) -> N
     found = run(router, "G20|G0 X-2|G0 X-4", with_contour=False)
     speed, slope = 100.0 / 60.0, 100.0
     assert found.plan.time == pytest.approx(2.0 * (2.0 / speed + speed / slope))
-    assert found.plan.entry.tolist() == [0.0, 0.0]
+    assert found.plan.whole.entry.tolist() == [0.0, 0.0]
 
 
 def test_overrides_are_clamped_by_the_machine_and_ignored_under_g63(router: ParameterFile) -> None:
     path = tool_path(router, ["G20 F150", "G1 X-4", "G63 X-8"])
-    peaks_of = run_program(router, path, override=2.0, with_contour=False).plan.peak * 60.0 / 25.4
+    peaks_of = run_program(router, [path], override=2.0, with_contour=False).plan.whole.peak * 60.0 / 25.4
     highest = 200.0
     assert peaks_of.tolist() == pytest.approx([highest, 150.0])
 
 
 def test_corners_of_g62_are_slow_and_those_of_g64_are_not(router: ParameterFile) -> None:
     """Page 61: Acute Angle1 90 in the example, Min Corner Speed 5 in/min."""
-    slow = run(router, "G20 F100 G62|X-2|Y-2", with_contour=False).plan
-    cutting = run(router, "G20 F100 G64|X-2|Y-2", with_contour=False).plan
+    slow = run(router, "G20 F100 G62|X-2|Y-2", with_contour=False).plan.whole
+    cutting = run(router, "G20 F100 G64|X-2|Y-2", with_contour=False).plan.whole
     assert slow.leave[0] * 60.0 / 25.4 == pytest.approx(5.0)
     assert cutting.leave[0] * 60.0 / 25.4 == pytest.approx(100.0)
 
@@ -236,12 +243,12 @@ def test_the_first_block_beyond_a_soft_limit_is_named(router: ParameterFile) -> 
 def test_the_command_of_the_axes_is_the_planned_path(router: ParameterFile) -> None:
     found = run(router, "G20 F100|X-2|G3 X-3 Y-1 I-2 J-1|G0 Z-1", with_contour=False)
     law = law_of("acromill")
-    for n, profile in enumerate(axis_profiles(found.plan)):
+    for n, profile in enumerate(axis_profiles(found.plan.whole)):
         axis = bind_axis(router, law, found.plan.path.axes[n])
         motion = run_axis(axis, profile, Until(found.plan.time))
         command, time = motion.columns["command_position"], motion.columns["time_s"]
         assert np.abs(np.diff(command)).max() <= 100.0 * 25.4 / 60.0 * np.diff(time).max() * 1.01
-        assert command[-1] == pytest.approx(found.plan.geometry.ends[-1, n], abs=1e-3)
+        assert command[-1] == pytest.approx(found.plan.whole.geometry.ends[-1, n], abs=1e-3)
 
 
 def test_the_contour_error_of_a_circle_is_its_radius_error(router: ParameterFile) -> None:
@@ -291,7 +298,7 @@ def test_a_num_has_other_ramps_for_g0_and_passes_corners_at_its_approach_speed()
     speeds = (("servo.approach_speed@0", "600 mm/min"), ("servo.approach_speed@1", "600 mm/min"))
     file.set_checked(read_assignments(file, speeds))
     job = ProgramJob(["G0 X-10", "G1 X-20 F3000", "Y-20", "G9 X-10"], [0.0] * 4, with_contour=False)
-    plan = job.run(file).plan
+    plan = job.run(file).plan.whole
     own = [file.evaluation.canonical((f"servo.acceleration_{kind}", "0")) for kind in ("fast", "work")]
     assert plan.acceleration[:2].tolist() == pytest.approx(own)
     assert plan.leave[1] == pytest.approx(10.0)
@@ -301,7 +308,7 @@ def test_a_num_has_other_ramps_for_g0_and_passes_corners_at_its_approach_speed()
 def test_a_syntec_runs_rapid_moves_from_rest_to_rest_and_names_what_it_does_not() -> None:
     file = example("syntec-mill")
     run = ProgramJob(["G91 G00 X-20", "Y-10", "G01 X1"], with_contour=False).run(file)
-    assert run.plan.leave.tolist() == [0.0, 0.0]
+    assert run.plan.whole.leave.tolist() == [0.0, 0.0]
     assert run.alarms[-1].message == "G01 is a code that no page here names"
 
 
@@ -373,7 +380,7 @@ def test_a_program_is_run_over_a_row_of_values_and_under_other_files(router: Par
 def test_a_moment_is_on_the_path_with_the_speed_of_its_ramp(router: ParameterFile) -> None:
     text = ["G21 G200 F1", "F6000 X-50", "G3 X-60 Y-10 I0 J-10", "G1 Y-30"]
     plan = planned(router, text, rules(500.0))
-    moments = [moment_at(plan, float(time)) for time in np.linspace(0.0, plan.time, 2001)]
+    moments = [moment_in(plan, float(time)) for time in np.linspace(0.0, plan.time, 2001)]
     places = np.array([each.place for each in moments if each])
     speeds = np.array([each.speed for each in moments if each])
     step = plan.time / 2000.0

@@ -174,8 +174,8 @@ def test_a_moment_of_a_program_is_shown_where_the_axes_are_then(
     assert window.plot.picture is not None
     scene = window.plot.picture.above
     assert scene is not None
-    assert window.outcome.plan.geometry.ends[-1][:2].tolist() == pytest.approx(list(scene.dots[0].at))
-    assert window.lines.currentRow() == window.outcome.plan.path.line[-1] - 1
+    assert window.outcome.plan.whole.geometry.ends[-1][:2].tolist() == pytest.approx(list(scene.dots[0].at))
+    assert window.lines.currentRow() == window.outcome.plan.whole.path.line[-1] - 1
     window.play.button.click()  # from the start again
     assert window.play.slider.value() < STEPS
     assert window.play.button.text() == "&Pause"

@@ -32,8 +32,6 @@ GAP_CYCLES = 4.0
 """Servo cycles below which what is left before a corner goes at its speed."""
 WITHIN = 1e-4
 """u between a rounded corner and the straight rows of it."""
-EVERY = 1 << 16
-"""Corners that are worked out together: what they need in between does not grow with the program."""
 
 STOP = PathLimit(0.0, None, "exact stop")
 CHANGE = PathLimit(0.0, None, "change between rapid and feed")
@@ -77,9 +75,11 @@ class _Junctions:
         """Speed as programmed."""
 
 
-def shaped(figures: PathFigures, path: ToolPath, geometry: Geometry) -> ShapedPath:
-    """Return what the control makes of a path; raises SimulationError for a corner that is not simulated."""
-    return _Shaping(figures, path, geometry).shape()
+def shaped(figures: PathFigures, path: ToolPath, geometry: Geometry, is_all: bool) -> ShapedPath:
+    """Return what the control makes of a path, but for the last move of one that goes on;
+    raises SimulationError for a corner that is not simulated.
+    """
+    return _Shaping(figures, path, geometry, is_all=is_all).shape()
 
 
 class _Shaping:
@@ -87,7 +87,7 @@ class _Shaping:
     the move between them, and this one no more than the other half. So all are worked out at once.
     """
 
-    def __init__(self, figures: PathFigures, path: ToolPath, geometry: Geometry) -> None:
+    def __init__(self, figures: PathFigures, path: ToolPath, geometry: Geometry, *, is_all: bool) -> None:
         self._figures, self._path, self._geometry = figures, path, geometry
         self._limits = AxisLimits.of(path.axes, figures.speeds, figures.accelerations)
         self._count = count = len(path.axes)
@@ -109,7 +109,7 @@ class _Shaping:
             for n, plane in enumerate(PLANES)
             if columns.keys() >= {*"XYZ"}
         }
-        self._moves = moves = segments(path, geometry, self._limits)
+        self._moves = moves = segments(path, geometry, self._limits, is_all=is_all)
         # No move is shorter than a cycle.
         self._top = np.where(
             moves.kind == DWELL, math.inf, np.minimum(moves.top, moves.length / figures.period)
@@ -119,8 +119,7 @@ class _Shaping:
     def shape(self) -> ShapedPath:
         """Work it out."""
         between = _Junctions(len(self._moves))
-        for begin in range(0, len(self._moves) - 1, EVERY):
-            self._join(between, np.arange(begin, min(begin + EVERY, len(self._moves) - 1)))
+        self._join(between, np.arange(max(len(self._moves) - 1, 0)))
         return self._written(between)
 
     # -- where two moves meet --------------------------------------------------------
@@ -294,7 +293,8 @@ class _Shaping:
         out.speed_by[dwells], out.ramp_by[dwells] = 0, 0
         self._end(out, start, left, ramp)
         self._add_corners(out, between, rounds, planes, parts[rounds], (start + is_row)[rounds])
-        return out.shaped(path, self._causes)
+        out.move = np.repeat(np.arange(count), is_row + parts)
+        return out.shaped(path, self._causes, moves.begun_by)
 
     def _left(self, between: _Junctions) -> tuple[PathRows, PathRows, Integers, PathRows]:
         """Return what rounded corners leave of each move: length, greatest speed, its cause, acceleration."""
@@ -437,8 +437,9 @@ class _Rows:
         self.speed, self.ramp = np.zeros((2, count))
         self.joint = np.full(count, math.inf)
         self.speed_by, self.ramp_by, self.joint_by = np.zeros((3, count), np.int64)
+        self.move = np.zeros(count, np.int64)
 
-    def shaped(self, path: ToolPath, causes: list[PathLimit]) -> ShapedPath:
+    def shaped(self, path: ToolPath, causes: list[PathLimit], begins: Integers) -> ShapedPath:
         """Return them as the path of a program, with the figures of its rows that stay."""
         dwells, zeros = self.kind == DWELL, np.zeros(len(self.kind), np.uint8)
         rows = replace(
@@ -463,4 +464,6 @@ class _Rows:
             RowBounds(self.speed, self.speed_by),
             RowBounds(self.ramp, self.ramp_by),
             RowBounds(self.joint, self.joint_by),
+            self.move,
+            begins,
         )

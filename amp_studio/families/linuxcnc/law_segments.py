@@ -47,6 +47,8 @@ class PathSegments:
     corner: npt.NDArray[np.uint8]
     tolerance: PathRows
     """From its corner, as programmed; 0 where the program gives none."""
+    begun_by: Integers
+    """The row of the path that begins where it does; -1 in the middle of one."""
 
     def __len__(self) -> int:
         return len(self.row)
@@ -80,19 +82,26 @@ def along(direction: PathRows, bounds: PathRows) -> tuple[PathRows, Integers]:
     return allowed[np.arange(len(axis)), axis], axis
 
 
-def segments(path: ToolPath, geometry: Geometry, limits: AxisLimits) -> PathSegments:
-    """Return the moves of a path in their order; raises SimulationError for one that is not simulated."""
+def segments(path: ToolPath, geometry: Geometry, limits: AxisLimits, *, is_all: bool) -> PathSegments:
+    """Return the moves of a path in their order, without the last one where the path goes on: more points may
+    be joined to it. Raises SimulationError for one that is not simulated.
+    """
     rotary = [n for n, letter in enumerate(path.axes) if letter in "ABC"]
     if rotary:
         _refuse_mixed(path, geometry, rotary)
     points, rows, is_straight = _points(path, geometry)
     ends = _ends_of_moves(path, points, rows, is_straight, rotary)
+    if not is_all:
+        ends = ends[:-1]
+    begun = np.concatenate([[0], ends + 1])[: len(ends)]
+    # The end of a flat arc is no row's begin, as its middle comes before it.
+    begun_by = np.where(begun == np.searchsorted(rows, rows[begun]), rows[begun], -1)
     rows, stops, is_straight = rows[ends], points[ends], is_straight[ends]
     begins = np.vstack([path.start[None, :], stops[:-1]]) if len(stops) else stops
     kind = np.where(is_straight & (path.kind[rows] == ARC), LINE, path.kind[rows]).astype(np.uint8)
     # The planner drops a straight move without length.
     moved = (kind == ARC) | (kind == DWELL) | (begins != stops).any(axis=1)
-    found = _straight(path, rows[moved], kind[moved], begins[moved], stops[moved], limits)
+    found = _straight(path, rows[moved], kind[moved], begins[moved], stops[moved], begun_by[moved], limits)
     return _round(path, geometry, found, limits)
 
 
@@ -212,6 +221,7 @@ def _straight(
     kind: npt.NDArray[np.uint8],
     begins: PathRows,
     ends: PathRows,
+    begun_by: Integers,
     limits: AxisLimits,
 ) -> PathSegments:
     """Return moves as if all were straight, with their directions and what the axes allow along them."""
@@ -231,6 +241,7 @@ def _straight(
         *along(direction, limits.accelerations),
         path.corner[rows],
         np.array([each.corner for each in path.roundings])[path.rounding[rows]],
+        begun_by,
     )
 
 

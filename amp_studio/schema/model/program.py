@@ -71,6 +71,7 @@ WordRole = Literal[
     "scale",
     "reference",
     "length-offset",
+    "tool",
     "set-kind",
     "set-number",
     "blend-tolerance",
@@ -206,6 +207,10 @@ class ProgramCode(Model):
     """Whether the spindle turns from it on."""
     zones: tuple[str, ...] = ()
     """Numbers of the zones that are on from this code of ``zones`` on; those it does not name are off."""
+    pairs: dict[str, str] = {}
+    """Letter -> the one without which the control does not take it beside the code."""
+    unpaired: str = ""
+    """The code that it then shows."""
     assumed: str = ""
     """What no page prints of it, a sentence."""
     steps: tuple[CycleStep, ...] = ()
@@ -307,12 +312,18 @@ class ProgramPath(Model):
     percent: Literal["ends", "pair", "nothing"] = "ends"
     """What a % alone in a line does that is not the first one: it ends the program, one that begins with a %
     alone, or nothing."""
+    plain_text: bool = False
+    """Whether the control takes a CR inside of a file for a blank, and the mark of UTF-8 for a character."""
     number_first: bool = False
     """Whether the number of a block (N) has to be its first word."""
     needs: dict[str, tuple[str, ...]] = {}
     """Letter -> codes, one of which has to be in its block or active: else the control refuses the word."""
     apart: tuple[tuple[str, ...], ...] = ()
     """Codes without a group, of which a block has one at most."""
+    most_m: int = 0
+    """M codes that a block has at most; 0 where no source has a number."""
+    longest: int = 0
+    """Characters of a block that the control reads; 0 where no source has a number."""
     plain_delete: bool = False
     """Whether the / in front of a block has no number."""
     feed_first: bool = False
@@ -338,6 +349,8 @@ class ProgramPath(Model):
     """Parts of a tool length, by the number of the offset."""
     peck_clearance: ParameterId | None = None
     """The distance D of a cycle."""
+    tools_listed: str = ""
+    """What is assumed of a program that calls a tool, a sentence."""
     cycles_taken_in: str = ""
     """What is assumed of a program with cycles that takes in no file, a sentence."""
     retract: ParameterId | None = None

@@ -12,7 +12,9 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.path_rules import Geometry, Indices, PathRows
 
 MOST_PIECES = 8_000_000
-"""Rows after arcs have become straight pieces; at about 300 bytes each with three axes, 2.4 GB."""
+"""Rows of a program after its arcs have become straight pieces."""
+MOST_OF_ARC = 500_000
+"""Of one arc: a circle of 100 km with the finest tolerance of a control has so many."""
 
 
 def places_of(path: ToolPath, row: int) -> tuple[int, int]:
@@ -30,7 +32,7 @@ def plane_columns(path: ToolPath) -> Indices:
 def geometry_of(path: ToolPath, chord: float | None) -> Geometry:
     """Return the geometry of a path, with its arcs as straight pieces that are at most ``chord`` off."""
     count = len(path)
-    begins = np.vstack([path.start[None, :], path.ends[:-1]]) if count else np.zeros((0, len(path.axes)))
+    begins = _begins(path)
     arcs = np.flatnonzero(path.kind == ARC)
     if chord is not None and len(arcs):
         return _chorded(path, begins, arcs, chord)
@@ -83,20 +85,39 @@ def _unit(delta: PathRows, length: PathRows) -> PathRows:
     return unit
 
 
+def _begins(path: ToolPath) -> PathRows:
+    """Return where each row begins, (rows, axes)."""
+    return np.vstack([path.start[None, :], path.ends[:-1]]) if len(path) else np.zeros((0, len(path.axes)))
+
+
+def pieces_of(path: ToolPath, chord: float | None) -> Indices:
+    """Return of how many straight pieces each row is made, as grblHAL's mc_arc makes them of arcs."""
+    pieces = np.ones(len(path), np.int64)
+    arcs = np.flatnonzero(path.kind == ARC)
+    if chord is None or not len(arcs):
+        return pieces
+    columns = plane_columns(path)[path.plane[arcs]]
+    begun = np.take_along_axis(_begins(path)[arcs], columns, axis=1) - path.center[arcs]
+    radius = np.hypot(begun[:, 0], begun[:, 1])
+    # mc_arc: floor(|sweep r / 2| / sqrt(tolerance (2 r - tolerance))); an arc smaller than the tolerance is
+    # one piece.
+    inside = np.maximum(chord * (2.0 * radius - chord), 0.0)
+    wanted = np.abs(0.5 * path.sweep[arcs] * radius) / np.sqrt(np.where(inside > 0.0, inside, math.inf))
+    if wanted.max() > MOST_OF_ARC:
+        line = int(path.line[arcs[np.argmax(wanted > MOST_OF_ARC)]])
+        raise SimulationError(
+            f"Line {line}: an arc of more than {MOST_OF_ARC} straight pieces is not planned"
+        )
+    pieces[arcs] = np.maximum(1, np.floor(wanted))
+    return pieces
+
+
 def _chorded(path: ToolPath, begins: PathRows, arcs: npt.NDArray[np.int64], chord: float) -> Geometry:
     """Return straight rows, arcs as pieces whose ends are on them: as many as grblHAL's mc_arc makes."""
     columns = plane_columns(path)[path.plane[arcs]]
     begun = np.take_along_axis(begins[arcs], columns, axis=1) - path.center[arcs]
-    radius, sweep = np.hypot(begun[:, 0], begun[:, 1]), path.sweep[arcs]
-    # mc_arc: floor(|sweep r / 2| / sqrt(tolerance (2 r - tolerance))); an arc smaller than the tolerance is
-    # one piece.
-    inside = np.maximum(chord * (2.0 * radius - chord), 0.0)
-    wanted = np.abs(0.5 * sweep * radius) / np.sqrt(np.where(inside > 0.0, inside, math.inf))
-    pieces = np.ones(len(path), np.int64)
-    # Bounded before it becomes an integer, in which a huge quotient would overflow.
-    pieces[arcs] = np.maximum(1, np.floor(np.minimum(wanted, MOST_PIECES + 1.0)))
-    if pieces.sum() > MOST_PIECES:
-        raise SimulationError("The arcs of the program become more straight pieces than can be planned")
+    sweep = path.sweep[arcs]
+    pieces = pieces_of(path, chord)
     row = np.repeat(np.arange(len(path)), pieces)
     last = np.cumsum(pieces) - 1
     ends = path.ends[row]

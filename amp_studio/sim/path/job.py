@@ -6,12 +6,13 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from amp_studio.files import ParameterFile
-from amp_studio.programs import ProgramBlockError, path_letters, tool_path
+from amp_studio.programs import ProgramBlockError, path_letters, path_parts
 from amp_studio.schema import Address, Value, fault
 from amp_studio.sim.axis_parameters import ParameterValue
 from amp_studio.sim.errors import SimulationError
 
 from .program import ProgramRun, home_positions, run_program
+from .stretches import STRETCH
 
 JobProgress = Callable[[str, float], None]
 """progress(what, share of it that is done); may raise to cancel."""
@@ -36,9 +37,10 @@ class ProgramJob:
     def run(self, file: ParameterFile, progress: JobProgress = lambda _what, _share: None) -> ProgramRun:
         """Run it under a file; raises SimulationError, ProgramBlockError."""
         total = max(len(self.lines), 1)
-        path = tool_path(
+        parts = path_parts(
             file,
             self.lines,
+            STRETCH,
             start=home_positions(file, path_letters(file)) if self.start is None else self.start,
             zero=self.zero,
             retract=self.retract,
@@ -46,7 +48,7 @@ class ProgramJob:
         )
         return run_program(
             file,
-            path,
+            parts,
             override=self.override,
             rapid_override=self.rapid_override,
             model=self.model,
@@ -86,7 +88,9 @@ def what_if(
         for address, value in values.items():
             tried.set(address, value)
         try:
-            found.append(WhatIf(changes, job.run(tried, progress), "", wrong))
+            run = job.run(tried, progress)
+            run.plan.forget_rows()
+            found.append(WhatIf(changes, run, "", wrong))
         except SimulationError as error:
             found.append(WhatIf(changes, None, f"{error}", wrong))
     return found
@@ -109,7 +113,9 @@ def versions(
     found = []
     for name, file in files.items():
         try:
-            found.append(ProgramVersion(name, job.run(file, progress), ""))
+            run = job.run(file, progress)
+            run.plan.forget_rows()
+            found.append(ProgramVersion(name, run, ""))
         except (SimulationError, ProgramBlockError) as error:
             found.append(ProgramVersion(name, None, f"{error}"))
     return found

@@ -12,7 +12,7 @@ import numpy as np
 from amp_studio.programs import ToolPath
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, BoundMachine
-from amp_studio.sim.path_rules import PathRows
+from amp_studio.sim.path_rules import Indices, PathRows
 from amp_studio.sim.rounding import page_text
 from amp_studio.sim.zones import EPSILON, Zone
 
@@ -37,37 +37,58 @@ class PathAlarm:
     message: str
 
 
-def limits_met(plan: ProgramPlan, axes: Sequence[AxisLaw]) -> Iterator[PathAlarm]:
-    """Yield the first row that leaves each limit of travel."""
-    path = plan.path
-    least, most = _extent(plan, path)
-    for n, axis in enumerate(axes):
-        if axis.travel is None or not len(least) or not path.zero_known:
-            continue
-        try:
-            travel = axis.travel()
-        # The limits of an axis whose figures are missing are not known; the others are checked.
-        except SimulationError:
-            continue
-        for title, (low, high) in travel.limits.items():
-            beyond = (least[:, n] < low - BEYOND) | (most[:, n] > high + BEYOND)
-            if not beyond.any():
+class LimitsWatch:
+    """Finds the first row of a path that leaves each limit of travel, a stretch after the other."""
+
+    def __init__(self, axes: Sequence[AxisLaw]) -> None:
+        self._axes = axes
+        self._met: dict[tuple[int, str], PathAlarm] = {}
+        """Axis and limit -> its alarm."""
+
+    @property
+    def alarms(self) -> list[PathAlarm]:
+        """What was met, axis by axis."""
+        return [self._met[key] for key in sorted(self._met, key=lambda key: key[0])]
+
+    def look(self, plan: ProgramPlan) -> None:
+        """Look at one more stretch."""
+        least, most = _extent(plan, plan.path)
+        for n, axis in enumerate(self._axes):
+            if axis.travel is None or not len(least) or not plan.path.zero_known:
                 continue
+            # The limits of an axis whose figures are missing are not known; the others are checked.
+            with suppress(SimulationError):
+                for title, alarm in _beyond(plan, axis, n, (least[:, n], most[:, n])):
+                    self._met.setdefault((n, title), alarm)
+
+
+def _beyond(
+    plan: ProgramPlan, axis: AxisLaw, n: int, extent: tuple[PathRows, PathRows]
+) -> Iterator[tuple[str, PathAlarm]]:
+    """Yield each limit of an axis that a stretch leaves, and its alarm; raises SimulationError."""
+    assert axis.travel is not None
+    travel, path, (least, most) = axis.travel(), plan.path, extent
+    for title, (low, high) in travel.limits.items():
+        beyond = (least < low - BEYOND) | (most > high + BEYOND)
+        if beyond.any():
             row = int(np.argmax(beyond))
-            is_low = bool(least[row, n] < low - BEYOND)
-            edge, place = (low, least[row, n]) if is_low else (high, most[row, n])
+            is_low = bool(least[row] < low - BEYOND)
+            edge, place = (low, least[row]) if is_low else (high, most[row])
             begun = (
                 "the block is not begun" if travel.refuses or travel.reads_ahead else "the axis stops there"
             )
             # A control that reads ahead refuses the block: it has another alarm than an axis that arrives
             # at a limit.
             code = travel.reads_ahead or (travel.alarm_negative if is_low else "") or travel.alarm
-            yield PathAlarm(
-                int(path.line[plan.geometry.row[row]]),
-                float(plan.start[row]),
-                code,
-                f"{path.axes[n]} would go to {place:.6g} {axis.unit}, beyond {title} at {edge:.6g}"
-                f" {axis.unit}: {begun} ({page_text(travel.page)})",
+            yield (
+                title,
+                PathAlarm(
+                    int(path.line[plan.geometry.row[row]]),
+                    float(plan.start[row]),
+                    code,
+                    f"{path.axes[n]} would go to {place:.6g} {axis.unit}, beyond {title} at {edge:.6g}"
+                    f" {axis.unit}: {begun} ({page_text(travel.page)})",
+                ),
             )
 
 
@@ -108,11 +129,8 @@ class GuardedBox:
     """Whether it is the limits of travel."""
 
 
-def guarded_boxes(
-    plan: ProgramPlan, machine: BoundMachine, axes: Sequence[AxisLaw]
-) -> tuple[GuardedBox, ...]:
+def guarded_boxes(path: ToolPath, machine: BoundMachine, axes: Sequence[AxisLaw]) -> tuple[GuardedBox, ...]:
     """Return the limits of travel, and the zones that are on at power-up or in the program."""
-    path = plan.path
     if not path.zero_known:
         return ()
     boxes: list[GuardedBox] = []
@@ -130,35 +148,74 @@ def _zone_boxes(path: ToolPath, machine: BoundMachine) -> Iterator[GuardedBox]:
             yield GuardedBox(zone.name, sides, keeps_in=False)
 
 
-def zones_met(plan: ProgramPlan, machine: BoundMachine) -> Iterator[PathAlarm]:
-    """Yield the first place where the path breaks each zone that is on there."""
-    path = plan.path
-    if machine.law.zones is None or not path.zero_known or not len(path):
-        return
-    zones = tuple(machine.law.zones(machine, machine.fitted))
-    if not zones:
-        return
-    points, rows = path_points(plan, ON_ARC)
-    of_path = plan.geometry.row[rows]
-    for zone in zones:
+class ZonesWatch:
+    """Finds the first place where a path breaks each zone that is on there, a stretch after the other."""
+
+    def __init__(self, machine: BoundMachine) -> None:
+        self._machine = machine
+        self._zones = tuple(machine.law.zones(machine, machine.fitted)) if machine.law.zones else ()
+        self._met: dict[int, PathAlarm] = {}
+        self._guards: dict[int, str] = {}
+        """Zone -> what it guards since it was switched on; none while it is off."""
+
+    @property
+    def alarms(self) -> list[PathAlarm]:
+        """What was met, zone by zone."""
+        return [self._met[n] for n in sorted(self._met)]
+
+    def look(self, plan: ProgramPlan) -> None:
+        """Look at one more stretch."""
+        if not self._zones or not plan.path.zero_known or not len(plan.start):
+            return
+        points, rows = path_points(plan, ON_ARC)
+        for n, zone in enumerate(self._zones):
+            if n not in self._met:
+                self._look_at(n, zone, plan, (points, rows))
+
+    def _look_at(self, n: int, zone: Zone, plan: ProgramPlan, outline: tuple[PathRows, Indices]) -> None:
+        path, (points, rows) = plan.path, outline
         sides = {
             path.axes.index(letter): side
             for axis, side in zone.sides.items()
-            if (letter := machine.letter(axis) or axis) in path.axes
+            if (letter := self._machine.letter(axis) or axis) in path.axes
         }
-        is_on = np.array([_is_on(zone, numbers) for numbers in path.zone_sets])[path.zones[of_path]]
-        found = _first_broken(zone, sides, points, is_on) if sides else None
-        if found is not None:
-            piece, place = found
-            where = ", ".join(f"{path.axes[n]} {place[n]:.6g}" for n in sides)
-            row = int(rows[piece])
-            effect = "the block is not begun" if zone.reads_ahead or zone.refuses else "the axes stop there"
-            yield PathAlarm(
-                int(path.line[plan.geometry.row[row]]),
-                float(plan.start[row]),
-                zone.reads_ahead or zone.code,
-                f"{zone.name} is met at {where}: {effect} ({page_text(zone.page)})",
-            )
+        if not sides:
+            return
+        is_on = np.array([_is_on(zone, numbers) for numbers in path.zone_sets])[
+            path.zones[plan.geometry.row[rows]]
+        ][1:]
+        for first, last in _stretches(is_on):
+            # A zone that was on at the end of the stretch before guards what it has guarded.
+            guard = self._guards.get(n) if first == 0 else None
+            guard = guard or _guard_at(zone, {str(axis): float(points[first, axis]) for axis in sides}, sides)
+            self._guards[n] = guard
+            ends = points[first : last + 1]
+            enters = _entered(sides, ends[:-1], ends[1:], keeps_in=guard == "inside")
+            hit = np.flatnonzero(enters <= 1.0)
+            if len(hit):
+                piece = first + int(hit[0])
+                place = points[piece] + float(enters[hit[0]]) * (points[piece + 1] - points[piece])
+                self._met[n] = _zone_alarm(plan, zone, int(rows[piece + 1]), {a: place[a] for a in sides})
+                return
+        if not is_on[-1]:
+            self._guards.pop(n, None)
+
+
+def _guard_at(zone: Zone, begin: dict[str, float], sides: dict[int, tuple[float, float]]) -> str:
+    """Return what a zone that is switched on at a place guards."""
+    named = {str(axis): side for axis, side in sides.items()}
+    return Zone(zone.name, named, zone.guard, True, zone.code).settled(begin).guard
+
+
+def _zone_alarm(plan: ProgramPlan, zone: Zone, row: int, place: dict[int, float]) -> PathAlarm:
+    where = ", ".join(f"{plan.path.axes[axis]} {each:.6g}" for axis, each in place.items())
+    effect = "the block is not begun" if zone.reads_ahead or zone.refuses else "the axes stop there"
+    return PathAlarm(
+        int(plan.path.line[plan.geometry.row[row]]),
+        float(plan.start[row]),
+        zone.reads_ahead or zone.code,
+        f"{zone.name} is met at {where}: {effect} ({page_text(zone.page)})",
+    )
 
 
 def _is_on(zone: Zone, numbers: tuple[str, ...] | None) -> bool:
@@ -166,23 +223,6 @@ def _is_on(zone: Zone, numbers: tuple[str, ...] | None) -> bool:
     if numbers is None:
         return zone.is_on
     return any(zone.has_number(number) for number in numbers)
-
-
-def _first_broken(
-    zone: Zone, sides: dict[int, tuple[float, float]], points: PathRows, is_on: np.ndarray
-) -> tuple[int, PathRows] | None:
-    """Return the end of the first piece that breaks a zone, and where; None without one."""
-    for first, last in _stretches(is_on[1:]):
-        begin = {str(n): float(points[first, n]) for n in sides}
-        named = {str(n): side for n, side in sides.items()}
-        guard = Zone(zone.name, named, zone.guard, True, zone.code).settled(begin).guard
-        enters = _entered(sides, points[first:last], points[first + 1 : last + 1], keeps_in=guard == "inside")
-        hit = np.flatnonzero(enters <= 1.0)
-        if len(hit):
-            piece = int(hit[0])
-            way = points[first + piece + 1] - points[first + piece]
-            return first + piece + 1, points[first + piece] + float(enters[piece]) * way
-    return None
 
 
 def _stretches(is_on: np.ndarray) -> Iterator[tuple[int, int]]:

@@ -10,6 +10,7 @@ import numpy as np
 from amp_studio.sim.path_rules import PathRows
 
 from .geometry import places_of
+from .planned import PlannedProgram
 from .planner import ProgramPlan
 
 
@@ -25,8 +26,13 @@ class PathMoment:
     """Along the path."""
 
 
-def moment_at(plan: ProgramPlan, time: float) -> PathMoment | None:
-    """Return the moment after so many seconds; None for a program that moves nothing.
+def moment_at(program: PlannedProgram, time: float) -> PathMoment | None:
+    """Return the moment after so many seconds; None for a program that moves nothing."""
+    return moment_in(program.stretch_at(time), time)
+
+
+def moment_in(plan: ProgramPlan, time: float) -> PathMoment | None:
+    """Return the moment of a stretch after so many seconds of the program.
 
     Within a ramp the speed is taken to change evenly, which a sin² ramp does but at its ends and middle.
     """

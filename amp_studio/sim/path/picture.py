@@ -30,14 +30,15 @@ from amp_studio.sim.unit_system import length_unit, own_unit, path_error_text, p
 
 from .limits_met import GuardedBox
 from .moment import PathMoment
+from .planned import PlannedProgram
 from .planner import ProgramPlan
 from .profiles import path_points
 from .program import ProgramRun
-from .result import limit_letters, limit_name, main_cause
+from .result import limit_letters, limit_name
+from .summing import SAMPLE, main_cause
 
-MOST_ROWS, MOST_POINTS = 10_000, 4000
-"""Rows that are drawn of a path, and points of them; of more, so many are chosen by chance: each n-th one
-would miss what a program repeats."""
+MOST_POINTS = 4000
+"""Of the rows that are drawn; of more, so many are chosen by chance."""
 SEEN = 1e-3
 """Share of the width of a path that is a step of its picture."""
 MOST_ON_ARCS = 40_000
@@ -61,24 +62,24 @@ def path_picture(
     file: ParameterFile, run: ProgramRun, moment: PathMoment | None = None, colours: PathColours = "limit"
 ) -> Picture:
     """Return the picture of a program in the unit of the file, with a dot where the axes are at a moment."""
-    plan, length = run.plan, length_unit(file)
-    facts = [f"{plan.path.blocks} blocks, {value_text(plan.time, 's', 4)}"]
+    program, plan, length = run.plan, run.plan.sample.plan, length_unit(file)
+    facts = [f"{program.path.blocks} blocks, {value_text(program.time, 's', 4)}"]
     letters = limit_letters(run)
-    times = plan.time_by_cause
+    times = program.time_by_cause
     facts += [
-        f"{letter} {limit_name(file, plan.causes[n])} {100.0 * times[n] / plan.time:.0f} %"
+        f"{letter} {limit_name(file, program.causes[n])} {100.0 * times[n] / program.time:.0f} %"
         for n, letter in letters.items()
         if times[n] > 0.0
     ]
     if run.contour is not None:
         facts.append(f"largest contour error {path_error_text(run.contour.largest, length)}")
-    panels = [_speed(plan, length)]
+    panels = [_speed(program, length)]
     if run.contour is not None:
         unit, per_mm = path_error_unit(length)
         error = Curve("contour error", run.contour.time, per_mm * run.contour.error, "now", dense=True)
         panels.append(panel_of("contour error", (error,), ("time", "s"), unit))
     moving = np.flatnonzero(plan.geometry.length > 0.0)
-    drawn = moving[_chosen(len(moving), MOST_ROWS)]
+    drawn = moving[_chosen(len(moving), SAMPLE)]
     classes = _classes(file, run, letters, colours, drawn)
     points, rows = path_points(plan, _within(plan, drawn), drawn)
     # Twice the class, and 1 more in rapid, of the row that ends in each point; the first has none.
@@ -91,13 +92,8 @@ def path_picture(
     return Picture("program", tuple(facts), tuple(panels), flat, space, bool(run.alarms), run.assumptions)
 
 
-def _speed(plan: ProgramPlan, length: str) -> Scene:
-    start, times = plan.start[:, None], plan.times
-    moments = np.column_stack(
-        [start[:, 0], start[:, 0] + times[:, 0], start[:, 0] + times[:, 0] + times[:, 1]]
-    )
-    time = np.append(moments.ravel(), plan.time)
-    speed = np.append(np.column_stack([plan.entry, plan.peak, plan.peak]).ravel(), 0.0)
+def _speed(program: PlannedProgram, length: str) -> Scene:
+    time, speed = program.speed.points
     curve = Curve("speed", time, 60.0 * speed / canonical(1.0, length), "now")
     return panel_of("speed along the path", (curve,), ("time", "s"), own_unit("mm/min", length))
 
@@ -117,9 +113,9 @@ def _classes(
     file: ParameterFile, run: ProgramRun, letters: dict[int, str], colours: PathColours, rows: Indices
 ) -> _Classes:
     """Return what some rows of a path are coloured by, with the letters and names of the colours."""
-    plan = run.plan
+    plan = run.plan.sample.plan
     if colours == "limit":
-        names = {letter: limit_name(file, plan.causes[n]) for n, letter in letters.items()}
+        names = {letter: limit_name(file, run.plan.causes[n]) for n, letter in letters.items()}
         return _Classes(main_cause(plan, rows), letters, names)
     if colours == "feed":
         wanted = plan.path.feed[plan.geometry.row[rows]]
@@ -172,7 +168,7 @@ def path_scene(
     """Return the path in plan (the first two axes) or tilted (three), in the colours of its classes;
     ``outline`` are its points with the kind of row that ends in each.
     """
-    plan, size = run.plan, canonical(1.0, length)
+    path, size = run.plan.path, canonical(1.0, length)
     points, kinds = outline
     flat = _flat(points / size, tilted=tilted)
     kept = _thinned(flat, kinds)
@@ -193,7 +189,7 @@ def path_scene(
     title = "in space" if tilted else "in plan"
     key = ", ".join(f"{letter} {names[letter]}" for letter in sorted(seen))
     (left, right), (low, high) = (_span(flat[:, n]) for n in (0, 1))
-    axes = plan.path.axes
+    axes = path.axes
     return Scene(
         name=f"path-{'tilted' if tilted else 'plan'}",
         part="program",

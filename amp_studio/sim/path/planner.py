@@ -1,44 +1,29 @@
-"""The speed along a path: limits of each row, corners, look-ahead, ramps; and what limits each piece.
-
-Backward, every row gets the highest speed from which the rows after it can be kept to; forward, the highest
-that the rows before it let it reach (J. Huang, L.-M. Zhu, Feed scheduling of a path in two passes, as every
-planner of short blocks does it). What a row leaves over is run at its own limit.
+"""What a path allows, a stretch of its rows at a time: limits of each row, corners, and the ramps between the
+speeds of `passes.py`; and what limits each piece.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from amp_studio.programs import DWELL, EXACT, RAPID, SLOW, ToolPath
-from amp_studio.sim.command.changes import SYMMETRIC, change_time, change_way, peaks, reached
+from amp_studio.sim.command.changes import change_time, change_way, peaks
 from amp_studio.sim.command.events import Ramp
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.path_rules import (
-    Causes,
-    Corners,
-    Geometry,
-    Indices,
-    PathLimit,
-    PathRows,
-    PathRules,
-    RowBounds,
-    ShapedPath,
-)
+from amp_studio.sim.path_rules import Causes, Corners, Geometry, Indices, PathLimit, PathRows, PathRules
 
 from .geometry import geometry_of
 
+Bounds = tuple[PathRows, Causes]
+"""Values, and by which cause."""
 AS_PROGRAMMED = PathLimit(math.inf, None, "feed as programmed")
 DWELLS = PathLimit(0.0, None, "dwell")
-EVERY = 16384
-"""Rows between two reports of progress, each of which may cancel the planning."""
-_ROUNDING = 1e-9
-"""Share of the time of a program that is only the rounding of sums."""
 SAME = 1e-12
 """Share of the way below which an axis does not move in a row: what is left of it is rounding."""
 
@@ -63,7 +48,7 @@ class CauseTable:
 
 @dataclass(frozen=True)
 class ProgramPlan:
-    """When every row is where; (rows,) unless noted. Speeds u/s, times s."""
+    """When every row of a stretch is where; (rows,) unless noted. Speeds u/s, times s."""
 
     path: ToolPath
     geometry: Geometry
@@ -90,12 +75,12 @@ class ProgramPlan:
 
     @property
     def time(self) -> float:
-        """Of the whole program."""
+        """When the last row ends."""
         return float(self.start[-1] + self.times[-1].sum() + self.rest[-1]) if len(self.start) else 0.0
 
-    @cached_property
+    @property
     def time_by_cause(self) -> PathRows:
-        """The time in s of each limit, (causes,); 0 for one whose time is the rounding of a sum."""
+        """The time in s of each limit, (causes,)."""
         found = np.zeros(len(self.causes))
         for cause, time in (
             (self.faster_by, self.times[:, 0]),
@@ -104,37 +89,51 @@ class ProgramPlan:
             (self.rest_by, self.rest),
         ):
             found += np.bincount(cause, time, len(found))
-        return np.where(found > _ROUNDING * found.sum(), found, 0.0)
+        return found
 
-    def time_of_lines(self, rows: Indices | slice = slice(None)) -> dict[int, float]:
-        """Return line of the program -> its time in s; of some rows alone."""
-        whole = self.times[rows].sum(axis=1) + self.rest[rows]
-        lines = self.path.line[self.geometry.row[rows]]
-        sums, present = np.bincount(lines, whole), np.unique(lines)
-        return dict(zip(present.tolist(), sums[present].tolist(), strict=True))
+    @property
+    def lines(self) -> Indices:
+        """Line of the program of each row, from 1."""
+        return self.path.line[self.geometry.row].astype(np.int64)
+
+    @property
+    def whole(self) -> PathRows:
+        """Time in s of each row with its rest."""
+        rows: PathRows = self.times.sum(axis=1) + self.rest
+        return rows
 
 
-def plan_program(
+@dataclass
+class StretchBounds:
+    """What bounds the rows of a stretch by themselves and at their corners; (rows,). Speeds u/s."""
+
+    path: ToolPath
+    geometry: Geometry
+    is_rapid: npt.NDArray[np.bool_]
+    programmed: PathRows
+    top: PathRows
+    top_by: Causes
+    acceleration: PathRows
+    ramp_by: Causes
+    deceleration: PathRows
+    slower_by: Causes
+    entry: PathRows
+    """The highest speed at which a row may begin."""
+    entry_by: Causes
+
+
+def stretch_bounds(
     path: ToolPath,
     rules: PathRules,
-    waits: Callable[[int], float] = lambda _row: 0.0,
-    progress: Callable[[float], None] = lambda _share: None,
-) -> ProgramPlan:
-    """Return when every row of a path is where.
-
-    ``waits`` gives the time in s that the axes need to be in position after a row that ends exactly;
-    ``progress`` gets the share that is done, and may raise to cancel. Raises SimulationError.
+    table: CauseTable,
+    shaped: Callable[[ShapedLimits], None] | None = None,
+    *,
+    goes_on: bool = False,
+) -> StretchBounds:
+    """Return what bounds the rows of a path; that which ``goes_on`` begins with the last row of the stretch
+    before it, which is left out. Raises SimulationError.
     """
-    # All below uses the mean of both ends as the mean speed of a ramp, which an exponential one has not.
-    for ramp in (rules.feed_ramp, rules.rapid_ramp):
-        if ramp.kind not in SYMMETRIC:
-            raise SimulationError(f"A path with {ramp.kind} ramps is not simulated")
     geometry = geometry_of(path, rules.chord.value if rules.chord else None)
-    shaped = rules.shape(path, geometry) if rules.shape else None
-    if shaped is not None:
-        path, geometry = shaped.path, geometry_of(shaped.path, None)
-    progress(0.1)
-    table = CauseTable()
     kind = path.kind[geometry.row]
     is_rapid = kind == RAPID
     # What a row allows by itself comes first, then the corner behind it. Each step only lowers values and
@@ -145,48 +144,73 @@ def plan_program(
     deceleration, slower_by = _accelerations(path, geometry, rules, table, is_rapid, slower)
     for values, by in ((top, top_by), (acceleration, ramp_by), (deceleration, slower_by)):
         _check_moves(geometry, table, values, by)
-    slopes = acceleration, deceleration
     joint, joint_by = _joints(path, geometry, rules, table, top)
     if shaped is not None:
-        _shape(
-            shaped,
-            table,
-            (top, top_by),
-            (joint, joint_by),
-            (acceleration, ramp_by),
-            (deceleration, slower_by),
+        shaped(
+            ShapedLimits((top, top_by), (joint, joint_by), (acceleration, ramp_by), (deceleration, slower_by))
         )
-    progress(0.3)
-    entry, entry_by = _look_ahead(geometry, rules, table, is_rapid, slopes, joint, joint_by, progress)
-    leave = np.append(entry[1:], 0.0)
-    leave_by = np.append(entry_by[1:], -1)
+    # A row begins with the joint before it; the first one at rest, which nothing of the file bounds.
+    entry = np.concatenate([[0.0], joint[:-1]]) if len(joint) else joint
+    entry_by = np.concatenate([[-1], joint_by[:-1]]).astype(np.int16) if len(joint) else joint_by
+    own = int(np.count_nonzero(geometry.row == 0)) if goes_on else 0
+    columns = (is_rapid, wanted, top, top_by, acceleration, ramp_by, deceleration, slower_by, entry, entry_by)
+    if own:
+        path, geometry = path.rows(1, len(path)), _without(geometry, own)
+    kept: list[Any] = [each[own:] for each in columns]
+    return StretchBounds(path, geometry, *kept)
+
+
+def _without(geometry: Geometry, own: int) -> Geometry:
+    """Return the geometry without the first rows, which are of the first row of the path."""
+    columns = {each.name: getattr(geometry, each.name)[own:] for each in fields(geometry)}
+    return Geometry(**{**columns, "row": columns["row"] - 1})
+
+
+@dataclass(frozen=True)
+class Speeds:
+    """Speed u/s at which each row of a stretch begins, what bounds it, and that after the last row."""
+
+    entry: PathRows
+    entry_by: Causes
+    after: float
+    after_by: int
+
+
+def stretch_plan(
+    bounds: StretchBounds, rules: PathRules, table: CauseTable, speeds: Speeds, wait: float, begun: float
+) -> ProgramPlan:
+    """Return when every row of a stretch that begins after ``begun`` s is where; ``wait`` is the time in s
+    that the axes need to be in position after a row that ends exactly.
+    """
+    entry, entry_by, geometry = speeds.entry, speeds.entry_by, bounds.geometry
+    leave = np.append(entry[1:], speeds.after) if len(entry) else entry
+    leave_by = np.append(entry_by[1:], speeds.after_by) if len(entry) else entry_by
+    slopes = bounds.acceleration, bounds.deceleration
+    peak, times = _ramps(geometry, rules, bounds.is_rapid, entry, leave, bounds.top, slopes)
     # The look-ahead bounds the speed at an end of a row. The ramp towards that end is run because of it, and
     # its time counts for it, not for the acceleration.
-    peak, times = _ramps(geometry, rules, is_rapid, entry, leave, top, slopes)
-    ahead = table.number(rules.look_ahead) if rules.look_ahead else -1
-    rest, rest_by = _rests(path, geometry, rules, table, leave, waits)
+    ahead = table.number(rules.look_ahead) if rules.look_ahead else -2
+    rest, rest_by = _rests(bounds.path, geometry, rules, table, leave, wait)
     whole = times.sum(axis=1) + rest
-    start = np.concatenate([[0.0], np.cumsum(whole)[:-1]]) if len(whole) else whole
-    progress(1.0)
     return ProgramPlan(
-        path,
-        geometry,
-        entry,
-        peak,
-        leave,
-        acceleration,
-        deceleration,
-        times,
-        rest,
-        start,
-        np.where(entry_by == ahead, ahead, ramp_by).astype(np.int16) if ahead >= 0 else ramp_by,
-        top_by,
-        np.where(leave_by == ahead, ahead, slower_by).astype(np.int16) if ahead >= 0 else slower_by,
-        rest_by,
-        tuple(table.limits),
-        (rules.feed_ramp, rules.rapid_ramp),
-        is_rapid,
-        wanted,
+        path=bounds.path,
+        geometry=geometry,
+        entry=entry,
+        peak=peak,
+        leave=leave,
+        acceleration=bounds.acceleration,
+        deceleration=bounds.deceleration,
+        times=times,
+        rest=rest,
+        start=begun + np.concatenate([[0.0], np.cumsum(whole)[:-1]]) if len(whole) else whole,
+        faster_by=np.where(entry_by == ahead, ahead, bounds.ramp_by).astype(np.int16),
+        even_by=bounds.top_by,
+        slower_by=np.where(leave_by == ahead, ahead, bounds.slower_by).astype(np.int16),
+        rest_by=rest_by,
+        causes=tuple(table.limits),
+        ramps=(rules.feed_ramp, rules.rapid_ramp),
+        is_rapid=bounds.is_rapid,
+        programmed=bounds.programmed,
     )
 
 
@@ -199,30 +223,33 @@ def _check_moves(geometry: Geometry, table: CauseTable, values: PathRows, by: Ca
         raise SimulationError(f"{named or limit.title} is 0: a move along the path would never end", named)
 
 
-def _shape(
-    shaped: ShapedPath,
-    table: CauseTable,
-    speed: tuple[PathRows, Causes],
-    joint: tuple[PathRows, Causes],
-    *ramps: tuple[PathRows, Causes],
-) -> None:
-    """Lower what bounds the rows to what the control made of them."""
-    numbers = np.array([table.number(limit) for limit in shaped.limits], np.int16)
+@dataclass(frozen=True)
+class ShapedLimits:
+    """What a control that shapes its path may lower: values (rows,), and by what."""
 
-    def lower(values: tuple[PathRows, Causes], bounds: RowBounds) -> None:
-        lower = bounds.value < values[0]
-        values[0][lower], values[1][lower] = bounds.value[lower], numbers[bounds.by[lower]]
+    speed: tuple[PathRows, Causes]
+    joint: tuple[PathRows, Causes]
+    faster: tuple[PathRows, Causes]
+    slower: tuple[PathRows, Causes]
 
-    lower(speed, shaped.speed)
-    # A joint is never faster than the rows on its sides, and those have just become slower.
-    if len(joint[0]):
-        joint[0][:-1] = np.minimum(joint[0][:-1], np.minimum(speed[0][:-1], speed[0][1:]))
-    lower(joint, shaped.joint)
-    for values in ramps:
-        lower(values, shaped.acceleration)
+    def lower(self, speed: Bounds, acceleration: Bounds, joint: Bounds) -> None:
+        """Lower what bounds the rows to what the control made of them: values, and the numbers of causes."""
+        _lower_to(self.speed, speed)
+        # A joint is never faster than the rows on its sides, and those have just become slower.
+        if len(self.joint[0]):
+            most = np.minimum(self.speed[0][:-1], self.speed[0][1:])
+            self.joint[0][:-1] = np.minimum(self.joint[0][:-1], most)
+        _lower_to(self.joint, joint)
+        for values in (self.faster, self.slower):
+            _lower_to(values, acceleration)
 
 
-def _lowered(
+def _lower_to(values: tuple[PathRows, Causes], bounds: Bounds) -> None:
+    lower = bounds[0] < values[0]
+    values[0][lower], values[1][lower] = bounds[0][lower], bounds[1][lower]
+
+
+def lowered(
     value: PathRows, by: Causes, bound: PathRows, cause: int, where: npt.NDArray[np.bool_] | None = None
 ) -> None:
     """Lower values to a bound where it is lower, and write down by what."""
@@ -250,7 +277,7 @@ def _of_axes(
         share = geometry.share[:, n]
         bound = np.full(len(share), math.inf)
         np.divide(limit.value, share, out=bound, where=share > SAME)
-        _lowered(value, by, bound, table.number(limit), where)
+        lowered(value, by, bound, table.number(limit), where)
 
 
 def _tops(
@@ -263,7 +290,7 @@ def _tops(
     top, by = wanted.copy(), np.zeros(len(wanted), np.int16)
     for limits, where, share in ((rules.feed, ~is_rapid, 1.0), (rules.rapid, is_rapid, rules.rapid_override)):
         for limit in limits:
-            _lowered(top, by, np.full(len(top), limit.value * share), table.number(limit), where)
+            lowered(top, by, np.full(len(top), limit.value * share), table.number(limit), where)
     rapid = rules.axis_speed if rules.axis_rapid is None else rules.axis_rapid
     _of_axes(top, by, geometry, path, rules.axis_speed, table, ~is_rapid)
     _of_axes(top, by, geometry, path, rapid, table, is_rapid)
@@ -273,7 +300,7 @@ def _tops(
         top[is_rapid] *= rules.rapid_override
     if rules.arc is not None and geometry.is_arc.any():
         for limit, bound in rules.arc(geometry.radius):
-            _lowered(top, by, bound, table.number(limit), geometry.is_arc)
+            lowered(top, by, bound, table.number(limit), geometry.is_arc)
     moving = geometry.length > 0.0
     if not np.isfinite(top[moving]).all():
         raise SimulationError(
@@ -302,7 +329,7 @@ def _accelerations(
         for limit in limits:
             # 0 is "no ramp" here, as in `Ramp`: no bound.
             bound = np.full(count, limit.value if limit.value > 0.0 else math.inf)
-            _lowered(value, by, bound, table.number(limit), where)
+            lowered(value, by, bound, table.number(limit), where)
     rapid = of_axes if rules.axis_rapid_acceleration is None else rules.axis_rapid_acceleration
     for own, where in ((of_axes, ~is_rapid), (rapid, is_rapid)):
         axes = {name: limit for name, limit in own.items() if limit.value > 0.0}
@@ -325,122 +352,15 @@ def _joints(
     inside = geometry.row[:-1] == geometry.row[1:]  # pieces of one arc: no end of a block
     slow = (corner[:-1] == SLOW) & ~inside
     for limit, bound in rules.corner(Corners(path.axes, geometry.last[:-1], geometry.first[1:], slow)):
-        _lowered(joint[:-1], by[:-1], bound, table.number(limit))
+        lowered(joint[:-1], by[:-1], bound, table.number(limit))
     kind = path.kind[geometry.row]
     stops = (corner[:-1] == EXACT) & ~inside
-    _lowered(joint[:-1], by[:-1], np.zeros(count - 1), table.number(rules.stop), stops)
+    lowered(joint[:-1], by[:-1], np.zeros(count - 1), table.number(rules.stop), stops)
     rests = (kind == DWELL) | ((kind == RAPID) & rules.rapid_rests)
     # Both ends of a rest: the axes do not move while it lasts.
     joint[:-1][rests[:-1] | rests[1:]] = 0.0
     joint[-1] = 0.0
     return joint, by
-
-
-def _look_ahead(
-    geometry: Geometry,
-    rules: PathRules,
-    table: CauseTable,
-    is_rapid: npt.NDArray[np.bool_],
-    slopes: tuple[PathRows, PathRows],
-    joint: PathRows,
-    joint_by: Causes,
-    progress: Callable[[float], None],
-) -> tuple[PathRows, Causes]:
-    """Return the speed at which each row begins, and what bounds it."""
-    count = len(joint)
-    # A row begins with the joint before it; the first one at rest, which nothing of the file bounds.
-    entry_by = np.concatenate([[-1], joint_by[:-1]]).astype(np.int16) if count else joint_by
-    most = np.concatenate([[0.0], joint[:-1]]) if count else joint
-    straight = all(ramp.kind in ("none", "linear") for ramp in (rules.feed_ramp, rules.rapid_ramp))
-    # Braking ways add up as v² = 2 a s with straight ramps only.
-    if rules.look_ahead is not None and straight:
-        # The rows that are known must be enough to stop in: their braking ways are added up. That bound is
-        # all a shorter look-ahead changes, as every bound of a row farther ahead is higher than it.
-        known = max(1, int(rules.look_ahead.value))
-        # Finite, as the difference of two infinite sums is no number.
-        braking = np.where(np.isfinite(slopes[1]), slopes[1], 1e12)
-        gain = np.concatenate([[0.0], np.cumsum(2.0 * braking * geometry.length)])
-        room = gain[np.minimum(np.arange(count) + known, count)] - gain[:-1]
-        _lowered(most, entry_by, np.sqrt(room), table.number(rules.look_ahead))
-    if straight:
-        return _straight_passes(most, geometry.length, slopes, progress), entry_by
-    ramps = [rules.rapid_ramp if rapid else rules.feed_ramp for rapid in is_rapid.tolist()]
-    return _curved_passes(ramps, most, geometry.length, slopes, progress), entry_by
-
-
-def _straight_passes(
-    most: PathRows, length: PathRows, slopes: tuple[PathRows, PathRows], progress: Callable[[float], None]
-) -> PathRows:
-    """Return the speeds at which rows begin, as `_curved_passes`, with straight ramps."""
-    bound = most * most
-    # More than the greatest square lowers nothing: so is a ramp without an end, whatever its way is.
-    with np.errstate(invalid="ignore"):
-        faster, slower = (
-            np.nan_to_num(
-                np.minimum(2.0 * slope * length, bound.max(initial=0.0)), nan=bound.max(initial=0.0)
-            )
-            for slope in slopes
-        )
-    # Backward from rest at the end, then forward.
-    square = lowest_sums(np.append(0.0, bound[::-1]), slower[::-1])[:0:-1]
-    progress(0.6)
-    square = lowest_sums(square, faster[:-1])
-    progress(0.9)
-    return np.where(square < bound, np.sqrt(square), most)
-
-
-CHUNK = 512
-"""Rows whose sums are taken together: few enough to keep them exact, many enough to be fast."""
-
-
-def lowest_sums(bound: PathRows, gain: PathRows) -> PathRows:
-    """Return the highest values of which none is above its ``bound`` (n), nor above the one before it by more
-    than ``gain`` (n - 1). A value at its bound is that bound, bit for bit.
-
-    Each is the lowest of all bounds before it plus the gains from there on, so that no loop is needed.
-    """
-    count = len(bound)
-    chunks = max(-(-count // CHUNK), 1)
-    most, step = np.full((2, chunks * CHUNK), [[math.inf], [0.0]])
-    most[:count], step[1:count] = bound, gain
-    most, step = most.reshape(chunks, CHUNK), step.reshape(chunks, CHUNK)
-    way = np.cumsum(step, axis=1)
-    low = np.minimum.accumulate(most - way, axis=1)
-    before, last = np.empty(chunks), math.inf
-    for n, (own, whole) in enumerate(zip(low[:, -1].tolist(), way[:, -1].tolist(), strict=True)):
-        before[n] = last
-        last = min(own, last) + whole
-    earlier = np.minimum(np.hstack([before[:, None], low[:, :-1]]), before[:, None])
-    found: PathRows = np.minimum(most, earlier + way).ravel()[:count]
-    return found
-
-
-def _curved_passes(
-    ramps: Sequence[Ramp],
-    most: PathRows,
-    length: PathRows,
-    slopes: tuple[PathRows, PathRows],
-    progress: Callable[[float], None],
-) -> PathRows:
-    """Return the speeds at which rows begin, of which none is above ``most``."""
-    ways, speeds, count = length.tolist(), most.tolist(), len(most)
-    faster, slower = (each.tolist() for each in slopes)
-    after = 0.0
-    # Backward: from the end of the program, where the axes rest, no row may begin faster than it can brake to
-    # what the next one begins with.
-    for n in range(count - 1, -1, -1):
-        can = reached(ramps[n], after, ways[n], slower[n]) if ways[n] else after
-        after = speeds[n] = min(speeds[n], can)
-        if n % EVERY == 0:
-            progress(0.3 + 0.3 * (count - n) / count)
-    # Forward: of that, a row reaches only what it can accelerate to. What is lowered here is never below the
-    # beginning of its row, so that no row has to brake for it.
-    for n in range(count - 1):
-        can = reached(ramps[n], speeds[n], ways[n], faster[n]) if ways[n] else speeds[n]
-        speeds[n + 1] = min(speeds[n + 1], can)
-        if n % EVERY == 0:
-            progress(0.6 + 0.3 * n / count)
-    return np.array(speeds)
 
 
 def _ramps(
@@ -473,12 +393,7 @@ def _ramps(
 
 
 def _rests(
-    path: ToolPath,
-    geometry: Geometry,
-    rules: PathRules,
-    table: CauseTable,
-    leave: PathRows,
-    waits: Callable[[int], float],
+    path: ToolPath, geometry: Geometry, rules: PathRules, table: CauseTable, leave: PathRows, wait: float
 ) -> tuple[PathRows, Causes]:
     """Return how long the axes rest at the end of each row, and why."""
     rest = path.seconds[geometry.row].copy()
@@ -491,7 +406,5 @@ def _rests(
         # An arc in pieces ends with the last of them.
         last = np.append(geometry.row[:-1] != geometry.row[1:], True)
         exact = (path.corner[geometry.row] == EXACT) & (path.kind[geometry.row] != DWELL) & last
-        cause = table.number(rules.stop)
-        for n in np.flatnonzero(exact).tolist():
-            rest[n], by[n] = waits(n), cause
+        rest[exact], by[exact] = wait, table.number(rules.stop)
     return rest, by

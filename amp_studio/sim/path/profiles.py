@@ -15,18 +15,13 @@ from amp_studio.sim.path_rules import Indices, PathRows
 from .geometry import places_of, plane_columns
 from .planner import ProgramPlan
 
-MOST_ROWS = 50_000
-"""Rows of a path that the servo loops are run on."""
-
 
 def axis_profiles(plan: ProgramPlan) -> list[list[float]]:
     """Return the flat profile of each axis; positions from 0 on.
 
-    Raises SimulationError for a path that is too long to be run, or whose arcs have curved ramps.
+    Raises SimulationError for a path whose arcs have curved ramps.
     """
     count = len(plan.path.axes)
-    if len(plan.entry) > MOST_ROWS:
-        raise SimulationError(f"The path has more than {MOST_ROWS} moves")
     profiles: list[list[float]] = [[] for _ in range(count)]
     geometry, now = plan.geometry, 0.0
     origin = plan.path.start

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
 
@@ -22,9 +22,12 @@ from amp_studio.sim.path_rules import PathRules
 from amp_studio.sim.run import bound_machine
 
 from .contour import ContourError, contour_error
-from .limits_met import GuardedBox, PathAlarm, guarded_boxes, limits_met, zones_met
-from .planner import ProgramPlan, plan_program
+from .limits_met import GuardedBox, LimitsWatch, PathAlarm, ZonesWatch, guarded_boxes
+from .planned import PlannedProgram
+from .planner import ProgramPlan
 
+MOST_ROWS = 50_000
+"""Rows of a path that the servo loops are run on."""
 LONGEST_WAIT = 5.0
 """s that an exact stop is waited for in position."""
 NO_ZERO = (
@@ -36,7 +39,7 @@ NO_ZERO = (
 class ProgramRun:
     """A program under one file."""
 
-    plan: ProgramPlan
+    plan: PlannedProgram
     alarms: tuple[PathAlarm, ...]
     contour: ContourError | None
     why_no_contour: str
@@ -49,7 +52,7 @@ class ProgramRun:
 
 def run_program(
     file: ParameterFile,
-    path: ToolPath,
+    parts: Iterable[ToolPath],
     *,
     override: float = 1.0,
     rapid_override: float = 1.0,
@@ -57,7 +60,8 @@ def run_program(
     with_contour: bool = True,
     progress: Callable[[float], None] = lambda _share: None,
 ) -> ProgramRun:
-    """Return a program in motion; ``override`` and ``rapid_override`` are shares of feed and rapid.
+    """Return a program in motion, whose path comes in ``parts``; ``override`` and ``rapid_override`` are
+    shares of feed and rapid.
 
     Raises SimulationError where a value is missing or no page prints how the family goes along a path.
     """
@@ -70,21 +74,25 @@ def run_program(
     machine = bound_machine(file, law, (), model or {}, read.append)
     rules: PathRules = load_part(law.path)(machine)
     rules = replace(rules, override=override, rapid_override=rapid_override)
-    axes = _axes(machine, path)
-    waits = _Waits(axes, rules.feed_ramp if rules.waits else Ramp())
-    # First without waits: how long one is depends on the speed into the stop.
-    plan = plan_program(path, rules, progress=lambda share: progress(0.5 * share))
+    plan = PlannedProgram(parts, rules, progress)
     path = plan.path
+    axes = _axes(machine, path)
     notes = [*path.assumptions, *rules.assumptions]
+    wait = 0.0
     if rules.waits:
-        waits.look(plan)
-        if waits.wait:
-            plan = plan_program(path, rules, waits=lambda _row: waits.wait, progress=progress)
+        # How long a wait is depends on the speed into the stop, which depends on no wait.
+        waits = _Waits(axes, rules.feed_ramp)
+        for stretch in plan:
+            waits.look(stretch)
+        wait = waits.wait()
+        if wait:
             notes.append(
-                f"An exact stop waits {waits.wait:.3g} s until the axes are in position: that of the largest"
+                f"An exact stop waits {wait:.3g} s until the axes are in position: that of the largest"
                 " of them, moved by itself."
             )
-    alarms = [*limits_met(plan, axes), *zones_met(plan, machine)]
+    travel, zones = LimitsWatch(axes), ZonesWatch(machine)
+    plan.add_up(wait, (travel.look, zones.look))
+    alarms = [*travel.alarms, *zones.alarms]
     if not path.zero_known:
         notes.append(NO_ZERO)
     contour, why = None, "not asked for"
@@ -103,13 +111,13 @@ def run_program(
         why,
         tuple(read),
         tuple(dict.fromkeys(notes)),
-        guarded_boxes(plan, machine, axes),
+        guarded_boxes(path, machine, axes),
     )
 
 
-def _alarms_on(plan: ProgramPlan, contour: ContourError) -> Iterator[PathAlarm]:
+def _alarms_on(plan: PlannedProgram, contour: ContourError) -> Iterator[PathAlarm]:
     for alarm in contour.alarms:
-        yield PathAlarm(_line_at(plan, alarm.time_s), alarm.time_s, alarm.code, alarm.message)
+        yield PathAlarm(_line_at(plan.whole, alarm.time_s), alarm.time_s, alarm.code, alarm.message)
 
 
 def home_positions(file: ParameterFile, letters: Sequence[str]) -> list[float]:
@@ -140,22 +148,31 @@ class _Waits:
 
     def __init__(self, axes: list[AxisLaw], ramp: Ramp) -> None:
         self._axes, self._ramp = axes, ramp
-        self.wait = 0.0
+        self._fastest: tuple[float, list[tuple[AxisLaw, float, float, float]]] = (-1.0, [])
 
     def look(self, plan: ProgramPlan) -> None:
-        """Take the largest exact stop of the plan as the example."""
+        """Take the fastest exact stop of a stretch as the example."""
         # 1 is the dwell, and what rows without any rest have.
         exact = np.flatnonzero((plan.rest_by != 1) & (plan.times.sum(axis=1) > 0.0))
         if not len(exact):
             return
-        # One example, the fastest: the loops at every stop would be run for longer than the program.
+        # One example: the loops at every stop would be run for longer than the program.
         row = int(exact[np.argmax(plan.peak[exact])])
-        for n, axis in enumerate(self._axes):
-            share = float(plan.geometry.share[row, n])
-            speed = share * float(plan.peak[row])
-            if speed > 0.0 and axis.inposition_band > 0.0:
-                ramp = replace(self._ramp, acceleration=share * float(plan.acceleration[row]))
-                self.wait = max(self.wait, _wait(axis, share * float(plan.geometry.length[row]), speed, ramp))
+        peak, way, slope = (float(each[row]) for each in (plan.peak, plan.geometry.length, plan.acceleration))
+        if peak > self._fastest[0]:
+            shares = zip(self._axes, plan.geometry.share[row].tolist(), strict=True)
+            self._fastest = peak, [(axis, share * way, share * peak, share * slope) for axis, share in shares]
+
+    def wait(self) -> float:
+        """Return the time in s."""
+        return max(
+            (
+                _wait(axis, way, speed, replace(self._ramp, acceleration=slope))
+                for axis, way, speed, slope in self._fastest[1]
+                if speed > 0.0 and axis.inposition_band > 0.0
+            ),
+            default=0.0,
+        )
 
 
 def _wait(axis: AxisLaw, way: float, speed: float, ramp: Ramp) -> float:
@@ -170,8 +187,11 @@ def _wait(axis: AxisLaw, way: float, speed: float, ramp: Ramp) -> float:
     return float(time[after][-1] - end) if after.any() else 0.0
 
 
-def _contour(plan: ProgramPlan, axes: list[AxisLaw]) -> tuple[ContourError | None, str]:
+def _contour(program: PlannedProgram, axes: list[AxisLaw]) -> tuple[ContourError | None, str]:
     """Return the contour error, or why there is none."""
+    if program.rows > MOST_ROWS:
+        return None, f"The path has more than {MOST_ROWS} moves"
+    plan = program.whole
     if not len(plan.entry):
         return None, "the program moves nothing"
     # The end of a whole circle is its start: an axis moves where it has a share in a row.

@@ -11,11 +11,12 @@ import numpy as np
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value, show_value
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.path_rules import Indices, PathLimit
+from amp_studio.sim.path_rules import PathLimit
 from amp_studio.sim.rounding import rounded, value_text
 from amp_studio.sim.unit_system import in_text, length_unit, path_error_text, path_error_unit
 
 from .job import ProgramVersion, WhatIf, scaled
+from .planned import PlannedProgram
 from .planner import ProgramPlan
 from .program import ProgramRun
 
@@ -43,38 +44,40 @@ def limit_letters(run: ProgramRun) -> dict[int, str]:
     return {0: "A", **{n: letter for letter, n in zip(_LETTERS, order, strict=False)}}
 
 
-def main_cause(plan: ProgramPlan, rows: Indices) -> Indices:
-    """Return for some rows the cause of most of their time, (rows,)."""
-    causes = np.column_stack([plan.faster_by[rows], plan.even_by[rows], plan.slower_by[rows]]).astype(
-        np.int64
-    )
-    times = plan.times[rows]
-    # A ramp up and down by the same limit is one share of the row.
-    same = causes[:, 0] == causes[:, 2]
-    times[same, 0] += times[same, 2]
-    chosen: Indices = causes[np.arange(len(causes)), np.argmax(times, axis=1)]
-    return chosen
-
-
 def line_rows(run: ProgramRun, most: int) -> dict[int, tuple[str, float]]:
     """Return line of the program, up to ``most`` -> letter of what limits it longest ("R" in rapid),
     and its time in s.
     """
-    plan, letters = run.plan, limit_letters(run)
-    lines = plan.path.line[plan.geometry.row]
-    rows = np.flatnonzero(lines <= most)
-    lines, times = lines[rows], plan.times[rows].sum(axis=1)
-    order = np.lexsort((-times, lines))
-    longest = rows[order[np.unique(lines[order], return_index=True)[1]]]
-    causes = zip(main_cause(plan, longest).tolist(), plan.is_rapid[longest].tolist(), strict=True)
-    limits = ["R" if rapid else letters.get(cause, "") for cause, rapid in causes]
-    return dict(
-        zip(
-            np.unique(lines).tolist(),
-            zip(limits, plan.time_of_lines(rows).values(), strict=True),
-            strict=True,
-        )
-    )
+    letters = limit_letters(run)
+    return {
+        line: ("R" if rapid else letters.get(cause, ""), time)
+        for line, cause, rapid, time in run.plan.listed.of_lines(most)
+    }
+
+
+class LinesOfTime(list[dict[str, Any]]):
+    """The time of each line, which is written as it comes: a list in memory would grow with the program."""
+
+    def __init__(self, plan: PlannedProgram) -> None:
+        super().__init__()
+        self._plan = plan
+
+    def __len__(self) -> int:
+        return self._plan.moves
+
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        sums, present = np.zeros(1), np.zeros(1, bool)
+        # A line may be run again by a loop: its sum is not known before the end.
+        for plan in self._plan:
+            lines = plan.lines
+            if len(lines) and lines.max() >= len(sums):
+                sums, present = (
+                    np.pad(each, (0, int(lines.max()) + 1 - len(sums))) for each in (sums, present)
+                )
+            sums += np.bincount(lines, plan.whole, len(sums))
+            present[lines] = True
+        for line in np.flatnonzero(present).tolist():
+            yield {"line": line, "time_s": rounded(float(sums[line]), 6)}
 
 
 def limited_by(file: ParameterFile, run: ProgramRun) -> list[dict[str, Any]]:
@@ -114,7 +117,6 @@ def program_summary(
 ) -> dict[str, Any]:
     """Return a program as JSON; lengths in mm or deg."""
     plan, contour = run.plan, run.contour
-    lines = plan.time_of_lines()
     return {
         "file": str(file.header.name),
         "time": {"value": rounded(plan.time, 7), "unit": "s"},
@@ -140,7 +142,7 @@ def program_summary(
             }
             for alarm in run.alarms
         ],
-        "blocks": [{"line": line, "time_s": rounded(time, 6)} for line, time in lines.items()],
+        "blocks": LinesOfTime(plan),
         "read_blocks": plan.path.blocks,
         "what_if": [try_summary(file, run, each) for each in tries],
         "versions": [{"file": each.name, **run_against(run, each.run, each.why_not)} for each in others],
@@ -151,7 +153,7 @@ def program_summary(
 def _line(run: ProgramRun) -> int:
     assert run.contour is not None
     row = int(run.contour.row[run.contour.worst])
-    return int(run.plan.path.line[run.plan.geometry.row[row]])
+    return int(run.plan.whole.lines[row])
 
 
 def try_summary(file: ParameterFile, before: ProgramRun, each: WhatIf) -> dict[str, Any]:
@@ -212,7 +214,7 @@ def _lines(
 ) -> Iterator[str]:
     """Yield what a program takes, by what it is limited, and its alarms, a line each."""
     plan = run.plan
-    yield f"{plan.path.blocks} blocks, {len(plan.path)} moves, {value_text(plan.time, 's', 5)}"
+    yield f"{plan.path.blocks} blocks, {plan.moves} moves, {value_text(plan.time, 's', 5)}"
     yield from _shares_of_time(file, run)
     yield contour_text(file, run)
     if tries:
@@ -229,7 +231,7 @@ def _lines(
 
 
 def _shares_of_time(file: ParameterFile, run: ProgramRun) -> Iterator[str]:
-    if len(run.plan.path):
+    if run.plan.moves:
         yield "Where the time goes:"
     for row in limited_by(file, run):
         if row["share"] >= SMALL:
@@ -260,23 +262,26 @@ def _other_line(file: ParameterFile, before: ProgramRun, run: ProgramRun | None,
     return text
 
 
-def program_csv(file: ParameterFile, run: ProgramRun) -> str:
-    """Return a row for each planned move: line, start, time, speeds, ends of the axes, what limits it."""
-    plan = run.plan
-    names = [limit_name(file, limit) for limit in plan.causes]
+def program_csv(file: ParameterFile, run: ProgramRun) -> Iterator[str]:
+    """Yield a row for each planned move, many at a time: line, start, time, speeds, ends of the axes, what
+    limits it.
+    """
+    names = [limit_name(file, limit) for limit in run.plan.causes]
     head = ["line", "start_s", "time_s", "length_mm", "entry_mm_s", "peak_mm_s", "leave_mm_s"]
-    head += [f"{axis}_mm" for axis in plan.path.axes] + ["faster_by", "even_by", "slower_by"]
-    whole = plan.times.sum(axis=1) + plan.rest
-    numbers = np.column_stack(
-        [plan.start, whole, plan.geometry.length, plan.entry, plan.peak, plan.leave, plan.geometry.ends]
-    )
+    head += [f"{axis}_mm" for axis in run.plan.path.axes] + ["faster_by", "even_by", "slower_by"]
+    yield ",".join(head) + "\n"
+    for plan in run.plan:
+        yield "".join(f"{row}\n" for row in _csv_rows(plan, names))
+
+
+def _csv_rows(plan: ProgramPlan, names: Sequence[str]) -> Iterator[str]:
+    columns = [plan.start, plan.whole, plan.geometry.length, plan.entry, plan.peak, plan.leave]
+    numbers = np.column_stack([*columns, plan.geometry.ends])
     causes = np.column_stack([plan.faster_by, plan.even_by, plan.slower_by])
-    lines = plan.path.line[plan.geometry.row]
-    rows = [",".join(head)]
-    for n in range(len(whole)):
+    lines = plan.lines
+    for n in range(len(lines)):
         named = [
             f'"{names[cause]}"' if time > 0.0 else ""
             for cause, time in zip(causes[n].tolist(), plan.times[n].tolist(), strict=True)
         ]
-        rows.append(",".join([str(int(lines[n])), *(repr(float(each)) for each in numbers[n]), *named]))
-    return "\n".join(rows) + "\n"
+        yield ",".join([str(int(lines[n])), *(repr(float(each)) for each in numbers[n]), *named])

@@ -240,7 +240,9 @@ class ProgramPage(PageOfFile):
     def open_program(self, path: Path) -> None:
         """Run a program from a file."""
         self.outcome = None
-        self._begin(lambda _show: ProgramJob(read_program(path)), lambda job: self.start(job, path.name))
+        self._begin(
+            lambda _show: ProgramJob(read_program(path, self._file)), lambda job: self.start(job, path.name)
+        )
 
     def start(self, job: ProgramJob, name: str) -> None:
         """Run a program under the file of now."""

@@ -256,7 +256,7 @@ if __name__ == "__main__":
     for each in PROGRAMS:
         if each.name in measured:
             rows = np.array(measured[each.name])
-            plan = planned(each).plan
+            plan = planned(each).plan.whole
             apart, time = off(rows, path_points(plan, 1e-5)[0]), 0.001 * (len(rows) - 1)
             print(
                 f'    "{each.name}": ({time:.3f}, {apart:.5f}),  # {100.0 * (plan.time / time - 1.0):+.2f} %',

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from amp_studio.files import ParameterFile
-from amp_studio.programs import tool_path
+from amp_studio.programs.interpreter import tool_path
 from amp_studio.sim import ProgramJob, SimulationError
 from amp_studio.sim.path.profiles import path_points
 from tests.programs.test_block import example, read
@@ -26,7 +26,7 @@ def mill() -> ParameterFile:
 def test_a_program_takes_the_time_of_the_real_control_on_its_path(program: RealPath) -> None:
     """G61 and G64: within 0.3 % of the time; the path was compared when it was measured, within a count."""
     time, apart = MEASURED[program.name]
-    plan = planned(program).plan
+    plan = planned(program).plan.whole
     assert plan.time == pytest.approx(time, rel=0.004)
     assert apart < 0.0002
 
@@ -38,7 +38,7 @@ def test_a_program_takes_the_time_of_the_real_control_on_its_path(program: RealP
 def test_the_real_control_still_does_so() -> None:
     for name, rows in positions(PROGRAMS).items():
         program = next(each for each in PROGRAMS if each.name == name)
-        plan = planned(program).plan
+        plan = planned(program).plan.whole
         assert plan.time == pytest.approx(0.001 * (len(rows) - 1), rel=0.01), name
         assert off(np.array(rows), path_points(plan, 1e-5)[0]) < 0.001, name
 
@@ -48,7 +48,7 @@ def test_no_program_is_faster_than_time_optimal_axes(name: str) -> None:
     """ruckig moves each axis by itself, from rest to rest as these programs do."""
     ruckig = pytest.importorskip("ruckig")
     program = next(each for each in PROGRAMS if each.name == name)
-    plan, least = planned(program).plan, 0.0
+    plan, least = planned(program).plan.whole, 0.0
     for begin, end in zip(plan.geometry.begins, plan.geometry.ends, strict=True):
         given, trajectory = ruckig.InputParameter(3), ruckig.Trajectory(3)
         given.current_position, given.target_position = list(begin), list(end)
@@ -63,7 +63,7 @@ def test_a_rounded_corner_is_as_far_from_the_program_as_p_allows(mill: Parameter
     job = ProgramJob(
         ["G64 P0.05 F3000", "G1 X-20", "Y-20"], [0.0] * 3, dict.fromkeys("XYZ", 0.0), with_contour=False
     )
-    points = path_points(job.run(mill).plan, 1e-5)[0]
+    points = path_points(job.run(mill).plan.whole, 1e-5)[0]
     assert np.hypot(points[:, 0] + 20.0, points[:, 1]).min() == pytest.approx(0.05, abs=2e-4)
 
 
@@ -127,7 +127,7 @@ def test_points_on_one_line_become_moves_of_at_most_101_points(mill: ParameterFi
         dict.fromkeys("XYZ", 0.0),
         with_contour=False,
     )
-    plan = job.run(mill).plan
+    plan = job.run(mill).plan.whole
     assert plan.path.line.tolist() == [102, 203, 251, 252, 253]
 
 
@@ -135,7 +135,7 @@ def test_a_change_of_direction_may_cost_nothing() -> None:
     """ARC_BLEND_KINK_RATIO 0: what goes straight on takes no acceleration, and is passed."""
     file = example("linuxcnc-mill", **{"traj.arc_blend_kink": "0"})
     blocks = ["G61 F900", "G1 X-10", "X-20", "X-20 Y-10"]
-    plan = ProgramJob(blocks, [0.0] * 3, dict.fromkeys("XYZ", 0.0), with_contour=False).run(file).plan
+    plan = ProgramJob(blocks, [0.0] * 3, dict.fromkeys("XYZ", 0.0), with_contour=False).run(file).plan.whole
     assert plan.leave[0] == pytest.approx(15.0)
     assert plan.leave[1] == 0.0
 
@@ -148,7 +148,7 @@ def test_a_spindle_or_coolant_waits_until_the_moves_before_it_have_ended(
     job = ProgramJob(
         ["G64 F900", "G1 X-20", word, "Y-20"], [0.0] * 3, dict.fromkeys("XYZ", 0.0), with_contour=False
     )
-    plan = job.run(mill).plan
+    plan = job.run(mill).plan.whole
     assert plan.path.ends[0].tolist() == [-20.0, 0.0, 0.0]
     assert plan.leave[0] == 0.0
     assert plan.time == pytest.approx(plan.times.sum() + plan.rest.sum())

@@ -5,7 +5,7 @@ are from it.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from amp_studio.cli import candidates
@@ -106,7 +106,7 @@ def run(options: Options) -> int:
 
     try:
         job = ProgramJob(
-            read_program(options.program),
+            read_program(options.program, file),
             start=_start(options, file),
             zero=typed_places(options.zero, file) if options.zero else None,
             retract=_length(options.retract, file),
@@ -154,9 +154,10 @@ def _write(options: Options, file: ParameterFile, found: ProgramRun) -> None:
     from amp_studio.files import write_atomic
     from amp_studio.sim import path_picture, program_csv
 
+    content: bytes | Iterator[bytes]
     ending = options.output.suffix.lower()
     if ending == ".csv":
-        content = program_csv(file, found).encode()
+        content = (part.encode() for part in program_csv(file, found))
     else:
         picture = picture_svg(path_picture(file, found))
         content = picture.encode() if ending == ".svg" else _pdf(picture)

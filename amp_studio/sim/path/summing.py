@@ -1,0 +1,204 @@
+"""What is kept of a long program while it is planned, bounded: rows for its picture, its speed over time, and
+the times of the lines that are listed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import fields, replace
+from typing import Any
+
+import numpy as np
+
+from amp_studio.sim.path_rules import Geometry, Indices, PathRows
+
+from .planner import ProgramPlan
+
+SAMPLE = 10_000
+"""Rows that are drawn of a program of several stretches, chosen by chance: each n-th one would miss what a
+program repeats."""
+PARTS = 512
+"""Of a stretch, whose least and greatest speed are drawn where there are several."""
+LISTED = 5000
+"""Lines of a program whose time and limit are kept."""
+
+
+class PathSample:
+    """Rows in the place of all: those of the only stretch, or some that are chosen by chance."""
+
+    def __init__(self) -> None:
+        self._kept: ProgramPlan | None = None
+        self._order = np.zeros(0)
+        """By which the rows are chosen, the least first."""
+        self._chance = np.random.default_rng(0)
+
+    @property
+    def plan(self) -> ProgramPlan:
+        """The rows."""
+        assert self._kept is not None
+        return self._kept
+
+    def look(self, plan: ProgramPlan) -> None:
+        """Take rows of one more stretch."""
+        if self._kept is None:
+            self._kept = plan
+            return
+        first = not len(self._order)
+        for each in (self._kept, plan) if first else (plan,):
+            moving = np.flatnonzero(each.geometry.length > 0.0)
+            order = self._chance.random(len(moving))
+            if each is self._kept:
+                order[:1] = -1.0  # where the path begins
+                self._kept, self._order = rows_of(each, moving), order
+            else:
+                self._kept = joined_rows(self._kept, rows_of(each, moving))
+                self._order = np.concatenate([self._order, order])
+            self._thin()
+
+    def _thin(self) -> None:
+        if len(self._order) > SAMPLE:
+            assert self._kept is not None
+            chosen = self._order <= np.partition(self._order, SAMPLE - 2)[SAMPLE - 2]
+            chosen[-1] = True  # where it ends so far
+            self._kept = rows_of(self._kept, np.flatnonzero(chosen))
+            self._order = self._order[chosen]
+
+
+def rows_of(plan: ProgramPlan, rows: Indices) -> ProgramPlan:
+    """Return some rows of a plan, each with its own row of the path."""
+    *columns, start = plan.path.columns
+    path = plan.path.with_columns([*(each[plan.geometry.row[rows]] for each in columns), start])
+    geometry = {each.name: getattr(plan.geometry, each.name)[rows] for each in fields(Geometry)}
+    own: dict[str, Any] = {name: getattr(plan, name)[rows] for name in _OF_ROWS}
+    numbered = Geometry(**{**geometry, "row": np.arange(len(rows))})
+    return replace(plan, path=path, geometry=numbered, **own)
+
+
+_OF_ROWS = (
+    "entry",
+    "peak",
+    "leave",
+    "acceleration",
+    "deceleration",
+    "times",
+    "rest",
+    "start",
+    "faster_by",
+    "even_by",
+    "slower_by",
+    "rest_by",
+    "is_rapid",
+    "programmed",
+)
+
+
+def joined_rows(one: ProgramPlan, other: ProgramPlan) -> ProgramPlan:
+    """Return the rows of a plan and those after it as one, each row with its own of the path."""
+    one, other = (rows_of(each, np.arange(len(each.start))) for each in (one, other))
+    *columns, start = one.path.columns
+    pairs = zip(columns, other.path.columns[:-1], strict=True)
+    path = other.path.with_columns([*map(np.concatenate, pairs), start])
+    geometry = {
+        each.name: np.concatenate([getattr(one.geometry, each.name), getattr(other.geometry, each.name)])
+        for each in fields(Geometry)
+    }
+    numbered = Geometry(**{**geometry, "row": np.arange(len(geometry["row"]))})
+    own: dict[str, Any] = {
+        name: np.concatenate([getattr(one, name), getattr(other, name)]) for name in _OF_ROWS
+    }
+    return replace(other, path=path, geometry=numbered, **own)
+
+
+class SpeedCurve:
+    """The speed along the path over time: every row of the only stretch, or the least and the greatest of
+    short parts.
+    """
+
+    def __init__(self) -> None:
+        self._first: ProgramPlan | None = None
+        self._time: list[PathRows] = []
+        self._speed: list[PathRows] = []
+        self._end = 0.0
+
+    def look(self, plan: ProgramPlan) -> None:
+        """Take one more stretch."""
+        if not len(plan.start):
+            return
+        self._end = plan.time
+        if self._first is None and not self._time:
+            self._first = plan
+            return
+        for each in filter(None, (self._first, plan)):
+            time, least, most = _least_and_most(each)
+            self._time.append(time)
+            self._speed.append(np.column_stack([least, most]).ravel())
+        self._first = None
+
+    @property
+    def points(self) -> tuple[PathRows, PathRows]:
+        """Moments in s and speeds u/s."""
+        if self._first is None:
+            return np.concatenate([*self._time, [self._end]]), np.concatenate([*self._speed, [0.0]])
+        plan, start, times = self._first, self._first.start, self._first.times
+        moments = np.column_stack([start, start + times[:, 0], start + times[:, 0] + times[:, 1]])
+        speeds = np.column_stack([plan.entry, plan.peak, plan.peak])
+        return np.append(moments.ravel(), plan.time), np.append(speeds.ravel(), 0.0)
+
+
+def _least_and_most(plan: ProgramPlan) -> tuple[PathRows, PathRows, PathRows]:
+    """Return two moments of each part of a stretch, flat, and its least and greatest speed."""
+    begins = np.unique(np.linspace(0, len(plan.start), PARTS, endpoint=False).astype(np.int64))
+    start = plan.start[begins]
+    after = np.append(start[1:], plan.time)
+    return (
+        np.column_stack([start, 0.5 * (start + after)]).ravel(),
+        np.minimum.reduceat(plan.entry, begins),
+        np.maximum.reduceat(plan.peak, begins),
+    )
+
+
+class LineTimes:
+    """Time of each of the first lines, and of its longest row what limits it."""
+
+    def __init__(self) -> None:
+        self._time = np.zeros(LISTED + 1)
+        self._longest = np.full(LISTED + 1, -1.0)
+        self._cause = np.full(LISTED + 1, -1)
+        self._rapid = np.zeros(LISTED + 1, bool)
+
+    def look(self, plan: ProgramPlan) -> None:
+        """Take one more stretch."""
+        lines = plan.lines
+        rows = np.flatnonzero(lines <= LISTED)
+        if not len(rows):
+            return
+        lines, times = lines[rows], plan.times[rows].sum(axis=1)
+        self._time += np.bincount(lines, plan.whole[rows], LISTED + 1)
+        order = np.lexsort((-times, lines))
+        own, first = np.unique(lines[order], return_index=True)
+        longest, time = rows[order[first]], times[order[first]]
+        longer = time > self._longest[own]
+        own, longest = own[longer], longest[longer]
+        self._longest[own], self._rapid[own] = time[longer], plan.is_rapid[longest]
+        self._cause[own] = main_cause(plan, longest)
+
+    def of_lines(self, most: int) -> Sequence[tuple[int, int, bool, float]]:
+        """Return line up to ``most``, cause of most of the time of its longest row, whether that is rapid,
+        and its time in s.
+        """
+        lines = np.flatnonzero(self._longest[: most + 1] >= 0.0)
+        columns = (lines, self._cause[lines], self._rapid[lines], self._time[lines])
+        return list(zip(*(each.tolist() for each in columns), strict=True))
+
+
+def main_cause(plan: ProgramPlan, rows: Indices) -> Indices:
+    """Return for some rows the cause of most of their time, (rows,)."""
+    causes = np.column_stack([plan.faster_by[rows], plan.even_by[rows], plan.slower_by[rows]]).astype(
+        np.int64
+    )
+    times = plan.times[rows]
+    # A ramp up and down by the same limit is one share of the row.
+    same = causes[:, 0] == causes[:, 2]
+    times[same, 0] += times[same, 2]
+    chosen: Indices = causes[np.arange(len(causes)), np.argmax(times, axis=1)]
+    return chosen
