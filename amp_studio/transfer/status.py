@@ -66,6 +66,8 @@ class ControlStatus:
     """Further values by name: feed, spindle, inputs."""
     assumptions: tuple[str, ...] = ()
     """What of this is inferred or assumed."""
+    not_known: Mapping[str, str] = field(default_factory=dict)
+    """Signal -> why the control cannot show it; one without a reason is not asked for, or not stated."""
     raw: str = ""
     """The words of the control that this was read from; "" where they say no more."""
 

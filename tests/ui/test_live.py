@@ -3,6 +3,7 @@
 import threading
 from collections.abc import Callable
 from dataclasses import replace
+from datetime import UTC, datetime
 from types import SimpleNamespace
 from typing import Any
 
@@ -18,7 +19,7 @@ from amp_studio.transfer.errors import NoConnectionError
 from amp_studio.ui.control import readings as live
 from amp_studio.ui.control.readings import StatusReadings
 from amp_studio.ui.live.page import LiveView
-from amp_studio.ui.live.rows import CONTROL, MIND, NAME
+from amp_studio.ui.live.rows import CONTROL, MIND, NAME, TurnedValue
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import WAIT_MS, User
@@ -290,6 +291,35 @@ def test_keys_of_an_emulated_control_are_pressed_and_its_answer_is_an_event(page
     page.panel.keys.returnPressed.emit()
     assert page.happened.events[0].endswith("did jog X+")
     assert page.frame.head.text() == "Writes to the emulated control"
+
+
+def test_live_is_a_page_of_the_file_and_ends_when_another_page_comes(
+    window_with: Callable[..., MainWindow], monkeypatch: pytest.MonkeyPatch, user: User
+) -> None:
+    monkeypatch.setattr(StatusReadings, "start", lambda self: setattr(self, "_task", self))
+    monkeypatch.setattr(
+        StatusReadings, "stop", lambda self: (setattr(self, "_task", None), self.failed.emit(None))
+    )
+    monkeypatch.setattr(LiveView, "_takes_one", lambda _: False)
+    window = window_with("57c422b-label-press")
+    window.control.exchanges.choose(window.workspace, "tcp://127.0.0.1:1")
+    live_action = window.menus["control.live"]
+    live_action.trigger()
+    page: Any = window.page_in_front.pages["live"]
+    assert page.isVisible()
+    assert page.is_live
+    assert window.control.state_of(window.workspace)[1] == "live"
+    page.turned[GAIN] = TurnedValue(Value(78, ""), datetime.now(UTC))
+    user.answers("Cancel")
+    window.menus["view.values"].trigger()
+    assert page.isVisible()
+    page.turned.clear()
+    window.menus["view.values"].trigger()
+    assert not page.isVisible()
+    assert not page.is_live
+    live_action.trigger()
+    live_action.trigger()
+    assert window.page_in_front.turned_to == ""
 
 
 def test_what_begins_between_two_readings_is_an_event(page: LiveView) -> None:

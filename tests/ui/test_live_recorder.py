@@ -49,6 +49,12 @@ def test_readings_are_drawn_as_dots_before_anything_is_recorded(recorder: LiveRe
     assert "Velocity: not shown by this control" in recorder.foot.text()
 
 
+def test_what_a_control_cannot_show_is_named_with_its_reason(recorder: LiveRecording) -> None:
+    why = {"velocity": "its report has the feed of the path, not the speed of an axis"}
+    recorder.take(0.0, AxisStatus("X", 0.0, 0.0, None, "counts"), reasons=why)
+    assert "not shown by this control: its report has the feed of the path" in recorder.foot.text()
+
+
 def test_a_record_waits_until_the_axis_moves_and_keeps_what_came_before(recorder: LiveRecording) -> None:
     choose(recorder, "move")
     recorder.start_or_stop()

@@ -3,6 +3,7 @@ and ink can be read on its ground.
 """
 
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,12 +21,16 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.schema import Value
+from amp_studio.transfer import AxisStatus, ControlStatus, known_fault
 from amp_studio.ui.base.theme import scheme
 from amp_studio.ui.base.translated import speak
 from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.forms.list_title import ListTitle
+from amp_studio.ui.live.page import LiveView
 from amp_studio.ui.main_window import MainWindow
 from tests.campaigns import CAMPAIGN
+
+from .test_live import StoppedReadings, StoppedSession
 
 SCREENS = ((1024, 700), (1366, 768), (2560, 1440), (960, 540))
 """The last is a screen of 1920 x 1080 at 200 %."""
@@ -36,6 +41,22 @@ OF_LANGUAGE = {"en": (min(SCREENS),), "de": (min(SCREENS), max(SCREENS))}
 def findings(window: MainWindow) -> None:
     window.workspace.edit("error", {("servo.excess_error", "1"): Value(0.001, "mm")})
     window.show_panel("Findings")
+
+
+def show_live(window: MainWindow) -> None:
+    """Show Live with a reading, a fault, and a control that takes single values."""
+    workspace = window.workspace_in_front
+    window.control.exchanges.choose(workspace, "tcp://127.0.0.1:1")
+    window.menus["control.live"].trigger()
+    page = window.page_in_front.pages["live"]
+    assert isinstance(page, LiveView)
+    session: Any = StoppedSession(workspace.file.copy())
+    readings: Any = StoppedReadings()
+    page.use(session, "bench", "CNC_1", readings=readings)
+    page.start()
+    axis = AxisStatus("X", -123.4567, 0.0123, 45.0, "mm", ("homed",), ("homed", "moving"), "R72 = 0085H")
+    fault = known_fault("9pc", "SERVO AMPLIFIER FAULT", "SERVO AMPLIFIER FAULT", "X")
+    page.show_status(ControlStatus("9pc", "screen", "CNC_1", "ready", (axis,), (fault,)))
 
 
 PAGES: dict[str, Callable[[MainWindow], object]] = {
@@ -51,6 +72,7 @@ PAGES: dict[str, Callable[[MainWindow], object]] = {
     "exchanges": lambda window: window.control.recorded(),
     "tuning": lambda window: window.menus["view.tuning"].trigger(),
     "program": lambda window: window.menus["view.program"].trigger(),
+    "live": show_live,
 }
 
 

@@ -8,6 +8,12 @@ from amp_studio.transfer import AxisStatus, ControlIdentity, ControlStatus, Prot
 
 LETTERS = "XYZABCUV"
 SWITCH = ("limit switch",)
+NOT_KNOWN = {
+    "following_error": "it drives stepper motors without feedback and reports the position that it commanded,"
+    " not the one that was reached",
+    "velocity": "its report has the feed of the path, not the speed of an axis",
+}
+"""What no report has (report.c), and why."""
 PINS = {
     "P": "probe",
     "R": "reset",
@@ -45,7 +51,16 @@ def status_of(identity: ControlIdentity, report: str, alarm: str = "") -> Contro
     which = "machine" if "MPos" in fields else "work"
     notes = (f"positions in {which} coordinates, in mm unless $13 is on",)
     return ControlStatus(
-        identity.family, identity.protocol, identity.name, state, axes, faults, values, notes, report
+        identity.family,
+        identity.protocol,
+        identity.name,
+        state,
+        axes,
+        faults,
+        values,
+        notes,
+        NOT_KNOWN,
+        report,
     )
 
 

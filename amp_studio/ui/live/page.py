@@ -79,6 +79,8 @@ class LiveView(PageOfFile):
         self._status: ControlStatus | None = None
         self.turned: dict[Address, TurnedValue] = {}
         self.happened = Happened()
+        self._limits: dict[tuple[str, str], LiveLimits] = {}
+        """Axis and unit -> its limits in the file as it is."""
         self._begun = time.monotonic()
         self._times: deque[float] = deque(maxlen=RATED)
         self._answered: datetime | None = None
@@ -123,7 +125,7 @@ class LiveView(PageOfFile):
         self.reason_row = side_by_side(HEAD, self.reason, None, self.read)
         self.frame = WriteFrame(self._workspace)
         self.panel = LiveStatusPanel(self._family)
-        self.recorder = LiveRecording(self._workspace, lambda: self._present() or self._workspace.file)
+        self.recorder = LiveRecording(self._workspace, self._present)
         self.framed = QWidget()
         around = QVBoxLayout(self.framed)
         around.setContentsMargins(GAP2, GAP2, GAP2, GAP2)
@@ -386,7 +388,8 @@ class LiveView(PageOfFile):
             self._choose_axis()
         self._show_axis(status)
         if (axis := self._axis_of(status)) is not None:
-            self.recorder.take(time.monotonic() - self._begun, axis, is_fault=is_new)
+            now = time.monotonic() - self._begun
+            self.recorder.take(now, axis, is_fault=is_new, reasons=status.not_known)
         self.panel.show_happened(self.happened)
         self._show_age()
         states = (status.state, tuple(axis.states for axis in status.axes), tuple(status.faults))
@@ -396,7 +399,10 @@ class LiveView(PageOfFile):
 
     def _show_axis(self, status: ControlStatus) -> None:
         axis = self._axis_of(status)
-        limits = axis_limits(self._workspace.file, axis.axis, axis.unit) if axis else LiveLimits()
+        if axis is not None and (axis.axis, axis.unit) not in self._limits:
+            found = axis_limits(self._workspace.file, axis.axis, axis.unit)
+            self._limits[axis.axis, axis.unit] = found
+        limits = self._limits[axis.axis, axis.unit] if axis is not None else LiveLimits()
         self.panel.show_status(status, axis, limits)
 
     def _axis_of(self, status: ControlStatus) -> AxisStatus | None:
@@ -421,6 +427,7 @@ class LiveView(PageOfFile):
         return session.present(self._workspace.file)
 
     def _follow_values(self, *_: object) -> None:
+        self._limits.clear()
         self.rows.refresh()
         self._show_frame()
 

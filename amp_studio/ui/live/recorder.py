@@ -4,7 +4,7 @@ same move with the values that the control contains.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -52,25 +52,30 @@ if TYPE_CHECKING:
 
 AFTER_FAULT = 0.5
 """s that are recorded after a fault: what led to it is kept."""
+DRAWN_EVERY = 2
+"""Readings from one picture to the next while nothing is recorded: to paint one costs more than to read."""
 SPARSE = 50.0
 """Readings in a second below which they are dots: nothing is known between them."""
 FAR = 1.6
 """A limit below this multiple of the largest error is drawn."""
 _FIELD = 52
-_LEAST_PLOT = 150
+_LEAST_PLOT = 80
 
 
 class LiveRecording(QWidget):
     """What is drawn below the rows: the last half minute, a record that is made, or one that is there."""
 
-    def __init__(self, workspace: Workspace, present: Callable[[], ParameterFile]) -> None:
-        """``present`` gives the values with which the recorded move is simulated."""
+    def __init__(self, workspace: Workspace, present: Callable[[], ParameterFile | None]) -> None:
+        """``present`` gives what the control contains, with which a recorded move is simulated; None for not
+        known: then it is the file.
+        """
         super().__init__()
         self._workspace, self._present = workspace, present
         self._family = workspace.file.schema.family.family
         self._axis = ""
         self._recent = AxisReadings()
         self._last: AxisStatus | None = None
+        self._count = 0
         self._recorder: LiveRecorder | None = None
         self._ends_at: float | None = None
         self.record: SignalRecord | None = None
@@ -79,6 +84,7 @@ class LiveRecording(QWidget):
         self._task: Task | None = None
         self._remark = self._problem = ""
         self._missing: tuple[str, ...] = ()
+        self._reasons: Mapping[str, str] = {}
         self._build()
         scheme().changed.connect(self._show_foot)
         workspace.closed.connect(self._let_go)
@@ -168,14 +174,26 @@ class LiveRecording(QWidget):
             self.plot.clear_picture()
             self._show_state()
 
-    def take(self, seconds: float, axis: AxisStatus, *, is_fault: bool = False) -> None:
-        """Take a reading at a time in s; a new fault ends a record half a second later."""
+    def take(
+        self,
+        seconds: float,
+        axis: AxisStatus,
+        *,
+        is_fault: bool = False,
+        reasons: Mapping[str, str] | None = None,
+    ) -> None:
+        """Take a reading at a time in s, with why signals are not in it; a new fault ends a record half a
+        second later.
+        """
+        self._reasons = reasons or {}
         self._recent.add(seconds, axis)
         last, self._last = self._last, axis
         figures = axis.signals()
         self._missing = tuple(name for name in ("following_error", "velocity") if figures[name][0] is None)
         if self._recorder is None:
-            if self.record is None and (picture := self._recent.picture()):
+            self._count += 1
+            is_due = self._count % DRAWN_EVERY == 0 or last is None
+            if self.record is None and is_due and (picture := self._recent.picture()):
                 self.plot.draw(picture)
                 self._show_foot()
             return
@@ -267,13 +285,17 @@ class LiveRecording(QWidget):
     def _simulate(self) -> None:
         """Simulate the move that the record shows, in a thread."""
         assert self.record is not None
-        file, record = self._present().copy(), self.record
+        present, record = self._present(), self.record
+        file = (present or self._workspace.file).copy()
         try:
             zeroed, settings, words = move_of(file, record)
         except SimulationError as error:
             self._remark = sentenced(str(error))
             return
-        self._remark = words
+        whose = (
+            self.tr("with the values of the control") if present else self.tr("with the values of the file")
+        )
+        self._remark = f"{words}, {whose}"
         asked = AskedMotion("step", self._instance(file), settings, file, None, None, zeroed)
         self._let_go()
         self._task = Task(partial(run_motion, asked))
@@ -343,15 +365,21 @@ class LiveRecording(QWidget):
         if self.record is not None:
             parts += self._figures(self.record)
             parts.append(self._remark)
-        for name in self._missing:
-            parts.append(
-                self.tr("{signal}: not shown by this control, so nothing is drawn").format(
-                    signal=worded(name.replace("_", " ")).capitalize()
-                )
-            )
+        parts += map(self._why_missing, self._missing)
         parts.append(self.tr("dots are readings, nothing is known between them"))
-        self.foot.setStyleSheet(f"color: {colour('error' if self._problem else 'dim').name()};")
+        sheet = f"color: {colour('error' if self._problem else 'dim').name()};"
+        if self.foot.styleSheet() != sheet:  # Qt styles and paints again for the same one too
+            self.foot.setStyleSheet(sheet)
         self.foot.setText("   ".join(filter(None, parts)))
+
+    def _why_missing(self, signal: str) -> str:
+        """Return that a signal is not drawn, with the reason where the control has one."""
+        name, why = worded(signal.replace("_", " ")).capitalize(), self._reasons.get(signal, "")
+        if why:
+            return self.tr("{signal}: not shown by this control: {why}").format(
+                signal=name, why=sentenced(why, self._family)
+            )
+        return self.tr("{signal}: not shown by this control, so nothing is drawn").format(signal=name)
 
     def _figures(self, record: SignalRecord) -> list[str]:
         """Return what the cursors read, and how far the simulation is away."""
@@ -421,7 +449,7 @@ def move_of(file: ParameterFile, record: SignalRecord) -> tuple[SignalRecord, di
     except UnitError:
         factor = 1.0
     way = f"{written(f'{distance:.5g}')} {unit_in_words(unit)}"
-    words = tr("simulated: {distance} at {feed}/min, as recorded, with the values of the control").format(
+    words = tr("simulated: {distance} at {feed}/min, as recorded").format(
         distance=way, feed=f"{written(f'{feed:.5g}')} {unit_in_words(unit)}"
     )
     zeroed = replace(record, signals={**record.signals, "position": position - position[0]})

@@ -18,7 +18,7 @@ _FILE_WIDE = 1600
 """Width in logical pixels from which the buttons of the file have their words too."""
 _FIND_WIDTH, _FIND_LEAST = 440, 106
 """Most that the find box takes, in logical pixels, and what it needs."""
-_CONTROL_WIDTH = 184
+_CONTROL_WIDTH = 200
 """Of the button of the control, whatever its state: nothing beside it moves when that changes."""
 
 
