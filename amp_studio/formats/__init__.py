@@ -12,7 +12,16 @@ if TYPE_CHECKING:
     from .account import Account, account_json, account_lines
     from .any_file import is_parameter_file, is_text_of_control, open_for_reading
     from .bare_figures import default_system, read_figure, system_of, write_figure
-    from .import_export import all_formats, export_file, export_of, file_of, formats_of, import_file, offer_of
+    from .import_export import (
+        all_formats,
+        export_file,
+        export_of,
+        file_of,
+        formats_of,
+        import_file,
+        offer_of,
+        text_lines,
+    )
     from .passthrough_lines import (
         PassthroughLine,
         escaped,

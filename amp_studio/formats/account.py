@@ -4,6 +4,7 @@ found by reading the text back.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -12,6 +13,8 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value, same_value, show_value, write_value
 
 from .text_format import TextRead
+
+_WORD = re.compile(r"[^\s,;:]+")
 
 
 class NotWritten(NamedTuple):
@@ -149,7 +152,11 @@ def account_lines(file: ParameterFile, account: Account, named: str = "") -> Ite
 
 
 def _unknown_line(account: Account, named: str) -> Iterator[str]:
-    unknown = [one for one in account.unknown if one.name not in named]
+    # $10 is not named where $100 is; and a log may have a hundred thousand, each of which is looked for.
+    words = set(_WORD.findall(named))
+    unknown = [
+        one for one in account.unknown if one.name not in (words if _WORD.fullmatch(one.name) else named)
+    ]
     if unknown:
         entries = "entry" if len(unknown) == 1 else "entries"
         names = [f"{one.name} (line {one.line})" if one.line else one.name for one in unknown]

@@ -156,6 +156,20 @@ def offer_of(path: Path) -> TextOffer | None:
         return None  # the import names it
 
 
+def text_lines(path: Path, file: ParameterFile) -> dict[Address, int]:
+    """Return the line of each value of the control's own text that was read as ``file``;
+    nothing of what is none, or cannot be read.
+    """
+    family = file.schema.family.family
+    options = ReadOptions(machine=file.machine, beside=_beside(path))
+    try:
+        content = plain_content(read_file(path, _MOST_BYTES))
+        chosen = _format_for_reading(content, family, None)
+        return chosen.read(_decoded(content, chosen), file.schema, options).value_lines
+    except (FormatError, OSError):
+        return {}
+
+
 def _beside(path: Path) -> Callable[[str], str | None]:
     """Return what reads a file in the folder of a text; one outside of it, or too large, is not there."""
     folder = path.resolve().parent

@@ -53,6 +53,8 @@ class TextRead:
     """Entries that the format has and the schema does not: kept in the parameter file, and written back."""
     unknown_lines: dict[str, int] = field(default_factory=dict)
     """The line of each of these, from 1, where it is one."""
+    value_lines: dict[Address, int] = field(default_factory=dict)
+    """The line of each value, from 1, where it is one of this text."""
     kept: list[str] = field(default_factory=list)
     """Lines that set nothing: kept for the format, and written back in their place."""
     name: str = ""

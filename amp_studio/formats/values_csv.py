@@ -149,6 +149,7 @@ def _read_row(
         return
     try:
         result.values[address] = read_stored(schema, parameter, text)
+        result.value_lines[address] = line
     except InvalidValueError as error:
         raise FormatError(f"{written(address)}: {error}", line, heads.index("value") + 1) from None
     if note := row.get(_NOTE, "").strip():

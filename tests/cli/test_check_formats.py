@@ -164,6 +164,21 @@ def test_sarif_has_the_findings_of_json_where_they_are(
     assert notice["locations"][0]["physicalLocation"]["region"]["startLine"] > 1
 
 
+def test_sarif_has_the_line_of_a_value_in_a_text_of_a_control(amp, tmp_path: Path) -> None:
+    listing = [f"${n}=100" for n in (0, 1, 2, 100, 101, 102, 110, 111, 112, 120, 121, 122)]
+    path = tmp_path / "mill.txt"
+    path.write_text("\n".join(["Grbl 1.1h ['$' for help]", "", *listing, "$20=1", "$22=0"]))
+    (one,) = amp("validate", path, "--format", "sarif").json["runs"]
+    lines = {
+        result["locations"][0]["logicalLocations"][0]["name"]: result["locations"][0]["physicalLocation"][
+            "region"
+        ]["startLine"]
+        for result in one["results"]
+    }
+    assert {lines[name] for name in ("$20", "$22") if name in lines} <= {15, 16}
+    assert lines["$20"] == 15
+
+
 def test_a_finding_keeps_its_fingerprint_when_the_file_changes_elsewhere(
     amp, machines: Path, mill: Path
 ) -> None:

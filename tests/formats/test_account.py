@@ -7,7 +7,16 @@ import pytest
 
 from amp_studio.files import ParameterFile, new_file, open_file
 from amp_studio.files.example_files import examples
-from amp_studio.formats import Account, FormatError, export_file, formats_of, import_file
+from amp_studio.formats import (
+    Account,
+    FormatError,
+    account_lines,
+    export_file,
+    formats_of,
+    import_file,
+    text_lines,
+)
+from amp_studio.formats.account import UnknownEntry
 from amp_studio.formats.import_export import Export
 from amp_studio.schema import Value, same_value
 from amp_studio.schema.storage import register_number, value_of_register
@@ -47,6 +56,41 @@ def test_each_value_is_written_or_rounded_or_missing_as_the_text_is(
     }
     assert account.written == len(file.values) - len(missing) - len(rounded)
     assert all(each.why for each in account.not_representable)
+
+
+@pytest.mark.parametrize(("path", "key"), EVERY)
+def test_each_value_that_was_read_has_its_line(path: Path, key: str, tmp_path: Path) -> None:
+    _, _, back = sent(path, key, tmp_path)
+    lines = text_lines(tmp_path / "text", back)
+    # The type of a machine and the letters of its axes are in no line of their own.
+    assert len(back.values.keys() - lines.keys()) <= 2
+    text = (tmp_path / "text").read_bytes().splitlines()
+    assert all(text[line - 1].strip() for line in lines.values())
+
+
+def test_an_entry_is_not_named_where_a_longer_one_is() -> None:
+    account = Account(0, ("7", "8"), unknown=(UnknownEntry("$10", 3), UnknownEntry("Grbl 0.8 $4", 0)))
+    file = new_file("grblhal")
+    assert list(account_lines(file, account, "kept as text: $100, $101, Grbl 0.8 $4")) == [
+        "1 unknown entry, kept as text: $10 (line 3)"
+    ]
+    assert not list(account_lines(file, account, "kept as text: $10; and Grbl 0.8 $4"))
+
+
+class Searched(str):
+    """A text that refuses to be searched: a search for each of 100,000 names took minutes."""
+
+    __slots__ = ()
+
+    def __contains__(self, _part: str) -> bool:
+        raise AssertionError("it is searched once for each entry")
+
+
+def test_the_names_of_all_are_not_searched_for_each_entry() -> None:
+    account = Account(0, ("7",), unknown=(UnknownEntry("$10", 0),))
+    assert list(account_lines(new_file("grblhal"), account, Searched("kept as text: $100"))) == [
+        "1 unknown entry, kept as text: $10"
+    ]
 
 
 @pytest.mark.parametrize(("path", "key"), EVERY)

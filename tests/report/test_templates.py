@@ -127,6 +127,23 @@ def test_a_link_beside_a_template_is_not_followed(
     assert "amp-studio-templates" not in note
 
 
+@pytest.mark.parametrize("name", ["note.txt", "report.html.j2"])
+def test_nor_is_a_file_that_has_a_second_name_elsewhere(
+    machine: Path, mill: ParameterFile, name: str
+) -> None:
+    secret, templates = machine.parent / "private.txt", machine.parent / "templates"
+    secret.write_text("a secret of the user")
+    (templates / "report.html.j2").write_text(
+        EXTENDS_PAGE + '{% block chapters %}{% include "note.txt" %}{% endblock %}'
+    )
+    (templates / name).unlink(missing_ok=True)
+    (templates / name).hardlink_to(secret)
+    notes: list[str] = []
+    print_report(mill, machine.parent / "out.html", SHORT, source=machine, notify=notes.append)
+    assert b"a secret of the user" not in (machine.parent / "out.html").read_bytes()
+    assert "links are not followed" in notes[0]
+
+
 @pytest.mark.parametrize("what", ["file", "folder"])
 def test_a_template_that_is_a_link_is_refused(machine: Path, mill: ParameterFile, what: str) -> None:
     elsewhere = machine.parent / "elsewhere"

@@ -22,6 +22,7 @@ from amp_studio.version import __version__
 
 if TYPE_CHECKING:
     from amp_studio.guide import Present
+    from amp_studio.schema import Address
     from amp_studio.validate import Finding, Suppressed, Validator
 
 _SARIF_SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -399,10 +400,12 @@ class _Lines:
     """The lines of a file in which its values are."""
 
     def __init__(self, checked: FileFindings) -> None:
-        from amp_studio.files import value_lines
+        self._known: dict[Address, int] = {}
+        if checked.findings or checked.validator.suppressed:
+            from amp_studio.files import value_lines
+            from amp_studio.formats import text_lines
 
-        has_any = checked.findings or checked.validator.suppressed
-        self._known = value_lines(checked.path) if has_any else {}
+            self._known = value_lines(checked.path) or text_lines(checked.path, checked.validator.file)
 
     def of(self, finding: Finding) -> int:
         """Return the line of the first value that a finding is about; 1 where none of them is in the file."""

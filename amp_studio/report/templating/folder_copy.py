@@ -1,5 +1,5 @@
 """A copy of a project's templates, without links: what jinja2 and Typst can read of a template is in it,
-and nothing else is.
+and nothing else is. A file with a second name (a hard link) is one too: it may be any file of the same disk.
 """
 
 from __future__ import annotations
@@ -54,8 +54,9 @@ def _copy(source: Path, target: Path) -> list[Path]:
         here, there = folders.pop()
         for path in sorted(here.iterdir()):
             # Of the link itself, not of what it leads to.
-            mode = path.lstat().st_mode
-            if stat.S_ISLNK(mode):
+            status = path.lstat()
+            mode = status.st_mode
+            if stat.S_ISLNK(mode) or (stat.S_ISREG(mode) and status.st_nlink > 1):
                 links.append(path)
             elif stat.S_ISDIR(mode):
                 (there / path.name).mkdir()

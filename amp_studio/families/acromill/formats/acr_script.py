@@ -97,7 +97,7 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     _keep_unequal(lines, of_programs, schema, system)
     if options.keep_unknown:
         _set_aside_repeated(lines)
-    found.values.update(_values_of_lines(lines, schema, system, options))
+    _take_values(found, lines, schema, system, options)
     found.kept = [line.text for line in lines if line.is_kept]
     found.notes += _note_of_kept(found.kept)
     keep_lines(found, _KIND, [_layout(line) for line in lines], always=not _is_ours(text, found, schema))
@@ -116,13 +116,12 @@ def _note_of_kept(kept: list[str]) -> Iterator[str]:
         yield f"{count} of the program set nothing here, kept in their place: {', '.join(first)}"
 
 
-def _values_of_lines(
-    lines: list[ScriptLine], schema: Schema, system: str, options: ReadOptions
-) -> dict[Address, Value]:
-    """Return what the lines set; raises FormatError for a line that is not understood,
+def _take_values(
+    found: TextRead, lines: list[ScriptLine], schema: Schema, system: str, options: ReadOptions
+) -> None:
+    """Take what the lines set; raises FormatError for a line that is not understood,
     and for what two of them set.
     """
-    values: dict[Address, Value] = {}
     place: dict[CommandSetting, int] = {}
     for line in lines:
         if line.fault is not None and not options.keep_unknown:
@@ -130,12 +129,12 @@ def _values_of_lines(
         for argument in line.arguments:
             before = place.setdefault(argument.setting, line.number)
             new = _values(schema, argument, line.number, system)
-            is_other = any(values.get(address, value) != value for address, value in new.items())
+            is_other = any(found.values.get(address, value) != value for address, value in new.items())
             if before != line.number or is_other:
                 message = f"{argument.setting.name} occurs twice, in line {before} already"
                 raise FormatError(message, line.number, argument.column)
-            values.update(new)
-    return values
+            found.values.update(new)
+            found.value_lines.update(dict.fromkeys(new, line.number))
 
 
 def _is_ours(text: str, result: TextRead, schema: Schema) -> bool:

@@ -11,7 +11,7 @@ import re
 
 from amp_studio.files import ParameterFile
 from amp_studio.formats import FormatError, ReadOptions, TextFormat, TextRead
-from amp_studio.schema import InvalidValueError, Schema, Value, checked, quoted
+from amp_studio.schema import Address, InvalidValueError, Schema, Value, checked, quoted
 
 _TABLE = "ballscrew.table"
 _WORD = re.compile(r"([A-Z])([0-9]{1,6})E-?\.[0-9]{5}")
@@ -25,6 +25,7 @@ def _read(text: str, schema: Schema, _options: ReadOptions) -> TextRead:
     table = schema.parameters[_TABLE]
     offered = schema.on(schema.family.default_machine).instances(table)
     tables: dict[str, list[str]] = {}
+    first: dict[Address, int] = {}
     for n, line in enumerate(text.splitlines(), 1):
         word = line.strip()
         if not word:
@@ -42,11 +43,13 @@ def _read(text: str, schema: Schema, _options: ReadOptions) -> TextRead:
         if position != len(words):
             raise FormatError(f"{word}: the next position of {axis} is {len(words)}", n, column)
         words.append(word)
+        first.setdefault((_TABLE, axis), n)
     if not tables:
         raise FormatError("there is no word of compensation")
     try:
         return TextRead(
-            {(_TABLE, axis): checked(table, Value(" ".join(words))) for axis, words in tables.items()}
+            {(_TABLE, axis): checked(table, Value(" ".join(words))) for axis, words in tables.items()},
+            value_lines=first,
         )
     except InvalidValueError as error:
         raise FormatError(str(error)) from None

@@ -57,6 +57,8 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
         found.unknown |= then.kept
         found.notes.append(str(then))
     found.unknown_lines = {f"${number}": listing.lines[number] for number in kept}
+    known = addresses_by_number(schema.on(fit.machine))
+    found.value_lines = {a: listing.lines[n] for n, a in known.items() if n in listing.lines}
     if identity := _identity(log):
         found.extra[_IDENTITY] = identity
     found.notes += _notes(schema, log, chosen, fit, options)

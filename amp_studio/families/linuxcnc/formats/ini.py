@@ -76,6 +76,8 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     for row in _rows(ini, schema, machine, frozenset(hal)):
         if row.address is not None and row.value is not None:
             found.values[row.address] = row.value
+            if not row.entry.file:
+                found.value_lines[row.address] = row.entry.line + 1
             if places := hal.get(row.entry.name):
                 found.value_notes[written(row.address)] = f"HAL: {', '.join(places)}"
         elif row.unknown:

@@ -94,6 +94,7 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
         if address in found.values:
             raise FormatError(f"{number} occurs twice", n, 1)
         found.values[address] = _value(file, address, cells, n, len(number) + 2)
+        found.value_lines[address] = n
     return found
 
 

@@ -172,6 +172,7 @@ class _Reader:
         self.found.values = file.values
 
     def _value(self, file: ParameterFile, word: Word, meaning: WordMeaning) -> Value:
+        self.found.value_lines[meaning.address] = self.places[word][0]
         try:
             return meaning.value(file, self.contents[word])
         except InvalidValueError as error:

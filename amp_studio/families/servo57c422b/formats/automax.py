@@ -120,7 +120,7 @@ def _read_table(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     meaning.settle()
     unknown = {f"R{one.register}": _message(one) for one in meaning.leftover}
     lines = {f"R{one.register}": one.line for one in meaning.leftover}
-    return TextRead(meaning.values, unknown, lines, machine=machine)
+    return TextRead(meaning.values, unknown, lines, meaning.lines, machine=machine)
 
 
 def _kept_word(key: str, text: str) -> str:
@@ -282,7 +282,7 @@ def _read_task(text: str, schema: Schema, options: ReadOptions) -> TextRead:
         meaning.take(one)
     meaning.settle()
     settings = {key: one for key, one in settings.items() if one not in meaning.leftover}
-    found = TextRead(meaning.values, machine=machine)
+    found = TextRead(meaning.values, value_lines=meaning.lines, machine=machine)
     keep_lines(found, _KIND, [_row(line, settings) for line in lines])
     return found
 

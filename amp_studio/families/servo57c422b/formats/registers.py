@@ -150,6 +150,8 @@ class RegisterValues:
     def __init__(self, registers: Registers, keep_unknown: bool) -> None:
         self.registers, self.keep_unknown = registers, keep_unknown
         self.values: dict[Address, Value] = {}
+        self.lines: dict[Address, int] = {}
+        """The line in which each of these begins."""
         self.leftover: dict[Written, None] = {}
         self._cells: dict[int, _RegisterContent] = {}
         self._done: set[int] = set()
@@ -215,6 +217,7 @@ class RegisterValues:
                 cell, f"register {register}, {self.registers.label(claims[0])}, can only be read"
             )
         self.values[claims[0]] = self._value(claims[0], [self._cells[r] for r in mine])
+        self.lines[claims[0]] = self._cells[mine[0]].source.line
         self._done.update(mine)
 
     def _value(self, address: Address, cells: list[_RegisterContent]) -> Value:
