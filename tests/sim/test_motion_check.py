@@ -93,15 +93,31 @@ def test_a_travel_that_is_too_short_for_the_speed_is_met_with_less(
 @pytest.mark.parametrize(
     ("name", "slip", "scenario", "axis", "named"),
     [
-        ("mill-1394", {("servo.velocity_proportional_gain", "1"): Value(60000)}, "step", "1",
-         "servo.velocity_proportional_gain"),
-        ("mill-1394", {("servo.max_torque_negative", "1"): Value(20, "%")}, "travel", "1",
-         "servo.max_torque_negative"),
-        ("mill-1394", {("home.g28_direction", "1"): Value("minus")}, "home", "1", "home.direction_off_switch"),
+        (
+            "mill-1394",
+            {("servo.velocity_proportional_gain", "1"): Value(60000)},
+            "step",
+            "1",
+            "servo.velocity_proportional_gain",
+        ),
+        (
+            "mill-1394",
+            {("servo.max_torque_negative", "1"): Value(20, "%")},
+            "travel",
+            "1",
+            "servo.max_torque_negative",
+        ),
+        (
+            "mill-1394",
+            {("home.g28_direction", "1"): Value("minus")},
+            "home",
+            "1",
+            "home.direction_off_switch",
+        ),
         ("grblhal-router", {("homing.pull_off", ""): Value(0.01, "mm")}, "home", "Z", "homing.pull_off"),
         ("grblhal-router", {("limits.soft", ""): Value("no")}, "travel", "X", "limits.soft"),
     ],
-)  # fmt: skip
+)
 def test_what_is_not_good_leads_to_its_parameter(
     checks_of, name: str, slip: dict, scenario: str, axis: str, named: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
