@@ -5,7 +5,6 @@ constant beyond the first and the last.
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -33,12 +32,6 @@ class ErrorCurve:
             return self.points[min(n, len(self.points) - 1)][1]
         (low, before), (high, after) = self.points[n - 1], self.points[n]
         return before + (after - before) * (position - low) / (high - low)
-
-    def less(self, other: ErrorCurve, positions: Iterable[Fraction] = ()) -> ErrorCurve:
-        """Return this curve less another, at all points of both and at ``positions``."""
-        at = sorted({*self._positions, *(p for p, _ in other.points), *positions})
-        # Both are straight between these points, so their difference is exact there and in between.
-        return ErrorCurve(tuple((p, self.at(p) - other.at(p)) for p in at))
 
     @property
     def span(self) -> Fraction:

@@ -18,8 +18,6 @@ EXAMPLES = {
     "grblhal": "grblhal-router",
     "linuxcnc": "linuxcnc-mill",
 }
-WITHOUT_G90 = ("num", "syntec")
-"""Whose pages name no G90."""
 
 
 @pytest.fixture(scope="module")

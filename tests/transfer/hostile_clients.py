@@ -41,8 +41,6 @@ SIGNATURE = "s1"
 TURN = 0.05  # seconds a turn of the control takes
 LONGEST = 60.0  # seconds after which a client that means well must have got through
 
-Say = Callable[[str], None]
-
 
 class Wire:
     """One line between a client and the emulated control."""

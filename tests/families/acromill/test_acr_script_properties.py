@@ -16,24 +16,11 @@ from amp_studio.schema import Schema, Value, load_schema, read_address
 from amp_studio.schema.catalog import schema_of
 from amp_studio.schema.load import compile_family
 from tests.campaigns import examples
+from tests.families.acromill.test_acr_script import message_of, mill
 from tests.families.servo57c422b.small_module import taken, told
 
 MILL = load_schema("acromill")
 AXES = "XYZABCUV"
-
-
-def said_of(file: ParameterFile) -> dict[str, Value]:
-    return {f"{a[0]}@{a[1]}" if a[1] else a[0]: value for a, value in file.values.items()}
-
-
-def mill(**said: Value) -> ParameterFile:
-    """Return a file with values: ``servo_p_gain_X=Value(…)``."""
-    file = ParameterFile(MILL, Header(name="TRY"))
-    for key, value in said.items():
-        group, _, rest = key.partition("_")
-        name, _, instance = rest.rpartition("_")
-        file.set((f"{group}.{name}", instance), value)
-    return file
 
 
 # -- properties
@@ -208,8 +195,12 @@ def test_codes_scales_and_decimals_are_those_of_the_schema(small: Schema) -> Non
         file.set(read_address(name), value)
     assert FORMAT.write(file).split("\n")[1:] == ["SENSE 1", "SET TIME1: 24.7 7", ""]  # 24.68, to one decimal
     back = taken(FORMAT, small, "SENSE 1\nset time1 : 24.7 7")
-    assert said_of(back) == {"a.sense": Value("up"), "a.time@X2": Value(12.35, "ms"), "a.sense2@X2": Value(7)}
-    assert said_of(taken(FORMAT, small, "SENSE -3")) == {"a.sense": Value("raw:-3")}
+    assert message_of(back) == {
+        "a.sense": Value("up"),
+        "a.time@X2": Value(12.35, "ms"),
+        "a.sense2@X2": Value(7),
+    }
+    assert message_of(taken(FORMAT, small, "SENSE -3")) == {"a.sense": Value("raw:-3")}
     assert told(FORMAT, small, "SENSE .5") == "line 1, column 7: Sense takes whole numbers, not 0.5"
 
 

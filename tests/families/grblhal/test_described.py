@@ -22,8 +22,6 @@ from tests.work import calls_of
 
 from .recorded import HELP, LISTING, THREE_AXES, build, with_lines
 
-X_RATE = "[SETTING:110|43|X-axis maximum rate|mm/min|6|#####0.000|||0|0]"
-
 
 def file_by(description: bytes) -> ParameterFile:
     schema = schema_of(description)

@@ -20,3 +20,4 @@ def assert_refused(call: Callable[[], object], message: str) -> None:
     text = str(error.value)
     assert message in text
     assert text.endswith(".")
+    assert "\n" not in text
