@@ -41,6 +41,7 @@ def _slips(error: ValidationError, data: object, model: type[Model]) -> list[Sli
         place = each["loc"]
         if each["type"] == "unexpected_keyword_argument":
             record, key = place[:-1], str(place[-1])
+            # ``naem`` beside a missing ``name`` is one slip, not two.
             lacking = [str(at[-1]) for at in missing if at[:-1] == record]
             supposed |= {(*record, name) for name in lacking if did_you_mean(key, [name])}
             known = lacking if did_you_mean(key, lacking) else list(_keys_at(model, record))

@@ -96,6 +96,7 @@ def _faults_of_choices(
 ) -> Iterator[tuple[KeyPath, str]]:
     for n, group in enumerate(program.groups):
         parameter = known.get(group.power_up or "")
+        # A code without a choice is one that no power-up parameter selects.
         offered = {None, *(c.key for c in (parameter and parameter.choices) or ())}
         for m, code in enumerate(group.codes):
             if code.choice not in offered:
@@ -117,6 +118,7 @@ def _named(model: Model, place: KeyPath) -> Iterator[tuple[KeyPath, str]]:
             here = (*place, name, n) if several else (*place, name)
             if isinstance(entry, Model):
                 yield from _named(entry, here)
+            # ``code`` is a text of the program everywhere but in a macro call, where it names a parameter.
             elif isinstance(entry, str) and (
                 name in _PARAMETERS or (name == "code" and isinstance(model, MacroCall))
             ):

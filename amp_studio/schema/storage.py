@@ -65,6 +65,7 @@ def to_stored(parameter: Parameter, value: Value, unit: str) -> Fraction:
 
 def to_figure(parameter: Parameter, value: Value, unit: str) -> float:
     """Return the double nearest to ``to_stored``; raises StorageError."""
+    # Stored as it was entered: the double itself, without a fraction in between.
     if value.unit == unit and _storage(parameter).scale == 1.0 and not isinstance(value.value, (str, bool)):
         return value.value
     return _double(to_stored(parameter, value, unit))
@@ -85,6 +86,7 @@ def from_stored(parameter: Parameter, number: Fraction | float, unit: str) -> Va
     if parameter.type == "real" and isinstance(number, float) and _storage(parameter).scale == 1.0:
         return Value(number, unit)
     found = number if isinstance(number, Fraction) else exact(number)
+    # A code is no quantity, and has no scale.
     if not parameter.choices:
         found /= exact(_storage(parameter).scale)
     if parameter.type == "real":
@@ -136,6 +138,7 @@ def single(number: float) -> float:
         kept = struct.unpack("<f", struct.pack("<f", number))[0]
     except OverflowError:
         return math.copysign(math.inf, number)
+    # 6 digits always survive a 32-bit float, and two of them always differ in 9 (IEEE 754).
     texts = (f"{kept:.{digits}g}" for digits in range(6, 10))
     return next(
         (float(t) for t in texts if struct.unpack("<f", struct.pack("<f", float(t)))[0] == kept), kept
@@ -230,6 +233,7 @@ def value_of_register(parameter: Parameter, number: int, unit: str) -> Value:
     """
     value = from_stored(parameter, fitting(parameter, number), stored_unit(parameter, unit))
     if isinstance(value.value, float) and value.value != float(f"{value.value:.{_ENTERED}g}"):
+        # From one digit up: the first that is stored as this number is the shortest.
         for digits in range(1, 17):
             shorter = Value(float(f"{value.value:.{digits}g}"), value.unit)
             if round(to_stored(parameter, shorter, stored_unit(parameter, unit))) == number:
@@ -239,6 +243,7 @@ def value_of_register(parameter: Parameter, number: int, unit: str) -> Value:
 
 def words_of(parameter: Parameter, value: Value, unit: str) -> tuple[int, ...]:
     """Return the words of a value, 0 to 65535 each, in the order of their registers; raises StorageError."""
+    # Python shifts a negative number with its sign: the mask makes the two's complement of its words.
     number = register_number(parameter, value, unit)
     words = [number >> WORD * n & 0xFFFF for n in range(words_taken(parameter))]
     return tuple(words if is_low_first(parameter) else reversed(words))

@@ -101,6 +101,7 @@ class ExpressionCheck:
                 return self._indexed(node, *parts), 0
             case "call":
                 return self._called(node, parts)
+            # Both branches count, though one runs: which one, no check can know.
             case "?:":
                 self._demand_yes_no(node.parts[0], parts[0])
                 return any_of(parts[1:]), 0
@@ -160,6 +161,7 @@ class ExpressionCheck:
             self._matched_choice(node, given[0])
         if name in _PIECES:
             self._piece(node, given)
+        # The key of a choice is a text already: it stays a choice, and is compared as one.
         if name == "string" and given[0].choices:
             return given[0], cost
         return _given_back(signature.gives, given), cost
@@ -175,6 +177,7 @@ class ExpressionCheck:
     def _piece(self, node: Node, given: list[Worth]) -> None:
         """See that a text that is looked for in a choice is in one of its keys."""
         of, name = given[0], str(node.value)
+        # Where other texts are possible too, a piece that is in no key may still be in one of those.
         if not of.choices or not of.is_closed or of.choices.open:
             return
         for text in given[1].literals:
@@ -201,6 +204,7 @@ class ExpressionCheck:
             return 0
         if re.search(r"\(\?(?!:|i\))", node.value):
             self._slip("a pattern may begin groups with '(?:' and '(?i)' and no other '(?'")
+        # {n} writes out n times what is before it, and nested ones multiply.
         states = 1 + len(node.value)
         for _, least, most in re.findall(r"(\{)\s*(\d+)\s*,?\s*(\d*)", node.value):
             states = min(states * max(1, int(least[:9]), int(most[:9] or 0)), LARGEST)
@@ -213,6 +217,7 @@ class ExpressionCheck:
         if of.kind not in ("list", "any"):
             self._slip(f"'{macro}' goes over a list, and {quoted(node.parts[0].text)} is {_CALLED[of.kind]}")
         item = of.item or ANY
+        # The name of an item hides one that is read, and only inside of the macro.
         outside, self._names = self._names, {**self._names, name: item}
         bodies = [self._worth(part) for part in node.parts[1:]]
         self._names = outside

@@ -105,6 +105,7 @@ def signature_of(function: Callable[..., Any]) -> Signature:
     parameters = list(inspect.signature(function).parameters.values())
     needed = sum(p.default is p.empty for p in parameters)
     numbers = (n for n, p in enumerate(parameters) if p.annotation in NUMBER_ANNOTATIONS)
+    # A formula may give null where the manual has no answer; what is asked here is how large others get.
     gives = str(inspect.signature(function).return_annotation).removesuffix(" | None")
     return Signature(needed, len(parameters), _GIVEN.get(gives, _SEVERAL), frozenset(numbers))
 
@@ -125,6 +126,7 @@ LANGUAGE: dict[str, Signature] = {
 
 def any_of(worths: list[Worth]) -> Worth:
     """Return what is one of several: as large as the largest."""
+    # null is of every kind and costs nothing: it must not make the kind of the others unknown.
     known = [worth for worth in worths if worth.kind != "null"]
     return reduce(_either, known) if known else next(iter(worths), ANY)
 
@@ -132,6 +134,7 @@ def any_of(worths: list[Worth]) -> Worth:
 def _either(one: Worth, other: Worth) -> Worth:
     if one == other:
         return one
+    # An empty list has no items, and goes with a list of anything.
     items = [worth.item for worth in (one, other) if worth.item]
     return Worth(
         one.kind if one.kind == other.kind else "any",

@@ -63,8 +63,10 @@ class Review:
 def _is_of_another_family(rule: Rule, schema: Schema) -> bool:
     """Return whether another family has all parameters that a rule reads, and this one has not."""
     read = {parameter_id for parameter_id, _ in _read(rule).values()}
+    # Parameters of the same id are in several families: what this one has is meant for it.
     if read <= schema.parameters.keys():
         return False
+    # All of them, not some: a rule with one slip in a name would else pass as one of another family.
     others = (family for family in family_ids() if family != schema.family.family)
     return any(read <= load_schema(family).parameters.keys() for family in others)
 
@@ -194,6 +196,7 @@ def _expressions(rule: Rule, schema: Schema, found: Review) -> int:
         times = 1
         if place[0] in ("blames", "compares"):
             value = names.get(str(place[1]), ANY)
+            # Which items are to blame is asked for each of them, with ``it`` and ``at`` as its names.
             times, item = (value.length, value.item or ANY) if value.kind == "list" else (1, value)
             names |= {"it": item, "at": WHOLE}
         check = ExpressionCheck(names, functions)
@@ -203,6 +206,7 @@ def _expressions(rule: Rule, schema: Schema, found: Review) -> int:
             found.slips.append((place, str(error)))
             continue
         found.slips += [(place, slip) for slip in check.slips]
+        # After the slips inside it: an unknown name gives ``any``, which fits everything.
         if slip := _unfit(worth, wanted):
             found.slips.append((place, slip))
         once += times * check.cost
@@ -212,6 +216,7 @@ def _expressions(rule: Rule, schema: Schema, found: Review) -> int:
 def _cost_of_names(rule: Rule, names: Mapping[str, Worth]) -> int:
     """Return what reading the values and writing those of the message costs."""
     lengths = {name: worth.length for name, worth in names.items() if worth.kind == "list"}
+    # A list in the message is written item by item.
     written = {name for _, name, _, _ in _fields(rule.message) if name in names}
     items = sum(max(1, lengths.get(name or "", 1)) for name in written)
     return _EACH_RUN + len(rule.reads) + 4 * sum(lengths.values()) + _SHOWN * items * rule.message.count("{")
@@ -298,6 +303,7 @@ def _functions(family: str) -> dict[str, Signature]:
 
 def _runs(rule: Rule, schema: Schema) -> int:
     """Return for how many instances a rule runs at most."""
+    # A list is read whole in one run; what is read as a single value is run for each of its instances.
     own: Iterable[str] = (
         p for p, which in _read(rule).values() if which in ("", "<", ">") and p in schema.parameters
     )

@@ -78,12 +78,14 @@ def upload_several(options: Options, exchange: Exchange) -> int:
         raise UsageError(
             f"{folder} is no folder: an upload from several controls writes a file for each there"
         )
+    # All names before the first control is asked: an upload must not end at a file that exists.
     outputs = {address: folder / f"{_as_name(address)}.amp" for address in options.source}
     for output in outputs.values():
         check_new(output, "an upload")
 
     def work(address: str, with_control: Exchange) -> tuple[bytes, ParameterFile]:
         content = fetch_image(address, with_control)
+        # Refused and not written: a file without values looks like a backup and is none.
         if not content:
             raise UsageError("the control is empty: there is nothing to upload")
         return content, decode_content(content)
@@ -149,6 +151,7 @@ def _end(options: Options, rows: list[FleetRow]) -> int:
 
 def _one_code(options: Options, rows: list[FleetRow], codes: list[int]) -> int:
     """Return the worst of the codes; one control that was changed makes a failure a change in part."""
+    # What a control contains now is not known: worse than one that failed and kept its values.
     if UNKNOWN in codes:
         return UNKNOWN
     is_partly = options.verb == "download" and "done" in [row.word for row in rows]

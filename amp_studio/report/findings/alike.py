@@ -36,6 +36,7 @@ def alike(findings: Iterable[Finding]) -> list[list[Finding]]:
     """Return findings in their order, those together that report the same of several axes."""
     found: dict[tuple[str, str, str], list[Finding]] = {}
     for finding in findings:
+        # By the message, which has the values in it: axes with other values are not the same finding.
         found.setdefault((finding.severity, finding.rule, finding.message), []).append(finding)
     return list(found.values())
 
@@ -61,6 +62,7 @@ def _axes_text(file: ParameterFile, same: Sequence[Finding]) -> str:
 def _axes(file: ParameterFile, findings: Iterable[Finding]) -> list[str]:
     """Return the axes that findings are about, in their order."""
     axes = {a[1] for finding in findings for a in finding.addresses if scope_of(file, a) == "axis"}
+    # By length first: axis 10 comes after axis 9.
     return sorted(axes, key=lambda axis: (len(axis), axis))
 
 
@@ -70,6 +72,7 @@ def printed_suppressed(
     """Return the suppressed findings as they are printed, with name and reason."""
     alike: dict[tuple[str, str, str], list[Finding]] = {}
     for suppressed in left:
+        # What was accepted for good is not offered to be changed.
         finding = replace(suppressed.finding, fix=(), effective=())
         by = f"{language.text('Suppressed by')} {suppressed.suppression.by}: {suppressed.suppression.reason}"
         alike.setdefault((finding.rule, finding.message, by), []).append(finding)

@@ -55,6 +55,7 @@ def _key(finding: Finding) -> str:
     """Return the rule; where it is a range or a choice the parameter too,
     and for a fault of a builder's rules its words.
     """
+    # One rule of the schema is about every parameter: without its name the whole file would be one group.
     if finding.rule.startswith("schema.") and finding.causes:
         return f"{finding.severity} {finding.rule} {finding.causes[0][0]}"
     is_single = finding.rule.startswith(("schema.", "rules."))
@@ -83,6 +84,7 @@ def fix_text(file: ParameterFile, findings: Sequence[Finding]) -> str:
     if not settings:
         return ""
     name = file.schema.parameters[settings[0].address[0]].name
+    # As they are shown: 10 mm and 10.0 mm are one new value on a button.
     values = {(s.address[0], _value_text(file, s)) for s in settings}
     if len(values) == 1:
         return f"Set {name} to {values.pop()[1]}"

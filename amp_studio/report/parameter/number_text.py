@@ -48,6 +48,7 @@ def _spans(schema: Schema, parameter: Parameter, machine: str) -> str:
     if not numbers:
         return "none" if here.layout(parameter) else ""
     runs = []
+    # Points of a table count up within their axis: a run across axes would hide the step between them.
     for _, group in groupby(numbers.items(), key=lambda item: item[0].rpartition(".")[0]):
         members = list(group)
         runs += [members] if _even(members) else [[member] for member in members]
@@ -56,6 +57,7 @@ def _spans(schema: Schema, parameter: Parameter, machine: str) -> str:
     if not others:
         return text
     named = ", ".join(f"{schema.parameters[i].name} ({i})" for i in others)
+    # The manual prints the numbers for two parameters, and at the control they are those of the others.
     if here.is_disputed(parameter.id):
         return f"{text}; printed, but they address {named}"
     return f"{text}; also printed for {named}"
@@ -65,6 +67,7 @@ def _even(members: list[tuple[str, str]]) -> bool:
     """Return whether the numbers have a constant step, so that first, second and last are enough."""
     split = [split_count(number) for _, number in members]
     steps = {b[1] - a[1] for a, b in pairwise(split)}
+    # Two numbers always have one step: only from three on does a step show a rule.
     return len(split) > 2 and len({head for head, _ in split}) == len(steps) == 1 and steps != {0}
 
 

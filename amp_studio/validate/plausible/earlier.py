@@ -73,6 +73,7 @@ class EarlierValues:
         or where it does not count.
         """
         old, new = one.values.get(address), self._file.values.get(address)
+        # An axis that turns now has angles for lengths: their figures have no factor between them.
         if old is None or new is None or dimension(old.unit) != dimension(new.unit):
             return ""
         if isinstance(old.value, bool | str) or isinstance(new.value, bool | str):
@@ -96,6 +97,7 @@ class EarlierValues:
         """
         done = set(asked)
         for one, found in zip(self.earlier, self._findings, strict=True):
+            # So many at once are another machine or another unit, and no slips.
             if len(found) > max(_MOST, len(one.values) // _SHARE):
                 continue
             for address, words in found.items():
@@ -119,6 +121,7 @@ def values_of_fleet(others: Sequence[Mapping[Address, Value]]) -> dict[Address, 
     counts: dict[Address, int] = {}
     apart: set[Address] = set()
     for values in others:
+        # Missing at one machine is no other opinion: only the values that are there are compared.
         for address, value in values.items():
             counts[address] = counts.get(address, 0) + 1
             if found.setdefault(address, value) != value:

@@ -69,6 +69,7 @@ class Experience:
         """Compare with other earlier values from now on; all else stays as it is."""
         self._earlier = EarlierValues(self._file, earlier)
         self._findings = None
+        # ``findings`` does it where everything is stale, once.
         if not self._is_stale:
             self._earlier.look_at_all()
 
@@ -83,6 +84,7 @@ class Experience:
         addresses = list(changed)
         if self._is_stale:
             return
+        # Values became active or inactive with it, in any of the tables.
         if any(map(self._file.evaluation.decides_states, addresses)):
             self.look_at_all()
             return
@@ -99,6 +101,7 @@ class Experience:
             self._is_stale = False
         if self._findings is None:
             found = [finding for part in self._parts for finding in part.findings()]
+            # One value gets one question: what its like say now is a better reason than what it once was.
             asked = {cause for finding in found for cause in finding.causes}
             self._findings = (*found, *self._earlier.findings(asked))
         return self._findings

@@ -83,10 +83,12 @@ class EqualRows:
         """Look at a table whose rows are equal as a rule, or repeat after a few."""
         keys, every = self._file.evaluation.keys, self._equal[name]
         addresses = self._addresses(name)
+        # Rows that repeat after a few are as many tables, one inside the other: like is compared with like.
         for first in range(every):
             rows = addresses[first::every]
             figures = [keys[address] for address in rows]
             counts = Counter(figures)
+            # Of two odd rows either may be the slip: only a single one is asked about.
             alone = [n for n, key in enumerate(figures) if counts[key] == 1]
             if len(alone) == 1 and len(rows) >= _LEAST and sorted(counts.values())[1] >= _OFTEN:
                 usual, times = counts.most_common(1)[0]
@@ -98,9 +100,11 @@ class EqualRows:
         figures = [keys[address] for address in addresses]
         counts = Counter(figures)
         by_count = sorted(counts.values())
+        # One value that is there once, and no other that is rare: else the table has no habit to break.
         if len(addresses) < _LEAST or by_count[0] != 1 or by_count[1] < _OFTEN:
             return
         alone = counts.most_common()[-1][0]
+        # 0 is a row that is not used, and no factor leads to it.
         if not alone:
             return
         for usual in counts:

@@ -100,8 +100,10 @@ class StepTables:
             fewer = min(motion.ahead, motion.behind, key=len)
             most = max(motion.forward, motion.backward)
             rest = motion.forward - motion.backward
+            # The single step back is asked about first: with it mended the motion is another one.
             if len(fewer) == 1 and len(motion.ahead) + len(motion.behind) >= _LEAST:
                 yield self._turning_back(next(iter(fewer)))
+            # Below is the rounding of the sums; above, the motion does not nearly come back.
             elif fewer and 1e-9 * most < abs(rest) <= _NEARLY * most:
                 yield self._not_closed(whole, motion, rest)
 
@@ -112,6 +114,7 @@ class StepTables:
         values = [file.values[a] for a in ends if a in file.values and file.evaluation.state(a).is_active]
         first = next(iter(motion.steps))
         numbers = [v.value for v in (*values, file.values[first]) if isinstance(v.value, int | float)]
+        # Steps in counts and ends in mm cannot be compared without the figures of the axis.
         if len({value.unit for value in (*values, file.values[first])}) != 1 or len(numbers) != 3:
             return
         travel = numbers[1] - numbers[0]

@@ -43,6 +43,7 @@ class WithinTravel:
         travels, instance = self._of.get(address[0], ()), address[1]
         positions = {(name, instance) for travel in travels for name in travel.inside}
         before = {a: self._findings.pop(a, None) for a in positions}
+        # A changed end moves for all positions of its axis, those that had no finding too.
         for position in positions:
             self._look_at(position)
         return any(self._findings.get(a) != found for a, found in before.items())
@@ -57,8 +58,10 @@ class WithinTravel:
                 continue
             ends = (travel.low, address[1]), (travel.high, address[1])
             at, low, high = map(self._position, (address, *ends))
+            # Ends that are equal or the wrong way round enclose nothing: every position would be outside.
             if at is None or low is None or high is None or low >= high:
                 continue
+            # A share of the travel and no length: a lathe and a gantry have the same fact.
             slack = travel.beyond * (high - low)
             if not low - slack <= at <= high + slack:
                 self._findings[address] = self._finding(address, ends)
