@@ -40,7 +40,7 @@ def arc_by_center(
     where the end is off the circle by more than the control takes.
     """
     radius, other = math.hypot(x0 - first, y0 - second), math.hypot(x1 - first, y1 - second)
-    if radius < CLOSED:
+    if radius < max(CLOSED, tolerance.least if tolerance else 0.0):
         raise ProgramBlockError("An arc around the point where it begins has no radius", "arc-radius")
     off = abs(radius - other)
     _refuse_off_circle(off, radius, tolerance)

@@ -97,7 +97,9 @@ class ProgramFlow:
         return False
 
     def _take_statement(self, line: str) -> bool:
-        """Do a branch or an assignment; return whether the line is one."""
+        """Do a branch or an assignment that this control has; return whether the line is one."""
+        if not any(re.match(each.pattern, line) for each in self._facts.statements):
+            return False
         if _RETURN.fullmatch(line):
             self._return()
         elif (match := _BRANCH.fullmatch(line)) is not None:

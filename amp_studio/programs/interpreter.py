@@ -205,9 +205,17 @@ class Interpreter:
             self._single.do(codes, words)
         elif words.axes or words.distances or words.centers:
             self._move(words, codes)
-        elif "no-feed" in self._path.faults and any(code.facts.does in FED for code in codes.codes):
-            self._moves.need_feed(codes.modal)
+        else:
+            self._check_alone(codes)
         self._over = codes.is_end
+
+    def _check_alone(self, codes: BlockCodes) -> None:
+        """Refuse a code that moves at the feed with no place beside it, where the control does."""
+        fed = [code for code in codes.codes if code.facts.does in FED]
+        if fed and "no-feed" in self._path.faults:
+            self._moves.need_feed(codes.modal)
+        if self._path.arcs_need_words and any(code.facts.does != "line" for code in fed):
+            raise BlockError("An arc without a place and a center", "no-center")
 
     def _waits_for_speed(self, roles: dict[str, float], *, turns: bool) -> bool:
         if "spindle" not in roles or not self._path.speed_waits:
@@ -268,6 +276,8 @@ class Interpreter:
     def _target(self, words: BlockNumbers, codes: BlockCodes, *, is_arc: bool) -> list[float]:
         if not codes.in_machine:
             return self._at.target(words, is_absolute=codes.modal.is_absolute)
+        if self._path.machine_absolute and not codes.modal.is_absolute:
+            raise BlockError("A move in the coordinates of the machine is absolute")
         target = self._at.in_machine(words)
         if is_arc:
             raise BlockError("A move in the coordinates of the machine is straight", "machine-arc")

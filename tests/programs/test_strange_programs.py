@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile
-from amp_studio.programs import BlockReader, read_program
+from amp_studio.programs import BlockReader, path_letters, read_program
 from amp_studio.programs.interpreter import tool_path
 
 from .test_block import example
@@ -260,3 +260,43 @@ def test_a_range_of_a_syntec_has_both_of_its_ends(
     assert BlockReader(files["syntec"]).read(block).faults == ((fault,) if fault else ())
     found = tool_path(files["syntec"], [block, "G00 X-5."]).fault
     assert (found is not None and found.code == "COR-109") == bool(fault)
+
+
+@pytest.mark.parametrize(
+    ("family", "lines", "message", "code"),
+    [
+        ("linuxcnc", ["G2 F100"], "without a place and a center", ""),
+        ("grblhal", ["G2 F100"], "without a place and a center", "error:35"),
+        ("linuxcnc", ["G91 G53 G0 X-5"], "coordinates of the machine is absolute", ""),
+        ("linuxcnc", ["G1 X-1 F100", "G2 X-1 Y0 I-0.00126 J0"], "has no radius", ""),
+    ],
+)
+def test_what_the_real_ends_refuse_is_refused(
+    files: dict[str, ParameterFile], family: str, lines: list[str], message: str, code: str
+) -> None:
+    """Measured: rs274 (R i j k words all missing for arc, Cannot use g53 incremental, Zero-radius arc), the firmware."""
+    start = [0.0] * len(path_letters(files[family]))
+    fault = tool_path(files[family], lines, start=start, zero=dict.fromkeys("XYZ", 0.0)).fault
+    assert fault is not None
+    assert message in fault.message
+    assert fault.code == code
+
+
+def test_a_control_has_its_own_statements_alone(files: dict[str, ParameterFile]) -> None:
+    """A NUM took branches and program parameters of an AcroMill."""
+    for line in ("GOTO 1", "GOSUB 1", "P5=0", "IF P5<5 THEN GOTO 1", "RET"):
+        fault = tool_path(files["num"], ["N1 G1 X-1 F100", line, "X-9"]).fault
+        assert fault is not None
+        assert fault.line == 2
+        assert "no end" not in fault.message
+        assert "deep" not in fault.message
+
+
+def test_a_subprogram_of_a_9pc_is_named_and_m02_of_a_num_ends_its_program(
+    files: dict[str, ParameterFile],
+) -> None:
+    """9/PC 25-3: a subprogram call (M98) moved nothing. NUM 7-17: N5 behind M02 is called by G77 alone."""
+    fault = tool_path(files["9pc"], ["G1 X-1 F100", "M98 P1"]).fault
+    assert fault is not None
+    assert fault.message == "M98 is not simulated: calls a subprogram"
+    assert len(tool_path(files["num"], ["G1 X-1 F100", "M02", "N5 X-9"])) == 1

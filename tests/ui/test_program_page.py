@@ -183,6 +183,27 @@ def test_a_moment_of_a_program_is_shown_where_the_axes_are_then(
     assert window.play.button.text() == "&Play"
 
 
+def test_keys_play_and_list_the_blocks_of_a_limit(window: ProgramPage, plate: Path, qtbot: QtBot) -> None:
+    plate.write_text(PROGRAM.replace("N60 M2", "N60 G41 X-1\nN70 X-2"))
+    window.show()
+    window.open_program(plate)
+    qtbot.waitUntil(lambda: window.outcome is not None, timeout=WAIT_MS)
+    assert "Blocks that are not run: 2." in window.missing.text()
+    window.lines.setFocus()
+    qtbot.waitUntil(window.lines.hasFocus, timeout=WAIT_MS)
+    letters = [window.lines.item(n, 1).text() for n in range(window.lines.rowCount())]
+    qtbot.keyClick(window.lines, Qt.Key.Key_1)
+    first = window.limits.item(0, 0).text()
+    visible = [n for n in range(window.lines.rowCount()) if not window.lines.isRowHidden(n)]
+    assert visible == [n for n, letter in enumerate(letters) if letter == first]
+    qtbot.keyClick(window.lines, Qt.Key.Key_1)
+    assert not any(window.lines.isRowHidden(n) for n in range(window.lines.rowCount()))
+    qtbot.keyClick(window.lines, Qt.Key.Key_Space)
+    assert window.play.button.text() == "&Pause"
+    qtbot.keyClick(window.lines, Qt.Key.Key_Space)
+    assert window.play.button.text() == "&Play"
+
+
 def test_a_long_program_shows_its_beginning_first(
     window: ProgramPage, tmp_path: Path, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -296,6 +296,8 @@ class ArcTolerance(Model):
     """Share of the radius that may be besides."""
     most: float
     """mm that never may be passed."""
+    least: float = 0.0
+    """mm of a radius below which there is no arc."""
 
 
 class ProgramPath(Model):
@@ -333,6 +335,10 @@ class ProgramPath(Model):
     while the spindle turns."""
     dwell_step: float = 0.0
     """s in which the control counts dwells and pauses, up to the next whole one; 0 where it has none."""
+    arcs_need_words: bool = False
+    """Whether a code of an arc alone in its block is refused."""
+    machine_absolute: bool = False
+    """Whether a move in the coordinates of the machine is refused while places are incremental."""
     arcs_by_radius: bool = False
     """Whether R may give the radius of an arc."""
     centers: ParameterId | None = None

@@ -7,11 +7,12 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import cast
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QHideEvent
+from PySide6.QtGui import QHideEvent, QKeySequence, QShortcut
 from PySide6.QtWidgets import (
     QFileDialog,
     QHBoxLayout,
@@ -152,11 +153,33 @@ class ProgramPage(PageOfFile):
         self.bar, self.play = TimeBar(), PlayBar()
         self.play.moved.connect(self._show_moment)
         self.words.hide()
+        self._only = ""
+        """Letter of the limit whose blocks alone are listed."""
+        self._add_keys()
         self.form, self.change_form = FieldForm(block_fields()), FieldForm((self._change_field(),))
         self.form.entered.connect(self._entered)
         self.change_form.entered.connect(lambda _key: self._try(str(self.change_form.answers()["change"])))
         self._lay_out()
         self._say(self.tr("Type a block, or open a part program."))
+
+    def _add_keys(self) -> None:
+        """Have Space play, and 1 to 6 list the blocks of a limit alone, where nothing is typed."""
+        for part in (self.lines, self.limits, self.plot, self.play.slider):
+            keys: list[tuple[str, Callable[[], None]]] = [("Space", self.play.toggle)]
+            keys += [(str(n + 1), partial(self._list_limit, n)) for n in range(6)]
+            for key, do in keys:
+                shortcut = QShortcut(QKeySequence(key), part, do)
+                shortcut.setContext(Qt.ShortcutContext.WidgetShortcut)
+        self.lines.setToolTip(self.tr("Space plays; 1 to 6 list the blocks of one limit, and all again"))
+
+    def _list_limit(self, n: int) -> None:
+        """List the blocks of the n-th limit alone; all of them where they are listed so."""
+        cell = self.limits.item(n, 0)
+        letter = cell.text() if cell is not None else ""
+        self._only = "" if letter == self._only else letter
+        for row in range(self.lines.rowCount()):
+            own = self.lines.item(row, 1)
+            self.lines.setRowHidden(row, bool(self._only) and (own is None or own.text() != self._only))
 
     def _change_field(self) -> Field:
         return Field(
@@ -378,7 +401,7 @@ class ProgramPage(PageOfFile):
         task.begin()
 
     def _show(self, run: ProgramRun) -> None:
-        self.outcome = run
+        self.outcome, self._only = run, ""
         self.tries.clear()
         limited = limited_by(self._file, run)
         fill(
@@ -421,7 +444,11 @@ class ProgramPage(PageOfFile):
         )
         self.play.show_program(run.plan.time)
         text = self.tr("Cutter radius compensation and the tool are not simulated. Assumed: {count}")
-        self.missing.setText(text.format(count=len(run.assumptions)))
+        parts = [text.format(count=len(run.assumptions))]
+        if (fault := run.plan.path.fault) is not None:
+            left = len(self._job.lines) - fault.line + 1
+            parts.insert(0, self.tr("Blocks that are not run: {count}.").format(count=left))
+        self.missing.setText(" ".join(parts))
         self.missing.setToolTip("\n".join(map(self._worded, run.assumptions)))
 
     def _number_of(self, typed: str) -> str:
