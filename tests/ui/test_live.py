@@ -30,7 +30,7 @@ GAIN, ERROR = ("gain.velocity", "X"), ("setup.max_position_error", "X")
 class StoppedReadings(QObject):
     """Readings that a test gives, one at a time."""
 
-    read = Signal(object)
+    read = Signal(object, float)
     failed = Signal(object)
 
     def __init__(self) -> None:
@@ -179,6 +179,16 @@ def test_without_an_answer_for_two_seconds_the_figures_are_grey_with_their_age(p
     page.show_status(status())
     assert page.bar.isHidden()
     assert page.panel.readings.isEnabled()
+
+
+def test_a_reading_is_drawn_at_the_time_of_its_answer_however_late_the_window_takes_it(
+    page: LiveView,
+) -> None:
+    """A window that was busy drew several readings at one time."""
+    page.readings.read.emit(status(), page._begun + 1.0)
+    page.readings.read.emit(status(), page._begun + 1.2)
+    times = [at for at, _ in page.recorder._recent.signals["position"]]
+    assert times == pytest.approx([1.0, 1.2])
 
 
 def test_rows_show_the_file_beside_the_control_and_what_differs(page: LiveView) -> None:
@@ -353,13 +363,14 @@ def test_a_control_is_asked_at_most_five_times_a_second_and_the_line_is_closed(
     monkeypatch.setattr("amp_studio.transfer.client.StatusReader", Reader)
     monkeypatch.setattr(live.Task, "__init__", _with_event(live.Task.__init__, Cancelled))
     readings = StatusReadings("tcp://bench:1", "57c422b")
-    seen: list[object] = []
-    readings.read.connect(seen.append)
+    seen: list[float] = []
+    readings.read.connect(lambda _status, at: seen.append(at))
     readings.start()
     qtbot.waitUntil(lambda: len(seen) >= 3, timeout=WAIT_MS)
     with qtbot.waitSignal(readings.failed, timeout=WAIT_MS):
         readings.stop()
     assert closed.is_set()
+    assert seen == sorted(seen)
     assert all(0.1 < wait <= 0.2 for wait in waits)
     qtbot.waitUntil(lambda: not live.Task.running, timeout=WAIT_MS)
 

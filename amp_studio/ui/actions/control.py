@@ -96,6 +96,11 @@ class ControlDesk(Translated):
         self._live = page
         page.use(session, seen, self._name_of(address), own)
 
+    def _end_live(self) -> None:
+        """End Live before several controls are written to: its control may be one of them."""
+        if self._live is not None and is_alive(self._live) and self.page.several.is_sending:
+            self._live.stop(self.tr("Live has ended: an exchange is under way."))
+
     # -- the emulated control --------------------------------------------------
 
     def start_emulated(self) -> None:
@@ -160,6 +165,7 @@ class ControlDesk(Translated):
             page.left.connect(self.leave)
             page.chosen.connect(self.use)
             page.state_changed.connect(self._follow)
+            page.several.changed.connect(self._end_live)
             page.read_wanted.connect(
                 lambda file: self.window.guarded(partial(self._save_upload, file), self.tr("Read"))
             )

@@ -230,6 +230,8 @@ def open_live(window: PartsWindow) -> None:
         window.control.make_live(made, page.workspace, address)
         here = page.table_view.address()
         made.show_parameters(page.listed_title, page.table.asked, here[1] if here else "")
+        if here is not None:
+            made.rows.select(here[0])
         made.start()
 
 

@@ -29,7 +29,10 @@ HISTORY = 50
 class StatusReadings(QObject):
     """Asks a control for its status in a separate thread, until it is stopped; may outlast its page."""
 
-    read = Signal(object)
+    read = Signal(object, float)
+    """A reading, and when the control had answered (s of the monotonic clock): a window that is busy takes it
+    later.
+    """
     failed = Signal(object)
 
     def __init__(self, address: str, family: str) -> None:
@@ -68,7 +71,8 @@ class StatusReadings(QObject):
         with closing(StatusReader(self._address, self._family)) as reader:
             while not cancelled.is_set():
                 begun = time.monotonic()
-                self.read.emit(reader.read())
+                status = reader.read()
+                self.read.emit(status, time.monotonic())
                 # From question to question, so a slow line is asked without a pause but never faster than
                 # this.
                 cancelled.wait(max(PERIOD - (time.monotonic() - begun), 0.0))

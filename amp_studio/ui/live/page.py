@@ -371,12 +371,13 @@ class LiveView(PageOfFile):
 
     # -- a reading -------------------------------------------------------------------
 
-    def show_status(self, status: ControlStatus) -> None:
-        """Show a reading."""
+    def show_status(self, status: ControlStatus, at: float | None = None) -> None:
+        """Show a reading of a time, by default of now."""
         if not self.is_live:
             return
+        at = time.monotonic() if at is None else at
         self._silence.start()
-        self._times.append(time.monotonic())
+        self._times.append(at)
         is_first = self._status is None
         self._answered, self._status = datetime.now(UTC).astimezone(), status
         if self.bar.isVisible() and self.panel.readings.isEnabled() is False:
@@ -388,8 +389,7 @@ class LiveView(PageOfFile):
             self._choose_axis()
         self._show_axis(status)
         if (axis := self._axis_of(status)) is not None:
-            now = time.monotonic() - self._begun
-            self.recorder.take(now, axis, is_fault=is_new, reasons=status.not_known)
+            self.recorder.take(at - self._begun, axis, is_fault=is_new, reasons=status.not_known)
         self.panel.show_happened(self.happened)
         self._show_age()
         states = (status.state, tuple(axis.states for axis in status.axes), tuple(status.faults))

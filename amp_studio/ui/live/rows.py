@@ -93,6 +93,12 @@ class LiveRows(QTableWidget):
             self.setCurrentCell(wanted, NAME)
         self.chosen.emit(self.address)
 
+    def select(self, parameter_id: str) -> None:
+        """Make the row of a parameter the current one, where it is listed."""
+        row = next((n for n, each in enumerate(self.addresses) if each[0] == parameter_id), None)
+        if row is not None:
+            self.setCurrentCell(row, NAME)
+
     def show_control(self, present: ParameterFile | None, turned: Mapping[Address, TurnedValue]) -> None:
         """Show what the control contains; None for not known."""
         self._present, self._turned = present, turned

@@ -280,7 +280,7 @@ class WriteFrame(QFrame):
         problem = problem or self._problem()
         family = self._workspace.file.schema.family.family
         allowed = allowed_text(self._workspace, about.address)
-        now = self.tr("now {value}").format(value=self._text(about.now))
+        now = self.tr("now {value}").format(value=self._number(about.now))
         self.now.setText(f"{now}, {self.tr('allowed {range}').format(range=allowed)}" if allowed else now)
         self.write.setText(self.tr("&Write {value} Now").format(value=self._number(self._wanted)))
         self.write.setEnabled(not problem and not same_value(self._wanted, about.now))

@@ -189,13 +189,14 @@ class RecorderPage(QWidget):
         self._readings.start()
         self._show_state()
 
-    def take(self, status: ControlStatus) -> None:
-        """Take a reading of the control into the record that is being made."""
+    def take(self, status: ControlStatus, at: float | None = None) -> None:
+        """Take a reading of the control, of now or of a time, into the record that is being made."""
         if self._recorder is None:
             return
         try:
             axis = self._axis_of(status)
-            self._recorder.add(time.monotonic() - self._began, self._in_units(axis))
+            at = time.monotonic() if at is None else at
+            self._recorder.add(at - self._began, self._in_units(axis))
         except SimulationError as error:
             self._finish()
             self._say(error)
