@@ -24,6 +24,10 @@ else:
     __getattr__ = front_page(__name__)
 
 if has_display():
+    from .base.unread_sources import leave_sources_unread
+
+    leave_sources_unread()  # before every other module
+
     from .base.guard import guard_overrides
 
     guard_overrides()  # before the first class of this room is made
