@@ -21,7 +21,12 @@ if TYPE_CHECKING:
     from screenshots import Stage
 
 TOP = Path(__file__).resolve().parents[1]
-PAGES = ("docs/tutorial.md", "docs/howto/identify-friction.md", "docs/howto/add-rule.md")
+PAGES = (
+    "docs/tutorial.md",
+    "docs/howto/check-machine.md",
+    "docs/howto/identify-friction.md",
+    "docs/howto/add-rule.md",
+)
 BEGINS_WITH = {
     "docs/howto/add-parameter.md": ("docs/howto/add-family.md",),
     "docs/howto/add-rule.md": ("docs/howto/add-family.md", "docs/howto/add-parameter.md"),
@@ -203,6 +208,25 @@ def motion(stage: Stage, path: Path) -> QPixmap:
     return taken
 
 
+def machine(stage: Stage, path: Path) -> QPixmap:
+    """The machine checked, with a homing on a switch that is too short for its speed."""
+    from screenshots import settle
+
+    from amp_studio.ui.base.task import Task
+
+    window = _shown(stage, path)
+    window.menus["view.check"].trigger()
+    page = window.page.pages["check"]
+    settle(lambda: page.checks and not Task.running)
+    page.choose("home", "1")
+    page.card.length.setText("5 mm")
+    page.card.length.returnPressed.emit()
+    settle()
+    taken = _grab(window)
+    window.page.show_page("")
+    return taken
+
+
 def record(stage: Stage, path: Path) -> QPixmap:
     """The fit of a record."""
     from screenshots import settle
@@ -246,6 +270,7 @@ PICTURES: dict[str, Callable[[Stage, Path], QPixmap]] = {
     "tutorial-axes": axes,
     "tutorial-done": done,
     "tutorial-motion": motion,
+    "machine": machine,
     "record": record,
     "rule": rule,
 }

@@ -375,12 +375,18 @@ class Stage:
         self.window.page.show_page("")
 
     def machine(self) -> None:
-        """The check of the machine in motion."""
+        """The machine checked and drawn: a homing on a short switch, what is not good, tapping."""
         self.window.menus["view.check"].trigger()
         check = self.window.page.pages["check"]
-        settle(lambda: check.table.rowCount() and not Task.running)
-        check.table.setCurrentCell(0, 0)
+        settle(lambda: check.checks and not Task.running)
+        check.choose("home", "1")
+        check.card.length.setText("5 mm")
+        check.card.length.returnPressed.emit()
         self.take("17-machine", self.window, SIZES)
+        check.choose("velocity", "1")
+        self.take("17-machine-doubtful", self.window, SIZES)
+        check.choose("tap", "")
+        self.take("17-machine-tapping", self.window, SIZES)
         self.window.page.show_page("")
 
     def program(self) -> None:

@@ -30,7 +30,7 @@ def drawings(file: ParameterFile, language: Language = ENGLISH) -> tuple[Printed
 def _drawn(picture: FilePicture, language: Language) -> Iterator[PrintedFigure]:
     for part in _parts(picture):
         found = picture.scene(part)
-        scene = scene_in_words(found, language.title, language.unit)
+        scene = scene_in_words(found, language.sentence, language.unit)
         if _shows(scene):
             title = f"{scene.title} {_name(picture, part, scene)}" if part else scene.title
             height = HEIGHT if scene.y.is_written else max(HEIGHT, _ROW * (scene.y.high - scene.y.low))

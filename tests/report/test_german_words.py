@@ -15,6 +15,7 @@ from amp_studio.files import ParameterFile, compare, new_file, open_file
 from amp_studio.guide import progress
 from amp_studio.report import Contents
 from amp_studio.report.build import build_report
+from amp_studio.report.drawings import drawings
 from amp_studio.report.language import language_of
 from amp_studio.report.output.page import render_html
 from amp_studio.report.output.text import render_text
@@ -120,6 +121,32 @@ def test_a_sheet_has_german_places_units_and_remarks() -> None:
     assert "Encoder Setup, Achse X" in lines
     assert "1600 Ink/s, gerundet" in lines
     assert "counts" not in lines
+
+
+@pytest.mark.parametrize(
+    ("english", "german"),
+    [
+        (
+            "1 value to key in; 3 are the same already.",
+            "1 Wert einzugeben, davon erledigt: 0; 3 sind schon gleich.",
+        ),
+        (
+            "2 values to key in, 1 done; 3 are the same already.",
+            "2 Werte einzugeben, davon erledigt: 1; 3 sind schon gleich.",
+        ),
+    ],
+)
+def test_one_value_is_no_values(english: str, german: str) -> None:
+    """It was ``1 Werte einzugeben``."""
+    assert language_of("de").sentence(english) == german
+
+
+def test_a_picture_has_the_units_of_the_language() -> None:
+    """``0.08 V/count`` and ``100 in/min`` were as in English."""
+    file = open_file(EXAMPLES["acromill-router"]).file
+    printed = " ".join(figure.svg for figure in drawings(file, language_of("de", "acromill")))
+    assert "V/Ink" in printed
+    assert re.findall(r"\d (?:V/count|in/min|in|counts)\b", printed) == []
 
 
 def test_differences_in_german_say_what_is_not_set_and_keep_the_controls_words() -> None:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import ParameterFile
+from amp_studio.files import ParameterFile, SaveError
 from amp_studio.files.storage import save_file
 from amp_studio.report import Contents, set_report
 from amp_studio.report.build import build_report
@@ -98,8 +98,21 @@ def test_the_template_to_begin_with_is_used_without_a_mistake_and_never_replaces
     assert "= Service" in found.source
     path.write_text("mine")
     (path.parent / "logo.svg").write_text("mine")
-    with pytest.raises(FileExistsError, match="exists already: it is left as it is"):
+    with pytest.raises(SaveError, match="exists already: it is left as it is"):
         write_starting_template(machine.parent)
     path.unlink()
     write_starting_template(machine.parent)
     assert (path.parent / "logo.svg").read_text() == "mine"
+
+
+def test_a_folder_that_cannot_be_written_is_a_sentence(
+    machine: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It was ``[Errno 13] Permission denied``."""
+
+    def refused(_folder: Path, **_: object) -> None:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "mkdir", refused)
+    with pytest.raises(SaveError, match=r"report\.typ\.j2 cannot be written: Permission denied$"):
+        write_starting_template(machine.parent)

@@ -61,12 +61,12 @@ def test_every_scenario_of_the_file_is_a_row_of_its_part(router: Workspace, qtbo
     assert page.chips["good"].text() == "16"
     assert not page.chips["bad"].isVisibleTo(page)
     assert spoken(page, 1) == "Home X: good, −787 mm"
-    page._choose("home", "Y")
+    page.choose("home", "Y")
     assert page.title.text() == "Home, Y"
     assert page.card.scene.scene is not None, "the course of a homing is seen beside it"
     assert page.card.scene.scene.title == "Homing Y"
     assert list(page.card.axes.buttons) == ["X", "Y", "Z"]
-    page._choose("step", "X")
+    page.choose("step", "X")
     assert page.card.plot.picture is not None
     assert {check.part for check in page.checks} == {"homing", "travel", "following", "spindle", "probing"}
 
@@ -144,7 +144,7 @@ def test_digits_choose_an_axis_of_the_chosen_scenario(router: Workspace, qtbot: 
     for scenario in ("jog", "home"):
         for axis in "XY":
             page.show_check(MotionCheck(scenario, axis, axis, "good"))
-    page._choose("home", "X")
+    page.choose("home", "X")
     page._show_nth(1)
     assert page.check is not None
     assert (page.check.scenario, page.check.axis) == ("home", "Y")
@@ -165,7 +165,7 @@ def test_what_the_control_would_say_is_german_and_links_follow_the_theme(
     page.detail.linkActivated.emit("axis.max_rate")
     assert followed == ["axis.max_rate"]
     page.show_check(MotionCheck("jog", "X", "X", "bad", why="too fast", params=("axis.max_rate",)))
-    page._choose("jog", "X")
+    page.choose("jog", "X")
     assert page.why.text() == "too fast"
     seen = set()
     for theme in ("dark", "light"):
@@ -182,7 +182,7 @@ def test_a_short_switch_is_an_alarm_whose_fix_mends_it(mill: Workspace, qtbot: Q
     qtbot.addWidget(page)
     found = check_again(mill.file, "home", "1", {"move.switch_length": "5 mm"})
     page.show_check(found)
-    page._choose("home", "1")
+    page.choose("home", "1")
     page._take_again(found)
     assert found.alarms[0].code == "JOGGED HOME TOO FAST: X"
     assert page.card.fix.text().startswith("Set 1011 to ")
@@ -196,7 +196,7 @@ def test_recommendations_of_one_loop_are_one_fix(mill: Workspace, qtbot: QtBot) 
     page = CheckPage(mill, print)
     qtbot.addWidget(page)
     page.show_check(MotionCheck("step", "1", "X", "doubtful"))
-    page._choose("step", "1")
+    page.choose("step", "1")
     found = [
         Recommendation("servo.initial_gain", 1.5, "", "why"),
         Recommendation("servo.excess_error", 20.0, "mm", "why"),

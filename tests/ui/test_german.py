@@ -52,6 +52,12 @@ def test_numbers_are_shown_with_a_comma_and_typed_with_either_sign(german: None,
     assert [button.text() for button in window.tools.units.buttons.values()] == ["mm", "Zoll"]
 
 
+def test_a_value_of_an_axis_without_a_letter_has_its_place_in_german(german: None, window_with) -> None:
+    """Live had ``R0 Encoder Setup, X axis``."""
+    window = window_with("57c422b-label-press")
+    assert window.workspace.name_of(("setup.encoder", "X")) == "R0 Encoder Setup, Achse X"
+
+
 def test_why_a_family_has_no_such_axis_and_what_a_build_needs_is_german(german: None, window_with) -> None:
     """A walk through every page of a German window found these in English."""
     window = window_with("grblhal-router")

@@ -2,32 +2,38 @@
 and ink can be read on its ground.
 """
 
+import re
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QRect, Qt
-from PySide6.QtGui import QImage, QPixmap
+from PySide6.QtGui import QFontMetrics, QImage, QPixmap
 from PySide6.QtWidgets import (
     QAbstractButton,
+    QAbstractItemView,
     QApplication,
     QBoxLayout,
     QComboBox,
     QGridLayout,
+    QHeaderView,
     QLabel,
+    QListView,
     QToolButton,
     QWidget,
 )
 
 from amp_studio.schema import Value
+from amp_studio.sim import LimitUse, MotionCheck
 from amp_studio.transfer import AxisStatus, ControlStatus, known_fault
-from amp_studio.ui.base.theme import scheme
+from amp_studio.ui.base.theme import font, scheme
 from amp_studio.ui.base.translated import speak
 from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.forms.list_title import ListTitle
 from amp_studio.ui.live.page import LiveView
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.table.table_heads import AxisHeads
 from tests.campaigns import CAMPAIGN
 
 from .test_live import StoppedReadings, StoppedSession
@@ -72,14 +78,31 @@ PAGES: dict[str, Callable[[MainWindow], object]] = {
     "exchanges": lambda window: window.control.recorded(),
     "tuning": lambda window: window.menus["view.tuning"].trigger(),
     "program": lambda window: window.menus["view.program"].trigger(),
+    "machine": lambda window: window.menus["view.check"].trigger(),
     "live": show_live,
 }
+MOST_ROWS = 60
+"""Rows of a table that are checked."""
+CHECKS = (
+    MotionCheck("home", "1", "X", "bad", {"home_grid": (6.0, "%")}, part="homing", headline="home_grid"),
+    MotionCheck(
+        "step",
+        "1",
+        "X",
+        "doubtful",
+        why="too little margin",
+        use=LimitUse(1.2, "excess error", 12.0, 10.0, "mm"),
+    ),
+    MotionCheck("travel", "4", "B", "not possible", why="No limit is active", part="travel"),
+    MotionCheck("spindle", "", "", "good", {"speed": (6000.0, "rpm")}, part="spindle", headline="speed"),
+)
 
 
 @pytest.fixture(autouse=True)
 def _no_motion(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let the preview draw no motion, which takes seconds: test_preview.py has it."""
     monkeypatch.setattr("amp_studio.dossier.motion_apart", lambda file: ())
+    monkeypatch.setattr("amp_studio.ui.motion.check_page.check_motion", lambda file: iter(CHECKS))
 
 
 @pytest.fixture(params=("en", "de"))
@@ -122,6 +145,50 @@ def is_cut(widget: QWidget) -> bool:
     return widget.sizeHint().width() > widget.width() + 1
 
 
+def width_of_axis(letter: str, what: str) -> int:
+    """Return the width of the head of an axis, whose letter is larger than what it is."""
+    strong = font("text")
+    strong.setWeight(strong.Weight.DemiBold)
+    letters, small = (QFontMetrics(each) for each in (strong, font("caption")))
+    return letters.horizontalAdvance(letter) + small.horizontalAdvance(what) + 20 * bool(letter)
+
+
+def heads(window: MainWindow) -> Iterator[tuple[str, str]]:
+    """Yield each painted head of a column that has less room than its text, by the class of its view."""
+    for header in window.findChildren(QHeaderView):
+        if not header.isVisible() or header.orientation() != Qt.Orientation.Horizontal:
+            continue
+        for n in range(header.count()):
+            text = str(header.model().headerData(n, header.orientation(), Qt.ItemDataRole.DisplayRole) or "")
+            measure = header.fontMetrics()
+            wide = max((measure.horizontalAdvance(line) for line in text.splitlines()), default=0)
+            if isinstance(header, AxisHeads):
+                wide = width_of_axis(*header._table.column_head(n))
+            place = header.sectionViewportPosition(n)
+            is_seen = not header.isSectionHidden(n) and 0 <= place < header.viewport().width()
+            if is_seen and wide > header.sectionSize(n):
+                yield type(header.parent()).__name__, text
+
+
+NUMBER = re.compile(r"[-−]?\d[\d\u202f.,]*(?: [^\s\d]\S*)?")
+
+
+def cells(window: MainWindow) -> Iterator[tuple[str, str]]:
+    """Yield each painted number that has less room than its digits and its unit."""
+    for view in window.findChildren(QAbstractItemView):
+        model = view.model()
+        if not view.isVisible() or model is None or isinstance(view, QHeaderView):
+            continue
+        for row in range(min(model.rowCount(), MOST_ROWS)):
+            for column in range(1 if isinstance(view, QListView) else model.columnCount()):
+                index = model.index(row, column)
+                text, box = str(index.data() or ""), view.visualRect(index)
+                is_seen = box.isValid() and view.viewport().rect().contains(box)
+                wide = view.fontMetrics().horizontalAdvance(text)
+                if is_seen and NUMBER.fullmatch(text) and wide > box.width():
+                    yield type(view).__name__, text
+
+
 def overlaps(window: MainWindow) -> Iterator[tuple[str, str, str]]:
     for parent in window.findChildren(QWidget):
         layout = parent.layout()
@@ -141,8 +208,9 @@ def overlaps(window: MainWindow) -> Iterator[tuple[str, str, str]]:
 
 
 def test_no_text_of_a_page_is_cut_and_nothing_overlaps_on_any_screen(
-    window: MainWindow, language: str
+    language: str, window: MainWindow
 ) -> None:
+    """Labels and buttons, and what is painted: heads of columns, and numbers in cells."""
     found = []
     for name, show in PAGES.items():
         window.resize(1366, 768)
@@ -153,7 +221,8 @@ def test_no_text_of_a_page_is_cut_and_nothing_overlaps_on_any_screen(
             if (window.width(), window.height()) != screen:
                 found.append((name, screen, f"needs {window.width()} x {window.height()}"))
             cut = [(type(w).__name__, text) for w, text in texts(window) if is_cut(w)]
-            found += [(name, screen, each) for each in (*cut, *overlaps(window))]
+            painted = (*heads(window), *cells(window))
+            found += [(name, screen, each) for each in (*cut, *painted, *overlaps(window))]
     assert found == [], "\n".join(map(str, found))
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from amp_studio.files import SaveError
+
 from .templates import OWN
 
 _STARTING = Path(__file__).parents[1] / "starting"
@@ -13,18 +15,19 @@ NAME = "report.typ.j2"
 def write_starting_template(folder: Path) -> Path:
     """Write the template into the folder ``templates`` of a project; returns its path.
 
-    Raises FileExistsError where there is one; a logo that is already there stays.
-    Raises OSError where it cannot be written.
+    Raises SaveError where there is one, or where it cannot be written; a logo that is already there stays.
     """
     own = folder / OWN
     path = own / NAME
-    own.mkdir(exist_ok=True)
     try:
+        own.mkdir(exist_ok=True)
         _write_new(path)
+        if not (own / "logo.svg").exists():
+            _write_new(own / "logo.svg")
     except FileExistsError:
-        raise FileExistsError(f"{path} exists already: it is left as it is") from None
-    if not (own / "logo.svg").exists():
-        _write_new(own / "logo.svg")
+        raise SaveError(f"{path} exists already: it is left as it is") from None
+    except OSError as error:
+        raise SaveError(f"{path} cannot be written: {error.strerror or error}") from error
     return path
 
 

@@ -48,7 +48,7 @@ def form(window: StudioWindow) -> None:
 
 def new_template(window: StudioWindow) -> None:
     """Write a template to begin with beside the open file, and show its folder;
-    raises FileExistsError where there is one.
+    raises SaveError where there is one, or where the folder cannot be written to.
     """
     from amp_studio.report import write_starting_template
 

@@ -37,6 +37,8 @@ from amp_studio.validate import (
     rules_beside,
 )
 
+from .translated import worded
+
 JOURNAL_MS = 500
 """Milliseconds after an edit until the journal is written, so that a kill loses at most the last second."""
 
@@ -193,8 +195,8 @@ class Workspace(QObject):
 
     def name_of(self, address: Address) -> str:
         """Return what a value is called in a sentence: ``1750 Excess Error, X``."""
-        place = axis_name(self.file.evaluation, address[1]) or self.file.machine_schema.instance_label(
-            address
+        place = axis_name(self.file.evaluation, address[1]) or worded(
+            self.file.machine_schema.instance_label(address)
         )
         return f"{describe(self.file, address)}, {place}" if place else describe(self.file, address)
 

@@ -84,6 +84,7 @@ def figures_of(check: MotionCheck) -> list[str]:
     return [
         f"{number_in_words(value, unit)} {worded(name.replace('_', ' '))}"
         for name, (value, unit) in check.figures.items()
+        if value is not None
     ]
 
 

@@ -142,7 +142,8 @@ class CheckPage(PageOfFile):
     # -- how it is laid out ----------------------------------------------------------
 
     def _make_head(self) -> None:
-        self.heading = QLabel(self.tr("Checks"))
+        self.heading = ElidedLabel()
+        self.heading.setText(self.tr("Checks"))
         strong = font("text", own=True)
         strong.setWeight(strong.Weight.DemiBold)
         self.heading.setFont(strong)
@@ -312,7 +313,7 @@ class CheckPage(PageOfFile):
         )
         self.spindle.follow(self._workspace.file.copy(), has_spindle)
         if self.check is None:
-            self._choose(*self._chosen)
+            self.choose(*self._chosen)
         if why:
             self.summary.setText(str(why))
 
@@ -320,7 +321,7 @@ class CheckPage(PageOfFile):
         """Add one check in its place."""
         self.rows.add(check)
         if (check.scenario, check.axis) == self._chosen:
-            self._choose(*self._chosen)
+            self.choose(*self._chosen)
         self._sum_up()
 
     # -- the list ------------------------------------------------------------------------
@@ -328,7 +329,7 @@ class CheckPage(PageOfFile):
     def _filter(self) -> None:
         wanted = [verdict for verdict, button in self.chips.items() if button.isChecked()]
         self.rows.show_checks(self.checks, wanted)
-        self._choose(*self._chosen)
+        self.choose(*self._chosen)
 
     def _sum_up(self) -> None:
         counts = counts_of(self.checks)
@@ -342,7 +343,7 @@ class CheckPage(PageOfFile):
         lasted = written(value_text(self._lasted, digits=2))
         self.summary.setText(self.tr("{checks} in {time} s").format(checks=many, time=lasted))
 
-    def _choose(self, scenario: str, axis: str) -> None:
+    def choose(self, scenario: str, axis: str) -> None:
         """Choose the row of a scenario and axis; where there is none the first of the worst."""
         rows = {n: row for n, row in enumerate(self.rows.rows) if isinstance(row, MotionCheck)}
         own = [n for n, row in rows.items() if (row.scenario, row.axis) == (scenario, axis)]
@@ -367,7 +368,7 @@ class CheckPage(PageOfFile):
 
     def _show_axis(self, axis: str) -> None:
         if self.check is not None:
-            self._choose(self.check.scenario, axis)
+            self.choose(self.check.scenario, axis)
 
     def _show_nth(self, n: int) -> None:
         if self.check is not None:

@@ -10,7 +10,7 @@ from dataclasses import replace
 from functools import partial
 
 from PySide6.QtCore import QObject, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtGui import QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
@@ -117,10 +117,15 @@ class Card(QFrame):
         self.head.setSpacing(GAP2)
         self.head.addWidget(self.title)
         self.head.addWidget(self.about, 1)
-        above = QWidget()
+        self.optional: QLineEdit | None = None
+        """A field in the head that goes first where there is little room."""
+        above = self._above = QWidget()
         above.setLayout(self.head)
         above.setMinimumHeight(HEAD)
+        # What can go keeps no window wide: only what stays asks for room (see resizeEvent).
+        above.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.scene, self.plot, self.reason = SceneView(), Plot(has_cursors=False), QLabel()
+        self.plot.setMinimumSize(self.scene.minimumSizeHint())
         self.reason.setWordWrap(True)
         self.reason.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.reason.setMargin(GAP3)
@@ -132,6 +137,17 @@ class Card(QFrame):
         self.column.setSpacing(0)
         self.column.addWidget(above)
         self.column.addWidget(self.stack, 1)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        parts = (self.head.itemAt(n).widget() for n in range(self.head.count()))
+        asking = [each for each in parts if each is not None and each is not self.about]
+        staying = [each for each in asking if each is not self.optional and not each.isHidden()]
+        room = (self.head.count() + 2) * GAP2
+        least = sum(map(_width_of, staying)) + room
+        self._above.setMinimumWidth(least)
+        if self.optional is not None:
+            self.optional.setVisible(least + _width_of(self.optional) <= self.width())
 
     def show_scene(self, scene: Scene, grips: Mapping[str, tuple[str, Point]] | None = None) -> None:
         """Show a drawing, and what it shows beside the title."""
@@ -151,6 +167,11 @@ class Card(QFrame):
         self.about.setText("")
         self.reason.setText(text)
         self.stack.setCurrentWidget(self.reason)
+
+
+def _width_of(widget: QWidget) -> int:
+    """Return the width that a widget needs; one of a fixed width hints at another."""
+    return min(widget.sizeHint().width(), widget.maximumWidth())
 
 
 def _field(name: str, tip: str) -> QLineEdit:
@@ -298,6 +319,7 @@ class TravelCard(Card):
         self.pairs = Segment(self.tr("Axes"), is_tight=True)
         self.pairs.chosen.connect(self._choose)
         self.head.addWidget(self.hard)
+        self.optional = self.hard
         self.head.addWidget(self.pairs)
         self.picture: FilePicture | None = None
         self.way: PlaneWay | None = None

@@ -46,7 +46,7 @@ class SceneView(QWidget):
         return QSize(400, 240)
 
     def minimumSizeHint(self) -> QSize:
-        return QSize(160, 110)
+        return QSize(160, 90)
 
     def show_scene(self, scene: Scene | None, grips: Mapping[str, tuple[str, Point]] | None = None) -> None:
         """Show a scene in the language of the window, with what can be dragged in it."""

@@ -65,11 +65,14 @@ def content_widths(table: ParameterTable, painter: CellPainter) -> ContentWidths
     looks = _looks(table, every)
     slots = [max(map(painter.slot, column), default=0) for column in looks]
     block = _widest(painter, looks[0], slots[0]) if table.has_block else 0
-    full = [
-        max(_widest(painter, column, slot), _head(table, n))
-        for n, (column, slot) in enumerate(zip(looks, slots, strict=True))
-    ]
-    short = [_widest(painter, column, slot, is_short=True) for column, slot in zip(looks, slots, strict=True)]
+    # A head has no shorter words: it is whole in a column of short texts too.
+    full, short = (
+        [
+            max(_widest(painter, column, slot, is_short=is_short), _head(table, n))
+            for n, (column, slot) in enumerate(zip(looks, slots, strict=True))
+        ]
+        for is_short in (False, True)
+    )
     if table.has_block:
         full[0] = short[0] = _head_of_block(table)  # its cells lie across all columns
     for column in table.fact_columns:
