@@ -19,6 +19,7 @@ SCENARIOS = {
     "tap": "amp_studio.sim.scenarios.tap:SCENARIO",
     "probe": "amp_studio.sim.scenarios.probe:SCENARIO",
     "fault": "amp_studio.sim.scenarios.fault:SCENARIO",
+    "handwheel": "amp_studio.sim.scenarios.handwheel:SCENARIO",
 }
 """Scenario of any family -> where it is."""
 

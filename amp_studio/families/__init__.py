@@ -19,7 +19,8 @@ FAMILIES = {
 """Family -> its record."""
 
 SCENARIOS = {
-    "9pc": ("procedure", "hard-stop", "adaptive-feed"),
+    "9pc": ("procedure", "hard-stop", "adaptive-feed", "synchronize"),
+    "num": ("clamp",),
     "57c422b": ("procedure", "gear", "cam", "backlash", "passive-home"),
 }
 """Family -> the scenarios that its law alone has, for help and completion, which load no law."""

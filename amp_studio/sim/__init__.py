@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from .binding import bind_axis
     from .cam import CamForm, CamPoints, CamProfile, cam_figures, cam_picture
     from .cam_reading import read_cam_points
-    from .command.events import CodedScale, Failure, Homing, Jogging, Ramp, Travel
+    from .command.events import CodedScale, Failure, Handwheel, Homing, Jogging, Ramp, Travel
     from .command.pieces import Piece, change, length
     from .command.ramps import end_of, exponential_pieces, leg, move, profile_of
     from .engine.arrays import Vector

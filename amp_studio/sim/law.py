@@ -58,7 +58,7 @@ if TYPE_CHECKING:
 
     from .axis_parameters import AxisParameters, ParameterValue
     from .cam import CamForm
-    from .command.events import Homing, Jogging, Travel
+    from .command.events import Handwheel, Homing, Jogging, Travel
     from .engine.compiled import Sample
     from .engine.machine import Machine
     from .machine_test import MachineTest
@@ -176,7 +176,9 @@ class AxisLaw:
     homing: Callable[[], Homing] | None = None
     jogging: Callable[[], Jogging] | None = None
     travel: Callable[[], Travel] | None = None
-    """Read when a scenario asks for it; raises SimulationError naming what is missing.
+    handwheel: Callable[[str], Handwheel] | None = None
+    """handwheel(number of one, "" for the first) -> how it moves the axis.
+    Read when a scenario asks for it; raises SimulationError naming what is missing.
     None where no manual prints it."""
     undamped: str = ""
     """What to do first if the loop is not stable, a sentence;

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 from .errors import SimulationError
 
@@ -149,5 +150,8 @@ class Tapping:
     """s by which the command of the axis is ahead of the spindle."""
     figures: Mapping[str, tuple[float | None, str]] | None = None
     """Further figures by name, with their unit."""
+    feed_stop: Literal["", "detaps", "inhibited"] = ""
+    """What a feed stop does on the way into the hole; "" where no page prints it."""
+    feed_stop_page: str = ""
     page: str = ""
     notes: tuple[str, ...] = ()

@@ -50,7 +50,7 @@ SHOWN = {
     "probe": {"captured_position"},
     "fault": {"run_out"},
     "gear": {"gear_ratio"},
-    "cam": {"points"},
+    "cam": {"points", "peak_velocity_error"},
     "backlash": {"move_1"},
     "step": {"peak_following_error"},
     "frequency": {"bandwidth"},
@@ -58,6 +58,9 @@ SHOWN = {
     "hard-stop": {"detection_torque"},
     "adaptive-feed": {"torque_after", "time_off_torque"},
     "passive-home": {"home_position"},
+    "handwheel": {"step", "distance", "feedrate"},
+    "clamp": {"time_before", "motion_time", "time"},
+    "synchronize": {"speed", "seek_time", "deviation"},
 }
 """Scenario -> figures that it shows of what a row is about, unless the motion ends in an alarm."""
 
@@ -73,4 +76,4 @@ def assert_shown(scenario: str, output: str) -> None:
 
 
 def test_the_page_has_all_of_its_rows() -> None:
-    assert len(ROWS) == 316
+    assert len(ROWS) == 322

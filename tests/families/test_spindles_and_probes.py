@@ -72,6 +72,30 @@ def test_a_tap_of_a_num_slows_down_in_pitch_times_s2_over_2a() -> None:
     assert 0.0 < (result["reversal_error"][0] or 0.0) < 0.1
 
 
+@pytest.mark.parametrize(
+    ("bits", "depth", "words"), [(0, 9.0, "turns the tap back"), (16, 15.0, "no effect")]
+)
+def test_a_feed_stop_while_tapping_is_that_of_bit_4_of_p7n1(bits: int, depth: float, words: str) -> None:
+    """Page 8-9: detapping before the hole bottom, or inhibited until the end of the cycle."""
+    file = example(NUM)
+    file.set(("misc.functions_more", ""), Value(bits))
+    move = {"move.pitch": 1.0, "move.speed": 400.0, "move.feed_stop": 1.0}
+    trace = simulate(file, "tap", None, move)
+    assert words in trace.assumptions[0]
+    assert trace.result["depth"][0] < depth + 0.2
+    assert (trace.result["depth"][0] > 14.0) == (bits == 16)
+
+
+def test_a_feed_stop_while_tapping_is_printed_of_no_other_control() -> None:
+    with pytest.raises(SimulationError, match="not printed"):
+        simulate(
+            example("mill-1394/MILL_1394.amp"),
+            "tap",
+            None,
+            {"move.pitch": 1.0, "move.speed": 400.0, "move.feed_stop": 1.0},
+        )
+
+
 def test_anticipation_of_p63_takes_most_of_the_error_away() -> None:
     """Page 8-35: word 1 puts the command of the axis ahead by the time constant of its loop."""
     file = example(NUM)

@@ -9,8 +9,10 @@ from amp_studio.families.ninepc.law_events import CODED
 from amp_studio.files import ParameterFile, open_file
 from amp_studio.files.example_files import examples_folder
 from amp_studio.report.language import language_of
+from amp_studio.schema import Value
 from amp_studio.sim import SimulationError, check_motion, listing, simulate, simulated_axes
 from tests.campaigns import CAMPAIGN
+from tests.families.ninepc.test_law_sync import PAIR
 from tests.report.test_german import FUNCTION_WORDS
 
 EXAMPLES = {path.parent.name: path for path in sorted(examples_folder().glob("*/*.amp"))}
@@ -106,3 +108,29 @@ def test_a_refused_circle_names_both_axes_in_german() -> None:
     assert [
         text for text in refusals if words.sentence(text) == text or " and " in words.sentence(text)
     ] == []
+
+
+@pytest.mark.parametrize(
+    ("example", "scenario", "settings"),
+    [
+        ("num-1060-mill", "handwheel", {"move.rate": 90.0, "move.turns": 900.0}),
+        ("syntec-mill", "handwheel", {"move.rate": 50.0}),
+        ("num-1060-mill", "clamp", {"move.crm": "none"}),
+        ("num-1060-mill", "tap", {"move.pitch": 1.0, "move.speed": 400.0, "move.feed_stop": 1.0}),
+        ("lathe-ls176", "synchronize", {"move.speed": 4000.0, "move.then": 1000.0}),
+    ],
+)
+def test_wheels_clamps_and_pairs_are_stated_in_german(
+    example: str, scenario: str, settings: dict[str, float | str]
+) -> None:
+    file = open_file(EXAMPLES[example]).file
+    for address, value in (PAIR if scenario == "synchronize" else {}).items():
+        file.set(address, Value(0.9) if address == ("spindle.gain", "2.1") else value)
+    words = language_of("de", file.schema.family.family)
+    trace = simulate(file, scenario, None, settings, advise=False)
+    english = [*trace.assumptions, *(alarm.message for alarm in trace.alarms)]
+    assert english_in([words.sentence(text) for text in english], file) == []
+    assert [text for text in english if text == words.sentence(text)] == []
+    described = next(each for each in listing(file).scenarios if each.name == scenario)
+    german = [words.sentence(text) for text in (described.title, *described.settings.values())]
+    assert english_in(german, file) == []

@@ -35,7 +35,8 @@ print([name for name in sys.modules if name in ("numpy", "amp_studio.sim.scenari
     assert (
         listed
         == "[('step, velocity, frequency, tune, load, sweep, circle, home, jog, travel, spindle, tap, probe,"
-        " fault, procedure, hard-stop, adaptive-feed, gear, cam, backlash, passive-home',)]"
+        " fault, handwheel, procedure, hard-stop, adaptive-feed, synchronize, clamp, gear, cam, backlash,"
+        " passive-home',)]"
     )
     assert loaded == "['amp_studio.scenarios']"
     assert by_law == "[]"

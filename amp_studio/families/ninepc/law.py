@@ -298,9 +298,10 @@ def _bounded(source: Source, unit: str) -> Source:
 def _own_scenarios() -> dict[str, Scenario]:
     from .law_adaptive import SCENARIO as ADAPTIVE_FEED
     from .law_hard_stop import SCENARIO as HARD_STOP
+    from .law_sync import SCENARIO as SYNCHRONIZE
     from .law_tune import SCENARIO as PROCEDURE
 
-    return {each.name: each for each in (PROCEDURE, HARD_STOP, ADAPTIVE_FEED)}
+    return {each.name: each for each in (PROCEDURE, HARD_STOP, ADAPTIVE_FEED, SYNCHRONIZE)}
 
 
 LAW = Law(

@@ -12,6 +12,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
+from typing import TYPE_CHECKING
 
 from amp_studio.files import ParameterFile
 from amp_studio.sim import (
@@ -37,6 +38,9 @@ from .law_machine_tests import machine_tests
 from .law_pair import drive_axis, is_synchronised, refuse_chain, synchronised
 from .law_spindle import spindle, tapping
 from .law_words import Words, above, read_words
+
+if TYPE_CHECKING:
+    from amp_studio.sim import Scenario
 
 ALWAYS = (
     (
@@ -166,6 +170,7 @@ def _alone(read: AxisParameters) -> tuple[AxisLaw, float]:
         homing=partial(events.homing, read, words.length),
         jogging=partial(events.jogging, read, words.unit),
         travel=partial(events.travel, read, words.length),
+        handwheel=partial(events.handwheel, read, words),
     )
     return law, words.length
 
@@ -267,10 +272,17 @@ def _sources(read: AxisParameters, words: Words) -> dict[str, Source]:
     }
 
 
+def _own_scenarios() -> Mapping[str, Scenario]:
+    from .law_clamp import SCENARIO as CLAMP
+
+    return {CLAMP.name: CLAMP}
+
+
 LAW = Law(
     bind,
     axes,
     advise=advise,
+    own=_own_scenarios,
     spindle=spindle,
     tapping=tapping,
     machine_tests=machine_tests,

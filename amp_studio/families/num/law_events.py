@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.sim import AxisParameters, Homing, Jogging, SimulationError, Travel
+from amp_studio.sim import AxisParameters, Handwheel, Homing, Jogging, SimulationError, Travel
 
 from .law_facts import MOTION, ids
+from .law_words import Words
 
 JOGS = {"normal": ids.jog_normal, "slow": ids.jog_slow, "fast": ids.jog_fast}
 REDUCED = {"mm": ids.reduced_speed_linear, "deg": ids.reduced_speed_rotary}
@@ -76,3 +77,50 @@ def travel(read: AxisParameters, length: float) -> Travel:
     low, high = read.optional(ids.limit_min), read.optional(ids.limit_max)
     edges = (-math.inf if low is None else low * length, math.inf if high is None else high * length)
     return Travel({"the travel limit of P17": edges}, "TRAVEL LIMIT", "7-12", (LIMITED,))
+
+
+WHEELS = 4
+PER_LINE = 4.0
+"""Counts of a line: the axis card multiplies by 4 (5-12)."""
+WHEELED = (
+    "A line of the wheel counts 4, and moves the axis by 4 times MULTI / DIVI internal units (5-12)."
+    " ASSUMED: the axis"
+    " goes no faster than P30 and has its ramp of positioning; neither is printed of a handwheel."
+)
+FILTERED = "The measurement of this wheel is filtered: the axis moves by whole lines (P14N1, 4-28)."
+
+
+def handwheel(read: AxisParameters, words: Words, wheel: str) -> Handwheel:
+    """Return how a handwheel moves the axis (4-28, 5-10, 5-12); raises SimulationError where P14"
+    " declares none.
+    """
+    declared = int(read.optional(ids.axes_handwheels, everywhere=True) or 0.0)
+    known = [str(n + 1) for n in range(WHEELS) if declared >> n & 1]
+    if not known:
+        raise SimulationError("P14N0 declares no handwheel (4-28)")
+    chosen = wheel or known[0]
+    if chosen not in known:
+        raise SimulationError(
+            f"P14N0 declares no handwheel {chosen}, but {', '.join(known)} (4-28)", "move.wheel"
+        )
+    step = PER_LINE * _wheel_ratio(read, chosen, turns=words.unit == "deg") * words.length
+    is_reversed, is_filtered = (
+        int(read.optional(name, everywhere=True) or 0.0) >> int(chosen) - 1 & 1
+        for name in (ids.handwheel_direction, ids.handwheel_filter)
+    )
+    notes = (WHEELED, *((FILTERED,) if is_filtered else ()))
+    return Handwheel(-step if is_reversed else step, words.top, page="5-12", notes=notes)
+
+
+def _wheel_ratio(read: AxisParameters, at: str, *, turns: bool) -> float:
+    """Return MULTI / DIVI of a wheel: the second pair where it moves an axis that turns, unless that is"
+    " 0 (5-12).
+    """
+    pairs = [(ids.handwheel_multi, ids.handwheel_divi)]
+    if turns:
+        pairs.insert(0, (ids.handwheel_rotary_multi, ids.handwheel_rotary_divi))
+    for multi, divi in pairs:
+        above, below = (read.optional(name, at=at) or 0.0 for name in (multi, divi))
+        if above > 0.0 and below > 0.0:
+            return above / below
+    raise SimulationError(f"Handwheel {at} has no MULTI / DIVI above 0 in P13 (5-12)", pairs[-1][0])

@@ -22,6 +22,8 @@ RANGES = range(40, 46)
 FULL_V = 10.0
 SEARCH = 1 << 7
 """Bit of P7N0 that switches the automatic search of a range off (8-16)."""
+FEED_STOP_WAITS = 1 << 4
+"""Bit of P7N1 (8-9)."""
 GROUP_1 = "1"
 PROPORTION = (
     "ASSUMED: lower speeds are in proportion to the 10 V at the end of the range (8-16). No ramp of the"
@@ -123,6 +125,13 @@ def tapping(machine: BoundMachine, spindle: Spindle, gear: Gear, axis: AxisLaw, 
         leads=True,
         anticipation=ahead,
         figures=figures,
+        feed_stop="inhibited" if _inhibits_feed_stop(read) else "detaps",
+        feed_stop_page="8-9",
         page="8-32 to 8-35",
         notes=(FOLLOWS, INTEGRAL),
     )
+
+
+def _inhibits_feed_stop(read: AxisParameters) -> bool:
+    """Return whether CYHLD waits for the end of a tap (8-9); without the bit it turns the tap back."""
+    return bool(int(read.optional(ids.functions_more, everywhere=True) or 0.0) & FEED_STOP_WAITS)

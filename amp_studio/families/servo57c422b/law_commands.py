@@ -339,12 +339,16 @@ def _run(
     motion = run_axis(axis, profile, Until(end + rest))
     columns = motion.columns
     # At the scans: between them the command goes on, and the module sees none of it.
-    peak = float(np.abs(columns["following_error"][:: motion.rows_per_servo_period]).max())
+    peak, off_speed = (
+        float(np.abs(columns[name][:: motion.rows_per_servo_period]).max())
+        for name in ("following_error", "velocity_error")
+    )
     alarms = alarms_of(axis, motion)
     result: dict[str, Figure] = {
         **figures,
         "time": (None if alarms else end, "s"),
         "peak_following_error": (peak, "counts"),
+        "peak_velocity_error": (off_speed / SCAN, "counts/s"),
         "peak_output": (float(np.abs(columns["output"]).max()), "V"),
         "stop_position": (None if alarms else float(columns["position"][-1]), "counts"),
     }
@@ -417,7 +421,7 @@ COMMANDS = {
             CAM,
             run_cam,
             part="coupling",
-            checked=("points", "peak_following_error", "peak_output"),
+            checked=("points", "peak_following_error", "peak_velocity_error", "peak_output"),
         ),
         Scenario(
             "backlash",

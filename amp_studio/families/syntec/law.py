@@ -153,6 +153,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         homing=partial(events.homing, read, _turn(read, axis)),
         jogging=partial(events.jogging, read),
         travel=partial(events.travel, read),
+        handwheel=partial(events.handwheel, read),
     )
 
 

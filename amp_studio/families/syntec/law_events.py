@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.sim import AxisParameters, Failure, Homing, Jogging, SimulationError, Travel
+from amp_studio.sim import AxisParameters, Failure, Handwheel, Homing, Jogging, Ramp, SimulationError, Travel
 
 from .law_facts import ids
 
@@ -108,4 +108,39 @@ def travel(read: AxisParameters) -> Travel:
         (STOPPED,),
         alarm_negative="MOT-018",
         reads_ahead="COR-040",
+    )
+
+
+WHEELED = (
+    "A pulse of the handwheel moves the axis by Pr2001 at the fourth step of the MPG override; what the"
+    " other steps give is not printed (4.1). ASSUMED: a LIU is a BLU."
+)
+WHEEL_RAMP = "ASSUMED: Pr410 is the time of a straight ramp to the MPG feedrate (4.1)."
+
+
+def handwheel(read: AxisParameters, wheel: str) -> Handwheel:
+    """Return how the MPG moves the axis (4.1); raises SimulationError where it moves another one or none."""
+    if wheel not in ("", "1"):
+        raise SimulationError("Pr2001 to 2041 are of one handwheel (4.1): leave out move.wheel", "move.wheel")
+    factor = read.optional(ids.mpg_factor, everywhere=True)
+    if not factor:
+        raise SimulationError("Pr2001 gives a pulse of the handwheel no way (4.1)")
+    moved = read.value(ids.mpg_axis, everywhere=True)
+    own = read.value(ids.axis_name)
+    if moved not in (None, "plc") and own is not None and str(moved) != str(own).lower():
+        raise SimulationError(
+            f"Pr2031 gives the handwheel to the {str(moved).upper()} axis alone, not to axis {read.axis}"
+            f" (4.1)",
+            ids.mpg_axis,
+        )
+    rate = read.optional(ids.mpg_feedrate, everywhere=True) or read.above_zero(ids.jog_feedrate)
+    time = read.optional(ids.mpg_acceleration_time, everywhere=True)
+    speed = rate / 60.0
+    return Handwheel(
+        factor * BLU,
+        speed,
+        read.optional(ids.mpg_resolution, everywhere=True) or None,
+        Ramp("linear", speed / (time / 1000.0)) if time else None,
+        "4.1",
+        (WHEELED, *((WHEEL_RAMP,) if time else ())),
     )

@@ -23,6 +23,7 @@ ScenarioName = Literal[
     "tap",
     "probe",
     "fault",
+    "handwheel",
 ]
 
 

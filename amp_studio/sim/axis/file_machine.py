@@ -154,6 +154,15 @@ class FileMachine:
         moving = self._axis(self._named(axis))
         return moving.law.homing().coordinate if moving.law.homing else 0.0
 
+    def number(self, parameter: str, axis: str) -> float:
+        """Return a figure of the file for an axis, in its canonical unit; raises SimulationError for none."""
+        name = self._named(axis)
+        value = self._file_now().evaluation.canonical((parameter, name))
+        if not isinstance(value, float):
+            called = self._file_now().schema.parameters[parameter].name
+            raise SimulationError(f"{called} is not set for axis {self._letter(name)}", parameter)
+        return value
+
     def make_all(self) -> None:
         """Make the axes that have not moved yet, as far as they can be made."""
         fitted = tuple(self._law.axes(self._file)) if self._file is not None else ()

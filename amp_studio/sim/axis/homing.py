@@ -21,6 +21,10 @@ REST_AFTER = 0.1
 of zero speed (MOT-030)."""
 LOCATE = 5.0
 """Pull-offs in which a second approach searches the switch (grblHAL config.h, HOMING_AXIS_LOCATE_SCALAR)."""
+NOT_IN_POSITION = (
+    "The axis is never in position: its following error at rest stays above the in-position band, {0};"
+    " no alarm is printed for it"
+)
 FAR = 1e5
 """Turns in which a coded scale is searched for its next markers."""
 

@@ -14,9 +14,9 @@ from dataclasses import replace
 from amp_studio.sim.command.events import Around, Homing, Ramp, Travel
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AlarmText, AxisLaw
-from amp_studio.sim.rounding import page_text, rounded_up
+from amp_studio.sim.rounding import page_text, rounded_up, value_text
 
-from .homing import Homed, home_axis
+from .homing import NOT_IN_POSITION, Homed, home_axis
 from .moves import time_to_speed
 from .moving_axis import MovingAxis
 from .orders import GoOrder, MoveOrder, Orders, StopOrder, Watch
@@ -291,6 +291,9 @@ class SimulatedAxis:
         elif homed.coordinate is not None and homed.home is not None:
             self._offset = homed.coordinate - homed.home
             self.is_homed = True
+        elif self._moving.is_over and self.alarm is None:
+            band = value_text(self.law.inposition_band, self.law.unit)
+            self.alarm = AlarmText("HOME", NOT_IN_POSITION.format(band))
 
 
 def usual_around(law: AxisLaw, homing: Homing, ramp: Ramp) -> Around:

@@ -156,6 +156,22 @@ class Jogging:
 
 
 @dataclass(frozen=True)
+class Handwheel:
+    """A handwheel that moves an axis."""
+
+    step: float
+    """u for one mark, with its sign."""
+    fastest: float
+    """u/s at which the axis follows it at most."""
+    marks: float | None = None
+    """Marks in a turn; None where no parameter gives them."""
+    ramp: Ramp | None = None
+    """None for the axis' ramp of manual moves."""
+    page: str = ""
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
 class Travel:
     """Limits of the travel in the coordinates of the machine: name -> (least, greatest) u; infinite for
     none.

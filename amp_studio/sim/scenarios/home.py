@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from amp_studio.sim.axis.homing import Homed, home_axis
+from amp_studio.sim.axis.homing import NOT_IN_POSITION, Homed, home_axis
 from amp_studio.sim.axis.motion import Motion
 from amp_studio.sim.axis.moving_axis import MovingAxis
 from amp_studio.sim.axis.simulated_machine import switch_ahead
@@ -72,11 +72,6 @@ SEEN = (
     " which no manual here times, come later."
 )
 
-_NOT_IN_POSITION = (
-    "The axis is never in position: its following error at rest stays above the in-position band, {0};"
-    " no alarm is printed for it"
-)
-
 
 def run_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Home an axis, as often as asked; raises SimulationError for impossible settings."""
@@ -102,7 +97,7 @@ def run_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     if not found.alarm:
         _compare(homing, found, others)
     if not alarms and found.home is None and not found.alarm:
-        found.alarm, found.why = "HOME", _NOT_IN_POSITION.format(value_text(axis.inposition_band, axis.unit))
+        found.alarm, found.why = "HOME", NOT_IN_POSITION.format(value_text(axis.inposition_band, axis.unit))
     if found.alarm:
         alarms = (Alarm(found.alarm, float(motion.columns["time_s"][-1]), found.why), *alarms)
     return Trace(

@@ -5,6 +5,7 @@ how far the axis is from the thread that the spindle makes, worst at the reversa
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -31,6 +32,7 @@ SETTINGS = {
     "move.depth": "depth of the hole (mm); default: 15 mm",
     "move.spindle": "which spindle, by its number; default: the first",
     "move.gear": "the gear it is in; default: one that has the speed",
+    "move.feed_stop": "when the feed is stopped on the way into the hole (s); default: it is not",
     "move.drive_time": "time constant of the spindle drive (s); default: 0.02, assumed",
 }
 DEPTH = 15.0
@@ -46,6 +48,11 @@ DRIVEN = (
     "ASSUMED: the spindle follows its command by a position loop of {0} and a drive with a lag of {1};"
     " nothing of the drive is in the file (move.drive_time)."
 )
+BACK_AT_ONCE = (
+    "The feed stop turns the tap back before the bottom of the hole ({0}). ASSUMED: along the ramp of"
+    " tapping, as in the bottom."
+)
+GOES_ON = "The feed stop has no effect while tapping; it is kept for the end of the cycle ({0})."
 LED = (
     "ASSUMED: the spindle goes along its ramp exactly, and the axis follows its measured angle; the torque of"
     " the cut is left out."
@@ -82,9 +89,20 @@ def run_tap(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
     tapping = law.tapping(machine, spindle, gear, axis, pitch)
     axis = machine.bind(name, dict(tapping.overrides)) if tapping.overrides else axis
     lag = above_zero(settings, "move.drive_time") or DRIVE_TIME
-    return _tapped(
-        axis, spindle, gear, tapping, pitch, min(speed, tapping.speed), speed, depth, lag, assumption
+    stop = above_zero(settings, "move.feed_stop")
+    if stop is not None and not tapping.feed_stop:
+        raise SimulationError(
+            "What a feed stop does while tapping is not printed for this family", "move.feed_stop"
+        )
+    trace = _tapped(
+        axis, spindle, gear, tapping, pitch, min(speed, tapping.speed), speed, depth, lag, assumption, stop
     )
+    if stop is None:
+        return trace
+    note = (BACK_AT_ONCE if tapping.feed_stop == "detaps" else GOES_ON).format(
+        page_text(tapping.feed_stop_page)
+    )
+    return replace(trace, assumptions=(note, *trace.assumptions))
 
 
 def _speed(spindle: Spindle, settings: ScenarioSettings) -> float:
@@ -112,6 +130,7 @@ def _tapped(
     depth: float,
     lag: float,
     assumption: str,
+    stop: float | None,
 ) -> Trace:
     """Run the axis down to the depth and back with the spindle, and return how far it is from the thread."""
     feed = speed / 60.0 * pitch
@@ -121,8 +140,11 @@ def _tapped(
         raise SimulationError(
             f"No acceleration of axis {axis.axis} or of the spindle is set: the reversal takes no time"
         )
-    there = leg(depth, feed, Ramp("linear", rate))
-    profile = _there_and_back(there, depth)
+    reached = (
+        depth if stop is None or tapping.feed_stop != "detaps" else min(depth, _run_in(stop, feed, rate))
+    )
+    there = leg(reached, feed, Ramp("linear", rate))
+    profile = _there_and_back(there, reached)
     until = end_of(profile) + SETTLE / axis.position_rate + NEAR
     motion = run_axis(axis, profile, Until(until), thin=True)
     columns = per_minute({key: each.copy() for key, each in motion.columns.items()})
@@ -147,6 +169,7 @@ def _tapped(
         alarms = (Alarm("TAPPING SPEED", 0.0, text), *alarms)
     result: dict[str, Figure] = {
         "reversal_error": (abs(float(error[at])), axis.unit),
+        "depth": (deepest, axis.unit),
         "depth_error": (deepest - depth, axis.unit),
         "largest_error": (float(np.abs(error).max()), axis.unit),
         "speed": (speed, "rpm"),
@@ -178,6 +201,13 @@ def _tapped(
         limits={},
         move={"move.depth": depth},
     )
+
+
+def _run_in(stop: float, feed: float, rate: float) -> float:
+    """Return how deep the tap is when it has come to rest from where a feed stop met it, u."""
+    rising = min(stop, feed / rate)
+    speed = rate * rising
+    return 0.5 * rate * rising * rising + feed * (stop - rising) + speed * speed / (2.0 * rate)
 
 
 def _there_and_back(there: list[Piece], depth: float) -> list[float]:

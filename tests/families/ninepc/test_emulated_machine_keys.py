@@ -15,10 +15,10 @@ MILL = Path(__file__).parents[3] / "examples" / "mill-1394" / "MILL_1394.amp"
 
 
 class Bench:
-    """A control with the example mill, out of E-stop, and the clock of its machine."""
+    """A control with the example mill or another one, out of E-stop, and the clock of its machine."""
 
-    def __init__(self, folder: Path) -> None:
-        file = open_file(MILL).file
+    def __init__(self, folder: Path, machine: Path = MILL) -> None:
+        file = open_file(machine).file
         identity = Identity("9pc", file.schema.signature)
         self.control = Control(folder, identity, encode_image(file), accept=decode_image)
         self.panel = NinePcPanel(8)
@@ -70,6 +70,18 @@ def test_a_block_needs_axes_that_are_homed_and_g28_homes_them(bench: Bench) -> N
     assert bench.after(3.0).startswith("X -100.0")
 
 
+def test_g30_goes_over_the_point_to_1004_once_the_axis_is_homed(bench: Bench) -> None:
+    """Page 5-17; any motion but G28 needs an axis that is homed (5-13)."""
+    with pytest.raises(ValueError, match="MUST HOME AXIS X"):
+        bench.give("mdi G30 X-50")
+    bench.give("mdi G28 X-50")
+    bench.after(30.0)
+    assert bench.give("mdi G30 X-50") == "to the secondary home position of X"
+    bench.after(0.5)
+    assert bench.give("position").startswith("X -") or " moving" in bench.give("position")
+    assert bench.after(10.0).removeprefix("X ").removeprefix("-").startswith("0.0000 mm")  # 1004; 1310 is 6
+
+
 def test_e_stop_takes_the_drives_away(bench: Bench) -> None:
     bench.give("jog X+ second")
     bench.after(0.5)
@@ -95,7 +107,7 @@ def test_a_homed_axis_stops_at_its_overtravel(bench: Bench) -> None:
         ("jog Q+", "not fitted"),
         ("jog X", "direction"),
         ("jog X+ warp", "No jog speed"),
-        ("mdi G2 X1", "G0, G1 and G28"),
+        ("mdi G2 X1", "G0, G1, G28 and G30"),
     ],
 )
 def test_what_is_not_possible_is_shown_in_words(bench: Bench, line: str, words: str) -> None:

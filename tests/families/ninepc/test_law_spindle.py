@@ -169,3 +169,14 @@ def test_skip_cycles_have_their_own_feedrate_where_4_is_yes(
     mill.set(("feedrate.use_skip_feedrate", ""), Value(False))
     with pytest.raises(SimulationError, match="Give the speed"):
         simulate(mill, "probe", "3", {"move.cycle": cycle})
+
+
+def test_the_spindle_taps_with_the_zero_following_error_of_its_axis(mill: ParameterFile) -> None:
+    """Page 27-1: both get the loop and the feed-forward of the axis, so that the reversal error is smaller."""
+    move = {"move.pitch": 1.0, "move.speed": 400.0}
+    closed = simulate(mill, "tap", None, move, advise=False)
+    mill.set(("servo.position_loop_type", "3"), Value("zfe"))
+    mill.set(("servo.feed_forward", "3"), Value(95, "%"))
+    forced = simulate(mill, "tap", None, move, advise=False)
+    assert any("forced to the same loop and feed-forward (27-1)" in note for note in forced.assumptions)
+    assert forced.result["peak_following_error"][0] < 0.5 * closed.result["peak_following_error"][0]

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 
 import pytest
 
-from amp_studio.files import ParameterFile
+from amp_studio.files import ParameterFile, open_file
+from amp_studio.files.example_files import examples_folder
 from amp_studio.schema import Value
 from amp_studio.sim import SimulationError, Trace, simulate
 from tests.families.servo57c422b.test_law import file_of
@@ -194,6 +195,17 @@ def test_a_time_cam_in_bytes_takes_the_low_byte_of_each_register_first() -> None
 def test_a_continuous_time_cam_returns_to_the_loop_back_point() -> None:
     trace = run(module(cam__mode=Value(9, ""), cam__loop_back=Value(2, "")), "cam", cam__cycles=2.0)
     assert float(trace.columns["command_position"][-1]) == 10 + 20 + 20 + 10 + 20 + 10 + 20 + 10
+
+
+def test_the_velocity_error_of_a_cam_is_what_register_9_has_to_be_above() -> None:
+    """Page 4-9: beyond register 9, in steps of 800 counts/s, the loop is switched off."""
+    press = open_file(examples_folder() / "57c422b-label-press" / "LABEL_PRESS.amp").file
+    predicted = simulate(press, "cam", "Y", advise=False).result["peak_velocity_error"]
+    assert predicted[1] == "counts/s"
+    assert predicted[0] is not None
+    for limit, tripped in ((predicted[0] * 0.9, True), (predicted[0] + 800.0, False)):
+        press.set(("setup.max_velocity_error", "Y"), Value(limit, "counts/s"))
+        assert bool(simulate(press, "cam", "Y", advise=False).alarms) is tripped
 
 
 def test_a_position_cam_follows_its_master() -> None:

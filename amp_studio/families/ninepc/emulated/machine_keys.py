@@ -2,8 +2,8 @@
 and what its position screen shows (chapters 5, 6 and 8).
 
 Commands are keys: ``jog X+ second`` goes on until ``release``, ``jog X+ increment third`` is one increment,
-``manual-home X`` the home key (5-3), ``position`` the position screen; ``mdi G28 X5``, ``mdi G0 X10 Y5`` and
-``mdi G1 X10 F500`` are blocks, and ``fault drive X`` is a drive that trips.
+``manual-home X`` the home key (5-3), ``position`` the position screen; ``mdi G28 X5``, ``mdi G30 X5``,
+``mdi G0 X10 Y5`` and ``mdi G1 X10 F500`` are blocks, and ``fault drive X`` is a drive that trips.
 The house protocol shows no positions; a live page looks at the screen (``emulate --screen``).
 """
 
@@ -13,6 +13,7 @@ import contextlib
 import re
 
 from amp_studio.families.ninepc.law import LAW
+from amp_studio.families.ninepc.law_facts import ids
 from amp_studio.files import ParameterFile
 from amp_studio.sim import FileMachine, SimulationError, bind_axis
 from amp_studio.transfer import ControlStatus, ImageError, decode_image
@@ -21,7 +22,7 @@ from amp_studio.transfer.house import Flags
 
 MUST_HOME, NOT_ALLOWED = "MUST HOME AXIS", "HOMING NOT ALLOWED"
 _WORD = re.compile(r"([A-Z])\s*([+-]?[0-9]*\.?[0-9]+)", re.IGNORECASE)
-_BLOCK = re.compile(r"G(0|00|1|01|28)((?:\s*[A-Z]\s*[+-]?[0-9]*\.?[0-9]+)+)\s*", re.IGNORECASE)
+_BLOCK = re.compile(r"G(0|00|1|01|28|30)((?:\s*[A-Z]\s*[+-]?[0-9]*\.?[0-9]+)+)\s*", re.IGNORECASE)
 
 
 class MachineKeys:
@@ -121,19 +122,32 @@ class MachineKeys:
     def _mdi(self, block: str) -> str:
         match = _BLOCK.fullmatch(block.strip())
         if match is None:
-            raise ValueError("of MDI blocks this control moves G0, G1 and G28 with axes and F")
+            raise ValueError("of MDI blocks this control moves G0, G1, G28 and G30 with axes and F")
         words = {letter.upper(): float(figure) for letter, figure in _WORD.findall(match[2])}
         feed = words.pop("F", None)
         if match[1] == "28":
             return self._reference(words)
-        if unhomed := [axis for axis in words if not self._machine.is_homed(axis)]:
-            raise ValueError(f"{MUST_HOME} {', '.join(unhomed)}")
+        if match[1] == "30":
+            return self._secondary(words)
+        self._refuse_unhomed(words)
         if match[1] not in ("1", "01"):
             feed = None
         elif not feed:
             raise ValueError("G1 needs a feedrate F")
         self._machine.move(words, feed / 60.0 if feed else None)
         return block.strip()
+
+    def _refuse_unhomed(self, words: dict[str, float]) -> None:
+        if unhomed := [axis for axis in words if not self._machine.is_homed(axis)]:
+            raise ValueError(f"{MUST_HOME} {', '.join(unhomed)}")
+
+    def _secondary(self, words: dict[str, float]) -> str:
+        """Go over the point to G30 Secondary Home Position (5-17). ASSUMED: at rapid, as G28 does (5-13)."""
+        self._refuse_unhomed(words)
+        self._machine.move(
+            words, None, {axis: self._machine.number(ids.secondary_home, axis) for axis in words}
+        )
+        return f"to the secondary home position of {', '.join(words)}"
 
     def _reference(self, words: dict[str, float]) -> str:
         """Home what is not homed, else go over the point to the home position at rapid (5-13)."""

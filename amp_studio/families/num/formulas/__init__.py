@@ -5,7 +5,14 @@ Where the manual contradicts itself the formula is taken, not the printed number
 the text of the function states it.
 """
 
-from .axes import assignment_word, axis_name, carried_partner, indexing_increment, limited_in_force
+from .axes import (
+    assignment_word,
+    axis_name,
+    carried_partner,
+    follows_itself,
+    indexing_increment,
+    limited_in_force,
+)
 from .measurement import (
     coded_conversion,
     coded_graduation,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 _NAMES = ("X", "Y", "Z", "U", "V", "W", "A", "B", "C")
 """In the order of their codes in P9 (pages 4-3 and 4-24)."""
 _NONE = 255
@@ -44,6 +46,21 @@ def carried_partner(word: float) -> float:
     if name < 3:
         return float(code + 3)
     return float(code - 3) if name < 6 else -1.0
+
+
+def follows_itself(axis: float, drives: Sequence[str | None]) -> bool:
+    """Whether the drive axes of P27 lead from an axis back to it, so that none of them leads (page 4-30).
+
+    With axis-1, axis-2 and axis-0 for the axes 0 to 2 each of them does.
+    """
+    at, passed = int(axis), set[int]()
+    while at not in passed:
+        passed.add(at)
+        named = drives[at] if at < len(drives) else None
+        if named is None or not named.startswith("axis-"):
+            return False
+        at = int(named.removeprefix("axis-"))
+    return at == int(axis)
 
 
 def indexing_increment(degrees: float) -> float:

@@ -14,11 +14,11 @@ MILL = Path(__file__).parents[4] / "examples" / "num-1060-mill" / "MILL_1060.amp
 
 
 class Bench:
-    """A control with the table of the example mill."""
+    """A control with the table of the example mill or another one."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, machine: Path = MILL) -> None:
         memory = Memory(folder)
-        memory.replace("table", FORMAT.write(open_file(MILL).file).encode("ascii"))
+        memory.replace("table", FORMAT.write(open_file(machine).file).encode("ascii"))
         self.control = NumControl(DeviceSetup("num", memory, print))
 
     def after(self, seconds: float) -> str:
