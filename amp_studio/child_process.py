@@ -1,13 +1,80 @@
-"""How a process apart is begun: for what keeps memory, cannot be interrupted, or may end its process.
+"""How a process apart is begun: for what keeps memory, cannot be interrupted, or may end its process; and how
+the command line uses a second processor.
 
-It runs one function of the program and nothing of the program that asks: a process of multiprocessing runs
-the script of a library's caller once more, with whatever that script does at a control.
+A process apart runs one function of the program and nothing of the program that asks: a process of
+multiprocessing runs the script of a library's caller once more, with whatever that script does at a control.
 """
 
 from __future__ import annotations
 
+import os
 import sys
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
+from typing import NoReturn, TypeVar
+
+_T = TypeVar("_T")
+_own: list[bool] = []
+
+
+def is_the_program() -> None:
+    """Say that this process is the command line from its start to its end: ``beside`` may copy it."""
+    _own.append(True)
+
+
+def beside(make: Callable[[], Iterable[_T]]) -> Iterator[_T]:
+    """Yield what ``make`` returns; where there is a second processor, it is made there from now on.
+
+    That is a copy of this process, which has all that was read already. A library's caller may have threads,
+    which no copy has, and a copy is not safe on every system: there, and where no process can be begun or one
+    ended early, it is made here when it is asked for.
+    """
+    if sys.platform != "linux" or not _own or len(os.sched_getaffinity(0)) < 2:
+        return _here(make)
+    answer, out = os.pipe()
+    try:
+        copy = os.fork()
+    except OSError:
+        os.close(answer)
+        os.close(out)
+        return _here(make)
+    if not copy:
+        _answer(make, out)
+    os.close(out)
+    return _of_copy(make, copy, answer)
+
+
+def _here(make: Callable[[], Iterable[_T]]) -> Iterator[_T]:
+    yield from make()
+
+
+def _of_copy(make: Callable[[], Iterable[_T]], copy: int, answer: int) -> Iterator[_T]:
+    import pickle
+
+    with open(answer, "rb") as file:
+        content = file.read()
+    _, status = os.waitpid(copy, 0)
+    # An error of the work is met here again, and raised to the caller.
+    yield from make() if status else pickle.loads(content)  # noqa: S301  # the program itself has written it
+
+
+def _answer(make: Callable[[], Iterable[_T]], out: int) -> NoReturn:
+    """Be the copy: write what was made, and end with nothing of this process done twice."""
+    code = 1
+    try:
+        import pickle
+        import signal
+
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        nothing = os.open(os.devnull, os.O_RDWR)
+        for stream in range(3):  # a reader of the results shall not wait for the copy
+            os.dup2(nothing, stream)
+        content = pickle.dumps(tuple(make()), pickle.HIGHEST_PROTOCOL)
+        with open(out, "wb") as file:
+            file.write(content)
+        code = 0
+    finally:
+        os._exit(code)
 
 
 def child_command(module: str, function: str) -> list[str]:

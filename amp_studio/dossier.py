@@ -10,6 +10,7 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
+from amp_studio.child_process import beside
 from amp_studio.files import (
     RECORD,
     TUNINGS,
@@ -76,7 +77,7 @@ def write_report(
         date=date,
         own=own,
         notify=notify,
-        motion=tuple((motion or motion_figures)(file)) if has_drawings else (),
+        motion=beside(lambda: (motion or motion_figures)(file)) if has_drawings else (),
         exchanges=() if "exchanges" in contents.without or source is None else tuple(exchanges_of(source)),
         tunings=() if "tuning" in contents.without or source is None else tuple(tunings_of(file, source)),
         checks=tuple(checks_of(file)) if contents.check else (),

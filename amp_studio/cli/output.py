@@ -51,9 +51,14 @@ def check_new(output: Path, what: str, *inputs: Path) -> None:
     check_output(output, *inputs)
 
 
-def write_new(machine: MachineParameters, path: Path) -> None:
-    """Save a new machine, named as its file; raises MachineError, SaveError."""
-    machine.save_new(path)
+def write_new(machine: MachineParameters, path: Path, *, named: bool = False) -> None:
+    """Save a new machine, named as its file, or as it is already where it is ``named``; raises MachineError,
+    SaveError.
+    """
+    if named and machine.file.header.name:
+        machine.save(path)
+    else:
+        machine.save_new(path)
     print_remarks(machine.notes)
 
 

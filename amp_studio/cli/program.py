@@ -8,6 +8,7 @@ import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NoReturn
 
+from amp_studio.child_process import is_the_program
 from amp_studio.version import __version__
 
 from .exit_codes import AT_CONTROL, CHANGED, FAULT
@@ -28,6 +29,7 @@ def start(arguments: Sequence[str] | None) -> NoReturn:
     try:
         raise_on_interrupt()
         open_streams()
+        is_the_program()
         code = run_verb(sys.argv[1:] if arguments is None else arguments)
     except KeyboardInterrupt:  # before the verb had begun
         code = FAULT

@@ -69,12 +69,10 @@ class Box:
     def is_crossed(self, start: Point, end: Point) -> bool:
         """Return whether a straight line goes through it."""
         (x, y), (to_x, to_y), right, bottom = start, end, self.left + self.width, self.top + self.height
-        if (
-            max(x, to_x) < self.left
-            or min(x, to_x) > right
-            or max(y, to_y) < self.top
-            or min(y, to_y) > bottom
-        ):
+        # Most pass by: of every text, every line is asked.
+        if (x < self.left and to_x < self.left) or (x > right and to_x > right):
+            return False
+        if (y < self.top and to_y < self.top) or (y > bottom and to_y > bottom):
             return False
         # Of a line that passes by, all corners are on one side.
         sides = [

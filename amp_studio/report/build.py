@@ -12,6 +12,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import TypeVar
 
+from amp_studio.child_process import beside
 from amp_studio.files import (
     ParameterFile,
     ParameterFileError,
@@ -58,7 +59,7 @@ def build_report(
     project: ProjectInfo | None = None,
     date: datetime | None = None,
     own: BuilderRules = NO_RULES,
-    motion: Sequence[PrintedFigure] = (),
+    motion: Iterable[PrintedFigure] = (),
     exchanges: Sequence[ExchangeLine] = (),
     tunings: Sequence[TuningLine] = (),
     checks: Sequence[CheckedMotion] = (),
@@ -73,6 +74,7 @@ def build_report(
     """
     contents = contents or Contents()
     language = language_of(contents.language, file.schema.family.family)
+    pictures = beside(lambda: drawings(file, language)) if "pictures" not in contents.without else ()
     found = rows_of(file, contents.units, language)
     printed = tuple(row for row in found.rows if _is_printed(row, contents))
     anchors = {row.anchor for row in printed}
@@ -110,8 +112,6 @@ def build_report(
         forced=_forced(file, found.rows),
         not_set=tuple(_not_set(found.rows)),
         sections=sections_of(file, printed, contents.sort, language),
-        pictures=with_part("pictures", lambda: drawings(file, language)),
-        motion=with_part("motion", lambda: (_in_words(figure, language) for figure in motion)),
         power_up=with_part("power-up", lambda: _power_up(file, language)),
         exchanges=with_part("exchanges", lambda: exchanges),
         tunings=with_part("tuning", lambda: tunings),
@@ -122,6 +122,9 @@ def build_report(
         totals=_totals(file, found, now),
         machine_file=content.decode("utf-8"),
         help={i: tuple(_help(file.schema, i, language)) for i in _ids_of(printed)},
+        # Last, as they are made beside all this.
+        pictures=tuple(pictures),
+        motion=with_part("motion", lambda: (_in_words(figure, language) for figure in motion)),
     )
 
 

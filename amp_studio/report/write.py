@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
@@ -47,7 +47,7 @@ def print_report(
     source: Path | str | None = None,
     date: datetime | None = None,
     own: BuilderRules = NO_RULES,
-    motion: Sequence[PrintedFigure] = (),
+    motion: Iterable[PrintedFigure] = (),
     exchanges: Sequence[ExchangeLine] = (),
     tunings: Sequence[TuningLine] = (),
     checks: Sequence[CheckedMotion] = (),

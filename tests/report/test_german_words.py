@@ -24,6 +24,7 @@ from amp_studio.report.papers.differences import differences_paper
 from amp_studio.report.papers.form import form_paper
 from amp_studio.report.papers.paper import Paper
 from amp_studio.report.papers.sheet import PrintedSheet, text_lines
+from amp_studio.scenarios import IDENTIFY, scenario_names
 from amp_studio.schema import fact_texts
 from amp_studio.sheet import make_sheet
 from amp_studio.validate import Validator
@@ -233,3 +234,42 @@ def test_a_sheet_keeps_the_name_of_a_parameter_that_is_a_word_of_the_program_too
     lines = [*text_lines(PrintedSheet(sheet, language="de", date=DATE))]
     assert any("Axes (" in line for line in lines), "[TRAJ]COORDINATES"
     assert not any("Achsen (" in line for line in lines)
+
+
+@pytest.mark.parametrize("name", [*scenario_names(), IDENTIFY])
+def test_the_title_of_a_picture_names_its_scenario_in_german(name: str) -> None:
+    german = language_of("de", "9pc")
+    named = german.scenario(name)
+    assert named.lower() != name
+    assert (
+        german.sentence(f"{name.capitalize()}, axis 1 (X)") == f"{named[0].upper()}{named[1:]}, Achse 1 (X)"
+    )
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "radius error 3 µm",
+        "reversal spike 3 µm",
+        "home position 3 mm",
+        "dry friction 3 %",
+        "gravity 3 %",
+        "after 3 s",
+        "measured less predicted, where used (%)",
+        "radius deviation (µm)",
+        "sensitivity (dB)",
+        "way of the load for one unit of torque (mm/%)",
+        "axis less spindle (mm)",
+        "machine less simulation (mm)",
+        "distance from the end (mm)",
+        "variations below (%)",
+        "simulated",
+        "imaginary part",
+    ],
+)
+def test_what_is_written_into_a_picture_of_motion_is_german(words: str) -> None:
+    own = language_of("de", "9pc").sentence(words)
+    kept = {"s", "mm", "µm", "dB"}
+    assert not (set(re.findall(r"[a-zµ]+", words, re.IGNORECASE)) - kept) & set(
+        re.findall(r"[a-zµ]+", own, re.IGNORECASE)
+    )

@@ -7,11 +7,13 @@ from pathlib import Path
 
 import pytest
 
+from amp_studio.cli import run
 from amp_studio.files import ParameterFile, open_file, without_secrets
 from amp_studio.files.example_files import examples_folder
 from amp_studio.formats import import_file, open_for_reading
 from amp_studio.formats.report_pdf import attached_machine
 from amp_studio.report import Contents, print_report, results_paper, write_paper
+from amp_studio.report.output.typesetter import ends_parted
 
 from .test_pdf import output_of, poppler
 
@@ -102,6 +104,53 @@ def test_the_machine_of_a_report_is_without_its_secrets_and_the_import_names_the
     assert notes == ["A report is without secret values: Characters of the Password"]
     missing = set(open_file(MILL).file.values) - set(file.values)
     assert {parameter for parameter, _ in missing} == {"password.character"}
+
+
+def test_the_machine_of_a_report_has_its_name_and_nothing_of_the_comments(
+    printed: Path, tmp_path: Path
+) -> None:
+    # A comment of the example spells its password out.
+    assert b"MILL94" in MILL.read_bytes()
+    attached = attached_machine(printed.read_bytes())
+    assert attached is not None
+    assert b"MILL94" not in attached
+    assert run(["import", str(printed), "-o", str(tmp_path / "again.amp")]) == 0
+    assert open_file(tmp_path / "again.amp").file.header.name == "MILL_1394"
+
+
+def _pdf_of(*streams: bytes) -> bytes:
+    """Return what is a PDF to who reads its table, as Typst writes it."""
+    parts, places = [b"%PDF-1.7\n"], list[int]()
+    for number, data in enumerate(streams, 1):
+        places.append(len(b"".join(parts)))
+        parts.append(
+            b"%d 0 obj\n<<\n  /Length %d\n>>\nstream\n%s\nendstream\nendobj\n\n" % (number, len(data), data)
+        )
+    table = b"xref\n0 %d\n0000000000 65535 f\r\n" % (len(streams) + 1)
+    table += b"".join(b"%010d 00000 n\r\n" % place for place in places)
+    body = b"".join(parts)
+    return body + table + b"trailer\n<</Size 9>>\nstartxref\n%d\n%%%%EOF" % len(body)
+
+
+def test_data_that_end_in_cr_are_parted_from_the_end_of_their_stream_and_the_table_knows() -> None:
+    data = [b"one\r", b"two", b"th\nendstream\nendobjree\r", b"four\n"]
+    pdf = ends_parted(_pdf_of(*data))
+    at = int(pdf.rpartition(b"startxref\n")[2].split()[0])
+    assert pdf[at : at + 5] == b"xref\n"
+    places = [int(entry) for entry in re.findall(rb"(\d{10}) 00000 n\r\n", pdf[at:])]
+    for number, (place, each) in enumerate(zip(places, data, strict=True), 1):
+        found = re.match(rb"%d 0 obj\n<<\n  /Length (\d+)\n>>\nstream\n" % number, pdf[place:])
+        assert found is not None
+        begin = place + found.end()
+        assert pdf[begin : begin + int(found[1])] == each
+        end = b"\r\nendstream" if each.endswith(b"\r") else b"\nendstream"
+        assert pdf[begin + len(each) :].startswith(end), each
+
+
+def test_a_pdf_whose_streams_end_otherwise_is_as_the_typesetter_wrote_it(printed: Path) -> None:
+    clear = _pdf_of(b"one", b"two\n")
+    assert ends_parted(clear) is clear
+    assert b"\r\nendstream" not in printed.read_bytes().replace(b"\r\r\nendstream", b"")
 
 
 @pytest.mark.parametrize(

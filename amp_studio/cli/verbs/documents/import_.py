@@ -63,7 +63,8 @@ def run(options: Options) -> int:
     for message in notes:
         print_remark(message)
     settle_values(machine.file, options.on_fault, "an import")
-    write_new(machine, options.output)
+    # The machine of a report has its name with it; a control's text has none.
+    write_new(machine, options.output, named=options.text.suffix.casefold() == ".pdf")
     account = machine.account
     assert account is not None  # of an imported text
     print_account(options, machine, account, counted(account.written, "value"), " ".join(notes))
