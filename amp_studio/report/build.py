@@ -156,9 +156,11 @@ def _power_up(file: ParameterFile, language: Language) -> Iterator[ProgramState]
 
     state = power_up(file)
     for line in (*state.active, *state.changes, *state.calls):
-        numbers = ", ".join(file.machine_schema.short(address) for address in line.params)
+        schema = file.machine_schema
+        numbers = ", ".join(map(schema.short, line.params))
+        named = ", ".join(schema.number(each) or schema.label(each) for each in line.params)
         what, meaning = language.sentence(line.what), language.sentence(line.meaning)
-        yield ProgramState(what, line.code, meaning, numbers, line.page)
+        yield ProgramState(what, line.code, meaning, numbers, line.page, named)
 
 
 def _help(schema: Schema, parameter_id: str, language: Language) -> Iterator[tuple[str, str]]:

@@ -215,8 +215,10 @@ class ProgramState:
     code: str
     meaning: str
     numbers: str
-    """Of the parameters that decide it."""
+    """Of the parameters that decide it; the ids of those without a number."""
     page: str
+    parameters: str
+    """The same for a reader: numbers, and the names of those without one."""
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,14 @@ def test_the_chapter_has_a_line_for_each_group_of_codes() -> None:
     assert lines["G92 offsets after a reset"].meaning == "Yes"
 
 
+def test_a_parameter_without_a_number_has_its_name_on_paper_and_its_id_as_data() -> None:
+    router = open_file(examples_folder() / "acromill-router" / "ROUTER.amp").file
+    lines = {
+        line.what: line for line in build_report(router, Contents(without=frozenset({"pictures"}))).power_up
+    }
+    assert (lines["unit"].parameters, lines["unit"].numbers) == ("Default Units", "control.default_units")
+
+
 def test_it_can_be_left_out_and_a_family_without_such_pages_has_none() -> None:
     assert build_report(open_file(MILL).file, Contents(without=frozenset({"power-up"}))).power_up == ()
     press = examples_folder() / "57c422b-label-press" / "LABEL_PRESS.amp"

@@ -65,7 +65,7 @@ def _power_up(report: Report, words: Language) -> Iterator[str]:
     yield from _heading(words.text("Part programs after power-up").upper())
     for line in report.power_up:
         yield from _wrapped(f"{line.what}: {line.code} {line.meaning}".replace("  ", " "), "")
-        yield from _wrapped(f"{line.numbers} ({words.text('page')} {line.page})".strip(), "    ")
+        yield from _wrapped(f"{line.parameters} ({words.text('page')} {line.page})".strip(), "    ")
     yield ""
 
 
