@@ -28,7 +28,7 @@ PAST_THE_DOOR = {
     "what a room has in words or as JSON, for what the door has returned": {
         "accounts.py": "formats",
         "checks/comparing.py": "files",
-        "checks/formats.py": "files validate",
+        "checks/formats.py": "files formats validate",
         "controls/by_hand.py": "transfer",
         "controls/endings.py": "transfer",
         "controls/tape.py": "transfer",

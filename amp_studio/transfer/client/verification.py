@@ -40,6 +40,7 @@ class ImageComparison:
                     the value of the file beside the one in use
     ``is_whole``    whether every byte was compared; else a control shows some values coarser than they are
     ``outside``     what the file sets and no control of this kind keeps: it is neither sent nor compared
+    ``unset``       how many values of the control the file does not set, where those stay as they are
     """
 
     is_same: bool
@@ -52,6 +53,7 @@ class ImageComparison:
     is_whole: bool = True
     stays: str = ""
     in_use: tuple[Difference, ...] = ()
+    unset: int = 0
 
     @property
     def agrees(self) -> bool:
@@ -65,6 +67,8 @@ class ImageComparison:
             text += f" The program that runs uses {len(self.in_use)} other values: start it again."
         if self.outside:
             text += f" {len(self.outside)} values of the file are not kept by this control."
+        if self.unset:
+            text += f" {self.unset} values of the control are not set in the file, and were not compared."
         if self.stays:
             text += f" Not in the file, and not compared: {self.stays}."
         return text
@@ -72,11 +76,11 @@ class ImageComparison:
     def _summary(self) -> str:
         """Return in one sentence how much is the same, or that the control contains something else."""
         if self.is_same:
-            much = (
-                "and every byte are the same"
-                if self.is_whole
-                else "are the same as far as the control shows them"
-            )
+            much = "are the same"
+            if not self.is_whole:
+                much += " as far as the control shows them"
+            elif not self.unset:
+                much = "and every byte are the same"
             return f"Nothing differs: {self.values.same} values {much}."
         if self.unreadable:
             return f"The control contains something else: {self.unreadable}."
@@ -131,17 +135,23 @@ def verify_content(file: ParameterFile, fetched: bytes) -> ImageComparison:
     except ImageError as error:
         missing = str(error)
     head = _head_differences(file, present) if kind.has_header else ()
-    found = compare(file.schema, _known(file, wanted), _known(file, present))
+    ours, theirs = _known(file, wanted), _known(file, present)
+    found = compare(file.schema, ours, theirs)
     outside = tuple(a for a in file.values if a not in wanted.values)
+    # An image replaces all of a control. Where values are sent one by one, what the file does not set is
+    # as the control has it on both sides: the same without having been compared.
+    others = () if kind.has_header else theirs.keys() - file.values.keys()
+    unset = sum(same_value(ours.get(a), theirs[a]) for a in others)
     return ImageComparison(
         is_same,
-        found,
+        replace(found, same=found.same - unset),
         _other_units(wanted, present),
         head,
         missing=missing,
         outside=outside,
         is_whole=is_whole,
         stays=stays,
+        unset=unset,
     )
 
 

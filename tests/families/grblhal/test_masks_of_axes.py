@@ -67,6 +67,11 @@ def test_the_bits_that_stay_are_named_when_they_are_sent_and_when_they_are_compa
     found = verify_content(file, five.driver.fetch())
     assert found.is_same
     assert "Not in the file, and not compared: A, B in $2, $3" in found.summary()
+    of_the_control = decode_content(five.driver.fetch()).values
+    assert found.values.same == len(of_the_control.keys() & file.values.keys())
+    assert found.unset == len(of_the_control.keys() - file.values.keys()) > 0
+    assert f"{found.unset} values of the control are not set in the file" in found.summary()
+    assert "every byte" not in found.summary()
 
 
 def test_a_file_of_five_axes_goes_to_three_and_the_bits_of_the_others_are_named(
