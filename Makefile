@@ -32,7 +32,7 @@ mutants: setup ## change every rule and its findings in every way, and every fac
 
 campaign: setup ## generated cases that no run has tried: every property 25 times as often, with another seed each time
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) -m hypothesis $(TESTS)
-	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) $(addprefix tests/validate/test_,rules.py any_values.py fix_campaign.py offered_fixes.py fixes.py explanation.py plausible.py slips.py remembered_results.py) $(addprefix tests/sim/test_,german_sentences.py solver.py engines.py frequency_response.py chirps.py hidden_plants.py without_numba.py tiny_law.py) tests/transfer tests/families/num/test_table_properties.py
+	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) $(addprefix tests/validate/test_,rules.py any_values.py fix_campaign.py offered_fixes.py fixes.py explanation.py plausible.py slips.py remembered_results.py) $(addprefix tests/sim/test_,german_sentences.py solver.py engines.py frequency_response.py chirps.py hidden_plants.py moved_axes.py without_numba.py tiny_law.py) tests/transfer tests/families/num/test_table_properties.py
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q tests/families/linuxcnc/test_paths.py tests/families/linuxcnc/test_homing.py
 	@! command -v linuxcnc >/dev/null || PYTHONPATH=. $(BIN)/python -m tests.families.linuxcnc.mutated_migrations
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) tests/ui/test_memory.py tests/ui/test_screens.py tests/ui/test_watchdog.py tests/bench tests/test_package.py tests/drawing tests/pictures tests/report tests/examples tests/docs tests/cli tests/formats/test_spreadsheet_block.py tests/schema/test_json_schemas.py

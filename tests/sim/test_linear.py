@@ -13,6 +13,7 @@ from amp_studio.sim import SimulationError
 from amp_studio.sim.tuning import sampled as matrices
 from amp_studio.sim.tuning.linear import LinearModel
 from amp_studio.sim.tuning.sampled import Places, Plant, exponential, jacobian, zero_order_hold
+from tests.campaigns import some
 from tests.sim.tuning_judge import compared
 
 COMMAND, COMMAND_VELOCITY, COMMAND_ACCELERATION, POSITION, MOTOR, OUTPUT = range(6)
@@ -263,6 +264,6 @@ def test_the_loop_of_a_random_axis_is_that_of_python_control_to_nine_digits(
     assert largest == pytest.approx(abs(1.0 / (1.0 + there)), rel=1e-9)
 
 
-@pytest.mark.parametrize("number", [0, 5])  # a PID in one loop; two loops around a load that swings
+@pytest.mark.parametrize("number", some(range(5), 2))  # of each family with gains
 def test_the_figures_of_tune_are_those_of_python_control(number: int, control: ModuleType) -> None:
     assert list(compared(number, control)) == []

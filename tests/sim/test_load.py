@@ -40,6 +40,18 @@ def test_dry_friction_takes_its_part_and_leaves_lost_motion() -> None:
     assert dry["lost_motion"][0] == pytest.approx(2.0 * 3.0 / 8.0 * free["sag"][0], rel=0.2)
 
 
+def test_lost_motion_of_a_load_with_backlash_is_the_sum_by_hand() -> None:
+    """The load stays where the loop pushes it with no more than its friction: behind the gap, the loop and the
+    contact each yield by that much, on both sides.
+    """
+    gap, friction = 0.02, 3.0
+    axis = tiny(position_count=0.0, backlash=gap, coulomb_friction=friction, motor_friction=0.0)
+    contact = (2.0 * np.pi * 150.0) ** 2 / (4.0 * PUSH)  # of two equal masses: 150 Hz, as assumed
+    by_hand = gap + 2.0 * friction * (PUSH / RATE / GAIN + 1.0 / contact)
+    found = run_load(axis, {"move.load": 8.0, "move.duration": 1.0}).result["lost_motion"]
+    assert found == (pytest.approx(by_hand, rel=0.02), "mm")
+
+
 def test_what_is_known_of_the_force_gives_micrometres_for_a_newton() -> None:
     result = run_load(tiny(position_count=0.0), {"move.force_per_torque": 25.0}).result
     assert result["stiffness_by_force"] == (pytest.approx(1e3 * result["stiffness"][0] / 25.0), "µm/N")

@@ -113,6 +113,27 @@ def test_samples_are_those_of_their_seed_and_fill_their_distribution() -> None:
 
 
 @pytest.mark.parametrize(
+    ("weight", "quantiles"),
+    [
+        ("10:30", {5: 11.0, 25: 15.0, 50: 20.0, 75: 25.0, 95: 29.0}),
+        ("20+-2", {5: 16.710, 25: 18.651, 75: 21.349, 95: 23.290}),
+    ],
+)
+def test_percentiles_of_an_uncertain_machine_are_those_by_hand(
+    weight: str, quantiles: dict[int, float]
+) -> None:
+    """A weight is added to the torque of the ramp, as it is below its limit: the percentiles are those of the
+    weight and the torque without it.
+    """
+    file, move = file_of(AXES[4][0]), {"move.distance": 10.0, "move.duration": 0.5}
+    over = {"sweep.over": f"model.gravity={weight}", "sweep.samples": 400, "sweep.figure": "peak_torque"}
+    trace = sweep(file, "0", {**over, **move}, way=ALONE)
+    without = simulate(file, "step", "0", move, advise=False).result["peak_torque"][0]
+    for part, by_hand in quantiles.items():
+        assert trace.result[f"peak_torque_p{part}"] == (pytest.approx(without + by_hand, abs=0.5), "%"), part
+
+
+@pytest.mark.parametrize(
     ("text", "message"),
     [
         ("servo.initial_gain", "does not say what is varied"),

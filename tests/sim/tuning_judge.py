@@ -1,9 +1,10 @@
 """Tuned axes judged by python-control: ``make judged`` takes thirty random machines.
 
-Nothing here is of the simulator. The laws are written again, from docs/simulation/families.md (AcroMill: pages 59,
-113, 128; 57C422B: the assumed loop), the machine is motor and load on a spring, sampled by its own matrix
-exponential with the delay in it (K. J. Åström, B. Wittenmark, Computer-Controlled Systems, 1997, 3.2). Compared
-are margins, Ms and the way of the load under a torque, before and after ``tune``.
+Nothing here is of the simulator. The laws of all families with gains are written again, from docs/simulation
+(AcroMill: pages 59, 113, 128; 57C422B: the assumed loop; NUM: 6-14; Syntec: 1.5.3; 9/PC: 7-25, 7-54, 7-56, 7-69), the
+machine is motor and load on a spring behind a current loop or a drive with its own velocity loop, sampled by its own
+matrix exponential with the delay in it (K. J. Åström, B. Wittenmark, Computer-Controlled Systems, 1997, 3.2). Compared
+are margins, Ms of both loops and the way of the load under a torque, before and after ``tune``.
 """
 
 import math
@@ -22,11 +23,61 @@ from amp_studio.schema import Value
 from amp_studio.sim import Trace, address_of, simulate
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-FILES = ("acromill-router/ROUTER.amp", "57c422b-label-press/LABEL_PRESS.amp")
 INCH = 25.4
 TOLERANCE = 0.01
 """Share by which a figure may be off: the printed one is sought on a grid and refined."""
 UNSTABLE = 1.0 + 1e-9
+
+
+@dataclass(frozen=True)
+class JudgedAxis:
+    """An axis of an example, and what its manual (or the assumed drive) has beside its gains."""
+
+    example: str
+    axis: str
+    gains: tuple[str, ...]
+    period: float
+    """s between two samples of its loops."""
+    per_unit: float = 1.0
+    """Counts of the feedback for 1 u."""
+    unit: str = " mm/s2"
+    speed: float = 0.0
+    """u/s for 1 of the output, of a drive with a velocity loop."""
+    current: float = 0.0
+    """Hz of the current loop; 0 for one without a lag."""
+
+
+SERVO = "servo.velocity_proportional_gain", "servo.velocity_integral_gain", "servo.initial_gain"
+AXES = {
+    "acromill": JudgedAxis(
+        "acromill-router/ROUTER.amp",
+        "X",
+        ("servo.p_gain", "servo.i_gain", "servo.d_gain"),
+        400e-6,
+        1.0 / 0.001240234375,
+    ),
+    "57c422b": JudgedAxis(
+        "57c422b-label-press/LABEL_PRESS.amp",
+        "X",
+        ("gain.velocity", "gain.proportional", "gain.integral"),
+        1.25e-3,
+        unit="",
+    ),
+    # 6000 mm/min at 9 V, in thousandths of a millimetre.
+    "num": JudgedAxis(
+        "num-1060-mill/MILL_1060.amp", "0", ("servo.loop_gain",), 5e-3, 1000.0, speed=100.0 / 9.0
+    ),
+    # An eighth of 1.966 ms; the output is in mm/min.
+    "syntec": JudgedAxis(
+        "syntec-mill/SYNTEC_MILL.amp", "1", ("servo.loop_gain",), 1.966e-3 / 8.0, speed=1.0 / 60.0
+    ),
+    "9pc": JudgedAxis("mill-1394/MILL_1394.amp", "1", SERVO, 1e-3, current=200.0),
+}
+"""Family -> the axis that is judged."""
+RADIANS = 2.0 * math.pi / 12.7
+"""rad of the 9/PC's motor for 1 mm of its screw."""
+TORQUE_FILTER = 200.0
+"""Hz, of the 9/PC as delivered."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +91,14 @@ class Machine:
     ratio: float = 0.0
     resonance: float = 0.0
     damping: float = 0.0
+    current: float = 0.0
+    """Hz of the current loop; 0 for one without a lag."""
+    speed: float = 0.0
+    """u/s for 1 of the output, of a drive with a velocity loop."""
+    bandwidth: float = 0.0
+    """Hz of that velocity loop."""
+    integral: float = 0.0
+    """1/s"""
 
     def settings(self, unit: str) -> dict[str, str]:
         """Return it as settings of the simulator."""
@@ -54,7 +113,33 @@ class Machine:
                 "model.resonance": f"{self.resonance!r} Hz",
                 "model.damping": f"{self.damping!r}",
             }
+        if self.current:
+            found |= {"model.current_bandwidth": f"{self.current!r} Hz"}
+        if self.speed:
+            found |= {
+                "model.velocity_bandwidth": f"{self.bandwidth!r} Hz",
+                "model.velocity_integral": f"{self.integral!r}",
+            }
         return found
+
+    def driven(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return the matrices of masses and drive: from (output, torque on the load) to (motor, load)."""
+        a, b, c = self.matrices()
+        size = len(a)
+        if not (self.current or self.speed):
+            return a, b, c
+        grown, drive = np.zeros((size + 1, size + 1)), np.zeros((size + 1, 2))
+        grown[:size, :size], drive[:size, 1] = a, b[:, 1]
+        if self.current:
+            rate = 2.0 * math.pi * self.current
+            grown[:size, size], grown[size, size], drive[size, 0] = b[:, 0], -rate, rate
+        else:  # torque = gain (e + integral ∫e), of the error e of the motor's speed
+            gain = 2.0 * math.pi * self.bandwidth / self.acceleration
+            grown[:size, 1] -= gain * b[:, 0]
+            grown[:size, size] = gain * self.integral * b[:, 0]
+            drive[:size, 0] = gain * self.speed * b[:, 0]
+            grown[size, 1], drive[size, 0] = -1.0, self.speed
+        return grown, drive, np.hstack([c, np.zeros((2, 1))])
 
     def matrices(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return a, b (torque of the motor, torque on the load) and c (motor, load)."""
@@ -83,7 +168,7 @@ class Machine:
         """Return the machine from (output, push on the load) to (motor, load), sampled."""
         from scipy.linalg import expm
 
-        a, b, c = self.matrices()
+        a, b, c = self.driven()
         size = len(a)
 
         def constant(span: float) -> tuple[np.ndarray, np.ndarray]:
@@ -114,14 +199,22 @@ class Machine:
 
 
 def laws(name: str, gains: Mapping[str, float], period: float, control: ModuleType) -> tuple[Any, Any]:
-    """Return the controllers from following error, and from the position of the motor, to the output in V."""
+    """Return the controllers from following error, and from the position of the motor, to the output in V or %."""
     z = control.tf([1, 0], [1], period)
-    change = (z - 1) / z
+    change, total = (z - 1) / z, z / (z - 1)
     if name == "acromill":
-        pid = gains["p_gain"] + gains["i_gain"] * period * z / (z - 1) + gains["d_gain"] / period * change
-        return pid, None
+        return gains["p_gain"] + gains["i_gain"] * period * total + gains["d_gain"] / period * change, None
+    if name == "num":  # KVAR thousandths of a point for a unit, 32768 points for 10 V
+        return control.tf([gains["loop_gain"] / 1000.0 * 10.0 / 32768.0], [1], period), None
+    if name == "syntec":
+        return control.tf([60.0 * gains["loop_gain"]], [1], period), None
+    if name == "9pc":
+        left = math.exp(-2.0 * math.pi * TORQUE_FILTER * period)
+        sums = gains["velocity_proportional_gain"] + gains["velocity_integral_gain"] * total
+        torque = (1.0 - left) / (1.0 - left / z) * sums * (100.0 / 65536.0 * RADIANS)
+        return torque * (gains["initial_gain"] * 1000.0 / 60.0), torque * change / period
     words = 10.0 / 1984.0 * gains["velocity"]
-    wanted = (gains["proportional"] + gains["integral"] * z / (z - 1)) / 65536.0
+    wanted = (gains["proportional"] + gains["integral"] * total) / 65536.0
     return words * wanted, words * change
 
 
@@ -150,6 +243,9 @@ def judged(
     if np.abs(closed.poles()).max() >= UNSTABLE:
         return {"Ms": None}
     found = dict(_margins(loop, period))
+    if inner is not None:
+        speeds = dict(_margins(control.ss(inner) * count * plant[0, 0], period))
+        found |= {f"velocity_loop_{key}": value for key, value in speeds.items()}
     time = period * np.arange(round(3.0 / period))
     way = control.forced_response(closed[1, 1], time, np.ones(len(time))).outputs
     return found | {"stiffness": float(np.abs(way).max())}
@@ -176,7 +272,7 @@ def _margins(loop: Any, period: float) -> Iterator[tuple[str, float]]:
 
 
 def random_machine(dice: random.Random, name: str) -> Machine:
-    """Return a machine around the one of the example; a 57C422B has a resonance in one of two."""
+    """Return a machine around the one of the example; one in two has a resonance, but not that of AcroMill."""
 
     def log(low: float, high: float) -> float:
         return math.exp(dice.uniform(math.log(low), math.log(high)))
@@ -184,51 +280,46 @@ def random_machine(dice: random.Random, name: str) -> Machine:
     if name == "acromill":
         return Machine(6232.3 * log(0.3, 3.0), 1.21e-3 * log(0.3, 3.0), 0.64e-3 * log(0.5, 3.0))
     swings = dice.random() < 0.5
-    return Machine(
-        4e5 * log(0.3, 3.0),
-        7.2e-6 * log(0.3, 3.0),
-        2e-4 * log(0.5, 6.0),
-        *((log(0.4, 2.5), log(40.0, 150.0), log(0.02, 0.1)) if swings else ()),
-    )
+    of_two = (log(0.4, 2.5), log(40.0, 150.0), log(0.02, 0.1)) if swings else (0.0, 0.0, 0.0)
+    if name == "57c422b":
+        return Machine(4e5 * log(0.3, 3.0), 7.2e-6 * log(0.3, 3.0), 2e-4 * log(0.5, 6.0), *of_two)
+    axis = AXES[name]
+    size, friction = {"num": (10.0, 0.05), "syntec": (40.0, 0.02), "9pc": (28.0, 0.02)}[name]
+    masses = size * log(0.3, 3.0), friction * log(0.3, 3.0)
+    if name == "9pc":
+        return Machine(*masses, 1.5e-3 * log(0.5, 2.0), *of_two, current=axis.current)
+    drive = {"speed": axis.speed, "bandwidth": 50.0 * log(0.3, 2.0), "integral": 60.0 * log(0.5, 2.0)}
+    return Machine(*masses, axis.period * log(0.2, 2.0), *of_two, **drive)
 
 
 def compared(number: int, control: ModuleType) -> Iterator[str]:
     """Yield where ``tune`` and python-control differ about a machine, before and after."""
-    name, file_name = (("acromill", FILES[0]), ("57c422b", FILES[1]))[number % 2]
-    dice = random.Random(40 + number)
-    machine, file = random_machine(dice, name), open_file(EXAMPLES / file_name).file
-    names = {
-        "acromill": ("servo.p_gain", "servo.i_gain", "servo.d_gain"),
-        "57c422b": ("gain.velocity", "gain.proportional", "gain.integral"),
-    }[name]
-    for each in names:
-        address = address_of(file, each, "X")
+    name = tuple(AXES)[number % len(AXES)]
+    axis, dice = AXES[name], random.Random(40 + number)
+    machine, file = random_machine(dice, name), open_file(EXAMPLES / axis.example).file
+    for each in axis.gains:
+        address = address_of(file, each, axis.axis)
         old = file.get(address)
         number_now = old.value * math.exp(dice.uniform(math.log(0.1), 0.0))
         file.set(
             address,
             Value(round(number_now) if isinstance(old.value, int) else float(f"{number_now:.3g}"), old.unit),
         )
-    unit, per_unit, period = {
-        "acromill": (" mm/s2", 1.0 / 0.001240234375, 400e-6),
-        "57c422b": ("", 1.0, 1.25e-3),
-    }[name]
-    trace = simulate(file, "tune", "X", machine.settings(unit))
-    before = {each.partition(".")[2]: float(file.get(address_of(file, each, "X")).value) for each in names}
-    others = {each.parameter for each in trace.recommendations} - {
-        *names,
-        "servo.vel_ffwd",
-        "gain.feedforward",
+    trace = simulate(file, "tune", axis.axis, machine.settings(axis.unit))
+    before = {
+        each.partition(".")[2]: float(file.get(address_of(file, each, axis.axis)).value)
+        for each in axis.gains
     }
+    others = {each.parameter for each in trace.recommendations}
     after = before | {
         each.parameter.partition(".")[2]: each.value
         for each in trace.recommendations
-        if each.parameter in names
+        if each.parameter in axis.gains
     }
     for which, gains in (("_before", before), ("", after)):
-        if which == "" and others & {"servo.lopass", "servo.notch"}:
-            continue  # filters are not written here
-        found = judged(name, machine, gains, per_unit, period, control)
+        if which == "" and others & {"servo.lopass", "servo.notch", "servo.torque_filter"}:
+            continue  # other filters are not written here
+        found = judged(name, machine, gains, axis.per_unit, axis.period, control)
         yield from _differences(number, trace, which, found)
 
 

@@ -48,16 +48,17 @@ class EstimatedFigure:
     error: float
 
 
-def _left(fit: FrictionFit, torque: Series) -> tuple[float, int]:
-    """Return the sum of squares that inertia and friction leave of a torque, and the number of rows."""
-    used = fit.is_used
-    acceleration = np.gradient(fit.velocity, fit.period)
-    forward = fit.velocity > 0.0
-    table = np.column_stack([acceleration, fit.velocity, forward, ~forward]).astype(float)[used]
+def _directions(table: Matrix) -> Matrix:
+    """Return orthonormal columns that reach what a table does: the rest of a series is then two products,
+    where a fit for each of many series would cost much more.
+    """
     # Columns of one length, for the condition; one of zeros stays as it is.
-    table /= np.sqrt((table**2).sum(axis=0)) + 1e-300
-    rest = torque[used] - table @ np.linalg.lstsq(table, torque[used], rcond=None)[0]
-    return float(rest @ rest), int(used.sum())
+    return np.asarray(np.linalg.qr(table / (np.sqrt((table**2).sum(axis=0)) + 1e-300))[0])
+
+
+def _rest(directions: Matrix, given: Series) -> Series:
+    """Return what a fit leaves of a series."""
+    return np.asarray(given - directions @ (directions.T @ given))
 
 
 def time_shift(fit: FrictionFit) -> EstimatedFigure:
@@ -66,7 +67,11 @@ def time_shift(fit: FrictionFit) -> EstimatedFigure:
     shifts = fit.period * np.arange(
         -most, most + 1
     )  # whole rows: between two of them noise would be less, and look like a better fit
-    left = np.array([_left(fit, np.interp(fit.time - shift, fit.time, fit.torque))[0] for shift in shifts])
+    used, forward = fit.is_used, fit.velocity > 0.0
+    table = np.column_stack([np.gradient(fit.velocity, fit.period), fit.velocity, forward, ~forward])
+    directions = _directions(table.astype(float)[used])
+    shifted = [np.interp(fit.time - shift, fit.time, fit.torque)[used] for shift in shifts]
+    left = np.array([float((_rest(directions, torque) ** 2).sum()) for torque in shifted])
     # A parabola needs a neighbour on each side.
     best = min(max(int(np.argmin(left)), 1), len(shifts) - 2)
     low, middle, high = left[best - 1 : best + 2]
@@ -76,7 +81,7 @@ def time_shift(fit: FrictionFit) -> EstimatedFigure:
         return EstimatedFigure(0.0, math.inf)
     step = shifts[1] - shifts[0]
     rows = (
-        _left(fit, fit.torque)[1] * fit.period / max(fit.window, fit.period)
+        int(used.sum()) * fit.period / max(fit.window, fit.period)
     )  # rows of one filter are not independent
     # Four coefficients and the shift have been fitted.
     spread = middle / max(1.0, rows - 5.0)
@@ -110,26 +115,28 @@ def _stribeck(speed: Series, over: float) -> Series:
     return np.asarray(np.sign(speed) * np.exp(-((speed / over) ** 2)))
 
 
-def static_friction(fit: FrictionFit, coulomb: float) -> StaticFriction | None:
+def static_friction(fit: FrictionFit, coulomb: float, slowest: float = SLOWEST) -> StaticFriction | None:
     """Return the static friction by R. Stribeck's curve, coulomb + (static - coulomb) exp(-(v/v_s)²);
     None where the record shows none.
 
     Rows of low speed that the fit left out are used, where the axis keeps its direction.
     """
     top = float(np.abs(fit.velocity).max())
-    moves = np.abs(fit.velocity) > SLOWEST * top
+    moves = np.abs(fit.velocity) > slowest * top
     acceleration, speed = np.gradient(fit.velocity, fit.period)[moves], fit.velocity[moves]
     # Friction that rises with the square of the speed has its own column: a wide curve of R. Stribeck's,
     # beside less Coulomb friction, would look like it.
     table = np.column_stack([acceleration, speed, speed > 0.0, speed < 0.0, speed * np.abs(speed)])
     table, given = table.astype(float), fit.torque[moves]
 
-    def left(over: float) -> tuple[Series, Series, Matrix]:
-        joined = np.column_stack([table, _stribeck(speed, over)])
-        coefficients = np.linalg.lstsq(joined, given, rcond=None)[0]
-        return given - joined @ coefficients, coefficients, joined
+    directions = _directions(table)
+    plain = _rest(directions, given)
 
-    plain = given - table @ np.linalg.lstsq(table, given, rcond=None)[0]
+    def left(over: float) -> tuple[Series, float]:
+        own = _rest(directions, _stribeck(speed, over))
+        size = float(own @ plain) / max(float(own @ own), 1e-300)
+        return plain - size * own, size
+
     # A Stribeck speed with hardly a row on its curve would fit the noise.
     tried = [top * share for share in STRIBECK if (_stribeck(np.abs(speed), share * top) > 0.3).sum() >= 8]
     if not tried:
@@ -138,14 +145,14 @@ def static_friction(fit: FrictionFit, coulomb: float) -> StaticFriction | None:
     # By its logarithm, so that the speed stays above 0.
     refined = least_squares(lambda there: left(math.exp(there[0]))[0], np.array([math.log(best)]))
     over = math.exp(float(refined.parameters[0]))
-    rest, coefficients, joined = left(over)
-    more = float(coefficients[-1])
+    rest, more = left(over)
     if float(rest @ rest) > (1.0 - LEAST_GAIN) * float(plain @ plain) or over > 1.5 * STRIBECK[-1] * top:
         return None
     # The curve's own slope by its speed is a column too: how much friction there is more and over which speed
     # it falls are found together.
     bend = 2.0 * more * (speed / over) ** 2 / over * _stribeck(speed, over)
-    slopes = np.column_stack([joined, bend])
+    curve = _stribeck(speed, over)
+    slopes = np.column_stack([table, curve, bend])
     slopes = slopes / (sizes := np.sqrt((slopes**2).sum(axis=0)) + 1e-300)
     # Seven figures have been fitted: the five of the axis, the static friction and its speed.
     rows = max(1.0, len(given) * fit.period / max(fit.window, fit.period) - 7.0)
@@ -153,7 +160,7 @@ def static_friction(fit: FrictionFit, coulomb: float) -> StaticFriction | None:
     error, speed_error = np.sqrt(np.maximum(spread[-2:], 0.0)).tolist()
     if more < SURE * error or more < LEAST_STATIC * max(coulomb, 1e-12):
         return None
-    blur = _blur(speed, acceleration, joined[:, -1], over, fit)
+    blur = _blur(speed, acceleration, curve, over, fit)
     return StaticFriction(
         EstimatedFigure(more, math.hypot(error, blur * more)),
         EstimatedFigure(over, math.hypot(speed_error, 0.5 * blur * over)),

@@ -44,6 +44,9 @@ LEAST_FIT = 0.5
 MOST_ERROR = 0.2
 """Standard error of J over J."""
 
+SWINGS, SWINGING = 50.0, 0.5
+"""Hz at which a load may swing that the record does not show, and its share of J: an assumption."""
+
 
 @dataclass(frozen=True, eq=False)
 class FrictionFit:
@@ -69,10 +72,15 @@ class FrictionFit:
 
 
 def fit_friction(
-    time: Series, torque: Series, *, velocity: Series | None = None, position: Series | None = None
+    time: Series,
+    torque: Series,
+    *,
+    velocity: Series | None = None,
+    position: Series | None = None,
+    slowest: float = STANDSTILL,
 ) -> FrictionFit:
-    """Return the fit of a record, by its velocity or its position;
-    raises SimulationError for what it cannot show.
+    """Return the fit of a record, by its velocity or its position, without rows below a share of the top
+    speed; raises SimulationError for what it cannot show.
     """
     moved = velocity if velocity is not None else position
     assert moved is not None
@@ -96,7 +104,7 @@ def fit_friction(
     while wider:
         width = wider.pop(0)
         found = _filtered(width, inner, speed, acceleration, torque)
-        used = _one_direction(speed, width)
+        used = _one_direction(speed, width, slowest)
         if used.sum() < LEAST_ROWS // 2:
             break
         left = noise * _gain(taps, width)
@@ -119,7 +127,7 @@ def fit_friction(
     fit = _solved(period, width, found, used, left, rows=len(time))
 
     def with_filter(longer: int) -> FrictionFit | None:
-        used = _one_direction(speed, longer)
+        used = _one_direction(speed, longer, slowest)
         if used.sum() < LEAST_KEPT * fit.used:
             return None
         found = _filtered(longer, inner, speed, acceleration, torque)
@@ -270,14 +278,14 @@ def _gain(taps: Series, width: int) -> float:
     return float(np.sum(np.convolve(response, taps) ** 2))
 
 
-def _one_direction(speed: Series, width: int) -> npt.NDArray[np.bool_]:
+def _one_direction(speed: Series, width: int, slowest: float) -> npt.NDArray[np.bool_]:
     """Return for each filter whether the axis moves in one direction all the time within it."""
     ends = (width - 1) // 2, width // 2
     smooth = _box(np.pad(speed, ends, mode="edge"), width)
     # A quantile, as one spike would raise the bound of the standstill for all rows.
     top = float(np.quantile(np.abs(smooth), 0.99))
     length = 3 * width  # and a row at each end, which is in the means of three rows
-    sides = (np.pad(side * smooth > STANDSTILL * top, 1).astype(np.float64) for side in (1.0, -1.0))
+    sides = (np.pad(side * smooth > slowest * top, 1).astype(np.float64) for side in (1.0, -1.0))
     # All rows on one side: half a row below that is only the rounding of the sums.
     return np.asarray(sum(_box(side, length) > 1.0 - 0.5 / length for side in sides), dtype=bool)
 
@@ -320,6 +328,7 @@ def _solved(
             " this axis"
         )
     covariance = _covariance(table, torque - table @ coefficients, used, width, sizes)
+    covariance[0, 0] += (_swung(acceleration, used, period) * coefficients[0]) ** 2
     if r_squared < LEAST_FIT:
         raise SimulationError(
             f"Inertia and friction explain only {max(0.0, 100.0 * r_squared):.0f} % of the torque: "
@@ -347,6 +356,15 @@ def _solved(
         predicted,
         used,
     )
+
+
+def _swung(acceleration: Series, used: npt.NDArray[np.bool_], period: float) -> float:
+    """Return by which share J may be too large as the load swings: on its spring it is accelerated more than
+    its motor, by (w / its own rate)², and filters do not take that away.
+    """
+    jerk = np.gradient(acceleration, period)[used]
+    rate = float(np.mean(jerk**2) / np.mean(acceleration[used] ** 2))
+    return SWINGING * rate / (2.0 * np.pi * SWINGS) ** 2
 
 
 def _least_squares(known: Matrix, given: Series, noise: float) -> Series:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,13 +15,13 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, law_of
 from amp_studio.sim.model import AT_SPEED, torque_unit
 from amp_studio.sim.rounding import rounded, value_text
-from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Figure, Trace
 from amp_studio.sim.unit_system import in_unit, length_unit
 
-from .beyond_friction import StaticFriction, is_shifted, residual_doubts, static_friction, time_shift
+from .analysis import Analysis, MeasuredTorque, settled_analysis
+from .beyond_friction import residual_doubts
 from .drive_record import DriveRecord, position_factor, read_drive_record, speed_factor, torque_figure
-from .friction import FrictionFit, fit_friction
+from .friction import FrictionFit
 from .lost_motion import backlash, is_closed_by_weight
 
 DIGITS = 6
@@ -67,33 +66,15 @@ def identify(
     record = read_drive_record(path)
     torque = record.torque / record_scale(record, bound, scale)
     factor = speed_factor(record, bound.unit, turn)
-    fit = _fit(record, bound, torque, factor)
-    shift, notes = time_shift(fit), [_EQUAL]
-    if is_shifted(fit, shift):
-        torque = np.interp(record.time - shift.value, record.time, torque)
-        fit = _fit(record, bound, torque, factor)
+    measured = MeasuredTorque(record, torque, factor, bound)
+    found, result = settled_analysis(measured, lambda each: _figures(each, bound))
+    fit, notes = found.fit, [_EQUAL]
+    if found.is_shifted:
         notes.append(
-            f"The motion is {value_text(1e3 * shift.value, 'ms', 3)} later than the torque in this "
+            f"The motion is {value_text(1e3 * found.shift.value, 'ms', 3)} later than the torque in this "
             "record, and was"
             " shifted so. Whether the axis or the recording delays it, one record does not show."
         )
-    # c+ is friction and weight, c- the weight less the friction.
-    static = static_friction(fit, 0.5 * float(fit.coefficients[2] - fit.coefficients[3]))
-    if static is not None:
-        fit = _without_static(record, bound, torque, factor, fit, static)
-    result = _figures(fit, bound)
-    result |= {
-        "time_shift": (1e3 * shift.value, "ms"),
-        "time_shift_standard_error": (1e3 * shift.error, "ms"),
-    }
-    if static is not None:
-        (coulomb, unit), (error, _) = result["coulomb_friction"], result["coulomb_friction_standard_error"]
-        result |= {
-            "static_friction": ((coulomb or 0.0) + static.more.value, unit),
-            "static_friction_standard_error": (math.hypot(error or 0.0, static.more.error), unit),
-            "stribeck_speed": (60.0 * static.speed.value, f"{bound.unit}/min"),
-            "stribeck_speed_standard_error": (60.0 * static.speed.error, f"{bound.unit}/min"),
-        }
     lost = _lost_motion(record, fit, bound)
     result |= lost
     notes += [_LOST] if lost else []
@@ -134,34 +115,6 @@ def _lost_motion(record: DriveRecord, fit: FrictionFit, bound: AxisLaw) -> dict[
     return {"backlash": (found.value, bound.unit), "backlash_standard_error": (found.error, bound.unit)}
 
 
-def _without_static(
-    record: DriveRecord,
-    bound: AxisLaw,
-    torque: Series,
-    factor: float,
-    fit: FrictionFit,
-    static: StaticFriction,
-) -> FrictionFit:
-    """Return the fit of the record without what static friction adds at low speed, where it would be taken
-    for Coulomb friction, and the viscous one for less; torque and prediction are with it.
-    """
-    excess = np.interp(record.time, fit.time, static.excess(fit.velocity), left=0.0, right=0.0)
-    fit = _fit(record, bound, torque - excess, factor)
-    again = static.excess(fit.velocity)
-    return replace(fit, torque=fit.torque + again, predicted=fit.predicted + again)
-
-
-def _fit(record: DriveRecord, bound: AxisLaw, torque: Series, factor: float) -> FrictionFit:
-    time = record.time
-    if record.velocity is not None:
-        return fit_friction(time, torque, velocity=record.velocity * factor)
-    assert record.position is not None
-    moved = record.position * factor
-    if bound.unit == "deg":  # a rotary axis may begin again after a turn
-        moved = np.unwrap(moved, period=360.0)
-    return fit_friction(time, torque, position=moved)
-
-
 def record_scale(record: DriveRecord, bound: AxisLaw, scale: str | None) -> float:
     """Return the record's torque for 1 of the simulator's; raises SimulationError where the units do not
     fit.
@@ -180,7 +133,26 @@ def record_scale(record: DriveRecord, bound: AxisLaw, scale: str | None) -> floa
     return figure
 
 
-def _figures(fit: FrictionFit, bound: AxisLaw) -> dict[str, Figure]:
+def _figures(found: Analysis, bound: AxisLaw) -> dict[str, Figure]:
+    """Return the figures of an analysis in the units of the settings, each with its standard error."""
+    result = _friction_figures(found.fit, bound)
+    result |= {
+        "time_shift": (1e3 * found.shift.value, "ms"),
+        "time_shift_standard_error": (1e3 * found.shift.error, "ms"),
+    }
+    static = found.static
+    if static is not None:
+        (coulomb, unit), (error, _) = result["coulomb_friction"], result["coulomb_friction_standard_error"]
+        result |= {
+            "static_friction": ((coulomb or 0.0) + static.more.value, unit),
+            "static_friction_standard_error": (math.hypot(error or 0.0, static.more.error), unit),
+            "stribeck_speed": (60.0 * static.speed.value, f"{bound.unit}/min"),
+            "stribeck_speed_standard_error": (60.0 * static.speed.error, f"{bound.unit}/min"),
+        }
+    return result
+
+
+def _friction_figures(fit: FrictionFit, bound: AxisLaw) -> dict[str, Figure]:
     """Return the figures of the machine in the units of its settings, each with its standard error."""
     inertia, viscous, forward, backward = fit.coefficients.tolist()
     torque = torque_unit(bound)

@@ -11,7 +11,7 @@ from amp_studio.sim.axis.motion import Motion, run_axis
 from amp_studio.sim.axis.moves import MOVE_SETTINGS, Move, move_of, until_of
 from amp_studio.sim.engine.kernel import STANDSTILL
 from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.model import assumptions
+from amp_studio.sim.model import assumptions, torque_unit
 from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Figure, Trace
@@ -21,6 +21,10 @@ from .figures import settled, stability, steady_at_feedrate
 
 COAST = 2.0
 """s in which an axis is watched after an alarm."""
+RATED = "move.rated_torque"
+SETTINGS = MOVE_SETTINGS | {
+    RATED: "torque that the motor gives all the time (torque); default: 100 % where torque is in %"
+}
 RUN_OUT = (
     "ASSUMED: after an alarm the drive gets 0. A torque drive lets the axis run out against its friction and"
     " the brake (model.brake), a velocity drive brakes it by its own loop; dynamic braking is in no manual"
@@ -30,8 +34,8 @@ RUN_OUT = (
 
 def run_step(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     """Run one move; raises SimulationError if it is not possible."""
-    refuse_unknown(settings, MOVE_SETTINGS)
-    moved = move_of(axis, settings)
+    refuse_unknown(settings, SETTINGS)
+    moved, rated = move_of(axis, settings), above_zero(settings, RATED)
     emergency = above_zero(settings, "move.emergency_time")
     motion = run_axis(
         axis,
@@ -48,7 +52,7 @@ def run_step(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
         model=axis.title,
         columns=per_minute(motion.columns),
         units=column_units(axis),
-        result=_figures(axis, motion, moved, stable),
+        result=_figures(axis, motion, moved, stable, rated),
         alarms=alarms_of(axis, motion, stable, margins),
         recommendations=(),
         assumptions=(*assumptions(axis), *([RUN_OUT] if motion.alarm_row is not None else [])),
@@ -57,7 +61,9 @@ def run_step(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     )
 
 
-def _figures(axis: AxisLaw, motion: Motion, moved: Move, stable: bool) -> dict[str, Figure]:
+def _figures(
+    axis: AxisLaw, motion: Motion, moved: Move, stable: bool, rated: float | None
+) -> dict[str, Figure]:
     """Return the named figures; the following error at the servo samples, as the control measures it."""
     unit = axis.unit
     driven = {name: column[motion.driven] for name, column in motion.columns.items()}
@@ -78,6 +84,7 @@ def _figures(axis: AxisLaw, motion: Motion, moved: Move, stable: bool) -> dict[s
         "peak_torque": (float(np.abs(driven["torque"]).max()), column_units(axis)["torque"]),
         "rms_torque": (float(np.sqrt(np.mean(driven["torque"] ** 2))), column_units(axis)["torque"]),
         "torque_limit_time": (_at_limit(axis, driven["torque"]), "%"),
+        "duty": (_duty(driven["torque"], rated or _rated(axis)), "%"),
         "in_position_time": (in_position, "s"),
         "settle_time": (settle, "s"),
         "overshoot": (max(0.0, float(forward.max()) - abs(moved.distance)), unit),
@@ -102,10 +109,29 @@ def _at_limit(axis: AxisLaw, torque: Series) -> float | None:
     return 100.0 * float(np.mean(np.abs(torque) >= 0.999 * limit)) if math.isfinite(limit) else None
 
 
+def _rated(axis: AxisLaw) -> float | None:
+    """Return the torque that the motor gives all the time; None where the unit of torque does not say it."""
+    return 100.0 if torque_unit(axis) == "%" else None
+
+
+def _duty(torque: Series, rated: float | None) -> float | None:
+    """Return the share of the time in % that the move may take, at rest in between, until the root mean
+    square of the torque is the rated one: d rms² + (1 - d) hold² = rated². A motor warms up slowly beside a
+    move.
+    """
+    if rated is None:
+        return None
+    hold = float(torque[-max(1, len(torque) // 50) :].mean())
+    square = float(np.mean(torque**2))
+    if square <= rated**2:
+        return 100.0
+    return 100.0 * max(0.0, (rated**2 - hold**2) / (square - hold**2))
+
+
 SCENARIO = Scenario(
     "step",
     "One commanded move of one axis, from rest to rest",
-    MOVE_SETTINGS,
+    SETTINGS,
     run_step,
     headline="peak_following_error",
     checked=("steady_following_error", "peak_following_error", "settle_time", "overshoot", "peak_output"),
