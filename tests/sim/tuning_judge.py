@@ -93,6 +93,8 @@ class Machine:
     damping: float = 0.0
     current: float = 0.0
     """Hz of the current loop; 0 for one without a lag."""
+    at_motor: float = 0.0
+    """Share of the friction that is at the motor."""
     speed: float = 0.0
     """u/s for 1 of the output, of a drive with a velocity loop."""
     bandwidth: float = 0.0
@@ -151,14 +153,14 @@ class Machine:
             self.acceleration * (1.0 + self.ratio),
             self.acceleration * (1.0 + self.ratio) / self.ratio,
         )
-        rate = 2.0 * math.pi * self.resonance
+        rate, rubs = 2.0 * math.pi * self.resonance, self.at_motor * self.friction
         stiff, slip = rate**2 / (motor + load), 2.0 * self.damping * rate / (motor + load)
         a = np.array(
             [
                 [0.0, 1.0, 0.0, 0.0],
-                [-motor * stiff, -motor * slip, motor * stiff, motor * slip],
+                [-motor * stiff, -motor * (slip + rubs), motor * stiff, motor * slip],
                 [0.0, 0.0, 0.0, 1.0],
-                [load * stiff, load * slip, -load * stiff, -load * slip - load * self.friction],
+                [load * stiff, load * slip, -load * stiff, -load * (slip + self.friction - rubs)],
             ]
         )
         b = np.array([[0.0, 0.0], [motor, 0.0], [0.0, 0.0], [0.0, load]])
@@ -287,7 +289,7 @@ def random_machine(dice: random.Random, name: str) -> Machine:
     size, friction = {"num": (10.0, 0.05), "syntec": (40.0, 0.02), "9pc": (28.0, 0.02)}[name]
     masses = size * log(0.3, 3.0), friction * log(0.3, 3.0)
     if name == "9pc":
-        return Machine(*masses, 1.5e-3 * log(0.5, 2.0), *of_two, current=axis.current)
+        return Machine(*masses, 1.5e-3 * log(0.5, 2.0), *of_two, axis.current, at_motor=1.0)
     drive = {"speed": axis.speed, "bandwidth": 50.0 * log(0.3, 2.0), "integral": 60.0 * log(0.5, 2.0)}
     return Machine(*masses, axis.period * log(0.2, 2.0), *of_two, **drive)
 
