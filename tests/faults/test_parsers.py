@@ -54,6 +54,7 @@ NAMES = {"stdin", "argv", "environ"}
 READERS = {
     "calibration/cells.py": "damaged points of a laser",
     "calibration/reading.py": "damaged points of a laser",
+    "child_process.py": "",  # what a copy of the process itself has made
     "cli/checks/cache.py": "damaged results of checks",
     "cli/checks/formats.py": "",  # what the program itself has printed
     "cli/console.py": "odd values",

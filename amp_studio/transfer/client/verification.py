@@ -40,7 +40,7 @@ class ImageComparison:
                     the value of the file beside the one in use
     ``is_whole``    whether every byte was compared; else a control shows some values coarser than they are
     ``outside``     what the file sets and no control of this kind keeps: it is neither sent nor compared
-    ``unset``       how many values of the control the file does not set, where those stay as they are
+    ``not_compared`` how many values of the control the file does not set, where those stay as they are
     """
 
     is_same: bool
@@ -53,7 +53,7 @@ class ImageComparison:
     is_whole: bool = True
     stays: str = ""
     in_use: tuple[Difference, ...] = ()
-    unset: int = 0
+    not_compared: int = 0
 
     @property
     def agrees(self) -> bool:
@@ -67,8 +67,9 @@ class ImageComparison:
             text += f" The program that runs uses {len(self.in_use)} other values: start it again."
         if self.outside:
             text += f" {len(self.outside)} values of the file are not kept by this control."
-        if self.unset:
-            text += f" {self.unset} values of the control are not set in the file, and were not compared."
+        if self.not_compared:
+            text += f" {self.not_compared} values of the control are not set in the file,"
+            text += " and were not compared."
         if self.stays:
             text += f" Not in the file, and not compared: {self.stays}."
         return text
@@ -79,7 +80,7 @@ class ImageComparison:
             much = "are the same"
             if not self.is_whole:
                 much += " as far as the control shows them"
-            elif not self.unset:
+            elif not self.not_compared:
                 much = "and every byte are the same"
             return f"Nothing differs: {self.values.same} values {much}."
         if self.unreadable:
@@ -141,17 +142,17 @@ def verify_content(file: ParameterFile, fetched: bytes) -> ImageComparison:
     # An image replaces all of a control. Where values are sent one by one, what the file does not set is
     # as the control has it on both sides: the same without having been compared.
     others = () if kind.has_header else theirs.keys() - file.values.keys()
-    unset = sum(same_value(ours.get(a), theirs[a]) for a in others)
+    not_compared = sum(same_value(ours.get(a), theirs[a]) for a in others)
     return ImageComparison(
         is_same,
-        replace(found, same=found.same - unset),
+        replace(found, same=found.same - not_compared),
         _other_units(wanted, present),
         head,
         missing=missing,
         outside=outside,
         is_whole=is_whole,
         stays=stays,
-        unset=unset,
+        not_compared=not_compared,
     )
 
 

@@ -87,7 +87,7 @@ def _as_json(
         "absent": comparison.missing or None,
         "in_use": listed(comparison.in_use),
         "stays": comparison.stays or None,
-        "unset": comparison.unset,
+        "not_compared": comparison.not_compared,
         "header": [asdict(d) for d in comparison.head],
         "other_units": listed(comparison.other_units),
     }
