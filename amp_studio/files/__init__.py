@@ -19,6 +19,7 @@ if TYPE_CHECKING:
         append_line,
         check_output,
         digest_of,
+        in_temporary_folder,
         was_replaced,
         write_all,
         write_atomic,

@@ -35,6 +35,15 @@ class SaveError(AmpStudioError, OSError):
     """A file that could not be written; the old one is untouched. The text is one clear sentence."""
 
 
+@contextlib.contextmanager
+def in_temporary_folder() -> Iterator[None]:
+    """Raise SaveError where a temporary file without a name takes no more: its OSError names no file."""
+    try:
+        yield
+    except OSError as error:
+        raise SaveError(f"the folder for temporary files takes no more: {error.strerror}") from error
+
+
 def digest(content: bytes) -> str:
     """Return the SHA-256 of a file's content in hexadecimal."""
     return hashlib.sha256(content).hexdigest()

@@ -6,11 +6,12 @@ import threading
 import weakref
 from array import array
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import islice
 from pathlib import Path
 from tempfile import SpooledTemporaryFile
 from typing import overload
 
-from amp_studio.files import ParameterFile
+from amp_studio.files import ParameterFile, in_temporary_folder
 from amp_studio.schema import quoted
 
 from .words import LONGEST, ProgramBlockError
@@ -35,11 +36,13 @@ class ProgramLines(Sequence[str]):
         self._read: tuple[int, list[str]] = (-1, [])
         # A run that was stopped may still read while the next one begins.
         self._lock = threading.Lock()
-        for line in lines:
-            if self._count % TOGETHER == 0:
-                self._places.append(self._file.tell())
-            self._file.write(line.encode("utf-8", "surrogatepass") + b"\n")
-            self._count += 1
+        coming = iter(lines)
+        while part := list(islice(coming, TOGETHER)):
+            self._places.append(self._file.tell())
+            with in_temporary_folder():
+                self._file.write("".join(f"{line}\n" for line in part).encode("utf-8", "surrogatepass"))
+                self._file.flush()
+            self._count += len(part)
         self._places.append(self._file.tell())
 
     def __len__(self) -> int:
@@ -72,7 +75,7 @@ class ProgramLines(Sequence[str]):
 
 def read_program(path: Path, file: ParameterFile | None = None) -> ProgramLines:
     """Return the lines of a program as the control of a file reads them; raises ProgramBlockError for a file
-    that is none, OSError.
+    that is none, SaveError where there is no room for a long one, OSError.
     """
     facts = file.schema.program.path if file is not None else None
     return ProgramLines(_lines(path, is_plain=facts is not None and facts.plain_text))

@@ -1,16 +1,19 @@
 """A long program is planned a stretch of rows at a time, which changes no figure and needs no more memory."""
 
 import random
+import re
 import tracemalloc
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from amp_studio.files import ParameterFile
+from amp_studio.files import ParameterFile, SaveError
 from amp_studio.programs import path_letters, read_program
 from amp_studio.programs.source import ProgramLines
 from amp_studio.sim import ProgramJob, ProgramRun, moment_at, path_picture, program_csv, program_summary
+from amp_studio.sim.path.kept_columns import KeptColumns
 from amp_studio.sim.path.result import line_rows
 from tests.programs.test_block import example
 
@@ -138,3 +141,24 @@ def test_the_lines_of_a_program_are_those_of_a_list(monkeypatch: pytest.MonkeyPa
     assert [lines[n] for n in (0, 1299, 511, 512, -1, 3)] == [texts[n] for n in (0, 1299, 511, 512, -1, 3)]
     with pytest.raises(IndexError):
         lines[1300]
+
+
+@pytest.fixture
+def small_disk() -> Iterator[None]:
+    resource = pytest.importorskip("resource")
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (4096, hard))
+    yield
+    resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+
+
+@pytest.mark.usefixtures("small_disk")
+def test_a_full_folder_for_temporary_files_is_named_and_not_the_results() -> None:
+    """The error of a file without a name was taken for one of standard output."""
+    full = re.escape("the folder for temporary files takes no more: File too large")
+    with pytest.raises(SaveError, match=full):
+        ProgramLines("G1 X1 F100" for _ in range(30_000))
+    kept = KeptColumns()
+    kept.add([np.zeros(10_000)])
+    with pytest.raises(SaveError, match=full):
+        kept.add([np.zeros(10_000)])

@@ -51,8 +51,7 @@ THIN = 5
 LONGEST = 300.0
 """s: the longest Seek Timeout (14-8)."""
 WATCHED, LATER = 0.5, 8.0
-"""s in which the deviation is watched after the seek, and time constants of the slower loop after a"
-" change."""
+"""s in which the deviation is watched after the seek; time constants of the slower loop after a change."""
 AT_SPEED = 0.01
 """Share of the speed within which both have it."""
 SEEKS = 0.25
@@ -67,15 +66,14 @@ LOOPS = (
 )
 BEYOND = "{0} lies beyond the speeds that both gears have: both turn at {1}, with a warning (14-2)."
 SEEK = (
-    "ASSUMED: once both have the speed, the follower takes up the angle of the markers with a quarter of"
-    " its position"
-    " gain, inside of the speeds of its gear; they are synchronized when Seek Tolerance is kept, and the"
-    " angle stays"
-    " as it is from there. Seek Timeout counts from the command. How the control seeks is not printed (14-7)."
+    "ASSUMED: once both have the speed, the follower takes up the angle of the markers with a quarter of its"
+    " position gain, inside of the speeds of its gear; they are synchronized when Seek Tolerance is kept, and"
+    " the angle stays as it is from there. Seek Timeout counts from the command. How the control seeks is not"
+    " printed (14-7)."
 )
 GAINED = (
-    "ASSUMED: Synch Gain times the difference of the following errors, as a share of that of the"
-    " controlling spindle, is added to the gain of the follower; its unit is not printed (14-5)."
+    "ASSUMED: Synch Gain times the difference of the following errors, as a share of that of the controlling"
+    " spindle, is added to the gain of the follower; its unit is not printed (14-5)."
 )
 
 
@@ -163,9 +161,7 @@ def run_synchronize(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
 
 
 def _spindles(machine: BoundMachine) -> tuple[Spindle, Spindle]:
-    """Return the controlling spindle and the follower; raises SimulationError where 590 and 591 name no"
-    " pair.
-    """
+    """Return the controlling spindle and the follower; raises SimulationError where 590 and 591 name none."""
     read = machine.parameters
     names = [str(read.value(name)) for name in (ids.sync_controlling, ids.sync_follower)]
     if "none" in names or "None" in names:
@@ -334,9 +330,7 @@ def _row(turning: _Turning, time: float) -> tuple[float, ...]:
 
 
 def _seek(pair: SpindlePair, command: float, deviation: float) -> float:
-    """Return what the follower turns faster, deg/s, to take up a deviation inside of the speeds of its"
-    " gear.
-    """
+    """Return what the follower turns faster, deg/s, to take up a deviation inside of its gear's speeds."""
     gear = pair.gears[1]
     wanted = SEEKS * gear.gain * deviation
     room = max((gear.high - command if wanted > 0.0 else command - gear.low) * TO_DEG, 0.0)

@@ -86,9 +86,7 @@ def run_clamp(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
 
 
 def _clamped(machine: BoundMachine) -> str:
-    """Return the axis that is asked for, else the first one with a clamp; raises SimulationError"
-    " without one.
-    """
+    """Return the axis that is asked for, else the first one with a clamp; raises SimulationError."""
     word = int(machine.parameters.optional(ids.axes_clamped) or 0.0)
     with_clamp = [name for name in machine.fitted if word >> int(name) & 1]
     chosen = machine.one_chosen("clamp")

@@ -84,15 +84,15 @@ PER_LINE = 4.0
 """Counts of a line: the axis card multiplies by 4 (5-12)."""
 WHEELED = (
     "A line of the wheel counts 4, and moves the axis by 4 times MULTI / DIVI internal units (5-12)."
-    " ASSUMED: the axis"
-    " goes no faster than P30 and has its ramp of positioning; neither is printed of a handwheel."
+    " ASSUMED: the axis goes no faster than P30 and has its ramp of positioning; neither is printed of a"
+    " handwheel."
 )
 FILTERED = "The measurement of this wheel is filtered: the axis moves by whole lines (P14N1, 4-28)."
 
 
 def handwheel(read: AxisParameters, words: Words, wheel: str) -> Handwheel:
-    """Return how a handwheel moves the axis (4-28, 5-10, 5-12); raises SimulationError where P14"
-    " declares none.
+    """Return how a handwheel moves the axis (4-28, 5-10, 5-12); raises SimulationError for one that
+    P14 does not declare.
     """
     declared = int(read.optional(ids.axes_handwheels, everywhere=True) or 0.0)
     known = [str(n + 1) for n in range(WHEELS) if declared >> n & 1]
@@ -113,9 +113,7 @@ def handwheel(read: AxisParameters, words: Words, wheel: str) -> Handwheel:
 
 
 def _wheel_ratio(read: AxisParameters, at: str, *, turns: bool) -> float:
-    """Return MULTI / DIVI of a wheel: the second pair where it moves an axis that turns, unless that is"
-    " 0 (5-12).
-    """
+    """Return MULTI / DIVI of a wheel: the second pair for an axis that turns, unless that is 0 (5-12)."""
     pairs = [(ids.handwheel_multi, ids.handwheel_divi)]
     if turns:
         pairs.insert(0, (ids.handwheel_rotary_multi, ids.handwheel_rotary_divi))

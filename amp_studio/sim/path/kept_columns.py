@@ -11,6 +11,8 @@ import numpy as np
 import numpy.typing as npt
 from numpy.lib import format as npy
 
+from amp_studio.files import in_temporary_folder
+
 Columns = list[npt.NDArray[Any]]
 
 
@@ -30,7 +32,7 @@ class KeptColumns:
         return len(self._places)
 
     def add(self, columns: Sequence[npt.NDArray[Any]]) -> None:
-        """Keep one more stretch."""
+        """Keep one more stretch; raises SaveError."""
         self._write_last()
         self._last = len(self._places), list(columns)
         self._places.append(-1)
@@ -48,9 +50,11 @@ class KeptColumns:
         place, columns = self._last
         if place < 0 or self._places[place] >= 0:
             return
-        if self._file is None:
-            self._file = TemporaryFile()  # noqa: SIM115  # as long as the columns are
-            weakref.finalize(self, self._file.close)
-        self._places[place] = self._file.seek(0, 2)
-        for column in columns:
-            npy.write_array(self._file, np.ascontiguousarray(column))
+        with in_temporary_folder():
+            if self._file is None:
+                self._file = TemporaryFile()  # noqa: SIM115  # as long as the columns are
+                weakref.finalize(self, self._file.close)
+            self._places[place] = self._file.seek(0, 2)
+            for column in columns:
+                npy.write_array(self._file, np.ascontiguousarray(column))
+            self._file.flush()

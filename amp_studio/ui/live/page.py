@@ -12,8 +12,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, QTimer, Signal
-from PySide6.QtGui import QKeyEvent, QKeySequence, QResizeEvent, QShortcut
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtGui import QKeyEvent, QKeySequence, QShortcut
 
 from amp_studio.files import Difference, ParameterFile, RangeError, axis_instances, axis_letter
 from amp_studio.pictures import LiveLimits, axis_limits
@@ -21,23 +20,15 @@ from amp_studio.report import dangers_of_change
 from amp_studio.schema import Address, Group, Parameter, Value, same_value
 from amp_studio.ui.base.figures import sentence, show_value, written
 from amp_studio.ui.base.questions import ask
-from amp_studio.ui.base.theme import COLUMN_HEAD, GAP2, HEAD, ROW, font
 from amp_studio.ui.base.translated import facts_in_words, message_in_words
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.control.readings import Happened, StatusReadings
-from amp_studio.ui.control.rows import side_by_side
 from amp_studio.ui.control.session import ControlSession
-from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.forms.form import fill_choices
-from amp_studio.ui.forms.message_bar import MessageBar
-from amp_studio.ui.forms.segment import Segment
-from amp_studio.ui.page.page_of_file import PageOfFile
 
-from .recorder import LiveRecording
-from .rows import LiveRows, TurnedValue
-from .sign import LiveSign
-from .status_panel import NARROW, WIDE, LiveStatusPanel
-from .write_frame import ShownValue, WriteFrame
+from .page_parts import LivePageParts
+from .rows import TurnedValue
+from .write_frame import ShownValue
 
 if TYPE_CHECKING:
     from amp_studio.transfer import AxisStatus, ControlStatus
@@ -45,15 +36,11 @@ if TYPE_CHECKING:
 
 SILENT_MS = 2000
 """Milliseconds without an answer after which the figures are grey."""
-ROOMY = 1200
-"""Width of a window with room for all words."""
 RATED = 10
 """Readings from which the rate is counted."""
-FEW_ROWS, LEAST_ROWS, MOST_ROWS, LOW = 4, 5, 8, 680
-"""Rows that have room at least, at most in a page below so many pixels, and in a higher one."""
 
 
-class LiveView(PageOfFile):
+class LiveView(LivePageParts):
     """Everything reads only but the frame. An exchange ends it; what was turned is asked about once."""
 
     changed = Signal()
@@ -66,8 +53,7 @@ class LiveView(PageOfFile):
     """What has come to its end after the page was left."""
 
     def __init__(self, workspace: Workspace) -> None:
-        super().__init__()
-        self._workspace = workspace
+        super().__init__(workspace, self._present)
         self._family = workspace.file.schema.family.family
         self.session: ControlSession | None = None
         self.readings: StatusReadings | None = None
@@ -101,55 +87,12 @@ class LiveView(PageOfFile):
         self._clock = QTimer(self)
         self._clock.setInterval(1000)
         self._clock.timeout.connect(self._show_age)
-        self._build()
+        self._connect()
         workspace.changed.connect(self._follow_values)
         workspace.closed.connect(self._close)
 
-    def _build(self) -> None:
-        self.setAccessibleName(self.tr("Live"))
-        self.groups = QComboBox()
-        self.groups.setAccessibleName(self.tr("Values that are listed"))
-        self.groups.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self.groups.setMinimumContentsLength(18)
-        lock = LiveSign("lock-simple-fill", "dim")
-        only = QLabel(self.tr("the table reads only"))
-        only.setFont(font("small"))
-        self.axes = Segment(self.tr("Axis"))
-        self.bar = MessageBar()
-        self.rows = LiveRows(self._workspace)
-        self.reason = ElidedLabel()
-        self.reason.setFont(font("small"))
-        self.read = QPushButton(self.tr("&Read Values"))
-        self.read.setAutoDefault(False)
+    def _connect(self) -> None:
         self.read.clicked.connect(self._read_values)
-        self.reason_row = side_by_side(HEAD, self.reason, None, self.read)
-        self.frame = WriteFrame(self._workspace)
-        self.panel = LiveStatusPanel(self._family)
-        self.recorder = LiveRecording(self._workspace, self._present)
-        self.framed = QWidget()
-        around = QVBoxLayout(self.framed)
-        around.setContentsMargins(GAP2, GAP2, GAP2, GAP2)
-        around.addWidget(self.frame)
-        self.column = QVBoxLayout()
-        self.column.setContentsMargins(0, 0, 0, 0)
-        self.column.setSpacing(0)
-        for part in (
-            side_by_side(HEAD, self.groups, lock, only, None, self.axes),
-            self.bar,
-            self.rows,
-            self.reason_row,
-            self.framed,
-            self.recorder,
-        ):
-            self.column.addWidget(part, {self.rows: 2, self.recorder: 5}.get(part, 0))
-        whole = QHBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.setSpacing(0)
-        whole.addLayout(self.column, 1)
-        whole.addWidget(self.panel)
-        self.setFocusProxy(self.rows)
-        # Else a long name would keep the window wide.
-        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored)
         self.axes.chosen.connect(lambda _: self._choose_axis())
         self.groups.currentIndexChanged.connect(lambda _: self._choose_group())
         self.rows.chosen.connect(lambda _: self._show_frame())
@@ -166,16 +109,6 @@ class LiveView(PageOfFile):
         ):
             shortcut = QShortcut(QKeySequence(keys), self, act)
             shortcut.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        """Leave the rows the room of the words in a small window."""
-        super().resizeEvent(event)
-        is_narrow = self.window().width() < ROOMY
-        rows = MOST_ROWS if self.height() > LOW else LEAST_ROWS
-        self.rows.setMaximumHeight(COLUMN_HEAD + rows * ROW + 2)
-        self.rows.setMinimumHeight(COLUMN_HEAD + FEW_ROWS * ROW)
-        self.panel.setFixedWidth(NARROW if is_narrow else WIDE)
-        self.rows.show_short_words(is_narrow)
 
     # -- whom it asks ----------------------------------------------------------------
 
