@@ -32,7 +32,7 @@ class LivePageParts(PageOfFile):
     """The values with the frame that writes one, the recorder below, and the status at the right."""
 
     def __init__(self, workspace: Workspace, present: Callable[[], ParameterFile | None]) -> None:
-        """``present`` gives what the control contains, None where that is not known."""
+        """``present`` gives what the control contains, None while that is not known."""
         super().__init__()
         self._workspace = workspace
         self.setAccessibleName(self.tr("Live"))
