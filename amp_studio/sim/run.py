@@ -75,7 +75,7 @@ def simulate(
         letter = axis_name(file.evaluation, bound.axis)
         trace = _of_one_axis(scenario, file, law, bound, model, own, way, advise=advise)
     if advise or whole is not None or _always_doubts(law, scenario):
-        trace = replace(trace, doubts=doubts(file, read, model))
+        trace = replace(trace, doubts=(*trace.doubts, *doubts(file, read, model)))
     return in_unit(_named(trace, letter), length)
 
 

@@ -156,9 +156,59 @@ class Stopped(Exception):
     """A person stops the sweep."""
 
 
-def test_a_sweep_of_which_nothing_is_possible_gives_the_reason() -> None:
-    with pytest.raises(SimulationError, match="inertia_ratio"):
-        sweep(file_of(MILL), "1", {"sweep.over": "model.inertia_ratio=0.5:2:4"}, "metric", way=ALONE)
+@pytest.mark.parametrize(
+    ("over", "reason"),
+    [
+        ("servo.initial_gain=0.5:1.5:100;model.inertia_ratio=0.5:2:100", "inertia_ratio divides an axis"),
+        ("servo.initial_gain=100:200:90;model.delay=1:2:90", "Initial Gain of Position Loop 100 is outside"),
+    ],
+)
+def test_a_sweep_of_which_nothing_is_possible_is_refused_before_it_begins(over: str, reason: str) -> None:
+    """It computed all of them, counted to 100 %, and refused then."""
+    seen: list[str] = []
+    way = SweepWay(cores=1, progress=lambda stage, _done, _total: seen.append(stage))
+    with pytest.raises(SimulationError, match=reason):
+        sweep(file_of(MILL), "1", {"sweep.over": over}, "metric", way=way)
+    assert seen == []
+
+
+@pytest.mark.parametrize(
+    ("over", "refused", "which", "reason"),
+    [
+        (
+            "servo.initial_gain=-10:40:6;model.delay=1:2:3",
+            9,
+            "servo.initial_gain -10 … 0, servo.initial_gain 40",
+            "Initial Gain of Position Loop -10 is outside 0 to 30",
+        ),
+        ("model.resonance=0:100:5;model.inertia_ratio=1:2:3", 3, "model.resonance 0", "one rigid mass"),
+    ],
+)
+def test_a_sweep_names_how_many_of_it_are_refused_which_and_why(
+    over: str, refused: int, which: str, reason: str
+) -> None:
+    trace = sweep(file_of(MILL), "1", {"sweep.over": over, "sweep.figure": "Ms"}, way=ALONE)
+    assert trace.result["not_possible"] == (float(refused), "")
+    first, *_ = trace.doubts
+    assert first.startswith(f"{refused} of {trace.rows} variations are not possible ({which}): ")
+    assert reason in first
+    german = language_of("de", "9pc").sentence(first)
+    assert german.startswith(
+        f"{refused} von {trace.rows} Varianten sind nicht möglich ({which.replace('-', '−')}): "
+    )
+    assert " is " not in german
+
+
+def test_a_variation_that_runs_away_is_possible_and_not_safe(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It was counted with those that the file refuses."""
+
+    def runs_away(*_args: object) -> None:
+        raise SimulationError("Axis 0 runs away: its loop is not stable")
+
+    monkeypatch.setattr("amp_studio.sim.variations.batch.run_prepared", runs_away)
+    given = {"sweep.over": "model.delay=1:2:2", "sweep.figure": "settle_time", **MOVE}
+    trace = sweep(file_of("num-1060-mill/MILL_1060.amp"), "0", given, way=ALONE)
+    assert (trace.result["not_possible"], trace.result["safe"]) == ((0.0, ""), (0.0, "%"))
 
 
 def test_a_sweep_that_was_stopped_goes_on_with_what_it_has(

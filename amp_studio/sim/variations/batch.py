@@ -23,7 +23,7 @@ from amp_studio.sim.engine.kernel import (
     SUBSTEPS,
     VELOCITY_SAMPLES,
 )
-from amp_studio.sim.engine.signals import STOP
+from amp_studio.sim.engine.signals import DIVERGED, STOP
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
 
@@ -121,7 +121,8 @@ def run_batch(
     room = np.empty(0)
     for each, row in zip(runs, out, strict=True):
         room = _run(*each, "compiled" if is_fast else "plain", figures, row, room)
-    out[~np.isfinite(out[:, 1])] = np.nan
+    beyond = ~np.isfinite(out[:, 1])
+    out[beyond], out[beyond, 0] = np.nan, DIVERGED
     return out
 
 

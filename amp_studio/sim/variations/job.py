@@ -83,7 +83,7 @@ def figures_of(job: SweepJob, points: Matrix) -> Matrix:
 
 def _chunk(job: SweepJob, points: Matrix) -> Matrix:
     found = np.full((len(points), len(job.columns)), np.nan)
-    bound = [(n, *each) for n, each in enumerate(_axes(job).all(points.tolist())) if each is not None]
+    bound = [(n, *each) for n, each in enumerate(axes_of(job).all(points.tolist())) if each is not None]
     if job.motion:
         runs, moves = [], _Moves()
         for _, axis, own, _ in bound:
@@ -172,12 +172,13 @@ class Axes:
         numbers = {each.name: number for each, number in zip(self.job.varied, point, strict=True)}
         return self.move | {name: number for name, number in numbers.items() if name.startswith("move.")}
 
-    def refuse(self, point: Sequence[float]) -> None:
-        """Raise SimulationError with the reason where a point makes no axis."""
+    def refusal(self, point: Sequence[float]) -> str | None:
+        """Return why a point makes no axis; None where it makes one."""
         try:
             self._one(point)
-        except RangeError as error:
-            raise SimulationError(str(error)) from None
+        except (RangeError, SimulationError) as error:
+            return str(error)
+        return None
 
     def _one(self, point: Sequence[float]) -> _Bound:
         varied, own = list(zip(self.job.varied, point, strict=True)), self._own(point)
@@ -224,19 +225,14 @@ def _nothing(_parameter: str, _instance: str) -> ParameterValue:
 
 # Kept from one batch to the next, so that a process reads the file of a job once.
 @lru_cache(maxsize=2)
-def _axes(job: SweepJob) -> Axes:
+def axes_of(job: SweepJob) -> Axes:
+    """Return what binds the axes of a job."""
     return Axes(job)
-
-
-def refuse_impossible(job: SweepJob, points: Matrix, matrix: Matrix) -> None:
-    """Raise SimulationError with the reason of the first point where none makes an axis."""
-    if len(points) and not np.isfinite(matrix).any():
-        _axes(job).refuse(points[0].tolist())
 
 
 def bound_at_present(job: SweepJob) -> AxisLaw:
     """Return the axis as the file has it; raises SimulationError for a varied setting that it does not
     have.
     """
-    axes = _axes(job)
+    axes = axes_of(job)
     return bind_axis(axes.file, axes.law, job.axis, axes.model)

@@ -33,8 +33,9 @@ from amp_studio.sim.tuning.solver import solve
 from amp_studio.sim.tuning.trial import Trial, address_of
 
 from .batch import FIGURES
-from .job import LOOP_FIGURES, SweepJob, bound_at_present, refuse_impossible
+from .job import LOOP_FIGURES, SweepJob, bound_at_present
 from .plan import Varied, points_of, read_varied
+from .refused import refuse_if_none, refused_in_words
 from .running import SweepProgress, run_job
 from .text import MORE_IS_BETTER
 
@@ -82,8 +83,8 @@ def run_sweep(
     motion = figure not in LOOP_FIGURES
     loops = not motion or (figure is None and len(points) <= MOST_LOOPS)
     job = _job(trial, varied, move, motion=motion, loops=loops)
+    refuse_if_none(job, points)
     found = _run(job, points, way)
-    refuse_impossible(job, points, found)
     return _trace(job, trial, points, found, figure or ("stiffness" if loops else "settle_time"))
 
 
@@ -232,6 +233,7 @@ def _trace(job: SweepJob, trial: Trial, points: Matrix, matrix: Matrix, figure: 
         alarms=(),
         recommendations=(),
         assumptions=(_note(job), *assumptions(axis)),
+        doubts=tuple(refused_in_words(job, points, matrix)),
         limits={name: (value, units[name]) for name, value in present.items()},
         move={name: value for name, value in job.move if isinstance(value, float)},
         over=tuple(each.name for each in job.varied),
@@ -302,9 +304,7 @@ def _present(axis: AxisLaw, job: SweepJob, trial: Trial, varied: Varied) -> floa
 def _figures(columns: dict[str, Series], units: dict[str, str], figure: str) -> dict[str, Figure]:
     """Return counts, percentiles and the best of a figure over all variations."""
     count, safe = len(columns["safe"]), columns["safe"] == 1.0
-    known = np.isfinite(
-        next(iter(columns[name] for name in columns if name in ("peak_following_error", "sound")))
-    )
+    known = np.isfinite(next(columns[name] for name in columns if name in ("stop", "sound")))
     result: dict[str, Figure] = {
         "count": (float(count), ""),
         "not_possible": (float(count - int(known.sum())), ""),
