@@ -16,6 +16,7 @@ from amp_studio.transfer.errors import CancelledError, TransferError
 from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.house.connection import ACTS_ON_GRBL
 from amp_studio.transfer.progress import Stop
+from tests.campaigns import some
 
 
 class Machine:
@@ -43,6 +44,12 @@ class Machine:
     def close(self) -> None:
         """Hang up."""
         self._socket.close()
+
+
+@pytest.fixture
+def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Give a machine that is at the line but never says what is asked a second, not twelve."""
+    monkeypatch.setattr("amp_studio.families.grblhal.line.START", 1.0)
 
 
 @pytest.fixture
@@ -77,6 +84,7 @@ def test_a_grbl_is_known_by_its_status_report_or_its_greeting(
     assert set(grbl.heard) == set(b"?")
 
 
+@pytest.mark.usefixtures("impatient")
 @pytest.mark.parametrize("ask", ["status", "identify", "look"])
 def test_a_grbl_that_moves_is_asked_without_a_reset(machine: Callable[[bytes], Machine], ask: str) -> None:
     """A frame of the house protocol contains 0x18, which stops the axes where they are."""
@@ -87,7 +95,7 @@ def test_a_grbl_that_moves_is_asked_without_a_reset(machine: Callable[[bytes], M
     assert not ACTS_ON_GRBL & set(grbl.heard)
 
 
-@pytest.mark.parametrize("ask", ["status", "identify", "look", "fetch"])
+@pytest.mark.parametrize("ask", some(["fetch", "status", "look", "identify"]))  # 5 s each
 def test_a_grbl_that_is_taken_for_another_family_goes_on(
     machine: Callable[[bytes], Machine], ask: str
 ) -> None:
