@@ -44,10 +44,13 @@ class AllowedByRules:
         wanted = _within(near, low, high)
         try:
             points = sorted({self._value(x) for x in (*steps, *wanted)})
+            # What is broken at every sample has another value to blame: counted, it would leave no part
+            # at all.
             hopeless = frozenset.intersection(*map(self._broken, points))
         except ValueError:  # a number that this parameter cannot have
             return None
         good = {x for x in points if not self._broken(x) - hopeless}
+        # A value that makes another machine type of the file has other checks than these.
         if not good or not self._checks.fit:
             return None
         first = next(map(self._value, wanted), points[0])
@@ -70,13 +73,18 @@ class AllowedByRules:
         return inside
 
     def _between(self, inside: float, outside: float, hopeless: frozenset[FindingPlace]) -> float:
+        """Return the last allowed value between an allowed one and one that is not: a short number, if there
+        is one.
+        """
         for _ in range(_HALVINGS):
             middle = self._value((inside + outside) / 2)
+            # Neighbouring whole numbers or doubles: nothing lies between them.
             if middle in (inside, outside):
                 return inside
             if abs(inside - outside) <= _NEAR * max(abs(inside), abs(outside)):
                 break
             inside, outside = (middle, outside) if not self._broken(middle) - hopeless else (inside, middle)
+        # A bound of three digits is read at a glance; the sixteen digits of a halving are noise.
         middle = self._value(_shortest(inside, outside))
         return middle if not self._broken(middle) - hopeless else inside
 
@@ -86,7 +94,7 @@ class AllowedByRules:
     def _broken(self, x: float) -> frozenset[FindingPlace]:
         if x not in self._tried:
             self._file.set(self._address, Value(x, self._unit))
-            self._checks.look_again()
+            self._checks.forget_values()
             self._tried[x] = frozenset(c.place for c in self._rules if self._checks.rules.is_broken(c))
         return self._tried[x]
 

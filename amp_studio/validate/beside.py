@@ -45,6 +45,7 @@ def axes_by_letter(file: ParameterFile) -> dict[str, str]:
 
     letters = list(axis_letters(file).items())
     every = [letter for _, letter in letters]
+    # Two axes of one letter are both left out: a rule that reads ``@X`` could mean either.
     return {letter: axis for axis, letter in letters if letter != axis and every.count(letter) == 1}
 
 
@@ -70,6 +71,9 @@ def earlier_beside(path: Path, file: ParameterFile) -> tuple[Earlier, ...]:
 
 
 def _earlier(path: Path, file: ParameterFile) -> Iterator[Earlier]:
+    """Yield the contents that a file is compared with; of a value that differs from several the first is
+    named.
+    """
     backup = backup_path(path)
     if is_there(backup) and (values := _values(backup, file)) is not None:
         yield Earlier("in the backup", values)
@@ -95,6 +99,8 @@ def _values(path: Path, file: ParameterFile) -> dict[Address, Value] | None:
     return other.values if same else None
 
 
+# Each file of a folder is compared with all others, which would be read as often as there are files. The
+# two more are a backup and the file that one was made from.
 @lru_cache(maxsize=LARGEST_FLEET + 2)
 def _opened(path: Path, changed: int, size: int) -> ParameterFile:  # noqa: ARG001  # another one after a change
     from amp_studio.files import open_file  # most files are alone
@@ -109,6 +115,7 @@ def _last_download(path: Path) -> str:
     except OSError:
         return ""
     for line in reversed(content.decode("utf-8", "replace").split("\n")):
+        # A line that a crash cut off, or that someone edited, is no reason to overlook the older ones.
         with contextlib.suppress(ValueError, RecursionError):
             entry = json.loads(line)
             if not isinstance(entry, dict) or entry.get("file") != text_of_name(path.name):

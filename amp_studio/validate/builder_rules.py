@@ -46,6 +46,7 @@ def sort_out(
     """
     by_rule: dict[str, list[tuple[Suppression, list[set[Address]]]]] = {}
     for s in suppressions:
+        # Looked up once here, not once for each finding of the rule.
         addresses = [_addresses_of(evaluation, text) for text in s.params]
         by_rule.setdefault(s.rule, []).append((s, addresses))
     stay: list[Finding] = []
@@ -56,6 +57,7 @@ def sort_out(
             stay.append(finding)
         else:
             left.append(Suppressed(finding, by))
+    # By identity: of two equal entries the second one meets nothing, and is reported.
     used = {id(suppressed.suppression) for suppressed in left}
     return tuple(stay), tuple(left), tuple(s for s in suppressions if id(s) not in used)
 
@@ -65,6 +67,8 @@ def _suppression_of(
 ) -> Suppression | None:
     """Return the first suppression each of whose parameters the finding is about."""
     for suppression, every in suppressions:
+        # Each one that is named: what was decided for a pair of values is not decided for one of them
+        # beside a third.
         if not any(named.isdisjoint(finding.addresses) for named in every):
             return suppression
     return None

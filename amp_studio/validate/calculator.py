@@ -20,6 +20,7 @@ from .functions import formulas
 _LONGEST = 500
 """Most characters that are shown of the message of a formula about its arguments."""
 _WORD = re.compile(r'"[^"]*"|[^\[\],\s"][^\[\],"]*')
+# What JSON reads as a number; anything else (``05``, ``+5``) is put into quotes as a word.
 _NUMBER = re.compile(r"-?(0|[1-9]\d*)(\.\d+)?([eE][-+]?\d+)?")
 _YES_NO = {"yes": True, "true": True, "1": True, "no": False, "false": False, "0": False}
 
@@ -132,6 +133,7 @@ def _values(arguments: Iterable[Argument], name: str, texts: Mapping[str, str]) 
 
 
 def _read(argument: Argument, text: str) -> Any:
+    """Return the value of an argument in the type that its formula declares; raises ValueError."""
     if argument.kind is str:
         return text
     from pydantic import TypeAdapter  # a check uses formulas and reads no arguments
@@ -180,6 +182,7 @@ def shown_result(result: Any) -> str:
     if isinstance(result, bool):
         return "yes" if result else "no"
     if isinstance(result, (int, float)):
+        # Nine digits: the tail that the arithmetic leaves (0.30000000000000004) is no result.
         return write_number(float(f"{result:.9g}") if isinstance(result, float) else result)
     if isinstance(result, (tuple, list)):
         return ", ".join(shown_result(part) for part in result)

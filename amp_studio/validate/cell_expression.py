@@ -106,6 +106,8 @@ def enter(file: ParameterFile, address: Address, text: str, unit_of: UnitOf) -> 
         try:
             return Entered(read_plain(file, address, text, unit_of))
         except InvalidValueError:
+            # Of a choice only ``=`` begins an expression: for a label with a slip in it the error about
+            # choices helps.
             if not may_be or parameter.choices:
                 raise
     return Entered(_result(file, address, text, unit_of), text.strip().lstrip("=").strip())
@@ -140,13 +142,16 @@ def _result(file: ParameterFile, address: Address, text: str, unit_of: UnitOf) -
                 f"the result is in {unit_text(found.unit)}, and {parameter.name} is given in"
                 f" {unit_text(unit) or 'a bare number'}; figure(…) takes a number without its unit"
             )
+        # The only conversion: what was added or compared is in one unit by then, see _alike.
         found = _in_unit(found, unit)
     figure = _figure(found.number)
     if parameter.type in ("integer", "bits"):
+        # Exact in fractions; as a double 0.57 * 100 is 56.99999999999999.
         if found.number.denominator != 1:
             name = parameter.name
             raise InvalidValueError(f"{name} takes whole numbers, and the result is {figure}: use round(…)")
         return read_value(parameter, str(found.number.numerator), unit)
+    # Through the reader of typed values, so that a result has the same checks and errors as a figure.
     return read_value(parameter, f"{figure} {unit}".strip(), unit)
 
 
@@ -196,6 +201,9 @@ class _Reader:
             ) from None
 
     def _in_own_words(self, message: str) -> str:
+        """Return a message of the parser with what the user wrote in place of the names that the parser was
+        given.
+        """
         return re.sub(r"v\d+_", lambda m: self._known.get(m[0], (m[0],))[0], message)
 
     # -- names and numbers -------------------------------------------------------
@@ -264,6 +272,7 @@ class _Reader:
         value = self._set_value(address, name)
         if isinstance(value.value, (str, bool)):
             raise InvalidValueError(f"{quoted(name)} is no number")
+        # By its shortest decimals: 0.1 is a tenth here, not the double beside it.
         number = Fraction(Decimal(repr(value.value)))
         return _in_unit(_Quantity(number, value.unit), self._unit_of(address) if value.unit else "")
 
@@ -285,6 +294,7 @@ class _Reader:
         if not instance and not is_quoted and (axis := self._other_axis(name)) is not None:
             return axis
         try:
+            # An id by itself goes on to _at, which takes the instance at hand.
             if instance or name.casefold() not in self._file.schema.parameters:
                 text_of_address = "@".join(filter(None, (name, instance)))
                 return resolve_address(self._file.evaluation, text_of_address).address
@@ -315,6 +325,8 @@ class _Reader:
         """
         word, known = name.casefold(), self._file.schema.parameters.values()
         here = [p for p in known if self._file.machine_schema.instances(p)]
+        # From exact to vague, and the first way that finds anything decides: a whole name is never
+        # ambiguous because a longer one contains it.
         ways: tuple[Callable[[Parameter], bool], ...] = (
             lambda p: word in (p.id, p.name.casefold()),
             lambda p: p.id.endswith("." + word),
@@ -355,7 +367,9 @@ class _Reader:
     # -- calculating -------------------------------------------------------------
 
     def _value(self, node: Node) -> _Quantity:
+        """Return what a tree comes to, in fractions; raises InvalidValueError for what is no arithmetic."""
         if node.kind == "name" and node.text in self._known:
+            # A quantity of the text; any other name is none, and ends below.
             return self._known[node.text][1]
         parts = (
             [self._value(part) for part in node.parts] if node.kind in (*"+-*/", "negative", "call") else []
@@ -409,11 +423,15 @@ def _quotient(a: _Quantity, b: _Quantity) -> _Quantity:
     if b.number == 0:
         raise InvalidValueError("the expression divides by 0")
     if a.unit and b.unit and dimension(a.unit) == dimension(b.unit):
+        # Two lengths give a ratio, which is a bare number again and may be used anywhere.
         return _Quantity(a.number / _in_unit(b, a.unit).number)
     return _Quantity(a.number / b.number, a.unit if b.unit == "" else None)
 
 
 def _called(name: str, parts: list[_Quantity]) -> _Quantity:
+    """Return the result of a function; raises InvalidValueError for an unknown one or a wrong number of
+    values.
+    """
     if name not in _FUNCTIONS:
         raise InvalidValueError(f"{quoted(name)} is no function: {', '.join(_FUNCTIONS)}")
     wanted = _FUNCTIONS[name]

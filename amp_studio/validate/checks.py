@@ -12,7 +12,7 @@ from .plan import FindingPlace, Plan
 from .ranges import ValueChecks
 from .rules import RuleChecks
 
-_NOT_LOOKED_AT = ("hidden", "ignored")
+_WITHOUT_EFFECT = ("hidden", "ignored")
 """States in which a value has no effect."""
 
 
@@ -32,12 +32,12 @@ class Checks:
         """Whether the file still describes the machine type and the model that these checks were made for."""
         return (self._file.machine, self._file.header.application) == (self.machine, self.application)
 
-    def look_again(self, changed: Iterable[Address] | None = None) -> None:
+    def forget_values(self, changed: Iterable[Address] | None = None) -> None:
         """Forget the values, which may have changed, or those that were ``changed`` since the last round;
         called before the checks of a round.
         """
-        self._values.look_again()
-        self.rules.look_again(changed)
+        self._values.forget_values()
+        self.rules.forget_values(changed)
 
     def of_all(self, plan: Plan) -> Iterator[tuple[FindingPlace, Finding]]:
         """Yield all that is wrong, and where it is filed: what a full run finds."""
@@ -51,14 +51,15 @@ class Checks:
             state = known.get(address) or evaluation.state(address)
             # To a rule a value without effect is not set.
             seen.append((address, keys[address] if state is ACTIVE else None))
-            if state is not ACTIVE and state.state in _NOT_LOOKED_AT and address not in file.forced:
+            if state is not ACTIVE and state.state in _WITHOUT_EFFECT and address not in file.forced:
                 continue
             finding = self._values.finding(address, value)
             if finding is not None:
                 found.append((address, finding))
-        self.rules.look_at(plan.read, seen)
+        self.rules.add_keys(plan.read, seen)
         yield from sorted(found, key=lambda filed: order[filed[0]])
         for group in plan.groups:
+            # No rule of the group applies without its first value: one look saves hundreds of checks.
             if group.first is None or self.rules.is_active(group.first):
                 for check, finding in self.rules.findings_of(group):
                     yield check.place, finding
@@ -71,6 +72,6 @@ class Checks:
         if value is None:
             return None
         state = self._file.evaluation.state(address).state
-        if state in _NOT_LOOKED_AT and address not in self._file.forced:
+        if state in _WITHOUT_EFFECT and address not in self._file.forced:
             return None
         return self._values.finding(address, value)

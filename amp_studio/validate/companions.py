@@ -35,6 +35,7 @@ def machines_of(folder: Path) -> tuple[str, ...]:
     """Return the names of the parameter files of a folder; none where there are too few or too many.
     Raises OSError.
     """
+    # The time of a folder changes whenever a name comes or goes, and only names are asked for.
     return _machines_in(folder, folder.stat().st_mtime_ns)
 
 
@@ -48,4 +49,5 @@ def fleet_of(path: Path) -> list[Path]:
 @lru_cache(maxsize=16)
 def _machines_in(folder: Path, changed: int) -> tuple[str, ...]:  # noqa: ARG001  # another one after a change of the folder
     names = sorted(each.name for each in folder.iterdir() if each.name.endswith(ENDING))
+    # The file itself and three others: values_of_fleet asks for three that agree.
     return tuple(names) if 4 <= len(names) <= LARGEST_FLEET else ()

@@ -24,6 +24,8 @@ from .plan import RuleCheck
 from .plausible import TITLES
 from .validator import Validator
 
+# Quoted texts match first, so that no word inside of one is taken for a name; a name before ``(`` is a
+# function.
 _NAME = re.compile(r"'[^']*'|(?<![\w.])[a-z][a-z0-9_]*(?!\w*\()")
 _COMPARISON = re.compile(r"<=|>=|==|!=|<|>")
 _LONG_LIST = 8
@@ -175,6 +177,7 @@ def _value(validator: Validator, address: Address) -> str:
         return f"'{found}'"
     value = validator.file.values.get(address)
     unit = canonical_unit(value.unit) if value else ""
+    # Nine digits: the conversion into the canonical unit leaves a tail that no user has typed.
     return f"{write_number(float(f'{found:.9g}'))} {unit_text(unit)}".rstrip()
 
 
@@ -210,6 +213,7 @@ def _split(text: str) -> tuple[str, str] | None:
             depth -= 1
         elif depth == 0 and _COMPARISON.fullmatch(found[0]):
             places.append(found.span())
+    # ``a < b == c`` compares a truth with a value: there are no two sides to show.
     if len(places) != 1:
         return None
     ((start, end),) = places

@@ -76,6 +76,7 @@ class ExpressionCheck:
             self.slips.append(what)
 
     def _worth(self, node: Node) -> tuple[Worth, int]:
+        """Return what a tree gives and what one evaluation of it costs, with all its parts."""
         if node.kind == "over":
             found, cost = self._over(node)
         else:
@@ -111,6 +112,7 @@ class ExpressionCheck:
                 return YES_NO, 0
             case "==" | "!=" | "in" | "<" | "<=" | ">" | ">=":
                 self._compare(node, *parts)
+                # A comparison of lists walks both of them.
                 return YES_NO, sum(part.size for part in parts)
             case _:
                 return self._arithmetic(node, parts), 0
@@ -132,6 +134,7 @@ class ExpressionCheck:
         return replace(list_worth(len(parts) // 2, item), kind="table", literals=keys.literals)
 
     def _indexed(self, node: Node, of: Worth, index: Worth) -> Worth:
+        """Return what an item is; adds a slip for what has no items or is counted otherwise."""
         if of.kind not in ("list", "table", "any"):
             self._slip(
                 f"{quoted(node.parts[0].text)} is {_CALLED[of.kind]} and has no items: take the brackets away"
@@ -146,6 +149,9 @@ class ExpressionCheck:
         return of.item or ANY
 
     def _called(self, node: Node, given: list[Worth]) -> tuple[Worth, int]:
+        """Return what a call gives and costs, however wrong its arguments are: the walk goes on to the next
+        slip.
+        """
         name = str(node.value)
         signature = self._functions.get(name)
         cost = _CALL + 2 * sum(worth.size for worth in given)
@@ -240,6 +246,7 @@ class ExpressionCheck:
             self._slip(f"{quoted(node.text)} is {_CALLED[worth.kind]}, where true or false is wanted")
 
     def _arithmetic(self, node: Node, parts: list[Worth]) -> Worth:
+        """Return what an operator gives: numbers, or lists and texts that ``+`` joins."""
         every = {part.kind for part in parts}
         kinds = every - {"any", "null"}
         operator = "-" if node.kind == "negative" else node.kind
@@ -252,6 +259,7 @@ class ExpressionCheck:
         return DECIMAL if every <= {*_NUMBERS, "null"} else replace(_joined(parts), kind="any")
 
     def _compare(self, node: Node, left: Worth, right: Worth) -> None:
+        """Add a slip where two operands can never be equal, or cannot be compared."""
         one, other = node.parts
         if node.kind == "in":
             if right.kind not in ("list", "table", "any"):
@@ -268,7 +276,9 @@ class ExpressionCheck:
             self._compare_choices(node, left, right)
 
     def _compare_kinds(self, node: Node, left: Worth, right: Worth) -> None:
+        """Add a slip where two kinds cannot be compared, with what to write instead."""
         kinds = {left.kind, right.kind} - {"any", "null"}
+        # The engine compares whole numbers with decimal ones; only its arithmetic does not mix them.
         if len(kinds) < 2 or kinds == {*_NUMBERS}:
             return
         one, other = node.parts
@@ -292,6 +302,7 @@ class ExpressionCheck:
                 )
 
     def _compare_choices(self, node: Node, left: Worth, right: Worth) -> None:
+        """Add a slip where two choices have no key in common, so that they are never equal."""
         if (
             not (left.choices and right.choices and left.is_closed and right.is_closed)
             or left.literals + right.literals
@@ -330,6 +341,7 @@ def _folded(text: str) -> str:
 
 
 def _literal(node: Node) -> Worth:
+    """Return what a written value is; a text is closed, since it can be no other."""
     match node.value:
         case None:
             return Worth("null")

@@ -22,6 +22,7 @@ DEEPEST_BRACKETS = 24
 and a thread has 512 kB."""
 DEEPEST = 100
 """Operations in each other; a sum of 100 numbers is so deep."""
+# The whole numbers of CEL have 64 bits.
 LARGEST_WHOLE = 2**63 - 1
 
 MACROS = {"all": (2,), "exists": (2,), "exists_one": (2,), "filter": (2,), "map": (2, 3)}
@@ -105,6 +106,7 @@ def read_expression(text: str) -> Node:
 
 
 def _tokens(text: str) -> list[_Token]:
+    """Return the tokens of an expression without blanks and comments, and one of kind ``end`` behind them."""
     found, at = [], 0
     while at < len(text):
         match = _TOKEN.match(text, at)
@@ -117,6 +119,7 @@ def _tokens(text: str) -> list[_Token]:
 
 
 def _unreadable(text: str, at: int) -> str:
+    """Return what is wrong with the character where no token begins, in one clause."""
     character = text[at]
     if character in _OPERATORS:
         return f"'{character}' is no operator: write {_OPERATORS[character]}"
@@ -177,6 +180,7 @@ class _ExpressionParser:
         node = self._expression()
         token = self._next
         if token.kind != "end":
+            # ``and``, ``or`` and a single ``=`` are what people write first.
             operator = _OPERATORS.get(token.text)
             raise ExpressionError(
                 f"{quoted(token.text)} is no operator: write {operator}"
@@ -186,6 +190,7 @@ class _ExpressionParser:
         return node
 
     def _expression(self) -> Node:
+        """Read an expression, or an alternative ``a ? b : c``, which binds least."""
         self._brackets += 1
         # Refused while it is read: the parser itself calls itself for each bracket.
         if self._brackets > DEEPEST_BRACKETS:
@@ -227,10 +232,12 @@ class _ExpressionParser:
         start = self._next.start
         node = operand()
         while operator := self._accept(*operators):
+            # To the left, as the engine does: ``a - b - c`` is ``(a - b) - c``.
             node = self._node(operator, start, (node, operand()))
         return node
 
     def _unary(self) -> Node:
+        """Read what may have ``!`` or ``-`` in front of it."""
         start, count = self._next.start, 0
         operator = self._next.text
         # Only one kind of sign in a row: the grammar of the engine has no "!-".
@@ -242,6 +249,7 @@ class _ExpressionParser:
         return node
 
     def _member(self) -> Node:
+        """Read a value with the indices and methods behind it: ``a[0].size()``."""
         start = self._next.start
         node = self._primary()
         while True:
@@ -255,6 +263,7 @@ class _ExpressionParser:
                 return node
 
     def _method(self, start: int, of: Node) -> Node:
+        """Read a call behind a point; a macro over a list becomes a node ``over``."""
         name = self._next
         # A point is for calls alone: the values of rules have no parts.
         if name.kind != "name" or self._tokens[self._at + 1].text != "(":
@@ -308,6 +317,7 @@ class _ExpressionParser:
         )
 
     def _named(self, token: _Token) -> Node:
+        """Return the node of a word: a constant, a call or a name."""
         self._at += 1
         if token.text in ("true", "false", "null"):
             value = None if token.text == "null" else token.text == "true"
@@ -334,6 +344,7 @@ class _ExpressionParser:
 
 
 def _literal(token: _Token) -> float | int | str:
+    """Return the value of a token; raises ExpressionError for what the engine cannot store."""
     if token.kind == "text":
         text = re.sub(r"\\(.)", lambda m: _ESCAPED.get(m[1], m[1]), token.text[1:-1])
         # Half a character of UTF-16 cannot be encoded when the finding is printed.

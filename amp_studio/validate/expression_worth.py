@@ -132,6 +132,7 @@ def any_of(worths: list[Worth]) -> Worth:
 
 
 def _either(one: Worth, other: Worth) -> Worth:
+    """Return what is one of two: as large as the larger, and closed only if both are."""
     if one == other:
         return one
     # An empty list has no items, and goes with a list of anything.

@@ -46,6 +46,8 @@ TYPES = {
     "timestamp",
     "duration",
 }
+# The engine lists the name of an item among the variables; those that a macro binds are found in the
+# text.
 _OVER_A_LIST = re.compile(r"\.(?:all|exists|exists_one|filter|map)\(\s*([a-zA-Z_]\w*)\s*,")
 _COUNTED = re.compile(r"\bcount_(?:set|below|above)\(\s*([a-zA-Z_]\w*)\s*[,)]")
 
@@ -105,6 +107,7 @@ class Expressions:
     ) -> None:
         self._rule, self._functions, self._finding = rule, functions, finding
         self._names = (
+            # The order in which RuleCheck.names and the keys of a check come.
             *(n for n in rule.reads if not is_list(rule.reads[n])),
             *(n for n in rule.reads if is_list(rule.reads[n])),
         )
@@ -128,6 +131,7 @@ class Expressions:
             part = self._not_satisfied if applies is True else self._broken
             found = part.result(keys, circumstances)
         verdict = None if found is NO_RESULT else found is True
+        # None cannot be remembered: it is also what an unknown key gives.
         if verdict is not None:
             self.remembered[keys if self.hangs_on_values_alone else (keys, circumstances.key)] = verdict
         return verdict
@@ -135,6 +139,8 @@ class Expressions:
     @cached_property
     def hangs_on_values_alone(self) -> bool:
         """Whether equal values decide alike for every instance and machine type."""
+        # As a part of the text: where a longer name contains one of these, more is remembered than
+        # needed, nothing less.
         return not any(name in self._rule.when or name in self._rule.check for name in ALWAYS_THERE)
 
     @cached_property
@@ -153,6 +159,7 @@ class Expressions:
         return self._part(f"({self._rule.when}\n) && !({self._rule.check}\n)")
 
     def _part(self, text: str) -> _Part:
+        """Return a text of the rule as an expression that is decided by itself; raises RuleError."""
         rule = self._rule
         lists = _OVER_A_LIST.findall(text)
         known = {*rule.reads, *ALWAYS_THERE, *TYPES, *lists}
@@ -232,6 +239,7 @@ def _about(rule: Rule, spoken_of: set[str], asked_of: set[str]) -> tuple[dict[st
 
 
 def _texts(rule: Rule) -> Iterator[tuple[str, str]]:
+    """Yield every expression of a rule with its place in words."""
     yield "when", rule.when
     yield "check", rule.check
     for name, text in rule.values.items():

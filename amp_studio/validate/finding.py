@@ -59,6 +59,7 @@ class Finding:
     @property
     def key(self) -> tuple[str, str | tuple[Address, ...]]:
         """What stays the same while it is the same finding, of other values: which are wrong may change."""
+        # The figures in the message are left out: a finding stays the same while its values are edited.
         return self.rule, self.causes if self.instance is None else self.instance
 
     @property

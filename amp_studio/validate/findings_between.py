@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from .finding import Finding
-
-_NOT_SET = "schema.unset"
-"""Values that are not given are a state of the file and no fault of a change."""
+from .finding import NOT_SET, Finding
 
 
 def new_findings(before: Iterable[Finding], after: Iterable[Finding]) -> list[Finding]:
@@ -15,4 +12,5 @@ def new_findings(before: Iterable[Finding], after: Iterable[Finding]) -> list[Fi
     of the same rule for the same instance they are one.
     """
     known = {(f.key, f.severity) for f in before}
-    return [f for f in after if f.rule != _NOT_SET and (f.key, f.severity) not in known]
+    # Values that are not given are a state of the file and no fault of a change.
+    return [f for f in after if f.rule != NOT_SET and (f.key, f.severity) not in known]

@@ -40,6 +40,7 @@ def apply_fixes(
             break
         changes = validator.file.set_checked({setting.address: setting.value for setting in finding.fix})
         done += [Fixed(change, finding.rule) for change in changes]
+        # Not ``update``: sorted findings with tried fixes are needed once, at the end.
         validator.recheck([change.address for change in changes])
     validator.findings()  # what is suppressed, too
     return done

@@ -14,7 +14,10 @@ NUMBER_ANNOTATIONS = frozenset(("float", "int", "float | None", inspect.Paramete
 """How functions for rules declare that an argument is a number; built-in ones declare nothing."""
 
 
+# All give doubles: CEL does not mix whole numbers and decimal ones in arithmetic.
 def _mod(a: float, b: float) -> float:
+    # The sign of ``a``, as in C; the remainder by 0 equals nothing, where fmod would raise and end the
+    # rule.
     return math.fmod(a, b) if b else math.nan
 
 

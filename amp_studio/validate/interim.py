@@ -34,7 +34,7 @@ class Interim:
     def __init__(self, file: ParameterFile, own: BuilderRules = NO_RULES) -> None:
         self.file = file.copy()
         self._own = own
-        self._look_at_all()
+        self._check_all()
 
     @property
     def broken(self) -> dict[Hashable, Finding]:
@@ -48,9 +48,9 @@ class Interim:
         self.file.set(step.address, step.value)
         if not self._checks.fit:  # another machine type has other checks
             self.file.evaluation.forget()
-            self._look_at_all()
+            self._check_all()
             return {key: finding for key, finding in self.broken.items() if key not in before}
-        new = self._look_at(step.address)
+        new = self._recheck(step.address)
         kept, _, _ = sort_out(tuple(new), self._own.suppressions, self.file.evaluation)
         return {finding.key: finding for finding in kept if finding.key not in before}
 
@@ -62,15 +62,15 @@ class Interim:
         """Return the checks that can come to something else when a value changes."""
         return self._plan.asked_by((address,))
 
-    def _look_at_all(self) -> None:
+    def _check_all(self) -> None:
         self._plan = make_plan(self.file.schema, self.file.machine, self._own.rules)
         self._checks = Checks(self.file, self._own.places)
-        self._checks.look_again()
+        self._checks.forget_values()
         self._filed: dict[FindingPlace, Finding] = dict(_of_weight(self._checks.of_all(self._plan)))
 
-    def _look_at(self, address: Address) -> list[Finding]:
+    def _recheck(self, address: Address) -> list[Finding]:
         """Ask again what reads an address; return what is found there."""
-        self._checks.look_again()
+        self._checks.forget_values()
         values = self._plan.range_readers.get(address, frozenset())
         rules = self._plan.rule_readers.get(address, ())
         for address_read in values:

@@ -185,6 +185,8 @@ class Plan:
         found: dict[tuple[bool, Address | None], list[RuleCheck]] = {}
         for check in self.checks:
             first = check.reads[0] if check.reads else None
+            # A lenient check may find something though its first value is not there: it cannot be skipped
+            # by that.
             found.setdefault((check.is_lenient, first), []).append(check)
         return tuple(
             [CheckGroup.of(None if lenient else first, some) for (lenient, first), some in found.items()]
@@ -271,6 +273,7 @@ def checks_of(evaluation: Evaluation, rules: tuple[Rule, ...], late: int = 0) ->
     checks: list[RuleCheck] = []
     places = count()
     for n, rule in enumerate(rules):
+        # Findings, suppressions and texts in other languages are known by the id of their rule.
         if rule.id in seen:
             raise RuleError(rule.id, "there are two rules of this name")
         seen.add(rule.id)
@@ -317,6 +320,7 @@ def _resolved(
 
 
 def _check_read(schema: Schema, rule: Rule, text: str) -> None:
+    """Raise RuleError for a parameter, or an instance of it, that no machine type has."""
     parameter_id, which = read_address(text)
     parameter = schema.parameters.get(parameter_id)
     if parameter is None:
@@ -344,6 +348,7 @@ def _runs_for(evaluation: Evaluation, rule: Rule) -> tuple[str | None, tuple[str
     for scope in dict.fromkeys(several.values()):
         here = {p: instances[p] for p in several if several[p] == scope}
         alone = (instances[p] for p in several.keys() - here if own[p])
+        # A parameter of another scope can be read in this one by its entry for the whole control.
         if all("" in others for others in alone):
             return scope, tuple(dict.fromkeys(chain.from_iterable(here.values())))
     if several:

@@ -65,6 +65,7 @@ def _facts(schema: Schema, machine: str) -> dict[str, _Facts]:
 
 
 def _facts_of(schema: Schema, parameter: Parameter, scope: Scope) -> _Facts:
+    """Return the facts of one parameter, in all unit systems of the family."""
     systems = tuple(schema.family.units) or ("",)
     measures, turning = (
         frozenset(dimension(schema.unit(parameter, system, turns)) for system in systems)
@@ -97,7 +98,7 @@ class ValueChecks:
         self._turning: dict[tuple[str | None, str], bool] = {}
         """Whether an axis turns, by the condition and the axis."""
 
-    def look_again(self) -> None:
+    def forget_values(self) -> None:
         """Forget what depends on values, which may have changed; called before the checks of a round."""
         self._turning.clear()
 
@@ -141,6 +142,7 @@ class ValueChecks:
         """
         other = None
         allowed = limits(self._file.evaluation, address, value.unit)
+        # A bound that is printed is trusted; one that another parameter sets may itself be the slip.
         if allowed is not None and not isinstance(value.value, str):
             other = _setter_of_bound(allowed, value.value)
             if other is not None and (
@@ -179,6 +181,8 @@ class ValueChecks:
         False means that it has to be asked.
         """
         found = value.value
+        # Whatever it is: a value that only the control writes is never right in a file to send; fault has
+        # the words.
         if facts.parameter.access == "read":
             return False
         if isinstance(found, (str, bool)):
@@ -192,6 +196,7 @@ class ValueChecks:
         return span[0] <= found <= span[1]
 
     def _finding(self, address: Address, value: Value, text: str, mended: Value | None) -> Finding:
+        """Return the error about a value; ``mended`` is its fix if it differs and no secret is set."""
         parameter = self._facts[address[0]].parameter
         allowed = mended is not None and mended != value
         allowed = allowed and not parameter.secret  # a password that no user chose locks all of them out
@@ -239,6 +244,7 @@ def _rounded_inwards(parameter: Parameter, value: Value, allowed: Limits | None)
     decimals, number = parameter.decimals, value.value
     if allowed is None or decimals is None or not isinstance(number, float) or not math.isfinite(number):
         return value
+    # The decimals that are printed are those of the printed unit.
     if parameter.ranges and value.unit not in parameter.ranges:
         return value
     if abs(number) > 2**53:  # a double so large is a whole number, and has more digits than a decimal

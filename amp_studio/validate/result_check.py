@@ -10,7 +10,7 @@ from amp_studio.files import Merge, MergeChoice, Row, Typed
 from amp_studio.schema import same_value
 
 from .builder_rules import NO_RULES, BuilderRules
-from .finding import Finding
+from .finding import NOT_SET, Finding
 from .findings_between import new_findings
 from .validator import Validator
 
@@ -35,6 +35,8 @@ class ResultCheck:
             return False
         for address in changed:
             file.set(address, wanted.get(address))
+        # A mark that comes or goes changes no value, and still decides whether an inactive value is
+        # checked.
         marked = {a for a, _ in wanted.forced.items() ^ file.forced.items()}
         file.forced.clear()
         file.forced.update(wanted.forced)
@@ -58,12 +60,11 @@ class ResultCheck:
             if not same_value(kept, value):
                 self._result.set(address, value)
             return [
-                f
-                for f in self._validator.update([address])
-                if address in f.addresses and f.rule != "schema.unset"
+                f for f in self._validator.update([address]) if address in f.addresses and f.rule != NOT_SET
             ]
         finally:
             self._result.set(address, kept)
+            # Setting a value takes its mark away.
             if mark is not None:
                 self._result.forced[address] = mark
             self._validator.update([address])

@@ -65,6 +65,7 @@ def _heads(slips: Iterable[Slip]) -> set[str | int]:
 
 
 def _left(data: Mapping[Any, Any], wrong: set[Any], model: type[T]) -> T | None:
+    """Return the entry without what cannot be used, to find more slips in it; None where there are none."""
     if "reads" in wrong:
         return None  # every name would be an unknown one
     neutral: dict[str, Any] = {key: value for key, value in _NEUTRAL.items() if key in model.fields}

@@ -124,8 +124,10 @@ class _RuleFileReader:
     # -- rules -----------------------------------------------------------------
 
     def _rule(self, entry: FactEntry) -> None:
+        """Keep a rule, or note what is wrong with its entry; one of another family is only read."""
         rule, slips = entry_model(self._by_number(entry.data), BuilderRule)
         family = rule.family if rule else ""
+        # A rule of an unknown family would be of another one, and silently never run.
         if family and family not in self._families:
             slips.append(
                 (("family",), f"{quoted(family)} is no family{did_you_mean(family, self._families)}")
@@ -159,11 +161,13 @@ class _RuleFileReader:
         return {**data, "reads": reads}
 
     def _address(self, text: Any) -> Any:
+        """Return what is read, with the axis that a letter of the file means."""
         name, sign, letter = text.rpartition("@") if isinstance(text, str) else ("", "", "")
         parameter = self._schema.parameters.get(name)
         if not sign or parameter is None or letter not in self._axes:
             return text
         machines = (self._schema.on(machine.key) for machine in self._schema.family.machines)
+        # An instance that the family itself calls so is meant before a letter of this file.
         if any(letter in machine.instances(parameter) for machine in machines):
             return text
         return f"{name}@{self._axes[letter]}"
@@ -320,9 +324,13 @@ def _with_suppression(path: Path, previous: bytes, item: dict[str, Any]) -> byte
     except (UnicodeDecodeError, YamlError) as error:
         raise ValueError(f"{path.name} cannot be read: {error}") from None
     try:
+        # Read back before it replaces anything: a file written by hand may have what the amending did not
+        # foresee.
         if text is None or read_yaml(text).data != wanted:
             raise SaveError(f"{path} was not written: the suppression would be read back otherwise")
     except YamlError as error:
         raise SaveError(f"{path} was not written: {error}") from None
+    # The reader drops the mark; a file of a Windows editor keeps it.
+    # kept.
     mark = codecs.BOM_UTF8 if previous.startswith(codecs.BOM_UTF8) else b""
     return mark + text.encode("utf-8")

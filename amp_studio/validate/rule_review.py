@@ -100,6 +100,7 @@ def _read(rule: Rule) -> dict[str, tuple[str, str]]:
 
 
 def _reads_slips(rule: Rule, schema: Schema) -> Iterator[tuple[KeyPath, str]]:
+    """Yield what is wrong with the names and parameters that a rule reads."""
     for name, (parameter_id, which) in _read(rule).items():
         place: KeyPath = ("reads", name)
         parameter = schema.parameters.get(parameter_id)
@@ -116,6 +117,7 @@ def _reads_slips(rule: Rule, schema: Schema) -> Iterator[tuple[KeyPath, str]]:
 
 
 def _unknown(parameter_id: str, schema: Schema) -> str:
+    """Return why a parameter cannot be read, with the families that have it, or one that it is near to."""
     others = [
         f for f in family_ids() if f != schema.family.family and parameter_id in load_schema(f).parameters
     ]
@@ -136,6 +138,7 @@ def _instances(schema: Schema, parameter: Parameter) -> list[str]:
 
 
 def _name_slips(rule: Rule) -> Iterator[tuple[KeyPath, str]]:
+    """Yield names outside expressions that mean nothing, and units that there are not."""
     for place, name in _names_of_reads(rule):
         if name not in rule.reads:
             yield place, f"{quoted(name)} is not read{did_you_mean(name, rule.reads)}"
@@ -170,6 +173,7 @@ def _assignment_slips(rule: Rule) -> Iterator[tuple[KeyPath, str]]:
 
 
 def _message_slips(rule: Rule) -> Iterator[tuple[KeyPath, str]]:
+    """Yield what is wrong with the braces of a message and the names in them."""
     known = [*rule.reads, *rule.values, *ALWAYS_THERE]
     try:
         fields = [field for field in Formatter().parse(rule.message) if field[1] is not None]

@@ -93,7 +93,7 @@ class RuleChecks:
         self._seen = _Active(file.evaluation)
         self._lists: dict[Listed, tuple[ValueKey, ...]] = {}
 
-    def look_again(self, changed: Iterable[Address] | None = None) -> None:
+    def forget_values(self, changed: Iterable[Address] | None = None) -> None:
         """Forget the values, which may have changed; called before the checks of a round.
 
         Where nothing that decides on states has changed, the ``changed`` ones alone are forgotten: a cam has
@@ -110,7 +110,7 @@ class RuleChecks:
                 keys, at = self._lists[listed], listed.places[address]
                 self._lists[listed] = (*keys[:at], self._seen[address], *keys[at + 1 :])
 
-    def look_at(self, read: Mapping[Address, None], seen: Iterable[tuple[Address, ValueKey]]) -> None:
+    def add_keys(self, read: Mapping[Address, None], seen: Iterable[tuple[Address, ValueKey]]) -> None:
         """Take the keys of values that are active, and None for the others:
         quicker than to look at one by one.
 
@@ -145,6 +145,7 @@ class RuleChecks:
         if group.first is None and None in keys:  # some may count though they are inactive, others do not
             own = zip(keys, group.reads, strict=True)
             keys += tuple([self._inactive(address) for key, address in own if key is None])
+        # With the model, which conditions may name; the machine type is that of the plan.
         values = (self._file.header.application, keys)
         if values not in group.sound:
             found = tuple(self.findings(group.together))
@@ -326,6 +327,7 @@ class RuleChecks:
         if unit:
             inch = unit.replace("mm", "in", 1)
             alike = sorted(each for each in entered if dimension(each) == dimension(unit))
+            # A message has the units of the values in it, so that they can be compared at a glance.
             other = alike[0] if alike else inch if self._file.header.units == "inch" else unit
             if other != unit:
                 found, unit = convert(float(found), unit, other), other
@@ -367,6 +369,7 @@ class RuleChecks:
             if not mended.keys().isdisjoint(listed.addresses):
                 before = dict(zip(listed.addresses, self._list(listed), strict=True))
                 after[n] = tuple((before | mended)[a] for a in listed.addresses)
+        # None, where no sense can be made of the values, is no cure either.
         return check.expressions.verdict(tuple(after), self._circumstances(check)) is False
 
     def _value(self, address: Address, found: Any) -> Value | None:
@@ -383,6 +386,7 @@ class RuleChecks:
             return None
         old = self._file.values.get(address)
         unit = old.unit if old else self._file.evaluation.unit(address, self._file.header.units)
+        # Twelve digits: the rest is what the conversion of units leaves.
         number = float(f"{convert(float(found), canonical_unit(unit), unit):.12g}")
         if parameter.decimals is not None and (not parameter.ranges or unit in parameter.ranges):
             number = round(number, parameter.decimals)

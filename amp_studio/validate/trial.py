@@ -146,6 +146,7 @@ class Trials:
     def _try(
         self, place: FindingPlace, finding: Finding, filed: Mapping[FindingPlace, tuple[object, Finding]]
     ) -> _Tried:
+        """Make a fix on the copy, judge it, and take it back."""
         file = self._file
         if file is None:
             file = self._file = self._original.copy()
@@ -159,6 +160,7 @@ class Trials:
         try:
             return self._judge(place, finding, filed, changes)
         finally:
+            # However the trial ended, the copy is what the file is: the next trial begins with it.
             file.take_back(changes, before)
 
     def _judge(
@@ -168,11 +170,14 @@ class Trials:
         filed: Mapping[FindingPlace, tuple[object, Finding]],
         changes: list[Change],
     ) -> _Tried:
+        """Return what came of a fix that has been made on the copy."""
         # The fix made another machine type of the file: the plan of checks is of the old one.
         if not self._checks.fit:
             return _Tried(self._is_good_on_another_machine(finding, filed), None)
+        # Both: a type of axis takes values along that no fix names, and a value that is equal is no
+        # change.
         asked = self._plan.asked_by((*(c.address for c in changes), *(s.address for s in finding.fix)))
-        self._checks.look_again()
+        self._checks.forget_values()
         if self._is_found_again(place):
             return _Tried(False, self._bad_by(finding, (), asked))
         brings = None

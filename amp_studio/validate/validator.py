@@ -11,7 +11,7 @@ from amp_studio.schema import Address, Context, Rule
 from .allowed import AllowedByRules
 from .builder_rules import NO_RULES, BuilderRules, Suppressed, sort_out
 from .checks import Checks
-from .finding import SEVERITIES, Finding
+from .finding import NOT_SET, SEVERITIES, Finding
 from .plan import FindingPlace, Plan, RuleCheck, make_plan
 from .plausible import OF_A_SLIP, Earlier, Experience
 from .trial import Trials
@@ -61,14 +61,15 @@ class Validator:
         return self.findings()
 
     def _file_all(self) -> None:
+        """Check everything, without a trial of any fix."""
         if not self._checks.fit:
             self.file.evaluation.forget()  # conditions may name the model of the control
             self._prepare()
         self._trials = Trials(self.file, self._plan, self.own)  # of a file in which anything may have changed
         self._circumstances = self._present_circumstances()
         self._revision = self.file.revision
-        self._checks.look_again()
-        self._experience.look_at_all()
+        self._checks.forget_values()
+        self._experience.mark_stale()
         self._checks_of = None
         self._not_set = self._all_not_set()
         self._not_set_findings = None
@@ -99,7 +100,7 @@ class Validator:
                 # By place: several edits of one step read the same checks, and each runs once.
                 checks[check.place] = check
         self._check(edited, addresses, checks.values())
-        self._experience.look_again(edited)
+        self._experience.recheck(edited)
         self._trials.follow_edits(edited, (*addresses, *checks))
 
     def first_fix(self, wanted: Callable[[Finding], bool], *, even_doubtful: bool = False) -> Finding | None:
@@ -233,7 +234,8 @@ class Validator:
     def _check(
         self, edited: Iterable[Address], addresses: Iterable[Address], checks: Collection[RuleCheck]
     ) -> None:
-        self._checks.look_again(edited)
+        """File what is found about values and rules that an edit woke, in place of what was found before."""
+        self._checks.forget_values(edited)
         self._checks_of = None
         for address in addresses:
             finding = self._check_address(address)
@@ -242,6 +244,7 @@ class Validator:
             else:
                 self._filed.pop(address, None)
         for check in checks:
+            # Rules that are satisfied now are not among the findings below.
             self._filed.pop(check.place, None)
         for check, finding in self._checks.rules.findings(checks):
             self._filed[check.place] = (self._order(finding, check.place), finding)
@@ -251,6 +254,7 @@ class Validator:
         return {address for address in self.needed() if address not in values}
 
     def _check_address(self, address: Address) -> Finding | None:
+        """Return what is wrong with a value by itself, and keep the list of those that are not set."""
         asked = (
             address not in self.file.values
             and not self.file.schema.parameters[address[0]].optional
@@ -281,6 +285,7 @@ class Validator:
 
     def _order(self, finding: Finding, place: int = -1) -> _Order:
         order, last = self._plan.order, len(self._plan.order)
+        # Findings about the file as a whole have no cause and come before those of its first parameter.
         first = min([order.get(address, last) for address in finding.causes], default=-1)
         return SEVERITIES.index(finding.severity), first, finding.rule, place
 
@@ -315,4 +320,4 @@ class Validator:
         more = f" and {len(not_set) - 4} more" if len(not_set) > 4 else ""
         what = "1 active parameter has" if len(not_set) == 1 else f"{len(not_set)} active parameters have"
         message = f"{what} no value here, so the control keeps its own: {names}{more}."
-        yield Finding("schema.unset", "advice", not_set, message)
+        yield Finding(NOT_SET, "advice", not_set, message)

@@ -126,7 +126,7 @@ class RulesAlone(Validator):
         read = {c.place: c for address in changed for c in self._plan.rule_readers.get(address, ())}
         again = {place: check for place, check in read.items() if check.rule.id == rule}
         found = {p: f for p, (_, f) in self._filed.items() if f.rule == rule and p not in again}
-        self._checks.look_again()
+        self._checks.forget_values()
         found |= {check.place: f for check, f in self._checks.rules.findings(again.values())}
         return dict(sorted(found.items(), key=lambda each: self._order(each[1], each[0])))
 

@@ -208,7 +208,7 @@ def test_a_zone_outside_the_travel_is_asked_about_whichever_of_them_slipped() ->
     assert outside == {"zone.limit2_min", "zone.limit2_max", "zone.limit3_min", "zone.limit3_max"}
 
 
-def test_what_decides_which_axes_there_are_is_a_reason_to_look_at_all() -> None:
+def test_what_decides_which_axes_there_are_is_a_reason_to_check_all() -> None:
     file = example("acromill-router")
     validator = Validator(file)
     validator.run()

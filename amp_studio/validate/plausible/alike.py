@@ -46,8 +46,8 @@ class _Pair(NamedTuple):
     """A single number."""
     differing: set[str]
 
-    def note(self, name: str, change: int, *, is_same: bool) -> None:
-        """Note that so many values more can be compared, and whether this one is the same."""
+    def update(self, name: str, change: int, *, is_same: bool) -> None:
+        """Count that so many values more can be compared, and whether this one is the same."""
         self.compared[0] += change
         if is_same:
             self.differing.discard(name)
@@ -68,6 +68,7 @@ def _comparable(schema: Schema) -> dict[str, bool]:
     a difference without a slip counts too.
     """
     family = schema.family
+    # What distinguishes axes (name, type, board, loop) differs between them by its nature.
     own = [family.axes.name, family.axes.type, family.axes.hardware, family.axes.loop] if family.axes else []
     if family.declared_axes is not None:
         fields = (family.declared_axes.name, family.declared_axes.group)
@@ -102,6 +103,8 @@ def _places(schema: Schema, machine: str) -> dict[tuple[str, str], tuple[Address
     places: dict[tuple[str, str], list[Address]] = {}
     for address in here.addresses:
         scope = here.scopes.get(address[0])
+        # Parts of an instance (``X.3``: points of a table, gears) are not compared: of so many the few
+        # that differ would never be odd.
         if address[0] in comparable and scope in _SCOPES and address[1] and "." not in address[1]:
             places.setdefault((scope, address[1]), []).append(address)
     return {place: tuple(addresses) for place, addresses in places.items()}
@@ -120,7 +123,7 @@ class Alike:
         self._odd: dict[tuple[str, str], _Odd] = {}
         """Scope and parameter -> the one instance that a slip parts from all others."""
 
-    def look_at_all(self) -> None:
+    def check_all(self) -> None:
         """Compare everything."""
         self._rows.clear()
         known = self._file.evaluation.known_states()
@@ -134,7 +137,7 @@ class Alike:
         }
         self._odd.clear()
         for scope, name in {(key[0], name) for key, pair in self._pairs.items() for name in pair.differing}:
-            self._look_at_column(scope, name)
+            self._check_column(scope, name)
 
     def _row(self, addresses: Iterable[Address], known: Mapping[Address, StateInfo]) -> dict[str, _Seen]:
         """Return the active values among addresses of one instance, by parameter."""
@@ -147,7 +150,7 @@ class Alike:
             and (known.get(address) or evaluation.state(address)) is ACTIVE
         }
 
-    def look_again(self, address: Address) -> bool:
+    def recheck(self, address: Address) -> bool:
         """Compare one value again; returns whether anything is otherwise."""
         name, instance = address
         scope = self._file.evaluation.scope(address) if name in self._comparable else None
@@ -157,7 +160,7 @@ class Alike:
         row = rows.get(instance)
         # An instance that had no value until now is compared in all of them.
         if row is None:
-            self.look_at_all()
+            self.check_all()
             return True
         old, new = row.get(name), self._key(address)
         if old == new:
@@ -170,18 +173,19 @@ class Alike:
         for other in rows.keys() - {instance}:
             if name in rows[other]:
                 pair = self._pair(scope, instance, other)
-                pair.note(name, change, is_same=new in (None, rows[other][name]))
-        self._look_at_column(scope, name)
+                pair.update(name, change, is_same=new in (None, rows[other][name]))
+        self._check_column(scope, name)
         return True
 
     def _pair(self, scope: str, a: str, b: str) -> _Pair:
         return self._pairs.get((scope, a, b)) or self._pairs[scope, b, a]
 
-    def _look_at_column(self, scope: str, name: str) -> None:
+    def _check_column(self, scope: str, name: str) -> None:
         """Note the one instance of at least three, all moving alike, whose value is another by a slip."""
         self._odd.pop((scope, name), None)
         column = {instance: row[name] for instance, row in self._rows[scope].items() if name in row}
         counts = Counter(column.values())
+        # One value alone against a single other one; with two rare ones either may be the slip.
         if len(column) < 3 or sorted(counts.values()) != [1, len(column) - 1]:
             return
         usual = max(counts, key=lambda seen: counts[seen])
@@ -206,6 +210,7 @@ class Alike:
         """Return what is compared; of a value whose sign is a direction only the size."""
         if name in self._signed and isinstance(key, int | float):
             key = abs(key)
+        # With what it measures: 100 mm and 100 deg are no agreement.
         return _Seen(key, dimension(value.unit))
 
     def findings(self) -> Iterator[Finding]:
@@ -250,6 +255,7 @@ class Alike:
     def _is_slip(self, scope: str, name: str, a: str, b: str) -> bool:
         left, right = self._rows[scope][a][name], self._rows[scope][b][name]
         same = left.measures == right.measures
+        # In both directions: of two instances nobody knows which is the wrong one.
         return same and bool(self._slip(scope, name, a, b) or self._slip(scope, name, b, a))
 
     def _slip(self, scope: str, name: str, a: str, b: str) -> str:

@@ -49,6 +49,7 @@ class AxisColumns:
         """Find the axis that has no number, or one far beyond the others."""
         numbers = list(self._values[name].values())
         used = [one.number for one in numbers if isinstance(one.number, float) and one.number]
+        # 0 is an axis without a connector; all others have their place in the order of the axes.
         is_in_order = len(used) > 1 and all(one.number in (0.0, n) for n, one in enumerate(numbers, 1))
         for place, one in enumerate(numbers, 1):
             if not isinstance(one.number, float):

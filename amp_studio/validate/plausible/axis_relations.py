@@ -77,6 +77,7 @@ class AxisRelations:
             yield (*pair.part_of, *pair.as_of), partial(self._proportion, pair)
 
     def _among(self, fact: AmongAxes) -> list[Finding]:
+        """Find the one value that is far from those of all like axes, or is 0 alone."""
         numbers = [*self._sizes(fact)]
         if fact.is_zero_odd and (found := self._zero_among(fact, [one for _, one in numbers])):
             return found
@@ -88,6 +89,7 @@ class AxisRelations:
                 odd.append((one, nearest))
         if len(numbers) > 2 and len(odd) > 1:
             return []  # each of several is far from all others: nothing is known of what is usual
+        # Of two values either is far from the other: one finding names both.
         return [self._finding(AMONG, AMONG_REASON, one, other) for one, other in odd[:1]]
 
     def _zero_among(self, fact: AmongAxes, others: Sequence[ActiveValue]) -> list[Finding]:
@@ -217,6 +219,7 @@ class AxisRelations:
         return [self._finding(UPRIGHT, UPRIGHT_REASON, z, most)]
 
     def _towards(self, fact: Towards) -> list[Finding]:
+        """Find each search that leads away from the end of travel at which its place is."""
         found, values = [], self._values
         for instance, speed in values[fact.speed].items():
             places = (values[name].get(instance) for name in (fact.place, fact.low, fact.high))
@@ -264,6 +267,7 @@ class AxisRelations:
                 yield self._finding(GEAR, GEAR_REASON, low, high)
 
     def _proportion(self, fact: Proportion) -> list[Finding]:
+        """Find two pairs of ends that do not belong to one straight line."""
         rows = []
         for name in (*fact.part_of, *fact.as_of):
             seen = next(iter(self._values[name].values()), None)
@@ -279,6 +283,7 @@ class AxisRelations:
         return [self._finding(PROPORTION, PROPORTION_REASON, part, other)]
 
     def _finding(self, rule: str, reason: str, one: ActiveValue, other: ActiveValue) -> Finding:
+        """Return the recommendation on a value beside the one that it was compared with."""
         message = f"{sentence(self._file, one)}, and {sentence(self._file, other)}: {_WORDS[rule]}"
         return Finding(
             rule,
@@ -324,6 +329,7 @@ def _is_far_out(own: Ends, like: Sequence[Ends]) -> bool:
 def _apart(a: float, b: float) -> float:
     """Return how many times the greater of two values is the lesser."""
     least = min(a, b)
+    # Nothing is in proportion to 0.
     return max(a, b) / least if least else float("inf")
 
 

@@ -21,17 +21,18 @@ class AxisWords:
         self._there = 0
         """A bit for each axis whose input is used."""
 
-    def look_at_all(self) -> None:
+    def check_all(self) -> None:
         """Look at every word."""
         self._findings.clear()
         if not self._names:
             return
         there, every = set(shown_axes(self._file)), axis_instances(self._file)
+        # Bit n is the n-th axis of the family, whether this machine has it or not.
         self._there = sum(1 << n for n, axis in enumerate(every) if axis in there)
         for address in self._file.values:
-            self.look_again(address)
+            self.recheck(address)
 
-    def look_again(self, address: Address) -> bool:
+    def recheck(self, address: Address) -> bool:
         """Look at one word again; returns whether anything is otherwise."""
         if address[0] not in self._names:
             return False

@@ -47,18 +47,19 @@ class EarlierValues:
         self._findings: list[dict[Address, str]] = []
         """What differs from each of the earlier contents, and how."""
 
-    def look_at_all(self) -> None:
+    def check_all(self) -> None:
         """Compare everything."""
         self._findings = [
             {
                 address: words
                 for address, old in one.values.items()
+                # Equal values, nearly all of them, end here.
                 if self._file.values.get(address) != old and (words := self._words(one, address))
             }
             for one in self.earlier
         ]
 
-    def look_again(self, address: Address) -> bool:
+    def recheck(self, address: Address) -> bool:
         """Compare one value again; returns whether anything is otherwise."""
         is_other = False
         for one, found in zip(self.earlier, self._findings, strict=True):

@@ -71,33 +71,33 @@ class Experience:
         self._findings = None
         # ``findings`` does it where everything is stale, once.
         if not self._is_stale:
-            self._earlier.look_at_all()
+            self._earlier.check_all()
 
-    def look_at_all(self) -> None:
+    def mark_stale(self) -> None:
         """Look at the whole file, once the findings are asked for: between them there may be many edits."""
         self._findings, self._is_stale = None, True
 
-    def look_again(self, changed: Iterable[Address]) -> None:
+    def recheck(self, changed: Iterable[Address]) -> None:
         """Look again at the changed addresses; one that decides which values count is a reason
-        to look at all.
+        to check all.
         """
         addresses = list(changed)
         if self._is_stale:
             return
         # Values became active or inactive with it, in any of the tables.
         if any(map(self._file.evaluation.decides_states, addresses)):
-            self.look_at_all()
+            self.mark_stale()
             return
         for address in addresses:
             for part in (*self._parts, self._earlier):
-                if part.look_again(address):
+                if part.recheck(address):
                     self._findings = None
 
     def findings(self) -> tuple[Finding, ...]:
         """Return what there is now, in no order."""
         if self._is_stale:
             for part in (*self._parts, self._earlier):
-                part.look_at_all()
+                part.check_all()
             self._is_stale = False
         if self._findings is None:
             found = [finding for part in self._parts for finding in part.findings()]

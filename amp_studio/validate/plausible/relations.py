@@ -68,12 +68,12 @@ class Relations:
             self._of.setdefault(name, []).append(len(self._checks))
         self._checks.append(check)
 
-    def look_at_all(self) -> None:
+    def check_all(self) -> None:
         """Make every check."""
         self._values.clear()
         self._findings = [check() for check in self._checks]
 
-    def look_again(self, address: Address) -> bool:
+    def recheck(self, address: Address) -> bool:
         """Make the checks of one value again; returns whether anything is otherwise."""
         is_other = False
         self._values.clear()
@@ -112,6 +112,7 @@ class Relations:
         return None
 
     def _twins(self, pair: tuple[str, str]) -> list[Finding]:
+        """Find unequal instances of two parameters, on machines whose text begins as the facts have it."""
         where = self._file.schema.plausible.twins_where
         if where is not None:
             texts = [str(one.number) for one in self._values[where.param].values()]
@@ -127,6 +128,7 @@ class Relations:
         ]
 
     def _ladder(self, names: Sequence[str]) -> list[Finding]:
+        """Find the step of each ladder that has not the factor of the others, or leads back."""
         found = []
         for row in self._rows(names):
             numbers = [one.number for one in row if isinstance(one.number, float) and one.number > 0]
@@ -140,6 +142,7 @@ class Relations:
         return found
 
     def _above(self, limit: str, names: Sequence[str]) -> list[Finding]:
+        """Find values that are greater than the limit of their axis, or than the greatest of all."""
         limits, found = self._values[limit], []
         for one in (one for name in names for one in self._values[name].values()):
             own = limits.get(one.address[1])
@@ -155,6 +158,7 @@ class Relations:
         return found
 
     def _quotient(self, fact: Quotient) -> list[Finding]:
+        """Find values that are out of proportion to each of those that they are divided by."""
         found, others = [], self._values[fact.over]
         (low, high), places = fact.between, self._file.schema.on(self._file.machine).places
         for instance, one in self._values[fact.of].items():
@@ -173,6 +177,7 @@ class Relations:
         return found
 
     def _needs(self, pair: tuple[str, str]) -> list[Finding]:
+        """Find values without effect, because the one that they need is active and not set."""
         name, needed = pair
         values, evaluation = self._file.values, self._file.evaluation
         here = self._file.schema.on(self._file.machine)
@@ -207,6 +212,7 @@ class Relations:
         return Finding(LADDER, "advice", (row[n].address,), message, compared=compared, reason=LADDER_REASON)
 
     def _not_rising(self, row: Sequence[ActiveValue], n: int) -> Finding:
+        """Return the finding about a step of a ladder that leads back."""
         before = row[n - 1]
         both = f"{sentence(self._file, row[n])}, and {sentence(self._file, before)}"
         message = f"{both}: the steps go one way as a rule"
@@ -221,6 +227,7 @@ class Relations:
         )
 
     def _out_of_proportion(self, one: ActiveValue, other: ActiveValue, usual: tuple[float, float]) -> Finding:
+        """Return the finding about a quotient, with what is usual in the unit of the value."""
         unit = self._file.values[one.address].unit
         low, high = (write_figure(float(f"{bound / canonical(1.0, unit):.2g}")) for bound in usual)
         both = f"{sentence(self._file, one)}, and {sentence(self._file, other)}"
@@ -277,6 +284,7 @@ def misfit(numbers: Sequence[float]) -> int | None:
     last = len(numbers) - 1
     for n in range(len(numbers)):
         usual = _factor_without(n, numbers)
+        # Without the slip itself the others must make a ladder: only then is it known which one is odd.
         if usual is None:
             continue
         wanted = numbers[n - 1] * usual if n else numbers[1] / usual

@@ -49,29 +49,30 @@ class EqualRows:
         self._file = file
         scope = file.evaluation.scope
         tables = _tables_of(file.schema, file.machine)
+        # Tables of axes are compared axis by axis (alike.py); a row of those is no other axis.
         self._tables = frozenset(name for name in tables if scope((name, "")) == "global")
         self._equal = file.schema.plausible.equal_rows
         self._findings: dict[str, Finding] = {}
 
-    def look_at_all(self) -> None:
+    def check_all(self) -> None:
         """Look at every table."""
         self._findings.clear()
         for name in dict.fromkeys(address[0] for address in self._file.values):
             if name in self._tables:
-                self._look_at(name)
+                self._check_table(name)
             elif name in self._equal:
-                self._look_at_equal(name)
+                self._check_equal_rows(name)
 
-    def look_again(self, address: Address) -> bool:
+    def recheck(self, address: Address) -> bool:
         """Look at the table of one value again; returns whether anything is otherwise."""
         name = address[0]
         if name not in self._tables and name not in self._equal:
             return False
         before = self._findings.pop(name, None)
         if name in self._equal:
-            self._look_at_equal(name)
+            self._check_equal_rows(name)
         else:
-            self._look_at(name)
+            self._check_table(name)
         return self._findings.get(name) != before
 
     def _addresses(self, name: str) -> list[Address]:
@@ -79,7 +80,7 @@ class EqualRows:
         instances = file.schema.on(file.machine).instances(file.schema.parameters[name])
         return [(name, i) for i in instances if (name, i) in file.values and state((name, i)).is_active]
 
-    def _look_at_equal(self, name: str) -> None:
+    def _check_equal_rows(self, name: str) -> None:
         """Look at a table whose rows are equal as a rule, or repeat after a few."""
         keys, every = self._file.evaluation.keys, self._equal[name]
         addresses = self._addresses(name)
@@ -95,7 +96,7 @@ class EqualRows:
                 slip = slip_between(figures[alone[0]], usual) or "not"
                 self._findings[name] = self._finding(rows[alone[0]], rows[figures.index(usual)], times, slip)
 
-    def _look_at(self, name: str) -> None:
+    def _check_table(self, name: str) -> None:
         keys, addresses = self._file.evaluation.keys, self._addresses(name)
         figures = [keys[address] for address in addresses]
         counts = Counter(figures)

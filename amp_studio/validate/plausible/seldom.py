@@ -19,13 +19,13 @@ class SeldomChanged:
         self._file, self._names = file, frozenset(file.schema.plausible.seldom)
         self._findings: dict[Address, Finding] = {}
 
-    def look_at_all(self) -> None:
+    def check_all(self) -> None:
         """Look at every value."""
         self._findings.clear()
         for address in [a for a in self._file.values if a[0] in self._names]:
-            self.look_again(address)
+            self.recheck(address)
 
-    def look_again(self, address: Address) -> bool:
+    def recheck(self, address: Address) -> bool:
         """Look at one value again; returns whether anything is otherwise."""
         if address[0] not in self._names:
             return False
@@ -44,7 +44,7 @@ class SeldomChanged:
     def _finding(self, address: Address) -> Finding:
         schema, parameter = self._file.schema, self._file.schema.parameters[address[0]]
         label, default = schema.on(self._file.machine).label(address), self._file.default(address)
-        assert default is not None  # as look_again has seen
+        assert default is not None  # as recheck has seen
         printed = show_value(parameter, default)
         text = show_value(parameter, self._file.values[address])
         message = f"{label} is {text}; nearly every machine keeps the default {printed}. Is it meant?"

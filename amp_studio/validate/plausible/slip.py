@@ -67,6 +67,7 @@ def slip_between(value: Hashable, other: Hashable) -> str:
         return "zero instead of"
     ratio = value / other
     for factor, words in _FACTORS.items():
+        # Both went through a conversion into the canonical unit, which may cost the last digits.
         if abs(ratio - factor) <= 1e-9 * abs(factor) or _is_rounded(value, other * factor):
             return words
     return SWAPPED if _is_swapped(float(value), float(other)) else ""
@@ -79,12 +80,14 @@ def slip_as_written(words: str, value: Value, other: Value) -> str:
     """
     if words not in ("", SWAPPED):
         return words
+    # Only what was typed has digits that a hand can swap.
     is_one_unit = value.unit == other.unit and _is_number(value.value) and _is_number(other.value)
     return SWAPPED if is_one_unit and slip_between(value.value, other.value) == SWAPPED else ""
 
 
 def _is_rounded(value: float, exact: float) -> bool:
     """Return whether a whole number of three digits and more is the exact one, rounded."""
+    # Of fewer digits, half a unit is so much that rounding would explain nearly everything.
     return float(value).is_integer() and abs(value) >= 100 and abs(value - exact) <= 0.5
 
 

@@ -51,11 +51,13 @@ class _Table:
         if len(self.points) < _LEAST:
             return
         # The slip itself is in three differences of the sorted ones.
+        # A straight table bends nowhere: what exceeds the rounding of its figures jumps.
         usual = self.sorted[(len(self.sorted) - 3) // 2] or 1e-9 * max(map(abs, self.points))
         # At the point itself the second difference is twice what the point is off.
         limit, bends = 2 * _MANY * usual, self.bends
         for n in [n for n, bend in enumerate(bends) if bend > limit or bend < -limit]:
             off = -bends[n] / 2
+            # e on both sides: a corner of the course bends at one point, a step of it in two directions.
             if 1 < n < len(bends) - 2 and all(abs(bends[m] - off) <= abs(off) / 2 for m in (n - 1, n + 1)):
                 yield n
 
@@ -68,7 +70,7 @@ class SmoothTables:
         self._tables: dict[Address, _Table] = {}
         """Parameter and whole (an axis; "" for a table of the control) -> its table."""
 
-    def look_at_all(self) -> None:
+    def check_all(self) -> None:
         """Look at every table."""
         self._tables.clear()
         points = {address for address in self._file.values if address[0] in self._names}
@@ -81,14 +83,14 @@ class SmoothTables:
         for whole, addresses in parts.items():
             self._tables[whole] = _Table(addresses, [self._number(a) or 0.0 for a in addresses])
 
-    def look_again(self, address: Address) -> bool:
+    def recheck(self, address: Address) -> bool:
         """Look at one value again; returns whether anything is otherwise."""
         if address[0] not in self._names:
             return False
         number = self._number(address)
         table = self._tables.get(_whole(address))
         if number is None or table is None or address not in table.place:
-            self.look_at_all()
+            self.check_all()
             return True
         table.change(table.place[address], number)
         return True
@@ -125,13 +127,13 @@ class TextCurves:
         self._file, self._signs = file, file.schema.plausible.curves
         self._findings: dict[Address, tuple[Finding, ...]] = {}
 
-    def look_at_all(self) -> None:
+    def check_all(self) -> None:
         """Look at every text."""
         self._findings.clear()
         for address in [a for a in self._file.values if a[0] in self._signs]:
-            self.look_again(address)
+            self.recheck(address)
 
-    def look_again(self, address: Address) -> bool:
+    def recheck(self, address: Address) -> bool:
         """Look at one text again; returns whether anything is otherwise."""
         if address[0] not in self._signs:
             return False

@@ -39,6 +39,7 @@ class _Motion:
         """Take another step."""
         old = self.steps[address]
         self.steps[address] = step
+        # Kept as sums, so that an edit of one step in 3,830 costs the same as in ten.
         self.forward += max(step, 0.0) - max(old, 0.0)
         self.backward += max(-step, 0.0) - max(-old, 0.0)
         for places, belongs in ((self.ahead, step > 0), (self.behind, step < 0)):
@@ -61,7 +62,7 @@ class StepTables:
         self._motions: dict[Address, _Motion] = {}
         """Parameter and axis -> its motion."""
 
-    def look_at_all(self) -> None:
+    def check_all(self) -> None:
         """Look at every table."""
         self._motions.clear()
         points = {address for address in self._file.values if address[0] in self._names}
@@ -73,13 +74,13 @@ class StepTables:
                 parts.setdefault(_whole(address), {})[address] = step
         self._motions = {whole: _Motion(steps) for whole, steps in parts.items()}
 
-    def look_again(self, address: Address) -> bool:
+    def recheck(self, address: Address) -> bool:
         """Look at one step again; returns whether anything is otherwise."""
         if address[0] not in self._names:
             return address[0] in self._ends
         step, motion = self._step(address), self._motions.get(_whole(address))
         if step is None or motion is None or address not in motion.steps:
-            self.look_at_all()
+            self.check_all()
         else:
             motion.change(address, step)
         return True
@@ -99,13 +100,13 @@ class StepTables:
                 yield from self._too_long(whole, motion)
             fewer = min(motion.ahead, motion.behind, key=len)
             most = max(motion.forward, motion.backward)
-            rest = motion.forward - motion.backward
+            drift = motion.forward - motion.backward
             # The single step back is asked about first: with it mended the motion is another one.
             if len(fewer) == 1 and len(motion.ahead) + len(motion.behind) >= _LEAST:
                 yield self._turning_back(next(iter(fewer)))
             # Below is the rounding of the sums; above, the motion does not nearly come back.
-            elif fewer and 1e-9 * most < abs(rest) <= _NEARLY * most:
-                yield self._not_closed(whole, motion, rest)
+            elif fewer and 1e-9 * most < abs(drift) <= _NEARLY * most:
+                yield self._not_closed(whole, motion, drift)
 
     def _too_long(self, whole: Address, motion: _Motion) -> Iterator[Finding]:
         """Yield that a motion is longer than the travel of its axis."""
@@ -145,11 +146,12 @@ class StepTables:
         )
         return Finding(TURN_BACK, "advice", (address,), message, reason=REASON)
 
-    def _not_closed(self, whole: Address, motion: _Motion, rest: float) -> Finding:
+    def _not_closed(self, whole: Address, motion: _Motion, drift: float) -> Finding:
+        """Return the finding about a motion that ends beside where it began."""
         parameter = self._file.schema.parameters[whole[0]]
         first, last = next(iter(motion.steps)), next(reversed(motion.steps))
         unit = self._file.values[last].unit
-        beside = show_value(parameter, Value(round(rest) if rest.is_integer() else rest, unit))
+        beside = show_value(parameter, Value(round(drift) if drift.is_integer() else drift, unit))
         label = self._file.schema.on(self._file.machine).label(last)
         message = (
             f"{label}: the steps up to here lead to {beside} beside where they began; run again and again,"

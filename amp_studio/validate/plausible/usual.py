@@ -85,10 +85,10 @@ def _facts(schema: Schema) -> dict[str, _Known]:
 
 def _is_entered(parameter: Parameter, usual: Usual | None) -> bool:
     """Return whether a parameter is a number, or a choice of which some are usual, and can be entered."""
-    is_looked_at = parameter.type in ("integer", "real") or (
+    can_be_compared = parameter.type in ("integer", "real") or (
         usual is not None and bool(usual.choices or usual.bits)
     )
-    return is_looked_at and not parameter.secret and parameter.access != "read"
+    return can_be_compared and not parameter.secret and parameter.access != "read"
 
 
 def _known(parameter: Parameter, usual: Usual | None) -> _Known | None:
@@ -131,7 +131,7 @@ class UsualValues:
         self._facts = _facts(file.schema)
         self._findings: dict[Address, Finding] = {}
 
-    def look_at_all(self) -> None:
+    def check_all(self) -> None:
         """Look at every value."""
         self._findings.clear()
         facts, state = self._facts, self._file.evaluation.state
@@ -146,7 +146,7 @@ class UsualValues:
             if what and state(address).is_active:
                 self._findings[address] = self._finding(known, address, value, what)
 
-    def look_again(self, address: Address) -> bool:
+    def recheck(self, address: Address) -> bool:
         """Look at one value again; returns whether anything is otherwise."""
         facts = self._facts.get(address[0])
         if facts is None:
@@ -233,6 +233,7 @@ def _slip_of_default(facts: _Known, default: float, number: float, entered: str)
     if dimension(unit) != facts.default_measures:
         return ""
     words = slip_of_default(canonical(number, unit), default, facts.default_digits)
+    # The factor of an inch alone may be a choice of a round figure in the other unit system.
     return "" if "25.4" in words and _is_as_round(facts, number, entered) else words
 
 

@@ -28,15 +28,15 @@ class WithinTravel:
                 self._of.setdefault(name, []).append(travel)
         self._findings: dict[Address, Finding] = {}
 
-    def look_at_all(self) -> None:
+    def check_all(self) -> None:
         """Look at every position."""
         self._findings.clear()
         if self._of:
             for address in self._file.values:
                 if address[0] in self._of:
-                    self._look_at(address)
+                    self._check_position(address)
 
-    def look_again(self, address: Address) -> bool:
+    def recheck(self, address: Address) -> bool:
         """Look again at a position, or at all of an axis whose travel changed;
         returns whether anything is otherwise.
         """
@@ -45,14 +45,15 @@ class WithinTravel:
         before = {a: self._findings.pop(a, None) for a in positions}
         # A changed end moves for all positions of its axis, those that had no finding too.
         for position in positions:
-            self._look_at(position)
+            self._check_position(position)
         return any(self._findings.get(a) != found for a, found in before.items())
 
     def findings(self) -> Iterator[Finding]:
         """Yield what was found."""
         yield from self._findings.values()
 
-    def _look_at(self, address: Address) -> None:
+    def _check_position(self, address: Address) -> None:
+        """Compare one position with each travel that it is in."""
         for travel in self._of[address[0]]:
             if address[0] not in travel.inside:
                 continue
