@@ -23,6 +23,7 @@ class PathMoves:
         self.rows = RowsWriter(tuple(at.letters), at.position)
         self.line = 0
         """Of the program, from 1."""
+        self._planes: dict[int, tuple[int, int]] = {}
         self._feed: float | None = None
         self.speed = 0.0
         self._centers = "incremental_positive"
@@ -96,7 +97,7 @@ class PathMoves:
         self, words: BlockNumbers, target: list[float], corner: int, modal: ModalState, *, clockwise: bool
     ) -> None:
         """Go along an arc of the plane to a programmed point."""
-        first, second, _ = (self.at.axis("XYZ"[n]) for n in PLANES[modal.plane])
+        first, second = self._places_of(modal.plane)
         scale = self.at.scale_of(first, second)
         # In the machine's coordinates: a scale or a turn may lie between both.
         begin, end = self.at.position, self.at.to_machine(target)
@@ -113,14 +114,22 @@ class PathMoves:
             if not self._path.arcs_by_radius and "level" in words.roles:
                 raise BlockError("No page prints arcs by R for this control: give the center")
             arc = self._arc_by_center(words, ends, first, second, clockwise=clockwise)
-        along = math.hypot(
-            arc.radius * arc.sweep, *(end[n] - begin[n] for n in range(len(end)) if n not in (first, second))
-        )
+        along = 0.0
+        if modal.is_inverse:  # of no other feed
+            beside = (end[n] - begin[n] for n in range(len(end)) if n not in (first, second))
+            along = math.hypot(arc.radius * arc.sweep, *beside)
         self.at.programmed = target
         feed = self._feed_of(along, modal)
         center = (arc.first, arc.second, arc.sweep)
         self.rows.add(end, ARC, self.line, feed, corner, modal.free, center, modal.plane)
         self.at.position = end
+
+    def _places_of(self, plane: int) -> tuple[int, int]:
+        """Return the places of the two axes of a plane."""
+        if plane not in self._planes:
+            first, second, _ = (self.at.axis("XYZ"[n]) for n in PLANES[plane])
+            self._planes[plane] = first, second
+        return self._planes[plane]
 
     def _arc_by_center(
         self,

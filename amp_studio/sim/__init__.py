@@ -93,6 +93,7 @@ if TYPE_CHECKING:
         PathRules,
         RowBounds,
         ShapedPath,
+        row_sums,
     )
     from .picture import picture_of, plot_svg, recording_picture, settling_span
     from .probing import Probing

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import reduce
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +16,14 @@ from amp_studio.sim.command.events import Ramp
 PathRows = npt.NDArray[np.float64]
 Causes = npt.NDArray[np.int16]
 Indices = npt.NDArray[np.int64]
+
+
+def row_sums(values: PathRows) -> PathRows:
+    """Return the sum of each row of (rows, a few), as numpy adds up to seven columns: a column at a time takes
+    a twentieth of the time of its sum of such short rows.
+    """
+    sums: PathRows = reduce(np.add, values.T, np.zeros(len(values)))
+    return sums
 
 
 @dataclass(frozen=True)

@@ -10,11 +10,15 @@ import numpy as np
 import pytest
 
 from amp_studio.files import ParameterFile, SaveError
-from amp_studio.programs import path_letters, read_program
+from amp_studio.programs import ToolPath, path_letters, read_program
 from amp_studio.programs.source import ProgramLines
 from amp_studio.sim import ProgramJob, ProgramRun, moment_at, path_picture, program_csv, program_summary
+from amp_studio.sim.path.geometry import geometry_of
 from amp_studio.sim.path.kept_columns import KeptColumns
+from amp_studio.sim.path.planner import ProgramPlan
 from amp_studio.sim.path.result import line_rows
+from amp_studio.sim.path.summing import rows_of
+from amp_studio.sim.path_rules import Geometry, Indices, row_sums
 from tests.programs.test_block import example
 
 ZERO = dict.fromkeys("XYZ", 0.0)
@@ -85,6 +89,39 @@ def test_stretches_change_no_figure(name: str, stretch: int, monkeypatch: pytest
         assert one is not None
         assert other is not None
         assert other.place.tolist() == pytest.approx(one.place.tolist(), abs=1e-6)
+
+
+def test_rows_are_worked_out_twice_and_taken_where_they_are_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of arcs in pieces this was half of the time: on the way back, on that forward, and for all the rest; and
+    all rows were taken for a picture that draws a few.
+    """
+    counted, taken = list[int](), list[int]()
+
+    def geometry(path: ToolPath, chord: float | None) -> Geometry:
+        found = geometry_of(path, chord)
+        counted.append(len(found.length))
+        return found
+
+    def rows(plan: ProgramPlan, chosen: Indices) -> ProgramPlan:
+        taken.append(len(chosen))
+        return rows_of(plan, chosen)
+
+    monkeypatch.setattr("amp_studio.sim.path.planner.geometry_of", geometry)
+    monkeypatch.setattr("amp_studio.sim.path.summing.rows_of", rows)
+    monkeypatch.setattr("amp_studio.sim.path.summing.SAMPLE", 50)
+    lines = ["G1 X0 Y0 F900", *(["G2 X0 Y0 I5 J0"] * 20)]
+    run = planned_by(200, monkeypatch, example("grblhal-router"), lines)
+    assert len(run.plan) > 4
+    # Each stretch has the last row of the one before it too, an arc of a hundred pieces.
+    assert sum(counted) < 2.0 * (run.plan.rows + 110 * len(run.plan))
+    assert max(taken) <= 51
+
+
+def test_a_sum_of_each_row_is_that_of_numpy() -> None:
+    chance = np.random.default_rng(1)
+    for columns in range(1, 8):
+        values = chance.standard_normal((500, columns)) * 10.0 ** chance.integers(-6, 6, (500, columns))
+        assert (row_sums(values) == values.sum(axis=1)).all()
 
 
 def test_a_zone_that_is_on_in_several_stretches_guards_what_it_did_when_it_was_switched_on(

@@ -16,6 +16,7 @@ from amp_studio.sim import (
     PathRules,
     Ramp,
     SimulationError,
+    row_sums,
 )
 
 from .law_facts import ids
@@ -74,7 +75,7 @@ def _corner(first: PathLimit | None, second: PathLimit | None, slow: PathLimit |
 
     def rule(corners: Corners) -> Sequence[tuple[PathLimit, PathRows]]:
         # Clipped: directions of length 1 can give a hair more, of which there is no arccos.
-        cosine = np.clip((corners.before * corners.after).sum(axis=1), -1.0, 1.0)
+        cosine = np.clip(row_sums(corners.before * corners.after), -1.0, 1.0)
         turned = np.degrees(np.arccos(cosine))
         found = []
         if first is not None and slow is not None and first.value > 0.0:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from amp_studio.sim import BoundMachine, CornerRule, Corners, PathLimit, PathRows, PathRules, Ramp
+from amp_studio.sim import BoundMachine, CornerRule, Corners, PathLimit, PathRows, PathRules, Ramp, row_sums
 
 from .law_facts import MOTION, ids
 
@@ -50,17 +50,14 @@ def _corner(deviation: PathLimit, accelerations: Mapping[str, PathLimit]) -> Cor
     """
 
     def rule(corners: Corners) -> Sequence[tuple[PathLimit, PathRows]]:
-        cosine = -(corners.before * corners.after).sum(axis=1)
+        cosine = -row_sums(corners.before * corners.after)
         across = corners.after - corners.before
-        size = np.sqrt((across * across).sum(axis=1))
+        size = np.sqrt(row_sums(across * across))
         with np.errstate(divide="ignore", invalid="ignore"):
-            unit = np.abs(across / size[:, None])
-            bound = np.min(
-                np.where(
-                    unit > 0.0, np.array([accelerations[axis].value for axis in corners.axes]) / unit, np.inf
-                ),
-                axis=1,
-            )
+            bound = np.full(len(size), np.inf)
+            for n, axis in enumerate(corners.axes):
+                unit = np.abs(across[:, n] / size)
+                np.minimum(bound, accelerations[axis].value / unit, out=bound, where=unit > 0.0)
             # Half the angle by its sine, without an arc function (half-angle formula).
             half = np.sqrt(0.5 * (1.0 - cosine))
             speed = np.sqrt(bound * deviation.value * half / (1.0 - half))

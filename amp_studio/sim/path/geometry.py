@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from amp_studio.programs import ARC, PLANES, ToolPath
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.path_rules import Geometry, Indices, PathRows
+from amp_studio.sim.path_rules import Geometry, Indices, PathRows, row_sums
 
 MOST_PIECES = 8_000_000
 """Rows of a program after its arcs have become straight pieces."""
@@ -37,7 +37,7 @@ def geometry_of(path: ToolPath, chord: float | None) -> Geometry:
     if chord is not None and len(arcs):
         return _chorded(path, begins, arcs, chord)
     delta = path.ends - begins
-    length = np.sqrt((delta * delta).sum(axis=1))
+    length = np.sqrt(row_sums(delta * delta))
     radius, is_arc = np.full(count, math.inf), path.kind == ARC
     first = _unit(delta, length)
     last, share = first.copy() if len(arcs) else first, np.abs(first)
@@ -52,7 +52,7 @@ def geometry_of(path: ToolPath, chord: float | None) -> Geometry:
         # A helix: what is left beside the plane is its rise, the same all along.
         along = delta[rows].copy()
         along[:, a] = along[:, b] = 0.0
-        whole = np.sqrt((r * sweep) ** 2 + (along * along).sum(axis=1))
+        whole = np.sqrt((r * sweep) ** 2 + row_sums(along * along))
         sign, begun = np.sign(sweep), np.arctan2(y, x)
         planar = r * np.abs(sweep) / whole
         # The tangent follows the sine of the angle in the first axis and the cosine in the second.
@@ -137,7 +137,7 @@ def _chorded(path: ToolPath, begins: PathRows, arcs: npt.NDArray[np.int64], chor
     ends[at, columns[each, 1]] = center[:, 1] + x * sine + y * cosine
     starts = np.vstack([path.start[None, :], ends[:-1]])
     delta = ends - starts
-    length = np.sqrt((delta * delta).sum(axis=1))
+    length = np.sqrt(row_sums(delta * delta))
     unit = _unit(delta, length)
     none = np.zeros(len(row), bool)
     return Geometry(row, starts, ends, length, unit, unit, np.abs(unit), np.full(len(row), math.inf), none)

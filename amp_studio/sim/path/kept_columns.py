@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import weakref
 from collections.abc import Sequence
 from tempfile import TemporaryFile
@@ -9,7 +10,6 @@ from typing import IO, Any
 
 import numpy as np
 import numpy.typing as npt
-from numpy.lib import format as npy
 
 from amp_studio.files import in_temporary_folder
 
@@ -25,7 +25,8 @@ class KeptColumns:
         self._file: IO[bytes] | None = None
         self._places: list[int] = []
         """Of each stretch in the file; -1 for one that is in memory alone."""
-        self._widths: list[int] = []
+        self._looks: list[list[tuple[np.dtype[Any], tuple[int, ...]]]] = []
+        """Kind and shape of the columns of each stretch."""
         self._last: tuple[int, Columns] = (-1, [])
 
     def __len__(self) -> int:
@@ -36,15 +37,21 @@ class KeptColumns:
         self._write_last()
         self._last = len(self._places), list(columns)
         self._places.append(-1)
-        self._widths.append(len(columns))
+        self._looks.append([(column.dtype, column.shape) for column in columns])
 
     def __getitem__(self, place: int) -> Columns:
         if place != self._last[0]:
             self._write_last()
             assert self._file is not None
             self._file.seek(self._places[place])
-            self._last = place, [npy.read_array(self._file) for _ in range(self._widths[place])]
+            self._last = place, [self._read(*look) for look in self._looks[place]]
         return self._last[1]
+
+    def _read(self, kind: np.dtype[Any], shape: tuple[int, ...]) -> npt.NDArray[Any]:
+        # As bytes, without a head: numpy reads that of its own format as Python, which takes longer than a
+        # stretch of arcs.
+        assert self._file is not None
+        return np.fromfile(self._file, kind, math.prod(shape)).reshape(shape)
 
     def _write_last(self) -> None:
         place, columns = self._last
@@ -56,5 +63,5 @@ class KeptColumns:
                 weakref.finalize(self, self._file.close)
             self._places[place] = self._file.seek(0, 2)
             for column in columns:
-                npy.write_array(self._file, np.ascontiguousarray(column))
+                self._file.write(np.ascontiguousarray(column).data)
             self._file.flush()

@@ -9,8 +9,10 @@ the next one is a speed, so that the passes are exact however a path is parted.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from amp_studio.sim.command.changes import reached
 from amp_studio.sim.path_rules import PathRows, PathRules
@@ -66,28 +68,37 @@ def lowered_backward(bounds: StretchBounds, rules: PathRules, after: float) -> P
     return np.array(speeds)
 
 
-def lowered_forward(
-    bounds: StretchBounds, rules: PathRules, entry: PathRows, reach: float
-) -> tuple[PathRows, float]:
+@dataclass(frozen=True)
+class Rises:
+    """How fast each row of a stretch can become, (rows,)."""
+
+    entry: PathRows
+    """The highest speed u/s at which it may begin."""
+    length: PathRows
+    acceleration: PathRows
+    is_rapid: npt.NDArray[np.bool_]
+
+
+def lowered_forward(rises: Rises, rules: PathRules, reach: float) -> tuple[PathRows, float]:
     """Return the speeds at which rows begin so that the one before can accelerate to each, and that which the
     last one can reach; ``reach`` is what the row before the stretch can. What is lowered here is never below
     the beginning of its row, so that no row has to brake for it.
     """
-    length = bounds.geometry.length
+    entry, length = rises.entry, rises.length
     if not len(entry):
         return entry, reach
     if _is_straight(rules):
         bound = entry * entry
-        rises = _gains(bounds.acceleration, length, bound)
-        square = lowest_sums(np.append(min(bound[0], reach * reach), bound[1:]), rises[:-1])
+        gains = _gains(rises.acceleration, length, bound)
+        square = lowest_sums(np.append(min(bound[0], reach * reach), bound[1:]), gains[:-1])
         speeds = np.where(square < bound, np.sqrt(square), entry)
-        way, slope = float(length[-1]), float(bounds.acceleration[-1])
+        way, slope = float(length[-1]), float(rises.acceleration[-1])
         more = 2.0 * slope * way if way or math.isfinite(slope) else math.inf
         return speeds, math.sqrt(min(float(square[-1]) + more, MOST_SQUARE))
-    found, ways, faster = entry.tolist(), length.tolist(), bounds.acceleration.tolist()
+    found, ways, faster = entry.tolist(), length.tolist(), rises.acceleration.tolist()
     for n in range(len(found)):
         found[n] = min(found[n], reach)
-        ramp = rules.rapid_ramp if bounds.is_rapid[n] else rules.feed_ramp
+        ramp = rules.rapid_ramp if rises.is_rapid[n] else rules.feed_ramp
         reach = reached(ramp, found[n], ways[n], faster[n]) if ways[n] else found[n]
     return np.array(found), reach
 

@@ -17,7 +17,7 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.path_rules import PathLimit, PathRows, PathRules
 
 from .kept_columns import KeptColumns
-from .passes import bound_by_look_ahead, lowered_backward, lowered_forward
+from .passes import Rises, bound_by_look_ahead, lowered_backward, lowered_forward
 from .planner import (
     CauseTable,
     ProgramPlan,
@@ -88,12 +88,14 @@ class PlannedProgram:
             known = bound_by_look_ahead(bounds, self._rules, self._table, known)
             entry = lowered_backward(bounds, self._rules, after)
             after = float(entry[0]) if len(entry) else after
-            found.add([entry, bounds.entry_by])
+            # What the way forward needs too: working out its rows, above all arcs in pieces, takes longer.
+            found.add([entry, bounds.entry_by, bounds.geometry.length, bounds.acceleration, bounds.is_rapid])
             self._progress(0.4 * (len(self) - n) / len(self))
         reach = 0.0
         for n in range(len(self)):
-            entry, by = found[len(self) - 1 - n]
-            entry, reach = lowered_forward(self._bounds(n), self._rules, entry, reach)
+            entry, by, length, acceleration, is_rapid = found[len(self) - 1 - n]
+            rises = Rises(entry, length, acceleration, is_rapid)
+            entry, reach = lowered_forward(rises, self._rules, reach)
             self._speeds.add([entry, by])
             self._count += len(entry)
             self._begun.append(0.0)

@@ -16,7 +16,16 @@ from amp_studio.programs import DWELL, EXACT, RAPID, SLOW, ToolPath
 from amp_studio.sim.command.changes import change_time, change_way, peaks
 from amp_studio.sim.command.events import Ramp
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.path_rules import Causes, Corners, Geometry, Indices, PathLimit, PathRows, PathRules
+from amp_studio.sim.path_rules import (
+    Causes,
+    Corners,
+    Geometry,
+    Indices,
+    PathLimit,
+    PathRows,
+    PathRules,
+    row_sums,
+)
 
 from .geometry import geometry_of
 
@@ -99,7 +108,7 @@ class ProgramPlan:
     @property
     def whole(self) -> PathRows:
         """Time in s of each row with its rest."""
-        rows: PathRows = self.times.sum(axis=1) + self.rest
+        rows: PathRows = row_sums(self.times) + self.rest
         return rows
 
 
@@ -140,8 +149,11 @@ def stretch_bounds(
     # writes down by what, so that the cause that is left is the one that bounds.
     wanted, top, top_by = _tops(path, geometry, rules, table, is_rapid)
     acceleration, ramp_by = _accelerations(path, geometry, rules, table, is_rapid, rules.axis_acceleration)
-    slower = rules.axis_acceleration if rules.axis_deceleration is None else rules.axis_deceleration
-    deceleration, slower_by = _accelerations(path, geometry, rules, table, is_rapid, slower)
+    deceleration, slower_by = acceleration.copy(), ramp_by.copy()
+    if rules.axis_deceleration is not None:
+        deceleration, slower_by = _accelerations(
+            path, geometry, rules, table, is_rapid, rules.axis_deceleration
+        )
     for values, by in ((top, top_by), (acceleration, ramp_by), (deceleration, slower_by)):
         _check_moves(geometry, table, values, by)
     joint, joint_by = _joints(path, geometry, rules, table, top)
@@ -191,7 +203,7 @@ def stretch_plan(
     # its time counts for it, not for the acceleration.
     ahead = table.number(rules.look_ahead) if rules.look_ahead else -2
     rest, rest_by = _rests(bounds.path, geometry, rules, table, leave, wait)
-    whole = times.sum(axis=1) + rest
+    whole = row_sums(times) + rest
     return ProgramPlan(
         path=bounds.path,
         geometry=geometry,
@@ -269,6 +281,8 @@ def _of_axes(
     where: npt.NDArray[np.bool_] | None = None,
 ) -> None:
     """Lower values along the path to what the axes allow."""
+    if where is not None and not where.any():
+        return
     for n, axis in enumerate(path.axes):
         limit = limits.get(axis)
         if limit is None:

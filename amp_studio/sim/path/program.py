@@ -18,7 +18,7 @@ from amp_studio.sim.command.ramps import end_of, move
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, BoundMachine, law_of
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.path_rules import PathRules
+from amp_studio.sim.path_rules import PathRules, row_sums
 from amp_studio.sim.run import bound_machine
 
 from .contour import ContourError, contour_error
@@ -153,7 +153,7 @@ class _Waits:
     def look(self, plan: ProgramPlan) -> None:
         """Take the fastest exact stop of a stretch as the example."""
         # 1 is the dwell, and what rows without any rest have.
-        exact = np.flatnonzero((plan.rest_by != 1) & (plan.times.sum(axis=1) > 0.0))
+        exact = np.flatnonzero((plan.rest_by != 1) & (row_sums(plan.times) > 0.0))
         if not len(exact):
             return
         # One example: the loops at every stop would be run for longer than the program.

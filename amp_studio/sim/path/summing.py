@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from amp_studio.sim.path_rules import Geometry, Indices, PathRows
+from amp_studio.sim.path_rules import Geometry, Indices, PathRows, row_sums
 
 from .planner import ProgramPlan
 
@@ -43,25 +43,26 @@ class PathSample:
         if self._kept is None:
             self._kept = plan
             return
-        first = not len(self._order)
-        for each in (self._kept, plan) if first else (plan,):
-            moving = np.flatnonzero(each.geometry.length > 0.0)
-            order = self._chance.random(len(moving))
-            if each is self._kept:
-                order[:1] = -1.0  # where the path begins
-                self._kept, self._order = rows_of(each, moving), order
-            else:
-                self._kept = joined_rows(self._kept, rows_of(each, moving))
-                self._order = np.concatenate([self._order, order])
-            self._thin()
+        if not len(self._order):
+            first, self._kept = self._kept, None
+            self._choose(first)
+        self._choose(plan)
 
-    def _thin(self) -> None:
-        if len(self._order) > SAMPLE:
-            assert self._kept is not None
-            chosen = self._order <= np.partition(self._order, SAMPLE - 2)[SAMPLE - 2]
-            chosen[-1] = True  # where it ends so far
-            self._kept = rows_of(self._kept, np.flatnonzero(chosen))
-            self._order = self._order[chosen]
+    def _choose(self, plan: ProgramPlan) -> None:
+        moving = np.flatnonzero(plan.geometry.length > 0.0)
+        order = np.concatenate([self._order, self._chance.random(len(moving))])
+        if self._kept is None:
+            order[:1] = -1.0  # where the path begins
+        chosen = np.arange(len(order))
+        if len(order) > SAMPLE:
+            among = order <= np.partition(order, SAMPLE - 2)[SAMPLE - 2]
+            among[-1] = True  # where it ends so far
+            chosen = np.flatnonzero(among)
+        before = chosen[chosen < len(self._order)]
+        # Rows are taken once they are chosen: those of an arc in pieces are hundreds for each that is.
+        own = rows_of(plan, moving[chosen[len(before) :] - len(self._order)])
+        self._kept = own if self._kept is None else _joined(rows_of(self._kept, before), own)
+        self._order = order[chosen]
 
 
 def rows_of(plan: ProgramPlan, rows: Indices) -> ProgramPlan:
@@ -94,7 +95,10 @@ _OF_ROWS = (
 
 def joined_rows(one: ProgramPlan, other: ProgramPlan) -> ProgramPlan:
     """Return the rows of a plan and those after it as one, each row with its own of the path."""
-    one, other = (rows_of(each, np.arange(len(each.start))) for each in (one, other))
+    return _joined(*(rows_of(each, np.arange(len(each.start))) for each in (one, other)))
+
+
+def _joined(one: ProgramPlan, other: ProgramPlan) -> ProgramPlan:
     *columns, start = one.path.columns
     pairs = zip(columns, other.path.columns[:-1], strict=True)
     path = other.path.with_columns([*map(np.concatenate, pairs), start])
@@ -172,7 +176,7 @@ class LineTimes:
         rows = np.flatnonzero(lines <= LISTED)
         if not len(rows):
             return
-        lines, times = lines[rows], plan.times[rows].sum(axis=1)
+        lines, times = lines[rows], row_sums(plan.times[rows])
         self._time += np.bincount(lines, plan.whole[rows], LISTED + 1)
         order = np.lexsort((-times, lines))
         own, first = np.unique(lines[order], return_index=True)
