@@ -48,7 +48,7 @@ class KeptColumns:
         return self._last[1]
 
     def _read(self, kind: np.dtype[Any], shape: tuple[int, ...]) -> npt.NDArray[Any]:
-        # As bytes, without a head: numpy reads that of its own format as Python, which takes longer than a
+        # As bytes, without a head: that of npy is read as Python, which takes longer than a
         # stretch of arcs.
         assert self._file is not None
         return np.fromfile(self._file, kind, math.prod(shape)).reshape(shape)
