@@ -19,8 +19,8 @@ Indices = npt.NDArray[np.int64]
 
 
 def row_sums(values: PathRows) -> PathRows:
-    """Return the sum of each row of (rows, a few), as numpy adds up to seven columns: a column at a time takes
-    a twentieth of the time of its sum of such short rows.
+    """Return the sum of each row of (rows, up to seven), as numpy adds them; a column at a time takes a
+    twentieth of the time of its sum of such short rows.
     """
     sums: PathRows = reduce(np.add, values.T, np.zeros(len(values)))
     return sums
