@@ -44,7 +44,7 @@ def test_a_tuning_record_has_gains_figures_and_machine_before_and_after(tuned: T
 def test_its_picture_has_the_push_on_the_load_and_ms_over_the_inertia(tuned: Trace) -> None:
     (figure,) = motion_paper(open_file(MILL).file, "MILL_1060.amp", tuned).figures
     words = re.findall(r">([^<>]+)</text>", figure.svg)
-    assert {"Ms over the inertia", "in the file", "recommended"} <= set(words)
+    assert {"Ms over the inertia", "present", "recommended"} <= set(words)
 
 
 def test_a_friction_fit_is_a_document(tmp_path: Path) -> None:

@@ -25,6 +25,6 @@ if TYPE_CHECKING:
     from .measurement import DECIMALS, ERROR_UNITS, POSITION_UNITS, Measurement, MeasurementAnswers
     from .proposal import Proposal, Wish, axes_of, base_unit, lost_motion, present_table, propose, shown_unit
     from .reading import read_measured_file
-    from .steps import stepped, steps_of, with_followers
+    from .steps import stepped, steps_of, usual_step, with_followers
 else:
     __getattr__ = front_page(__name__)

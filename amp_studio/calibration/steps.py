@@ -6,6 +6,7 @@ ten, a hundred or a thousand of it. A value stops at the bounds of its range (9/
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from fractions import Fraction
 
@@ -15,8 +16,12 @@ from amp_studio.schema import UNITS, Address, Value, dimension, limits
 from .compensation import compensation_of
 from .errors import CalibrationError
 
-_USUAL_DECIMALS = {"length": 5, "angle": 5}
+_USUAL_DECIMALS = {"length": 5, "angle": 5, "time": 3}
 """Where neither the parameter nor the control's memory names any."""
+_LEAST_DECIMALS = 6
+"""Of another quantity that is 0: AcroMill begins with a gain of 0.000001 (page 115)."""
+_PART = 100
+"""The step that is offered first is at most this part of the value."""
 
 
 def steps_of(file: ParameterFile, address: Address) -> tuple[Fraction, ...]:
@@ -33,8 +38,26 @@ def steps_of(file: ParameterFile, address: Address) -> tuple[Fraction, ...]:
     if decimals is None and parameter.storage is not None:
         decimals = parameter.storage.decimals
     if decimals is None:
-        decimals = _USUAL_DECIMALS.get(dimension(unit), 3)
+        decimals = _decimals_of(file.get(address), dimension(unit))
     return tuple(Fraction(10**n, 10**decimals) for n in range(4))
+
+
+def usual_step(file: ParameterFile, address: Address) -> Fraction:
+    """Return the step that is offered first: some hundredth of the value; of 0 a micrometre, or the smallest
+    one of what is no way.
+    """
+    steps, value = steps_of(file, address), file.get(address)
+    if value is None or isinstance(value.value, (str, bool)) or not value.value:
+        unit = file.evaluation.unit(address, file.header.units)
+        return steps[2 if dimension(unit) in ("length", "angle") else 0]
+    return max((step for step in steps if step * _PART <= abs(value.value)), default=steps[0])
+
+
+def _decimals_of(value: Value | None, quantity: str) -> int:
+    """Return decimals for which a step is no multiple of the value: a gain may be a millionth."""
+    if value is None or isinstance(value.value, (str, bool)) or not value.value:
+        return _USUAL_DECIMALS.get(quantity, _LEAST_DECIMALS)
+    return max(_USUAL_DECIMALS.get(quantity, 3), 3 - math.floor(math.log10(abs(value.value))))
 
 
 def stepped(file: ParameterFile, address: Address, by: Fraction) -> Value:

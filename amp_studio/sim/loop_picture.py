@@ -157,7 +157,7 @@ def tuned(trace: Trace) -> Picture:
     with the present gains and with the recommended ones.
     """
     sides: tuple[tuple[str, str, ShapeSort], ...] = (
-        ("before", "in the file", "before"),
+        ("before", "present", "before"),
         ("after", "recommended", "now"),
     )
     time, share = trace.columns["time_s"], trace.columns["inertia_share"]
@@ -173,7 +173,7 @@ def tuned(trace: Trace) -> Picture:
         for n, (first, last) in enumerate(zip(edges[::2], edges[1::2], strict=True)):
             robust.append(Curve(words if n == 0 else _EMPTY, share[first:last], ms[first:last], sort))
     unit = trace.units["load_way_after"]
-    push = panel_of("way of the load for one unit of torque", ways, ("time", "s"), unit, share=1.5)
+    push = panel_of("way of the load per torque", ways, ("time", "s"), unit, share=1.5)
     above = Scene(
         "robustness",
         _EMPTY,

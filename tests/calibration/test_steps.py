@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 
 from amp_studio.calibration import CalibrationError
-from amp_studio.calibration.steps import stepped, steps_of, with_followers
+from amp_studio.calibration.steps import stepped, steps_of, usual_step, with_followers
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import Value
 
@@ -67,3 +67,22 @@ def test_a_velocity_gain_that_is_tuned_switches_the_motor_table_off(mill) -> Non
     assert found[("servo.standard_motor_values", "")] == Value(False)
     assert with_followers(mill, {REVERSAL: Value(0.1, "mm")}) == {REVERSAL: Value(0.1, "mm")}
     assert with_followers(mill, {gain: mill.get(gain)}) == {gain: mill.get(gain)}
+
+
+@pytest.mark.parametrize(
+    ("gain", "step"),
+    [(0.0, 1e-6), (1.5e-6, 1e-8), (0.00021, 1e-6), (-0.00021, 1e-6), (0.08, 1e-4), (40.0, 0.1)],
+)
+def test_a_step_of_a_gain_without_decimals_is_some_hundredth_of_it(gain: float, step: float) -> None:
+    """It was a thousandth whatever the gain: one click made 1.5e-6 of it, as a feed forward has, 0.001."""
+    file, address = new_file("acromill", "mill", ["X", "Y"]), ("servo.d_gain", "X")
+    file.set(address, Value(gain, file.evaluation.unit(address, "metric")))
+    assert float(usual_step(file, address)) == step
+
+
+def test_the_first_step_from_nothing_is_one_of_a_whole_number_and_a_micrometre_of_a_way(mill) -> None:
+    file = mill.copy()
+    file.set(REVERSAL, Value(0.0, "mm"))
+    assert usual_step(file, REVERSAL) == Fraction(1, 1000)
+    file.set(("servo.velocity_integral_gain", "1"), Value(0))
+    assert usual_step(file, ("servo.velocity_integral_gain", "1")) == 1

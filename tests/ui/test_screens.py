@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QRect, Qt
-from PySide6.QtGui import QFontMetrics, QImage, QPixmap
+from PySide6.QtGui import QFontMetrics, QImage, QPixmap, QTextDocument
 from PySide6.QtWidgets import (
     QAbstractButton,
     QAbstractItemView,
@@ -25,7 +25,7 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.schema import Value
-from amp_studio.sim import LimitUse, MotionCheck
+from amp_studio.sim import LimitUse, MotionCheck, Trace
 from amp_studio.transfer import AxisStatus, ControlStatus, known_fault
 from amp_studio.ui.base.theme import font, scheme
 from amp_studio.ui.base.translated import speak
@@ -33,6 +33,8 @@ from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.forms.list_title import ListTitle
 from amp_studio.ui.live.page import LiveView
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.motion.tuning_page import TuningView
+from amp_studio.ui.motion.tuning_steps import TuningSteps
 from amp_studio.ui.table.table_heads import AxisHeads
 from tests.campaigns import CAMPAIGN
 
@@ -65,6 +67,29 @@ def show_live(window: MainWindow) -> None:
     page.show_status(ControlStatus("9pc", "screen", "CNC_1", "ready", (axis,), (fault,)))
 
 
+TUNED = {
+    "Ms": (1.24, ""),
+    "phase_margin": (88.3, "deg"),
+    "gain_margin": (21.5, "dB"),
+    "bandwidth": (2.27, "Hz"),
+    "stiffness": (0.00243, "mm/%"),
+    "velocity_loop_Ms": (1.29, ""),
+}
+
+
+def show_steps_of_tuning(window: MainWindow) -> None:
+    """Show a printed way of tuning with figures of both loops, which are not sought here."""
+    if not window.menus["view.tuning"].isChecked():
+        window.menus["view.tuning"].trigger()
+    page = window.page_in_front.pages["tuning"]
+    assert isinstance(page, TuningView)
+    page.pages.setCurrentRow(page.pages.count() - 1)
+    (steps,) = page.guided
+    figures = {f"{name}_before": figure for name, figure in TUNED.items()} | TUNED
+    trace = Trace("tune", "1", "", {}, {}, figures, (), (), (), {})
+    steps.figures.setText(steps._figures_text(trace))
+
+
 PAGES: dict[str, Callable[[MainWindow], object]] = {
     "pictures": lambda window: window.menus["view.pictures"].trigger(),
     "values": lambda window: window.menus["view.pictures"].trigger(),
@@ -77,6 +102,7 @@ PAGES: dict[str, Callable[[MainWindow], object]] = {
     "by hand": lambda window: window.control.show("hand"),
     "exchanges": lambda window: window.control.recorded(),
     "tuning": lambda window: window.menus["view.tuning"].trigger(),
+    "steps of tuning": show_steps_of_tuning,
     "program": lambda window: window.menus["view.program"].trigger(),
     "machine": lambda window: window.menus["view.check"].trigger(),
     "live": show_live,
@@ -103,6 +129,7 @@ def _no_motion(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let the preview draw no motion, which takes seconds: test_preview.py has it."""
     monkeypatch.setattr("amp_studio.dossier.motion_apart", lambda file: ())
     monkeypatch.setattr("amp_studio.ui.motion.check_page.check_motion", lambda file: iter(CHECKS))
+    monkeypatch.setattr(TuningSteps, "run", lambda _steps: None)
 
 
 @pytest.fixture(params=("en", "de"))
@@ -139,7 +166,26 @@ def texts(window: MainWindow) -> Iterator[tuple[QWidget, str]]:
             yield widget, widget.text()
 
 
+def is_broken(table: QLabel) -> bool:
+    """Whether a word of a table, as a unit, goes on in the next line, or the table needs more room."""
+    document = QTextDocument()
+    document.setDefaultFont(table.font())
+    document.setDocumentMargin(0)
+    document.setHtml(table.text())
+    document.setTextWidth(table.width())
+    document.size()  # lays it out
+    block, broken = document.begin(), document.idealWidth() > table.width() + 1
+    while block.isValid():
+        lines = [block.layout().lineAt(n) for n in range(block.layout().lineCount())]
+        ends = [line.textStart() + line.textLength() for line in lines[:-1]]
+        broken = broken or any(not block.text()[end - 1].isspace() for end in ends)
+        block = block.next()
+    return broken
+
+
 def is_cut(widget: QWidget) -> bool:
+    if isinstance(widget, QLabel) and "<td" in widget.text():
+        return is_broken(widget)
     if isinstance(widget, QLabel) and widget.wordWrap():
         return widget.heightForWidth(widget.width()) > widget.height() + 1
     return widget.sizeHint().width() > widget.width() + 1

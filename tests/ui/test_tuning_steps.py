@@ -4,26 +4,51 @@ is proposed.
 
 from collections.abc import Mapping
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QToolButton
+from PySide6.QtWidgets import QComboBox, QToolButton
 from pytestqt.qtbot import QtBot
 
-from amp_studio.files import ParameterFile
-from amp_studio.schema import load_schema, registered_families
+from amp_studio.calibration import steps_of
+from amp_studio.files import ParameterFile, open_file
+from amp_studio.schema import Address, Value, load_schema, registered_families
 from amp_studio.sim import Recommendation, Trace, law_of, read_tunings, simulate
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.motion import tuning_steps
 from amp_studio.ui.motion.tuning_page import TuningView
 from amp_studio.ui.motion.tuning_steps import TuningSteps
+from amp_studio.ui.motion.tuning_target import TuningTarget
 from tests.ui.conftest import WAIT_MS
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
 GAIN = ("servo.velocity_proportional_gain", "1")
 RAISED = 3
 """The step at which that gain is raised (page A-9)."""
+
+
+class WithFile(TuningTarget):
+    """A target that sets values of a file alone."""
+
+    def __init__(self, file: ParameterFile) -> None:
+        super().__init__()
+        self._file, self.changes = file, list[list[Address]]()
+
+    @property
+    def file(self) -> ParameterFile:
+        return self._file
+
+    @property
+    def may_edit(self) -> bool:
+        return True
+
+    def set(self, text: str, values: Mapping[Address, Value | None]) -> None:
+        self.changes.append(list(values))
+        for address, value in values.items():
+            self._file.set(address, value)
 
 
 @pytest.fixture
@@ -60,6 +85,39 @@ def test_a_step_changes_its_value_and_shows_what_the_axis_does_now_and_did(
     qtbot.waitUntil(lambda: ", was " in guided.detail.shows.text(), timeout=WAIT_MS)
     workspace.undo_stack.undo()
     assert guided.detail.fields[GAIN].text() == "6000"
+
+
+def test_a_step_has_every_value_that_it_names_of_this_machine(guided: TuningSteps) -> None:
+    """Those of no axis had no line: a DAC monitor, a group of axes, a spindle."""
+    guided.steps.setCurrentRow(0)
+    assert list(guided.detail.fields) == [("patch.dac_monitor", "2"), ("patch.dac_monitor", "3")]
+    file, detail = open_file(EXAMPLES / "num-1060-mill/MILL_1060.amp").file, guided.detail
+    guide = next(each for each in file.schema.guides if each.id == "procedures")
+    tapping = next(step for step in guide.steps if step.page == "8-35")
+    detail.show_step(WithFile(file), tapping, "0")
+    labels = [file.machine_schema.short(address) for address in detail.fields]
+    assert labels == ["P63N0", "P63N1", "P63N2", "P62N0", "P62N1"]
+
+
+def test_a_choice_is_chosen_and_a_mask_is_typed(guided: TuningSteps) -> None:
+    """Both had a − and a + that ended in an internal error."""
+    for example, axis, page, count in (("syntec-mill", "1", 0, 3), ("num-1060-mill", "0", 0, 0)):
+        file = open_file(next((EXAMPLES / example).glob("*.amp"))).file
+        guide = next(each for each in file.schema.guides if any(step.shows for step in each.steps))
+        target = WithFile(file)
+        guided.detail.show_step(target, guide.steps[page], axis)
+        fields = guided.detail.fields
+        chosen = {address: field for address, field in fields.items() if isinstance(field, QComboBox)}
+        assert len(chosen) == count
+        names = [each.accessibleName() for each in guided.detail.findChildren(QToolButton)]
+        for address in fields:
+            label = file.machine_schema.label(address)
+            stepped = [name for name in names if name.endswith(f": {label}")]
+            assert bool(stepped) == bool(steps_of(file, address)), label
+        for address, field in chosen.items():
+            field.textActivated.emit(field.itemText(field.count() - 1))
+            assert field.currentText() == field.itemText(field.count() - 1)
+            assert target.changes[-1] == [address]
 
 
 def test_a_value_that_is_no_number_is_refused_and_the_old_one_is_back(

@@ -5,20 +5,48 @@ shows.
 from __future__ import annotations
 
 from collections.abc import Callable
-from fractions import Fraction
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtGui import QWheelEvent
+from PySide6.QtWidgets import (
+    QComboBox,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QSizePolicy,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
 
-from amp_studio.calibration import stepped, steps_of
-from amp_studio.schema import Address, GuideStep, Value, unit_text
+from amp_studio.calibration import stepped, steps_of, usual_step
+from amp_studio.schema import Address, GuideStep, Value
 from amp_studio.sim import Trace, address_of, value_text
 from amp_studio.ui.base.figures import show_value, written
 from amp_studio.ui.base.theme import GAP, GAP2, SMALL_CONTROL, colour, font
-from amp_studio.ui.base.translated import sentenced, worded
+from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 
 from .tuning_target import TuningTarget
-from .tuning_values import usual_step
+
+
+class _Choices(QComboBox):
+    """The choices of a value; the wheel scrolls what is around it and changes nothing."""
+
+    def __init__(self, choices: list[str]) -> None:
+        super().__init__()
+        self.addItems(choices)
+        # As wide as the panel, and not as the longest of them.
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+
+    def show_choice(self, text: str) -> None:
+        """Show the present one, or another text, as ``not set``, in their place."""
+        self.setPlaceholderText(text)
+        self.setCurrentIndex(self.findText(text))
+        self.setToolTip(text)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Leave it to the area around."""
+        event.ignore()
 
 
 class StepDetail(QWidget):
@@ -29,12 +57,11 @@ class StepDetail(QWidget):
         super().__init__()
         self._guarded = guarded
         self._target: TuningTarget | None = None
-        self.fields: dict[Address, QLineEdit] = {}
+        self.fields: dict[Address, QLineEdit | _Choices] = {}
         self.change, self.look, self.shows = QLabel(), QLabel(), QLabel()
         shows = self.tr("The simulated axis shows")
         self.heads = [QLabel(text) for text in (self.tr("Change"), self.tr("Look for"), shows)]
-        self.values = QGridLayout()
-        self.values.setContentsMargins(0, 0, 0, 0)
+        self.values = QVBoxLayout()
         self.values.setSpacing(GAP)
         for head in self.heads:
             head.setFont(font("caption", own=True))
@@ -64,17 +91,19 @@ class StepDetail(QWidget):
         self.heads[0].setVisible(bool(step.what or step.params))
         self.heads[2].setVisible(step.shows is not None)
         self.shows.setVisible(step.shows is not None)
-        found = [each for name in step.params if (each := self._address(name, axis)) is not None]
+        found = [each for name in step.params for each in self._addresses(name, axis)]
         if found != list(self.fields):
             self._make_lines(found)
         self._fill()
 
-    def _address(self, parameter: str, axis: str) -> Address | None:
-        """Return the value of the axis, or the only one; None for one that this machine has not."""
+    def _addresses(self, parameter: str, axis: str) -> list[Address]:
+        """Return the value of the axis, or those of all groups, spindles and outputs of this machine."""
         assert self._target is not None
         file = self._target.file
-        address = address_of(file, parameter, axis)
-        return address if address and file.evaluation.state(address).is_active else None
+        address, definition = address_of(file, parameter, axis), file.schema.parameters[parameter]
+        instances = [] if definition.scope == "axis" else file.machine_schema.instances(definition)
+        found = [address] if address else [(parameter, each) for each in instances]
+        return [each for each in found if file.evaluation.state(each).is_active]
 
     def _make_lines(self, addresses: list[Address]) -> None:
         while self.values.count():
@@ -84,20 +113,34 @@ class StepDetail(QWidget):
                 widget.hide()
                 widget.deleteLater()
         self.fields = {}
-        for row, address in enumerate(addresses):
-            self._make_line(row, address)
+        for address in addresses:
+            self._make_line(address)
 
-    def _make_line(self, row: int, address: Address) -> None:
+    def _make_line(self, address: Address) -> None:
         assert self._target is not None
-        label = self._target.file.machine_schema.label(address)
-        name, field = QLabel(label), QLineEdit()
+        file = self._target.file
+        label = file.machine_schema.label(address)
+        choices = [choice.label for choice in file.schema.parameters[address[0]].choices or ()]
+        name, field = QLabel(label), _Choices(choices) if choices else QLineEdit()
         name.setWordWrap(True)
         field.setAccessibleName(label)
-        field.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        field.setFixedWidth(110)
-        field.editingFinished.connect(lambda: self._guarded(lambda: self._typed(address)))
-        self.values.addWidget(name, 2 * row, 0, 1, 3)
-        for column, (text, sign) in enumerate((("−", -1), ("+", 1))):
+        if isinstance(field, QLineEdit):
+            field.editingFinished.connect(lambda: self._guarded(lambda: self._typed(address, field.text())))
+        else:
+            field.textActivated.connect(lambda text: self._guarded(lambda: self._typed(address, text)))
+        self.fields[address] = field
+        self.values.addWidget(name)
+        if isinstance(field, QLineEdit) and steps_of(file, address):
+            field.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+            self.values.addWidget(self._with_buttons(field, address, label))
+        else:
+            self.values.addWidget(field)
+
+    def _with_buttons(self, field: QLineEdit, address: Address, label: str) -> QWidget:
+        line = QWidget()
+        row = QHBoxLayout(line)
+        row.setContentsMargins(0, 0, 0, 0)
+        for text, sign in (("−", -1), ("+", 1)):
             button = QToolButton()
             button.setText(text)
             button.setFixedSize(SMALL_CONTROL, SMALL_CONTROL)
@@ -106,22 +149,24 @@ class StepDetail(QWidget):
             button.setAccessibleName(words.format(name=label))
             button.setToolTip(words.format(name=label))
             button.clicked.connect(lambda *_, sign=sign: self._guarded(lambda: self._stepped(address, sign)))
-            self.values.addWidget(button, 2 * row + 1, 2 * column)
-        self.values.addWidget(field, 2 * row + 1, 1)
-        self.fields[address] = field
+            row.addWidget(button)
+        row.insertWidget(1, field)
+        return line
 
     def _fill(self) -> None:
         assert self._target is not None
         file = self._target.file
         for address, field in self.fields.items():
             text = show_value(file.schema.parameters[address[0]], file.get(address))
-            if field.text() != text:
+            if isinstance(field, _Choices):
+                field.show_choice(text)
+            elif field.text() != text:
                 field.setText(text)
             field.setEnabled(self._target.may_edit)
 
-    def _typed(self, address: Address) -> None:
+    def _typed(self, address: Address, text: str) -> None:
         assert self._target is not None
-        file, text = self._target.file, self.fields[address].text()
+        file = self._target.file
         # Leaving a field is no edit: a rounded text must not be written back.
         if text == show_value(file.schema.parameters[address[0]], file.get(address)):
             return
@@ -133,9 +178,7 @@ class StepDetail(QWidget):
     def _stepped(self, address: Address, sign: int) -> None:
         assert self._target is not None
         file = self._target.file
-        steps = steps_of(file, address)
-        step: Fraction = steps[usual_step(steps, file.get(address))]
-        self._set(address, stepped(file, address, sign * step))
+        self._set(address, stepped(file, address, sign * usual_step(file, address)))
 
     def _set(self, address: Address, value: Value) -> None:
         assert self._target is not None
@@ -155,7 +198,7 @@ class StepDetail(QWidget):
             value, unit = now.result.get(name, (None, ""))
             if value is None:
                 continue
-            line = f"{worded(name.replace('_', ' '))} {written(value_text(value, unit_text(unit), 4))}"
+            line = f"{worded(name.replace('_', ' '))} {written(value_text(value, unit_in_words(unit), 4))}"
             old = before.result.get(name, (None, ""))[0] if before is not None else None
             if old is not None and value_text(old, digits=4) != value_text(value, digits=4):
                 line += self.tr(", was {value}").format(value=written(value_text(old, digits=4)))

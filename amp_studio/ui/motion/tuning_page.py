@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
     QLabel,
     QListWidget,
     QPushButton,
+    QScrollArea,
     QSplitter,
     QStackedWidget,
     QVBoxLayout,
@@ -155,9 +156,14 @@ class TuningView(PageOfFile):
         steps = TuningSteps(guide, self._workspace, self.guarded)
         steps.send_wanted.connect(self.send_wanted)
         self.guided.append(steps)
-        _put_into(holder, steps)
+        # Its three parts side by side need more than a small screen has beside a panel.
+        area = QScrollArea()
+        area.setFrameShape(QScrollArea.Shape.NoFrame)
+        area.setWidgetResizable(True)
+        area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        area.setWidget(steps)
+        _put_into(holder, area)
         steps.show_target(self.target)
-        steps.show()
 
     def _make_calibration(self, holder: QWidget) -> None:
         _load_plots()

@@ -41,7 +41,7 @@ from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import CONTROL, GAP, GAP2, SMALL_ICON, icon
-from amp_studio.ui.base.translated import sentenced, worded
+from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.pages import LINK
 from amp_studio.ui.forms.segment import Segment
@@ -54,7 +54,7 @@ from .tuning_target import FileTarget, TuningTarget
 
 SETTLE_MS = 250
 """Milliseconds without a further change before it is simulated again."""
-_LEFT, _RIGHT = 262, 262
+_LEFT, _RIGHT = 258, 266
 """Widths in pixels of the steps and of what is proposed."""
 _ROWS = 9
 """Steps that are seen at once."""
@@ -127,8 +127,7 @@ class TuningSteps(QWidget):
         self.aim.show_choice("normal")
         self._aim = "normal"
         self.chart = Segment(
-            self.tr("Below"),
-            ((_TUNE, self.tr("Load and Inertia"), ""), (_MAP, self.tr("Map of Both Gains"), "")),
+            self.tr("Below"), ((_TUNE, self.tr("Inertia"), ""), (_MAP, self.tr("Gain Map"), ""))
         )
         self.chart.show_choice(_TUNE)
         self._chart = _TUNE
@@ -281,9 +280,8 @@ class TuningSteps(QWidget):
         # A copy: the file may be edited while the threads read it.
         file, axis = self._target.file.copy(), str(self.axis.currentData())
         shows = self.guide.steps[self.steps.currentRow()].shows
-        self.plot.setVisible(
-            shows is not None
-        )  # what is proposed has all the room beside a step without a move
+        # What is proposed has all the room beside a step without a move.
+        self.plot.setVisible(shows is not None)
         if shows is not None:
             scenario, settings = shows.scenario, dict(shows.settings)
             # Tapping is of the machine: it finds the spindle and the axis that taps itself.
@@ -338,20 +336,23 @@ class TuningSteps(QWidget):
 
     def _figures_text(self, trace: Trace) -> str:
         """Return Ms, margins, bandwidth and stiffness in the file and as proposed, as a table."""
-        heads = (self.tr("in the file"), self.tr("proposed"))
+        of_file = isinstance(self._target, FileTarget)
+        heads = (self.tr("in the file") if of_file else self.tr("in the control"), self.tr("proposed"))
         rows = [f"<tr><td></td><td align=right>{heads[0]}</td><td align=right>{heads[1]}</td></tr>"]
         for name in _FIGURES:
             if name not in trace.result:
                 continue
             cells = []
             for key in (f"{name}_before", name):
-                value, unit = trace.result.get(key, (None, ""))
+                value = trace.result.get(key, (None, ""))[0]
                 text = self.tr("unstable") if value is None and name == "Ms" else "–"
                 cells.append(text if value is None else written(value_text(value, digits=3)))
-            unit = trace.result[name][1]
+            # The unit is behind the name, where it finds room in another line, but is not broken itself.
+            unit = unit_in_words(trace.result[name][1]).replace("/", "/\N{WORD JOINER}")
+            words = worded(name.replace("_", " ")) + (f" ({unit})" if unit else "")
             rows.append(
-                f"<tr><td>{worded(name.replace('_', ' '))}&nbsp;</td><td align=right>{cells[0]}</td>"
-                f"<td align=right><b>&nbsp;{cells[1]}</b>&nbsp;{unit}</td></tr>"
+                f"<tr><td>{words}</td><td align=right>{cells[0]}</td>"
+                f"<td align=right><b>&nbsp;{cells[1]}</b></td></tr>"
             )
         return f"<table cellspacing=0 cellpadding=1 width=100%>{''.join(rows)}</table>"
 

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
     QVBoxLayout,
 )
 
-from amp_studio.calibration import CalibrationError, TuningPage, stepped, steps_of
+from amp_studio.calibration import CalibrationError, TuningPage, stepped, steps_of, usual_step
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value, limits, read_exact, write_number
 from amp_studio.ui.base.figures import sentence, show_value, written
@@ -34,8 +34,6 @@ _INSTANCE, _NAME, _VALUE, _ALLOWED, _EFFECT = range(5)
 _SIGNS: dict[object, int] = {"+": 1, "-": -1, Qt.Key.Key_Plus: 1, Qt.Key.Key_Minus: -1}
 """The text or key of a step -> its sign."""
 _ADDRESS = Qt.ItemDataRole.UserRole
-_PART = 100
-"""The step that is offered first is at most this part of the value."""
 
 
 _LEAST_COLUMN = 80
@@ -212,7 +210,7 @@ class ValuesPage(TuningPart):
             self.step.clear()
             for text, step in zip(texts, steps, strict=True):
                 self.step.addItem(text, step)
-            self.step.setCurrentIndex(usual_step(steps, file.get(address)))
+            self.step.setCurrentIndex(steps.index(usual_step(file, address)) if steps else -1)
 
     # -- changing ----------------------------------------------------------------
 
@@ -288,12 +286,3 @@ class ValuesPage(TuningPart):
             why = worded(state.why, self.target.file.schema.family.family)
             raise CalibrationError(self.tr("{name} is not used: {why}.").format(name=label, why=why))
         self.target.set(f"{what} {self.target.file.machine_schema.label(address)}", {address: value})
-
-
-def usual_step(steps: tuple[Fraction, ...], value: Value | None) -> int:
-    """Return which step is offered first: some hundredth of the value; the third one, a micrometre mostly,
-    where it is 0.
-    """
-    if value is None or isinstance(value.value, (str, bool)) or not value.value:
-        return min(2, len(steps) - 1)
-    return max((n for n, step in enumerate(steps) if step * _PART <= abs(value.value)), default=0)
