@@ -9,7 +9,7 @@ from amp_studio.transfer import AtControl, TransferError, state_after_break
 from .content import GrblContent
 from .kind import HOMING, JOG_LIMITS, LOCATE_RATE, PER_AXIS_RATES, RESET_ACTIONS, SEEK_RATE, SOFT_LIMITS
 from .numbers import is_shown_as
-from .offsets import PUT_BACK, offset_differences
+from .offsets import PUT_BACK, is_same_offset
 from .writing import Writing
 
 _MOVED = {
@@ -84,6 +84,8 @@ def _seen(
 ) -> dict[str, str]:
     """Return what the control shows now, a new value as it was sent."""
     now = names_of(content)
+    # $13 may be new: what is shown in another unit is what it was.
+    now |= {n: present[n] for n in PUT_BACK if n in present and is_same_offset(writing.present, content, n)}
     for name in {*names} & {*present, *wanted}:
         is_new = _is_shown(writing, content, name, wanted[name], now.get(name, ""))
         # A value that is shown the same before and after is new only if it was sent.
@@ -104,5 +106,5 @@ def names_of(content: GrblContent) -> dict[str, str]:
 
 def _is_shown(writing: Writing, content: GrblContent, name: str, text: str, reported: str) -> bool:
     if name in PUT_BACK:
-        return name not in offset_differences(writing.target, content)
+        return is_same_offset(writing.target, content, name)
     return is_shown_as(text, reported) if name[1:].isdigit() else text == reported

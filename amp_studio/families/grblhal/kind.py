@@ -25,7 +25,7 @@ from .description import PASSWORD, DescribedSetting, description_of, read_descri
 from .fitting import Misfit, build_of, fit_to
 from .masks import Build, MaskBits, bits_beyond, named_bits, with_bits
 from .numbers import decimals_of, is_same_number, is_shown_as, read_number, shown_number, written_number
-from .offsets import PUT_BACK, at_axes, offset_differences, reports_inches
+from .offsets import PUT_BACK, at_axes, offset_differences, offsets_in, reports_inches
 from .settings import compiled_in, settings_of_file, values_of_settings
 
 FAMILY, CLASSIC = "grblhal", "grbl-1.1"
@@ -72,7 +72,7 @@ class GrblContentKind:
         present = read_content(current)
         wanted = _settings_for(file, present, current)
         settings = _fitted(wanted.settings, present, described(current))
-        return write_content(replace(present, settings=settings))
+        return write_content(replace(present, settings=settings, offsets=offsets_in(present, settings)))
 
     def left_out(self, file: ParameterFile, current: bytes) -> str:
         """Return the settings and bits of a file that a control of another build does not have;

@@ -5,10 +5,10 @@ and what of it can be put back without moving anything.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from .content import GrblContent
-from .numbers import written_number
+from .numbers import decimals_of, written_number
 
 PUT_BACK = (*(f"G{n}" for n in range(54, 60)), "G59.1", "G59.2", "G59.3")
 """Set by ``G10 L2 P1`` to ``P9`` whatever the position is. G28, G30 and G92 are set by where the machine
@@ -30,17 +30,38 @@ def reports_inches(content: GrblContent) -> bool:
 
 def offset_differences(a: GrblContent, b: GrblContent) -> list[str]:
     """Return the names of the offsets that differ by more than is shown."""
-    return [n for n in a.offsets if not _is_near(a, b, n)]
+    return [n for n in a.offsets if not is_same_offset(a, b, n)]
 
 
-def _is_near(a: GrblContent, b: GrblContent, name: str) -> bool:
+def is_same_offset(a: GrblContent, b: GrblContent, name: str) -> bool:
     """Return whether both controls have the same offset, as far as each shows it."""
-    one, other = a.offsets[name], b.offsets.get(name)
-    # In one unit both are shown with the same digits, and compare as texts.
-    if other is None or reports_inches(a) == reports_inches(b):
+    one, other = a.offsets.get(name), b.offsets.get(name)
+    # What two controls show in one unit has the same digits, and compares as texts.
+    if one is None or other is None or _is_shown_alike(a, b, one, other):
         return one == other
     first, second = _millimeters(a, one), _millimeters(b, other)
     return len(first) == len(second) and all(abs(x - y) <= _NEAR for x, y in zip(first, second, strict=True))
+
+
+def _is_shown_alike(a: GrblContent, b: GrblContent, one: str, other: str) -> bool:
+    """Return whether two offsets are in one unit, and neither was converted (``offsets_in``)."""
+    return reports_inches(a) == reports_inches(b) and [decimals_of(part) for part in one.split(",")] == [
+        decimals_of(part) for part in other.split(",")
+    ]
+
+
+def offsets_in(content: GrblContent, settings: Mapping[int, str]) -> dict[str, str]:
+    """Return the offsets of a control as they are in the unit of other settings of it:
+    converted, with more digits than it shows, where $13 is another one.
+    """
+    in_inches = settings.get(REPORTS_INCHES, "0") == "1"
+    if in_inches == reports_inches(content):
+        return dict(content.offsets)
+    factor = 1 / _INCH if in_inches else _INCH
+    return {
+        name: ",".join(f"{float(x) * factor:.6f}" if _COORDINATE.fullmatch(x) else x for x in text.split(","))
+        for name, text in content.offsets.items()
+    }
 
 
 def _millimeters(content: GrblContent, text: str) -> list[float]:
@@ -50,28 +71,36 @@ def _millimeters(content: GrblContent, text: str) -> list[float]:
 
 def at_axes(copy: GrblContent, present: GrblContent, name: str) -> str:
     """Return the coordinates of a copy on the axes of another control,
-    which keeps its own where the copy has none.
+    which keeps its own where the copy has none; in the unit of the copy.
     """
-    theirs, own = copy.offsets.get(name, "").split(","), present.offsets[name].split(",")
+    own_text = offsets_in(present, copy.settings)[name]
+    theirs, own = copy.offsets.get(name, "").split(","), own_text.split(",")
     if copy.axes == present.axes or len(theirs) != len(copy.axes) or len(own) != len(present.axes):
-        return copy.offsets.get(name, present.offsets[name])
+        return copy.offsets.get(name, own_text)
     by_axis = dict(zip(copy.axes, theirs, strict=True))
     return ",".join(by_axis.get(axis, at) for axis, at in zip(present.axes, own, strict=True))
 
 
-def offset_commands(wanted: GrblContent, present: GrblContent) -> Iterable[tuple[str, str]]:
-    """Yield name and command of each offset that is to be put back; a command is in the unit that it
-    names.
-    """
-    # In the unit in which they were shown: nothing is converted, nothing rounded.
-    unit = "G20" if reports_inches(wanted) else "G21"
+def offsets_to_put_back(wanted: GrblContent, present: GrblContent) -> Iterable[str]:
+    """Yield the names of the offsets that are to be put back."""
     for name in offset_differences(wanted, present):
         parts = wanted.offsets[name].split(",")
         if name in PUT_BACK and len(parts) == len(wanted.axes) and all(map(_COORDINATE.fullmatch, parts)):
-            words = "".join(
-                f"{axis}{written_number(float(part))}" for axis, part in zip(wanted.axes, parts, strict=True)
-            )
-            yield name, f"{unit}G10L2P{PUT_BACK.index(name) + 1}{words}"
+            yield name
+
+
+def offset_command(wanted: GrblContent, name: str, *, in_inches: bool) -> str:
+    """Return the command that sets an offset, in the unit that is active at the control:
+    another one would stay active for the next program where the download breaks off.
+    """
+    factor = 1.0
+    if in_inches != reports_inches(wanted):
+        factor = 1 / _INCH if in_inches else _INCH
+    words = "".join(
+        f"{axis}{written_number(float(part) * factor)}"
+        for axis, part in zip(wanted.axes, wanted.offsets[name].split(","), strict=True)
+    )
+    return f"{'G20' if in_inches else 'G21'}G10L2P{PUT_BACK.index(name) + 1}{words}"
 
 
 def startup_commands(wanted: GrblContent, present: GrblContent) -> Iterable[tuple[str, str]]:

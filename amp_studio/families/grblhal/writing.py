@@ -10,7 +10,6 @@ and what was moved is written again.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from itertools import chain
 
 from amp_studio.transfer import Progress, Receipt, SentValues
 
@@ -19,7 +18,7 @@ from .description import DescribedSetting
 from .kind import HOMING
 from .line import GrblLine, GrblRefusalError
 from .numbers import decimals_of, is_shown_as, read_number, shown_number
-from .offsets import left_notes, offset_commands, startup_commands
+from .offsets import left_notes, offset_command, offsets_to_put_back, startup_commands
 from .reading import read_settings
 from .refusals import MAY_WAIT
 
@@ -42,7 +41,8 @@ class Writing:
         self.target, self.present, self._known = target, present, known
         self.names = {number: setting.name for number, setting in known.items()}
         self.settings = {n: text for n, text in target.settings.items() if present.settings.get(n) != text}
-        self.others = dict(chain(offset_commands(target, present), startup_commands(target, present)))
+        self.others = dict.fromkeys(offsets_to_put_back(target, present), "")
+        self.others |= startup_commands(target, present)
         self.sent = sent
         sent.total = len(self.settings) + len(self.others)
 
@@ -100,13 +100,14 @@ class Writing:
 
     def _write_others(self, line: GrblLine, progress: Progress) -> None:
         """Put back offsets and start-up lines, and the unit of the program as it was."""
-        # G10 needs G20 or G21, which stay active: the next program must find the unit it expects.
-        modes = " ".join(line.ask("$G"))
+        # Whatever a line before it was refused for, the firmware refuses G-code until a command is taken
+        # (protocol.c): this one is.
+        in_inches = " G20 " in f"{' '.join(line.ask('$G'))} "
         for name, command in self.others.items():
-            self._write(line, name, command)
+            self._write(line, name, command or offset_command(self.target, name, in_inches=in_inches))
             progress("download", min(len(self.sent.names), self.sent.total), self.sent.total)
-        unit = "G20" if " G20 " in f"{modes} " else "G21"
-        line.ask(unit, writes=True)
+        # A start-up line is executed, and the next program must find the unit it expects.
+        line.ask("G20" if in_inches else "G21", writes=True)
 
     def _write(self, line: GrblLine, name: str, command: str) -> None:
         # Between two settings is the only point at which a download may stop.

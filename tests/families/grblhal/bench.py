@@ -117,7 +117,7 @@ def sent(bench: Bench) -> list[str]:
     return [line for line in bench.lines if "=" in line]
 
 
-def edited(bench: Bench, **values: float) -> ParameterFile:
+def edited(bench: Bench, **values: float | str) -> ParameterFile:
     """Return what the control contains as a file, with numbers changed: ``n130=5`` is $130."""
     file = decode_content(bench.driver.fetch())
     for name, value in values.items():

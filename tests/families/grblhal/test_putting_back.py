@@ -10,7 +10,7 @@ import pytest
 
 from amp_studio.families.grblhal.content import read_content, write_content
 from amp_studio.transfer.client.exchange import WantedContent, download
-from amp_studio.transfer.errors import TransferError
+from amp_studio.transfer.errors import ConnectionCutError, TransferError
 from amp_studio.transfer.image import ImageError
 from tests.families.grblhal.bench import Bench, current, edited, put, sent
 
@@ -93,6 +93,57 @@ def test_offsets_that_are_shown_in_inches_are_put_back_in_inches(bench: Bench) -
     ).verified
     assert bench.firmware.offsets["G55"] == "25.400,0.000,-50.800"
     assert bench.lines[-30:].count("G21") == 1, "the unit of the program is as it was"
+    assert not any("G20" in line for line in bench.lines), "nor was it another one meanwhile"
+
+
+@pytest.mark.parametrize("was", ["0", "1"])
+def test_offsets_stay_where_the_unit_of_reports_changes(bench: Bench, was: str) -> None:
+    """They were sent anew: 10 mm as 10 inches."""
+    bench.firmware.settings.store(13, was)
+    bench.firmware.offsets["G54"] = "10.000,-20.401,0.500"
+    file = edited(bench, n13="No" if was == "1" else "Yes", n130=301.5)
+    outcome = download(
+        bench.driver, WantedContent(partial(bench.driver.encode, file), ""), lambda _: "kept"
+    )
+    assert outcome.verified
+    assert not any("G10" in line for line in bench.lines)
+    assert bench.firmware.offsets["G54"] == "10.000,-20.401,0.500"
+
+
+@pytest.mark.parametrize("is_cut_before", ["$130=", "$13="])
+def test_a_break_while_the_unit_of_reports_changes_is_no_loss_of_the_memory(
+    bench: Bench, is_cut_before: str
+) -> None:
+    """Nine offsets that are shown with other digits were settings that nobody has touched."""
+    bench.firmware.offsets["G54"] = "10.000,-20.401,0.500"
+    bench.firmware.is_writing = True
+    bench.firmware.answer()
+    file = edited(bench, n13="Yes", n130=301.5)
+
+    def restart(data: bytes) -> bytes:
+        if is_cut_before.encode() not in data:
+            return data
+        bench.spoil_in = lambda data: data
+        bench.firmware.answer()
+        bench.firmware.power_cycle()
+        return b""
+
+    bench.spoil_in = restart
+    with pytest.raises(ConnectionCutError) as caught:
+        download(bench.driver, WantedContent(partial(bench.driver.encode, file), ""), lambda _: "kept")
+    is_half = is_cut_before == "$130="
+    assert caught.value.at_control == ("mixed" if is_half else "old")
+    assert caught.value.new == (("$13",) if is_half else ())
+
+
+def test_a_copy_without_some_offsets_leaves_them_where_it_shows_another_unit(tmp_path: Path) -> None:
+    """A Grbl 1.1 has no G59.1 to G59.3: those of the control were sent in the unit of the copy."""
+    classic, hal = Bench(tmp_path / "classic", "grbl-1.1"), Bench(tmp_path / "hal")
+    classic.firmware.settings.store(13, "1")
+    hal.firmware.offsets["G59.2"] = "10.000,20.000,30.000"
+    back = partial(hal.driver.refit, classic.driver.fetch())
+    assert download(hal.driver, WantedContent(back, ""), lambda _: "kept").verified
+    assert hal.firmware.offsets["G59.2"] == "10.000,20.000,30.000"
 
 
 @pytest.mark.parametrize(
