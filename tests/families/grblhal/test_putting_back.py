@@ -102,9 +102,7 @@ def test_offsets_stay_where_the_unit_of_reports_changes(bench: Bench, was: str) 
     bench.firmware.settings.store(13, was)
     bench.firmware.offsets["G54"] = "10.000,-20.401,0.500"
     file = edited(bench, n13="No" if was == "1" else "Yes", n130=301.5)
-    outcome = download(
-        bench.driver, WantedContent(partial(bench.driver.encode, file), ""), lambda _: "kept"
-    )
+    outcome = download(bench.driver, WantedContent(partial(bench.driver.encode, file), ""), lambda _: "kept")
     assert outcome.verified
     assert not any("G10" in line for line in bench.lines)
     assert bench.firmware.offsets["G54"] == "10.000,-20.401,0.500"
