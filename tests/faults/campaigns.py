@@ -30,6 +30,7 @@ from . import (
     descriptions,
     editor,
     exchanges,
+    folders,
     grbl_lines,
     measured_points,
     monkey,
@@ -185,6 +186,7 @@ CAMPAIGNS = (
         4,
         100,
     ),
+    Campaign("configuration of a LinuxCNC onto a disk that fails", _own(folders.folder_run), 2_000, 6, 100),
     Campaign(
         "damaged contents and racks of the 57C422B", partial(_damaged_in, racks.fuzz_racks), MANY, 18, 2_000
     ),

@@ -42,6 +42,10 @@ class FaultBench(Protocol):
     def memory(self) -> Memory | None:
         """Where the control keeps its values without power; None where it does not."""
 
+    @property
+    def files_at_control(self) -> Path | None:
+        """The folder that must be on the disk once a download is complete."""
+
     def progress(self, stage: str, done: int, total: int) -> None:
         """Do what a person is asked for."""
 
@@ -93,8 +97,8 @@ def download_under_faults(
     send = bench.driver.send
     with disk.watched(), mock.patch.object(bench.driver, "send", sent):
         ended = _downloaded(bench, file, folder, stop_at)
-        if isinstance(ended, Outcome) and ended.verified and bench.memory is not None:
-            unsafe += disk.unsafe(*(path for path in bench.memory.folder.iterdir() if path.name[0] != "."))
+        if isinstance(ended, Outcome) and ended.verified and (stored := bench.files_at_control):
+            unsafe += disk.unsafe(stored, *(path for path in stored.iterdir() if path.name[0] != "."))
     bench.wrap = lambda link: link
     lose_power(None)
     bench.arm({})

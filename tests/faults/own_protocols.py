@@ -74,7 +74,17 @@ def _tried(
 # -- the terminal of an ACR card -------------------------------------------------------------------
 
 
-class CardFaults(CardBench):
+class _Remembering:
+    """A control whose memory is a folder."""
+
+    memory: Memory
+
+    @property
+    def files_at_control(self) -> Path:
+        return self.memory.folder
+
+
+class CardFaults(_Remembering, CardBench):
     """An ACR card."""
 
     def progress(self, stage: str, done: int, total: int) -> None:
@@ -140,7 +150,7 @@ def terminal_run(chance: random.Random, folder: Path, faults: Mapping[str, int] 
 # -- the parameter table of a NUM control ----------------------------------------------------------
 
 
-class TableFaults(NumBench):
+class TableFaults(_Remembering, NumBench):
     """A NUM control with a small table."""
 
     def __init__(self, folder: Path, parity: str) -> None:
@@ -208,7 +218,7 @@ _LIVE = (64, 65, 66, 67, 104, 105, AXIS_Y - 1)
 class RackFaults(RackBench):
     """A module in a rack, which keeps nothing without power; registers that contain 0 are left out."""
 
-    memory = None
+    memory = files_at_control = None
 
     def progress(self, stage: str, done: int, total: int) -> None:
         """Nobody is asked for anything."""
@@ -254,7 +264,7 @@ def registers_run(chance: random.Random, folder: Path, faults: Mapping[str, int]
 # -- the house protocol ----------------------------------------------------------------------------
 
 
-class HouseFaults:
+class HouseFaults(_Remembering):
     """A control of the house at a line of 11,520 bytes a second."""
 
     def __init__(self, folder: Path, initial: ParameterFile, chance: random.Random) -> None:

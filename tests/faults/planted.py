@@ -21,6 +21,8 @@ from amp_studio import cli
 from amp_studio.families.acromill.lines import driver as acr
 from amp_studio.families.grblhal import reading as grbl
 from amp_studio.families.grblhal.driver import GrblDriver
+from amp_studio.families.linuxcnc.control import content as configuration
+from amp_studio.families.linuxcnc.control.driver import ConfigurationDriver
 from amp_studio.families.num.lines import driver as num
 from amp_studio.families.servo57c422b.lines import content as registers
 from amp_studio.families.servo57c422b.lines.driver import RegisterDriver
@@ -33,6 +35,7 @@ from tests.families.grblhal.faulty_grbl import download_with_faults
 from tests.ui.killed import kill_editor
 
 from . import lines
+from .folders import folder_run
 from .own_protocols import Run, house_run, registers_run, repeated, table_run, terminal_run
 from .saves import power_off_after_saves
 
@@ -134,6 +137,14 @@ def _no_sync_at_control() -> AbstractContextManager[object]:
     return _patched(("amp_studio.transfer.emulated.memory.os", _NoSync()))
 
 
+def _no_sync_in_folder() -> AbstractContextManager[object]:
+    def written(*arguments: Any, **options: Any) -> str:
+        with _no_sync_of_files():
+            return _write_atomic(*arguments, **options)
+
+    return _patched(("tests.faults.folders._write", written))
+
+
 def _no_read_back(*others: tuple[str, object]) -> AbstractContextManager[object]:
     def believed(proof: Any, *_: object) -> Outcome:
         text = "Download complete and read back equal."
@@ -176,6 +187,15 @@ def _short_copy_of_registers() -> AbstractContextManager[object]:
     return _patched(*((name, lambda: known) for name in names))
 
 
+def _short_copy_of_folder() -> AbstractContextManager[object]:
+    written = configuration.Configuration.written
+
+    def shorter(whole: configuration.Configuration) -> bytes:
+        return written(configuration.Configuration({n: t for n, t in whole.files.items() if n != "m.hal"}))
+
+    return mock.patch.object(configuration.Configuration, "written", shorter)
+
+
 def _short_copy_of_grbl() -> AbstractContextManager[object]:
     read = grbl.read_settings
     return mock.patch.object(grbl, "read_settings", lambda line, who: _without_last(read(line, who)))
@@ -213,6 +233,14 @@ def _killed(seed: int, folder: Path) -> list[str]:
     return kill_editor(path, seed=seed, begin=begin)
 
 
+_NO_SYNC: Mapping[Run, Plant | None] = {registers_run: None, folder_run: _no_sync_in_folder}
+"""Where fsync is left out at a control that has no memory of the house; None for one without any."""
+
+
+_NOT_STORED: Mapping[Run, str] = {terminal_run: NOT_SAVED, table_run: NOT_SAVED, house_run: NOT_DONE}
+"""What is noticed where a control with a memory of its own does not write it."""
+
+
 def _of_drivers() -> Iterator[Defect]:
     """Yield the defects of the downloads: way of speaking by way of speaking."""
     both: tuple[tuple[str, Run, type, Plant, tuple[tuple[str, object], ...], dict[str, int]], ...] = (
@@ -234,6 +262,7 @@ def _of_drivers() -> Iterator[Defect]:
             {"forget": 1},
         ),
         ("control of the house", house_run, HouseDriver, _short_copy_of_house, (), {"forget": 1}),
+        ("folder of a LinuxCNC", folder_run, ConfigurationDriver, _short_copy_of_folder, (), {"forget": 1}),
     )
     for what, run, driver, short, read_back, forget in both:
         chance = _downloads(run)
@@ -244,13 +273,13 @@ def _of_drivers() -> Iterator[Defect]:
             ("acknowledged without writing", NOT_DONE, partial(_not_sent, driver), {}),
             ("a setting left out of the copy", SHORT, short, {}),
             *(
-                [("fsync removed at the control", NOT_ON_DISK, _no_sync_at_control, {})]
-                if run is not registers_run
+                [("fsync removed at the control", NOT_ON_DISK, no_sync, {})]
+                if (no_sync := _NO_SYNC.get(run, _no_sync_at_control))
                 else []
             ),
             *(
-                [("acknowledged by the control without writing", NOT_SAVED, _not_stored, {})]
-                if run in (terminal_run, table_run)
+                [("acknowledged by the control without writing", not_stored, _not_stored, {})]
+                if (not_stored := _NOT_STORED.get(run))
                 else []
             ),
         ):

@@ -105,6 +105,31 @@ def test_a_file_that_cannot_be_written_leaves_the_folder_as_it_was(
     assert (folder / "joints.inc").read_bytes() == JOINTS
 
 
+def test_files_that_cannot_be_put_back_are_named_and_the_others_go_back(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (folder / "axes.inc").write_bytes(b"[AXIS_X]\nMAX_VELOCITY = 30\n")
+    (folder / "mill.ini").write_bytes(b"#INCLUDE axes.inc\n" + MAIN)
+    file = read(folder)
+    file.take({("joint.ferror", "0"): Value(2.25, "mm"), ("axis.max_velocity", "X"): Value(45.0, "mm/s")})
+    file.set(("emc.machine", ""), Value("other"))
+    written: list[str] = []
+    write: Callable[..., str] = write_atomic
+
+    def failing(place: Path, *args: object, **more: object) -> str:
+        if place.name == "mill.ini" or (place.name == "joints.inc" and place.name in written):
+            raise SaveError("no space left")
+        written.append(place.name)
+        return write(place, *args, **more)
+
+    monkeypatch.setattr(driver_module, "write_atomic", failing)
+    with pytest.raises(TransferError, match=r"the control contains the new joints\.inc and the old") as broken:
+        sent(folder, file)
+    assert (broken.value.at_control, broken.value.new) == ("mixed", ("joints.inc",))
+    assert (folder / "axes.inc").read_bytes() == b"[AXIS_X]\nMAX_VELOCITY = 30\n"
+    assert b"2.25" in (folder / "joints.inc").read_bytes()
+
+
 def test_a_file_outside_of_the_folder_is_neither_read_nor_written(folder: Path) -> None:
     outside = folder.parent / "other.inc"
     outside.write_bytes(JOINTS)

@@ -184,14 +184,14 @@ class ConfigurationDriver(ConfigurationContent):
 
         A file that was not there before stays: nothing is deleted in the folder of a control.
         """
-        is_back = all(name in old for name in written)
-        try:
-            for name in reversed([name for name in written if name in old]):
+        stays = [name for name in written if name not in old]
+        for name in reversed([name for name in written if name in old]):
+            try:
                 self._write(name, old[name], new[name])
-        except (ChangedOnDiskError, SaveError):
-            is_back = False
-        if not is_back:
-            return TransferError(str(error), "mixed")
+            except (ChangedOnDiskError, SaveError):
+                stays.append(name)
+        if stays:
+            return TransferError(str(error), "mixed", new=tuple(name or self.path.name for name in stays))
         kind: Callable[..., TransferError] = (
             ImageChangedError if isinstance(error, ChangedOnDiskError) else TransferError
         )
