@@ -238,7 +238,7 @@ _NO_SYNC: Mapping[Run, Plant | None] = {registers_run: None, folder_run: _no_syn
 
 
 _NOT_STORED: Mapping[Run, str] = {terminal_run: NOT_SAVED, table_run: NOT_SAVED, house_run: NOT_DONE}
-"""What is noticed where a control with a memory of its own does not write it."""
+"""What is noticed where a control does not write its memory."""
 
 
 def _of_drivers() -> Iterator[Defect]:

@@ -98,7 +98,7 @@ def test_offsets_that_are_shown_in_inches_are_put_back_in_inches(bench: Bench) -
 
 @pytest.mark.parametrize("was", ["0", "1"])
 def test_offsets_stay_where_the_unit_of_reports_changes(bench: Bench, was: str) -> None:
-    """They were sent anew: 10 mm as 10 inches."""
+    """They were sent again: 10 mm as 10 inches."""
     bench.firmware.settings.store(13, was)
     bench.firmware.offsets["G54"] = "10.000,-20.401,0.500"
     file = edited(bench, n13="No" if was == "1" else "Yes", n130=301.5)

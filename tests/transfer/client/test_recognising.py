@@ -48,7 +48,7 @@ class Machine:
 
 @pytest.fixture
 def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Give a machine that is at the line but never says what is asked a second, not twelve."""
+    """Give a machine that is at the line but never answers a second, not twelve."""
     monkeypatch.setattr("amp_studio.families.grblhal.line.START", 1.0)
 
 
