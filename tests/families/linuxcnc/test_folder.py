@@ -123,7 +123,9 @@ def test_files_that_cannot_be_put_back_are_named_and_the_others_go_back(
         return write(place, *args, **more)
 
     monkeypatch.setattr(driver_module, "write_atomic", failing)
-    with pytest.raises(TransferError, match=r"the control contains the new joints\.inc and the old") as broken:
+    with pytest.raises(
+        TransferError, match=r"the control contains the new joints\.inc and the old"
+    ) as broken:
         sent(folder, file)
     assert (broken.value.at_control, broken.value.new) == ("mixed", ("joints.inc",))
     assert (folder / "axes.inc").read_bytes() == b"[AXIS_X]\nMAX_VELOCITY = 30\n"
