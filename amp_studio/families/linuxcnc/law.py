@@ -38,14 +38,18 @@ NO_LOOP = (
 RAMP = "The ramp is that of G61, jogs and homing; with G64 a path has half of it (measured on 2.9.0~pre1)."
 HOMED = (
     (
-        "Search, back or on at the latch speed to the switch or marker, which gets Position of the Switch,"
-        " and the final move to Home (H796 to H1330)."
+        "Search, back at the latch speed or, where it has the sign of the search, off and onto the switch"
+        " again, to the switch or marker, which gets Position of the Switch, and the final move to Home"
+        " (H796 to H1330)."
     ),
     "It rests on the switch for 0.1 s before it goes back (measured on 2.9.0~pre1).",
+    "Speeds of homing are at most that of the joint, and its acceleration counts (measured on 2.9.0~pre1).",
     "ASSUMED: markers 10 mm or deg apart, unless move.turn gives another distance.",
 )
+ENCODER = "ASSUMED: the absolute encoder shows 0 where the axis begins."
 LIMITED = (
     "A block beyond a limit is refused before it begins; a jog ends at it (CM218). Both ends may be reached."
+    " An arc that ends inside is begun, and stops once it has passed the limit (measured on 2.9.0~pre1)."
 )
 
 
@@ -164,12 +168,16 @@ def bind(read: AxisParameters) -> AxisLaw:
 
 
 def homing(joint: _Joint) -> Homing:
-    """Return the sequence of one joint; raises SimulationError for one that LinuxCNC refuses,
-    or that is not simulated.
-    """
+    """Return the sequence of one joint; raises SimulationError for one that LinuxCNC refuses."""
+    fastest = joint.number("max_velocity", 60.0) / 60.0
     search, latch = (
-        joint.number(name, 0.0) / 60.0 for name in ("home_search_velocity", "home_latch_velocity")
+        _at_most(fastest, joint.number(name, 0.0) / 60.0)
+        for name in ("home_search_velocity", "home_latch_velocity")
     )
+    encoder = joint.value("home_absolute_encoder")
+    is_absolute = encoder in ("with-final-move", "without-final-move")
+    if is_absolute:  # its place is known: no switch and no marker is looked for
+        search = latch = 0.0
     has_index = joint.value("home_use_index") in (True, "yes")
     if ((search != 0.0) and latch == 0.0) or (search == 0.0 and latch != 0.0 and not has_index):
         raise SimulationError(
@@ -177,34 +185,36 @@ def homing(joint: _Joint) -> Homing:
             " homed",
             ids.joint_home_latch_velocity,
         )
-    if search * latch > 0.0:
-        raise SimulationError(
-            "Search and latch of one sign, with a second approach, are not simulated",
-            ids.joint_home_latch_velocity,
-        )
     sequence = joint.optional("home_sequence")
     home, offset = joint.number("home", 0.0), joint.number("home_offset", 0.0)
     final = joint.number("home_final_velocity", -60.0) / 60.0
-    fastest = joint.number("max_velocity", 60.0) / 60.0
+    moves = encoder != "without-final-move"
     return Homing(
         approach=search,
         leave=latch,
+        again=abs(latch) if search * latch > 0.0 else 0.0,
         marker="next" if has_index else "none",
         turn=MOTION.value("marker_distance"),
-        coordinate=home,
-        final=final if final > 0.0 else fastest,
-        offset=home - offset,
+        coordinate=home if moves else offset,
+        final=0.0 if not moves else min(final, fastest) if final > 0.0 else fastest,
+        offset=home - offset if moves else 0.0,
         # The joints of a negative step make the final move together; its order is the same.
         order=None if sequence is None else abs(int(sequence)),
         pause=MOTION.value("home_pause"),
+        ramp=Ramp("linear", acceleration=joint.number("max_acceleration", 1.0)),
         speeds={
             "approach": ids.joint_home_search_velocity,
             "leave": ids.joint_home_latch_velocity,
+            "again": ids.joint_home_latch_velocity,
             **({"final": ids.joint_home_final_velocity} if final > 0.0 else {}),
         },
         page="H796",
-        notes=HOMED,
+        notes=(*HOMED, ENCODER) if is_absolute else HOMED,
     )
+
+
+def _at_most(fastest: float, velocity: float) -> float:
+    return math.copysign(min(abs(velocity), fastest), velocity)
 
 
 def jogging(read: AxisParameters, top: float) -> Jogging:
@@ -223,7 +233,8 @@ def travel(read: AxisParameters) -> Travel:
     """Return the limits of a homed axis; none where there is no key."""
     low, high = read.optional(ids.min_limit), read.optional(ids.max_limit)
     edges = (-math.inf if low is None else low, math.inf if high is None else high)
-    return Travel({"the limit of the axis": edges}, "exceed limit", "CM218", (LIMITED,), refuses=True)
+    limits = {"the limit of the axis": edges}
+    return Travel(limits, "exceed limit", "CM218", (LIMITED,), refuses=True, begins_arcs=True)
 
 
 LAW = Law(bind, axes, path="amp_studio.families.linuxcnc.law_path:path_rules")

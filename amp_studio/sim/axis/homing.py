@@ -68,8 +68,8 @@ def home_axis(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, home
         if homed.alarm or axis.is_over:
             return
     if homing.leave == 0.0:
-        homed.marker = homed.home = axis.measured
-        homed.coordinate = homing.coordinate
+        homed.marker = axis.measured
+        yield from _home(axis, homing, ramp, homed)
         return
     yield from _off(axis, homing, ramp, around, homed, edge)
 
@@ -132,22 +132,30 @@ def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: H
 
 
 def _again(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: Homed, edge: float) -> Orders:
-    """Back off, come onto the switch slowly and stop there at once, as often as asked."""
+    """Back off and come onto the switch slowly, as often as asked; after a pull-off stop there at once."""
     sign, back = math.copysign(1.0, homing.approach), homing.pull_off
+    far = LOCATE * back if back else abs(axis.position - edge) + MARKERS * homing.turn
     for _ in range(homing.passes):
         homed.begin("back", axis, homing.approach)
-        yield MoveOrder(axis.position - sign * back, abs(homing.approach), ramp)
+        if back:
+            yield MoveOrder(axis.position - sign * back, abs(homing.approach), ramp)
+        else:
+            off_at = sign * -math.inf if around.is_stuck else edge
+            yield GoOrder(-homing.approach, ramp, Watch(off_at, -sign), far)
+            yield StopOrder(ramp)
+            yield PauseOrder(homing.pause)
         if around.is_stuck or sign * (axis.load - edge) >= 0.0:
-            off = f"The switch does not go off within {value_text(back, axis.axis.unit)}"
+            off = f"The switch does not go off within {value_text(back or far, axis.axis.unit)}"
             # A later pass replaces the edge that an earlier one found.
             yield from _failed(homing, "stuck", ramp, homed, off)
             return
         homed.begin("again", axis, homing.again)
-        homed.left = yield GoOrder(sign * abs(homing.again), ramp, Watch(edge, sign), LOCATE * back)
+        homed.left = yield GoOrder(sign * abs(homing.again), ramp, Watch(edge, sign), far)
         if homed.left is None:
             yield from _failed(homing, "switch", ramp, homed, "The switch does not come on again")
             return
-        yield StopOrder(Ramp())
+        if back:
+            yield StopOrder(Ramp())
 
 
 def _off(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: Homed, edge: float) -> Orders:
@@ -168,11 +176,17 @@ def _off(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: Ho
         yield from _next_marker(axis, homing, ramp, around, homed, start)
         if homed.marker is None:
             return
-    elif homing.again:
+    elif homing.again and homing.pull_off:
         homed.marker = axis.position
     else:
         homed.marker = start
         yield StopOrder(ramp)
+    yield from _home(axis, homing, ramp, homed)
+
+
+def _home(axis: MovingAxis, homing: Homing, ramp: Ramp, homed: Homed) -> Orders:
+    """Go from the marker, or the place that counts as one, to the home position."""
+    assert homed.marker is not None
     homed.home = homed.marker + homing.offset
     if homing.final:
         homed.begin("final", axis, homing.final)

@@ -87,6 +87,7 @@ class Homing:
     """Speed of a second approach, after which the switch counts;
     the axis backs off by ``pull_off`` before and after it."""
     pull_off: float = 0.0
+    """0 for an axis that backs off until the switch goes off, and does not after it."""
     passes: int = 1
     """How often the second approach is made."""
     scale: CodedScale | None = None
@@ -196,6 +197,8 @@ class Travel:
     """Whether the loop is switched off at a limit instead."""
     refuses: bool = False
     """Whether a move beyond a limit is not begun."""
+    begins_arcs: bool = False
+    """Whether an arc that ends inside is begun, and the axis stops where it passes the limit."""
     slow: float = 0.0
     """u/s while an external deceleration is requested; 0 where the control has none."""
     reads_ahead: str = ""

@@ -74,9 +74,9 @@ def _beyond(
             row = int(np.argmax(beyond))
             is_low = bool(least[row] < low - BEYOND)
             edge, place = (low, least[row]) if is_low else (high, most[row])
-            begun = (
-                "the block is not begun" if travel.refuses or travel.reads_ahead else "the axis stops there"
-            )
+            ends_inside = low - BEYOND <= plan.geometry.ends[row, n] <= high + BEYOND
+            is_refused = (travel.refuses or travel.reads_ahead) and not (travel.begins_arcs and ends_inside)
+            begun = "the block is not begun" if is_refused else "the axis stops there"
             # A control that reads ahead refuses the block: it has another alarm than an axis that arrives
             # at a limit.
             code = travel.reads_ahead or (travel.alarm_negative if is_low else "") or travel.alarm

@@ -172,8 +172,10 @@ def ini(limits: dict[str, tuple[float, float]], homes: Mapping[str, str] = Mappi
     lines += ["[KINS]", "KINEMATICS = trivkins coordinates=XYZ", "JOINTS = 3"]
     for n, (axis, (speed, ramp)) in enumerate(limits.items()):
         own = [f"MAX_VELOCITY = {speed}", f"MAX_ACCELERATION = {ramp}", "MIN_LIMIT = -500", "MAX_LIMIT = 500"]
-        lines += [f"[AXIS_{axis}]", *own, f"[JOINT_{n}]", "TYPE = LINEAR", *own, "HOME_SEQUENCE = 0"]
-        lines += homes.get(axis, UNMOVED).split("|")
+        keys = homes.get(axis, UNMOVED).split("|")
+        given = {key.split(" = ")[0] for key in keys}
+        others = [line for line in own if line.split(" = ")[0] not in given]
+        lines += [f"[AXIS_{axis}]", *own, f"[JOINT_{n}]", "TYPE = LINEAR", *others, "HOME_SEQUENCE = 0", *keys]
         lines += ["FERROR = 50", "MIN_FERROR = 10"]
     return "\n".join(lines) + "\n"
 

@@ -52,12 +52,9 @@ def test_home_gets_its_coordinate_after_the_move_from_the_marker(mill: Parameter
     [
         {"home_latch_velocity": 0.0},
         {"home_search_velocity": 0.0, "home_use_index": False},
-        {"home_latch_velocity": 4.0},
     ],
 )
-def test_a_homing_that_the_control_refuses_or_that_is_not_simulated_names_the_latch(
-    mill: ParameterFile, values: dict
-) -> None:
+def test_a_homing_that_the_control_refuses_names_the_latch(mill: ParameterFile, values: dict) -> None:
     with pytest.raises(SimulationError) as caught:
         simulate(joint(mill, **values), "home", axis="X")
     assert "latch" in str(caught.value)
