@@ -175,7 +175,15 @@ def ini(limits: dict[str, tuple[float, float]], homes: Mapping[str, str] = Mappi
         keys = homes.get(axis, UNMOVED).split("|")
         given = {key.split(" = ")[0] for key in keys}
         others = [line for line in own if line.split(" = ")[0] not in given]
-        lines += [f"[AXIS_{axis}]", *own, f"[JOINT_{n}]", "TYPE = LINEAR", *others, "HOME_SEQUENCE = 0", *keys]
+        lines += [
+            f"[AXIS_{axis}]",
+            *own,
+            f"[JOINT_{n}]",
+            "TYPE = LINEAR",
+            *others,
+            "HOME_SEQUENCE = 0",
+            *keys,
+        ]
         lines += ["FERROR = 50", "MIN_FERROR = 10"]
     return "\n".join(lines) + "\n"
 

@@ -48,11 +48,7 @@ def test_home_gets_its_coordinate_after_the_move_from_the_marker(mill: Parameter
 
 
 @pytest.mark.parametrize(
-    "values",
-    [
-        {"home_latch_velocity": 0.0},
-        {"home_search_velocity": 0.0, "home_use_index": False},
-    ],
+    "values", [{"home_latch_velocity": 0.0}, {"home_search_velocity": 0.0, "home_use_index": False}]
 )
 def test_a_homing_that_the_control_refuses_names_the_latch(mill: ParameterFile, values: dict) -> None:
     with pytest.raises(SimulationError) as caught:
