@@ -12,7 +12,7 @@ from amp_studio.front_pages import front_page
 if TYPE_CHECKING:
     from .frame import Placement
     from .labels import SAMPLE, Heading, Label, Labels, heading_of, labels_of
-    from .panels import linked, map_scene, on_divisions, panel_of, ring_scene, zoomed
+    from .panels import linked, map_scene, on_divisions, panel_of, ring_scene, round_divisions, zoomed
     from .record import scene_json
     from .scene import (
         LEAST,

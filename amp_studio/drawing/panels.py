@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from amp_studio.schema import unit_text
 
 from .scene import Curve, Dot, HeatMap, NamedPlace, Point, Polyline, Ring, Scale, Scene, ShapeSort, Text
-from .ticks import figure_text, round_step
+from .ticks import figure_text, multiple, round_step
 
 if TYPE_CHECKING:
     from .scene import Series
@@ -99,6 +99,13 @@ def on_divisions(panel: Scene, per_division: float, middle: float) -> Scene:
     half = 0.5 * DIVISIONS * abs(per_division)
     scale = replace(panel.y, low=middle - half, high=middle + half, step=abs(per_division), is_fixed=True)
     return replace(panel, y=scale)
+
+
+def round_divisions(panel: Scene) -> Scene:
+    """Return a panel with the least round scale on which all of it is seen."""
+    # The middle is a multiple too, so it is up to half a division from that of the curves.
+    per = round_step((panel.y.high - panel.y.low) / (DIVISIONS - 1))
+    return on_divisions(panel, per, multiple(0.5 * (panel.y.low + panel.y.high), per))
 
 
 def visible(

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
         ImageChangedError,
         ImageDamagedError,
         ImageRejectedError,
+        MovingError,
         NoConnectionError,
         NotInEmergencyStopError,
         ProtocolMismatchError,

@@ -112,6 +112,10 @@ class ControlBusyError(TransferError):
     """Another client has the control."""
 
 
+class MovingError(TransferError):
+    """The control answers, and cannot be read while its axes move."""
+
+
 class ConnectionCutError(TransferError):
     """The line broke and could not be made again in time."""
 

@@ -49,6 +49,7 @@ def test_a_file_is_sent_read_back_and_read_again(
     assert count > 100
     assert not page.primary.isEnabled(), "what can be dangerous is not checked"
     page = sent(window, control.address, qtbot)
+    assert page.detail.text() == "", "no row is listed beside the proof"
     (kept,) = window.workspace.path.parent.glob("mill.before-*.img")
     assert page.session.phase == "done"
     assert "complete and read back equal" in page.empty.text()

@@ -138,7 +138,7 @@ def test_how_an_exchange_ended_is_german() -> None:
         " What it contained before is kept in /tmp/mill.img."
     )
     assert ended == (
-        "Übertragung fertig und gleich zurückgelesen. Damit es gilt, die Steuerung neu starten."
+        "Übertragung fertig, und das Zurückgelesene ist gleich. Damit es gilt, die Steuerung neu starten."
         " Was sie vorher enthielt, liegt in /tmp/mill.img."
     )
     away = german.message("no connection to the control (tcp://10.0.0.1:9600: nothing listens there)")

@@ -14,10 +14,12 @@ from pytestqt.qtbot import QtBot
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value
-from amp_studio.transfer import AxisStatus, ControlStatus, known_fault
-from amp_studio.transfer.errors import NoConnectionError
+from amp_studio.transfer import AxisStatus, ControlIdentity, ControlStatus, known_fault
+from amp_studio.transfer.errors import ConnectionCutError, NoConnectionError
+from amp_studio.ui.actions.control import state_in_words
 from amp_studio.ui.control import readings as live
 from amp_studio.ui.control.readings import StatusReadings
+from amp_studio.ui.control.session import ControlSession
 from amp_studio.ui.live.page import LiveView
 from amp_studio.ui.live.rows import CONTROL, MIND, NAME, TurnedValue
 from amp_studio.ui.main_window import MainWindow
@@ -57,13 +59,19 @@ class StoppedSession(QObject):
         self.address, self.family = "tcp://bench:1", file.schema.family.family
         self.content = file
         self.seen = SimpleNamespace(takes_one=takes_one)
-        self.is_seen_old = False
+        self.is_seen_old = self.is_refused = False
         self.phase, self.is_busy, self.error, self.refuses = "ready", False, "", ""
         self.failure = SimpleNamespace(at_control="old")
         self.written: list[tuple[Address, Value | None]] = []
 
     def present(self, _file: ParameterFile) -> ParameterFile:
         return self.content
+
+    def lose(self, error: Exception) -> None:
+        self.phase, self.error = "away", str(error)
+
+    def hear(self) -> None:
+        self.phase, self.error = "ready", ""
 
     def read(self) -> None:
         self.phase = "ready"
@@ -396,3 +404,69 @@ def test_a_german_page_has_the_faults_words_and_notes_in_german(page: LiveView) 
     assert ">Maximum travel</a>" in page.panel.faults.text()
     assert page.panel.values.text() == "Alarm, Spindeldrehzahl 0"
     assert page.panel.notes.text().startswith("Positionen in Maschinenkoordinaten")
+
+
+def test_a_line_that_is_lost_is_called_lost_where_the_control_is_shown_until_it_answers_again(
+    page: LiveView,
+) -> None:
+    """The tool bar had "ready" beside a control whose cable was out, and the frame still wrote."""
+    session = ControlSession("tcp://bench:1", "57c422b")
+    content = session_of(page).content
+    identity = ControlIdentity("57c422b", "bench", "module", "", None)
+    session._take_seen(SimpleNamespace(control=identity, takes_one=True, file=content))  # type: ignore[arg-type]  # what a page asks of it
+    page.use(session, "tcp://bench:1", "bench", readings=StoppedReadings())  # type: ignore[arg-type]  # the parts that it uses
+    page.readings.start()
+    page.show_status(status())
+    assert (state_in_words(session), page.state) == (("ready", False), ("live", False))
+    page.frame.step(1)
+    assert page.frame.write.isEnabled()
+    page.readings.is_running = False
+    page.readings.failed.emit(ConnectionCutError("the line to the control broke (tcp://bench:1: gone)"))
+    assert state_in_words(session) == ("connection lost", True)
+    assert page.frame.hint.text().startswith("The line to the control broke")
+    assert not page.frame.write.isEnabled()
+    page.readings.start()
+    page.show_status(status())
+    assert state_in_words(session) == ("ready", False)
+    assert page.frame.write.isEnabled()
+
+
+def test_a_control_without_an_answer_is_not_called_live(page: LiveView) -> None:
+    page.show_status(status())
+    states: list[tuple[str, bool]] = []
+    page.changed.connect(lambda: states.append(page.state))
+    page._silent()
+    page.show_status(status())
+    assert states == [("no answer", True), ("live", False)]
+
+
+@pytest.mark.parametrize("why", ["read-only", "not read"])
+def test_without_a_way_into_the_file_there_is_a_reason_and_the_page_stays(
+    page: LiveView, user: User, monkeypatch: pytest.MonkeyPatch, why: str
+) -> None:
+    """The page was left without a word, and neither file nor control had what was wanted."""
+    user.answers("Write Now", "Take into the File", "Leave in the Control")
+    page.write(GAIN, Value(89, ""))
+    if why == "read-only":
+        monkeypatch.setattr(type(page._workspace), "may_edit", property(lambda _: False))
+    else:
+        session_of(page).is_seen_old = True
+    assert not page.may_turn_away()
+    assert "nothing was taken into" in page.bar.text.text()
+    assert page._workspace.file.get(GAIN).value == 78
+    assert list(page.turned) == [GAIN]
+    assert page.may_turn_away()
+
+
+def test_a_control_that_cannot_be_read_while_it_moves_is_looked_at_all_the_same(page: LiveView) -> None:
+    """A Grbl answers $I and $$ at rest alone, and Live of one that moved ended before it had begun."""
+    session = session_of(page)
+    page.readings.stop()
+    session.is_refused, session.phase = True, "away"
+    session.error = "the control cannot be read while it moves"
+    session.seen = session.content = None  # type: ignore[assignment]  # nothing was read
+    page._is_own = True
+    session.changed.emit()
+    assert page.is_live
+    assert page.reason.text() == "The control cannot be read while it moves"
+    assert not page.read.isHidden()

@@ -5,12 +5,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 from amp_studio.sim import read_recording, simulate
 from amp_studio.transfer import AxisStatus
-from amp_studio.ui.live.recorder import LiveRecording, move_of
+from amp_studio.ui.live.record_picture import move_of
+from amp_studio.ui.live.recorder import LiveRecording
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import WAIT_MS
@@ -147,3 +149,28 @@ def test_a_move_in_inches_is_simulated_in_the_units_of_the_file(recorder: LiveRe
     assert recorder.record is not None
     _, settings, _ = move_of(file, recorder.record)
     assert settings == {"move.distance": 2.0, "move.feedrate": pytest.approx(300.0)}
+
+
+def test_the_title_of_a_signal_has_its_scale_which_can_be_chosen_with_its_middle(
+    recorder: LiveRecording,
+) -> None:
+    """A signal had a scale that followed it, which no title named, and two of three signals were drawn."""
+    for n, place in enumerate((100.0, 130.0, 160.0)):
+        recorder.take(0.2 * n, AxisStatus("X", place, 3.0, 150.0, "counts"))
+    give(recorder, [160.0], begin=0.6)
+    assert [(each.title, each.subtitle) for each in recorder.plot.panels] == [
+        ("following error", "0.5 counts per division"),
+        ("velocity", "50 counts/s per division"),
+    ]
+    table = recorder.channels
+    assert table.isHidden()
+    recorder.scales.click()
+    assert not table.isHidden()
+    table.item(1, 0).setCheckState(Qt.CheckState.Checked)
+    table.item(1, 1).setText("25")
+    table.item(1, 2).setText("150")
+    place = recorder.plot.panels[1]
+    assert (place.title, place.subtitle) == ("position", "25 counts per division")
+    assert (place.y.low, place.y.high) == (50.0, 250.0)
+    table.item(0, 0).setCheckState(Qt.CheckState.Unchecked)
+    assert [each.title for each in recorder.plot.panels] == ["position", "velocity"]

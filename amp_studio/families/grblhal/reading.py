@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable, Mapping
 
 from amp_studio.schema import DescriptionError, visible
-from amp_studio.transfer import Progress, ProtocolMismatchError, quiet
+from amp_studio.transfer import MovingError, Progress, ProtocolMismatchError, quiet
 
 from .content import ENUMERATIONS, IDENTITY, OFFSETS, GrblContent, write_content
 from .description import read_description
@@ -23,12 +23,17 @@ _STARTUP = re.compile(r"\$N(\d)=(.*)")
 
 
 def read_identity(line: GrblLine) -> GrblContent:
-    """Return who answers, without its settings; raises ProtocolMismatchError for what is no Grbl."""
+    """Return who answers, without its settings; raises ProtocolMismatchError for what is no Grbl,
+    and MovingError.
+    """
     try:
         lines = line.ask("$I")
     except GrblRefusalError as refusal:
-        why = "the machine moves" if refusal.code == 8 else f"it answers {refusal} to $I"
-        raise ProtocolMismatchError(f"the control does not say what it is: {why}") from None
+        if refusal.code == 8:
+            raise MovingError("the control cannot be read while the machine moves", "") from None
+        raise ProtocolMismatchError(
+            f"the control does not say what it is: it answers {refusal} to $I"
+        ) from None
     kept = tuple(_clean(text) for text in lines if (f := _NAMED.fullmatch(text)) and f[1] in IDENTITY)
     if not any(text.startswith("[VER:") for text in kept):
         raise ProtocolMismatchError("what answers there is no Grbl control: it has no version")

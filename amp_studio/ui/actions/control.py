@@ -267,7 +267,8 @@ class ControlDesk(Translated):
         """Remember how an exchange ended, and the values of the control beside those of the file."""
         seen = session.seen
         family, name = (seen.control.family, seen.control.name) if seen is not None else (session.family, "")
-        self.exchanges.remember_contact(session.address, verb, reached=reached, family=family, name=name)
+        has_answered = reached or session.is_refused
+        self.exchanges.remember_contact(session.address, verb, reached=has_answered, family=family, name=name)
         workspace = self._workspace_of[session]
         if workspace is None or not is_alive(workspace) or not reached:
             return
@@ -340,7 +341,7 @@ class ControlDesk(Translated):
         session = self._sessions.get((address, family, str(workspace.path) if workspace is not None else ""))
         live = self._live
         if live is not None and is_alive(live) and live.session is session and live.is_live:
-            return self._name_of(address), self.tr("live"), False
+            return self._name_of(address), *live.state
         return self._name_of(address), *state_in_words(session)
 
     @property
@@ -417,7 +418,7 @@ def state_in_words(session: ControlSession | None) -> tuple[str, bool]:
     if session.phase == "ready" and session.in_estop is False:
         return tr("not in E-stop"), True
     words = {
-        "away": _lost(session) if session.error else tr("not connected"),
+        "away": _away(session),
         "connecting": tr("connecting"),
         "ready": tr("ready"),
         "running": tr("sending"),
@@ -434,8 +435,12 @@ def _place_of(address: str) -> str:
     return (address.partition("://")[2] or address).partition("?")[0]
 
 
-def _lost(session: ControlSession) -> str:
-    return tr("not reached") if session.seen is None else tr("connection lost")
+def _away(session: ControlSession) -> str:
+    if not session.error:
+        return tr("not connected")
+    if session.is_refused:
+        return tr("moves, not read")
+    return tr("connection lost") if session.has_answered else tr("not reached")
 
 
 def check_copy(copy: Copy, path: Path) -> None:

@@ -364,7 +364,8 @@ class ControlPage(ControlPageParts):
         """Show what the current row is about, and what can be done with it alone."""
         row, session = self.table.current(), self.session
         is_sending = self.direction == "send"
-        self.detail.setText(self.table.current_in_words(with_dangers=is_sending))
+        is_listed = self.middle.currentWidget() is self.table  # else no row is seen
+        self.detail.setText(self.table.current_in_words(with_dangers=is_sending) if is_listed else "")
         is_ready = session is not None and session.phase == "ready"
         self._show_row_buttons(row if is_sending and is_ready else None)
         count = len(self.table.dangers()) if is_sending else 0

@@ -98,11 +98,8 @@ class AxisReadings:
                 self.signals.setdefault(name, deque(maxlen=KEPT)).append((now, value))
 
     def picture(self) -> Picture | None:
-        """Return following error and velocity as dots, or the position of a control that shows no error;
-        nothing is known between two readings.
-        """
-        first = "following error" if "following error" in self.signals else "position"
-        names = [name for name in (first, "velocity") if name in self.signals]
+        """Return what the control shows as dots; nothing is known between two readings."""
+        names = [each for each in ("following error", "position", "velocity") if each in self.signals]
         return Picture("", (), tuple(map(self._panel, names))) if names else None
 
     def _panel(self, name: str) -> Scene:

@@ -71,6 +71,8 @@ class ControlSession(QObject):
         self.outcome: Outcome | None = None
         self.backup_name = ""
         """The backup that was put back last; empty where a file or a value was sent."""
+        self.has_answered = self.is_refused = False
+        """Whether it ever answered; and whether the last answer was that it moves and cannot be read."""
         self.needs_password = False
         self.has_password = False
         """Whether one was entered for it here."""
@@ -88,7 +90,7 @@ class ControlSession(QObject):
 
     def read(self) -> None:
         """Connect and read all that the control contains."""
-        self.error, self.failure, self.outcome = "", None, None
+        self.error, self.failure, self.outcome, self.is_refused = "", None, None, False
         self._begin("connecting", self._read_control, self._take_seen, self._not_reached)
 
     def ask(self) -> None:
@@ -140,13 +142,35 @@ class ControlSession(QObject):
         self._take_state(seen.control)
         self.ended.emit("connect", True)
 
+    def lose(self, error: Exception) -> None:
+        """Take it that the control is not reached any more: another line to it was lost. How an exchange
+        failed stays.
+        """
+        if not self.is_busy and self.phase != "failed":
+            self.error, self.phase, self.is_refused = str(error), "away", False
+            self.changed.emit()
+
+    def hear(self) -> None:
+        """Take it that the control has answered on another line: it is there again where it was lost."""
+        self.has_answered = True
+        if self.is_busy or self.is_refused or self.phase != "away" or not self.error:
+            return
+        self.error = ""
+        if self.seen is not None and not self.is_seen_old:
+            self.phase = "ready"
+        self.changed.emit()
+
     def _take_state(self, control: ControlIdentity) -> None:
+        self.has_answered = True
         self.in_estop, self.asked_at = control.in_estop, datetime.now(UTC).astimezone()
 
     def _not_reached(self, error: Exception) -> None:
+        from amp_studio.transfer import MovingError
         from amp_studio.transfer.links import PasswordError
 
         self.error, self.phase = str(error), "away"
+        self.is_refused = isinstance(error, MovingError)
+        self.has_answered |= self.is_refused
         if isinstance(error.__cause__, PasswordError):
             self.needs_password = True  # a wrong one is asked for again
         self.ended.emit("connect", False)

@@ -73,7 +73,7 @@ class LiveView(LivePageParts):
         self._why = ""
         self._then: Callable[[], object] | None = None
         """What takes the line once the readings have left it."""
-        self._is_own = self._is_away = False
+        self._is_own = self._is_away = self._is_silent = False
         self._asked: set[Address] = set()
         """Values that a person has agreed to have written from here."""
         self._writing: tuple[Address, Value | None] | None = None
@@ -206,6 +206,11 @@ class LiveView(LivePageParts):
         """Whether the control is being asked."""
         return self.readings is not None and self.readings.is_running
 
+    @property
+    def state(self) -> tuple[str, bool]:
+        """How the control answers while it is asked, in words, and whether that needs a look."""
+        return (self.tr("no answer"), True) if self._is_silent else (self.tr("live"), False)
+
     def start(self) -> None:
         """Begin to ask: first what the control contains, where that takes nobody at its keys."""
         session = self.session
@@ -261,17 +266,21 @@ class LiveView(LivePageParts):
     def _over(self, error: object) -> None:
         self._silence.stop()
         self._clock.stop()
+        self._is_silent = False
         self.panel.grey(True)
         self._show_age()
+        if isinstance(error, Exception) and self.session is not None:
+            self.session.lose(error)
         self.changed.emit()
         if self._then is not None:
             then, self._then = self._then, None
             then()
             return
         if isinstance(error, Exception):  # of an exchange without what the control contains: this reads only
-            what = message_in_words(getattr(error, "what", "") or str(error))
-            text = f"{what[:1].upper()}{what[1:]}"
+            text = _sentence_of(getattr(error, "what", "") or str(error))
             self.bar.say(text, "error", (self.tr("Try Again"), self.start), self._to_control())
+            self.frame.refuse(text)
+            self._refused_in = None  # the next reading allows it
         elif self._why and not self._is_away:
             self.bar.say(self._why, "advice", (self.tr("Go On"), self.start))
 
@@ -287,6 +296,8 @@ class LiveView(LivePageParts):
                 "warning",
             )
             self.panel.grey(True)
+            self._is_silent = True
+            self.changed.emit()
 
     def _show_age(self) -> None:
         """Show how often the control answers, and how old its last answer is."""
@@ -315,6 +326,11 @@ class LiveView(LivePageParts):
         self._answered, self._status = datetime.now(UTC).astimezone(), status
         if self.bar.isVisible() and self.panel.readings.isEnabled() is False:
             self.bar.hide()
+        if self.session is not None:
+            self.session.hear()
+        if self._is_silent:
+            self._is_silent = False
+            self.changed.emit()
         if names := [axis.axis for axis in status.axes]:
             self._offer_axes(names, self.axes.choice or names[0])
         is_new = self.happened.take(status)
@@ -376,6 +392,8 @@ class LiveView(LivePageParts):
         why = ""
         if present is None or seen is None:
             why = self.tr("What the control contains now was not read.")
+            if self.session is not None and self.session.is_refused:
+                why = _sentence_of(self.session.error)
         elif not seen.takes_one:
             why = self.tr("Reads only: this control takes no single values. Send the file (F5).")
         elif address is None or self._workspace.is_masked(address):
@@ -449,13 +467,21 @@ class LiveView(LivePageParts):
             self._asked.add(address)
             self.write(address, turned.before)
 
-    def take(self, address: Address) -> None:
-        """Take a value of the control into the file, as one step of undo."""
+    def take(self, address: Address) -> bool:
+        """Take a value of the control into the file, as one step of undo; where it cannot, the bar has the reason."""
         present = self._present()
-        if present is not None and self._workspace.may_edit:
-            self._workspace.edit(self.tr("Take from Live"), {address: present.get(address)})
-            self.turned.pop(address, None)
-            self._show_control()
+        why = ""
+        if not self._workspace.may_edit:
+            why = self.tr("The file is read-only: nothing was taken into it.")
+        elif present is None:
+            why = self.tr("What the control contains now was not read: nothing was taken into the file.")
+        if present is None or why:
+            self.bar.say(why, "error")
+            return False
+        self._workspace.edit(self.tr("Take from Live"), {address: present.get(address)})
+        self.turned.pop(address, None)
+        self._show_control()
+        return True
 
     def _with_line(self, act: Callable[[], object]) -> None:
         """Do something that needs the line; the readings leave it for that and come back afterwards."""
@@ -507,10 +533,9 @@ class LiveView(LivePageParts):
         elif self._queue:
             self._put_next_back()
             return
-        if session.phase == "away" and session.error:
-            text = message_in_words(session.error)
+        if session.phase == "away" and session.error and not session.is_refused:
             again = (self.tr("Try Again"), self.start)
-            self.bar.say(f"{text[:1].upper()}{text[1:]}", "error", again, self._to_control())
+            self.bar.say(_sentence_of(session.error), "error", again, self._to_control())
             return
         self._ask()
 
@@ -518,8 +543,7 @@ class LiveView(LivePageParts):
         """Show why a value was not written; what the control contains is read where it is not known then."""
         self._writing = None
         self._queue.clear()
-        text = message_in_words(session.error)
-        text = f"{text[:1].upper()}{text[1:]}"
+        text = _sentence_of(session.error)
         self.frame.refuse(text)
         if self._is_away:
             self.noted.emit(text)
@@ -555,8 +579,7 @@ class LiveView(LivePageParts):
             self._queue = [(a, t.before) for a, t in self.turned.items() if t.before is not None]
             self._put_next_back()
         elif answer == keep:
-            for address in list(self.turned):
-                self.take(address)
+            return all(map(self.take, list(self.turned)))
         elif answer == leave:
             self.turned.clear()
             self._show_control()
@@ -593,6 +616,11 @@ class LiveView(LivePageParts):
         self._is_away = True
         if self.readings is not None:
             self.readings.stop()
+
+
+def _sentence_of(error: str) -> str:
+    text = message_in_words(error)
+    return f"{text[:1].upper()}{text[1:]}"
 
 
 def _name_of(group: Group) -> str:

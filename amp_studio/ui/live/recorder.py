@@ -4,7 +4,7 @@ same move with the values that the control contains.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -15,6 +15,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QComboBox,
     QFileDialog,
+    QHBoxLayout,
     QLabel,
     QLineEdit,
     QMenu,
@@ -25,27 +26,22 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.drawing import Curve, NamedPlace, Picture, Scene, linked, panel_of, picture_svg
+from amp_studio.drawing import Picture, picture_svg
 from amp_studio.files import ParameterFile, write_atomic
-from amp_studio.schema import UnitError, convert, read_number
-from amp_studio.sim import (
-    LiveRecorder,
-    SignalRecord,
-    SimulationError,
-    Trace,
-    read_recording,
-    unit_factor,
-    write_recording,
-)
+from amp_studio.schema import read_number
+from amp_studio.sim import LiveRecorder, SignalRecord, SimulationError, Trace, read_recording, write_recording
 from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, colour, font, icon, scheme
-from amp_studio.ui.base.translated import sentenced, tr, unit_in_words, worded
+from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.control.readings import AxisReadings
 from amp_studio.ui.control.rows import side_by_side
+from amp_studio.ui.forms.channel_scales import ChannelScales
 from amp_studio.ui.motion.run import AskedMotion, SimulatedMotion, run_motion
+
+from .record_picture import SIGNALS, move_of, record_picture, signals_of
 
 if TYPE_CHECKING:
     from amp_studio.transfer import AxisStatus
@@ -54,11 +50,7 @@ AFTER_FAULT = 0.5
 """s that are recorded after a fault: what led to it is kept."""
 DRAWN_EVERY = 2
 """Readings from one picture to the next while nothing is recorded: to paint one costs more than to read."""
-SPARSE = 50.0
-"""Readings in a second below which they are dots: nothing is known between them."""
-FAR = 1.6
-"""A limit below this multiple of the largest error is drawn."""
-_FIELD = 52
+_FIELD, _TABLE = 52, 300
 _LEAST_PLOT = 80
 
 
@@ -83,6 +75,8 @@ class LiveRecording(QWidget):
         self.trace: Trace | None = None
         self._task: Task | None = None
         self._remark = self._problem = ""
+        self._whole: Picture | None = None
+        """What is there to draw, with all signals."""
         self._missing: tuple[str, ...] = ()
         self._reasons: Mapping[str, str] = {}
         self._build()
@@ -119,6 +113,11 @@ class LiveRecording(QWidget):
         self.to_csv = menu.addAction(self.tr("Record as &CSV…"), partial(self._save, "csv"))
         self.to_svg = menu.addAction(self.tr("Picture as &SVG…"), partial(self._save, "svg"))
         self.export.setMenu(menu)
+        self.channels = ChannelScales(is_divided=True, unticked=_beside_two)
+        self.channels.setFixedWidth(_TABLE)
+        self.channels.hide()
+        self.scales = _tool("sliders-horizontal", self.tr("Signals, scale and middle of each"))
+        self.scales.setCheckable(True)
         self.toggle = QPushButton()
         self.toggle.setAutoDefault(False)
         self.toggle.setToolTip(self.tr("Space starts and stops the record"))
@@ -139,6 +138,7 @@ class LiveRecording(QWidget):
             self.level,
             self.before_label,
             self.before,
+            self.scales,
             self.open,
             self.export,
             self.toggle,
@@ -150,9 +150,14 @@ class LiveRecording(QWidget):
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
         column.addWidget(head)
-        column.addWidget(self.plot, 1)
+        across = QHBoxLayout()
+        across.addWidget(self.plot, 1)
+        across.addWidget(self.channels)
+        column.addLayout(across, 1)
         column.addWidget(self.foot)
         self.toggle.clicked.connect(self.start_or_stop)
+        self.scales.toggled.connect(self.channels.setVisible)
+        self.channels.rescaled.connect(self._redraw)
         self.open.clicked.connect(self._ask)
         self.trigger.currentIndexChanged.connect(lambda _: self._show_state())
         self.plot.read.connect(lambda _: self._show_foot())
@@ -171,6 +176,7 @@ class LiveRecording(QWidget):
             self.stop()
             self._axis, self._recent, self._last = axis, AxisReadings(), None
             self._forget()
+            self._whole = None
             self.plot.clear_picture()
             self._show_state()
 
@@ -194,7 +200,7 @@ class LiveRecording(QWidget):
             self._count += 1
             is_due = self._count % DRAWN_EVERY == 0 or last is None
             if self.record is None and is_due and (picture := self._recent.picture()):
-                self.plot.draw(picture)
+                self._show(picture)
                 self._show_foot()
             return
         self._recorder.add(seconds, figures)
@@ -205,7 +211,7 @@ class LiveRecording(QWidget):
         if self._recorder.is_done or (self._ends_at is not None and seconds >= self._ends_at):
             self.stop()
         elif self._recorder.count > 1:
-            self.plot.draw(record_picture(self._recorder.recording(axis.axis), self._recorder.fired_after))
+            self._show(record_picture(self._recorder.recording(axis.axis), self._recorder.fired_after))
             self._show_state()
 
     def _fires(self, last: AxisStatus | None, axis: AxisStatus, is_fault: bool) -> bool:
@@ -334,8 +340,18 @@ class LiveRecording(QWidget):
 
     def _draw(self) -> None:
         if self.record is not None:
-            self.plot.draw(record_picture(self.record, self._fired, self.trace))
+            self._show(record_picture(self.record, self._fired, self.trace))
         self._show_foot()
+
+    def _show(self, picture: Picture) -> None:
+        """Draw a picture with the signals that are ticked, on their scales."""
+        self._whole = picture
+        self.plot.draw(self.channels.scaled(picture))
+
+    def _redraw(self) -> None:
+        if self._whole is not None:
+            self._show(self._whole)
+            self._show_foot()
 
     def _show_state(self) -> None:
         recorder, key = self._recorder, self.trigger.currentData()
@@ -385,14 +401,14 @@ class LiveRecording(QWidget):
         """Return what the cursors read, and how far the simulation is away."""
         a, b = self.plot.cursors
         parts = [self.tr("A to B {time} s").format(time=written(f"{abs(b - a):.3f}"))]
-        for signal in _signals(record):
+        for signal in signals_of(record):
             values, unit = record.signals[signal], unit_in_words(record.units.get(signal, ""))
             one, two = (float(values[int(np.argmin(np.abs(record.time - at)))]) for at in (a, b))
             words = worded(signal.replace("_", " "))
             parts.append(f"{words} {written(f'{one:.5g}')} → {written(f'{two:.5g}')} {unit}")
         if self.trace is None:
             return parts
-        for signal in _signals(record):
+        for signal in signals_of(record):
             value, unit = self.trace.result.get(f"difference_rms_{signal}", (None, ""))
             if value is not None:
                 parts.append(
@@ -429,72 +445,10 @@ class LiveRecording(QWidget):
         self._show_foot()
 
 
-def move_of(file: ParameterFile, record: SignalRecord) -> tuple[SignalRecord, dict[str, float | str], str]:
-    """Return a record with its position counted from its beginning, and the settings of the move that it
-    shows, in words too; raises SimulationError where the axis did not move.
-    """
-    position = record.signals.get("position")
-    if position is None or float(np.ptp(position)) == 0.0:
-        raise SimulationError(tr("The axis did not move: nothing is simulated."))
-    unit = record.units.get("position", "")
-    distance = float(position[-1] - position[0])
-    speeds = record.signals.get("velocity")
-    if speeds is None or not float(np.max(np.abs(speeds))):
-        speeds = np.diff(position) / np.diff(record.time)
-    feed = 60.0 * float(np.max(np.abs(speeds)))
-    system = file.schema.family.units.get(file.header.units, {})
-    wanted = system.get("length", unit)
-    try:
-        factor = convert(1.0, unit, wanted) if unit not in ("", "counts", wanted) else 1.0
-    except UnitError:
-        factor = 1.0
-    way = f"{written(f'{distance:.5g}')} {unit_in_words(unit)}"
-    words = tr("simulated: {distance} at {feed}/min, as recorded").format(
-        distance=way, feed=f"{written(f'{feed:.5g}')} {unit_in_words(unit)}"
-    )
-    zeroed = replace(record, signals={**record.signals, "position": position - position[0]})
-    return zeroed, {"move.distance": distance * factor, "move.feedrate": feed * factor}, words
-
-
-def _signals(record: SignalRecord) -> list[str]:
-    """Return the two signals that have room: the error, or the position without one, and the speed."""
-    first = "following_error" if "following_error" in record.signals else "position"
-    second = "velocity" if "velocity" in record.signals else "position"
-    return [each for each in dict.fromkeys((first, second)) if each in record.signals]
-
-
-def record_picture(record: SignalRecord, fired: float | None, trace: Trace | None = None) -> Picture:
-    """Return a record over its time, with its trigger, and the simulation under it shifted to fit."""
-    marks = (NamedPlace(tr("trigger"), fired),) if fired else ()
-    return Picture("", (), linked([_panel(record, signal, marks, trace) for signal in _signals(record)]))
-
-
-def _panel(record: SignalRecord, signal: str, marks: tuple[NamedPlace, ...], trace: Trace | None) -> Scene:
-    time, values, unit = record.time, record.signals[signal], record.units.get(signal, "")
-    sparse = len(time) - 2 < SPARSE * float(time[-1] - time[0])
-    curves = [Curve(tr("machine"), time, values, "now", dots=sparse)]
-    levels: list[NamedPlace] = []
-    if trace is not None and f"recorded_{signal}" in trace.columns:
-        factor = unit_factor(record.name, signal, unit, trace.units[signal])
-        zero = float(values[0]) if signal == "position" else 0.0
-        lag = trace.result["record_lag"][0] or 0.0
-        here = trace.columns["time_s"] + lag
-        seen = (here >= time[0]) & (here <= time[-1])
-        under = trace.columns[signal][seen] / factor + zero
-        curves.insert(0, Curve(tr("simulated"), here[seen], under, "before"))
-        if signal == "following_error":
-            levels = _levels(trace, float(np.max(np.abs(values))) * factor, factor)
-    return panel_of(signal.replace("_", " "), curves, ("time", "s"), unit, marks=marks, levels=levels)
-
-
-def _levels(trace: Trace, most: float, factor: float) -> list[NamedPlace]:
-    """Return the limits of the error that are near it, on both sides."""
-    near = {name: level for name, (level, _) in trace.limits.items() if level and level <= FAR * most}
-    return [
-        NamedPlace(name.replace("_", " ") if sign > 0.0 else "", sign * level / factor)
-        for name, level in near.items()
-        for sign in (1.0, -1.0)
-    ]
+def _beside_two(titles: Collection[str]) -> Collection[str]:
+    """Return the signal that is not drawn at first: beside error and speed there is little room."""
+    error, position, speed = (each.replace("_", " ") for each in SIGNALS)
+    return (position,) if {error, speed} <= set(titles) else ()
 
 
 def _tool(icon_name: str, text: str) -> QToolButton:

@@ -6,24 +6,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import (
-    QFileDialog,
-    QHBoxLayout,
-    QHeaderView,
-    QLabel,
-    QPushButton,
-    QTableWidget,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from amp_studio.drawing import Picture, linked, on_divisions
+from amp_studio.drawing import Picture
 from amp_studio.schema import read_number
 from amp_studio.sim import (
     RECORDED_SIGNALS,
@@ -40,14 +30,13 @@ from amp_studio.sim import (
 from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.theme import GAP2, colour
 from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
+from amp_studio.ui.forms.channel_scales import ChannelScales
 from amp_studio.ui.forms.form import Field, FieldForm
-from amp_studio.ui.forms.table_items import item_at
 
 if TYPE_CHECKING:
     from amp_studio.transfer import AxisStatus, ControlStatus
     from amp_studio.ui.control.readings import StatusReadings
 
-_NAME, _PER, _MIDDLE, _UNIT = range(4)
 _DRAWN_EVERY = 5
 """Readings from one picture of a live record to the next, once there are many."""
 
@@ -57,8 +46,6 @@ class RecorderPage(QWidget):
 
     changed = Signal()
     """Another record, or another trigger: the move is simulated and laid over again."""
-    rescaled = Signal()
-    """The picture is the same on other scales."""
     live = Signal(object)
     """The picture of a record that is being made."""
 
@@ -84,18 +71,11 @@ class RecorderPage(QWidget):
         self.state.setWordWrap(True)
         self.state.setAccessibleName(self.tr("State of the recorder"))
         self.trigger = FieldForm(self._fields())
-        self.channels = QTableWidget(0, 4)
-        self.channels.setAccessibleName(self.tr("Channels"))
-        self.channels.setHorizontalHeaderLabels(
-            [self.tr("Channel"), self.tr("Per division"), self.tr("Middle"), self.tr("Unit")]
-        )
-        self.channels.verticalHeader().hide()
-        self.channels.horizontalHeader().setSectionResizeMode(_NAME, QHeaderView.ResizeMode.Stretch)
+        self.channels = ChannelScales()
         self._arrange()
         self.open.clicked.connect(self._ask)
         self.record.clicked.connect(self._start_or_stop)
         self.trigger.entered.connect(lambda _: self._retriggered())
-        self.channels.itemChanged.connect(lambda _: self.rescaled.emit())
         self._show_state()
 
     def _fields(self) -> tuple[Field, ...]:
@@ -340,52 +320,6 @@ class RecorderPage(QWidget):
             " " + self.tr("RMS of the difference: {parts}.").format(parts=", ".join(parts)) if parts else ""
         )
 
-    # -- channels --------------------------------------------------------------------
-
-    def scaled(self, picture: Picture) -> Picture:
-        """Return a picture with the channels that are chosen, each on its scale; the table follows it."""
-        self._offer([(panel.title, panel.y.unit) for panel in picture.panels])
-        panels = []
-        for row, panel in enumerate(picture.panels):
-            if item_at(self.channels, row, _NAME).checkState() == Qt.CheckState.Checked:
-                per, middle = (_number(item_at(self.channels, row, n).text()) for n in (_PER, _MIDDLE))
-                panels.append(on_divisions(panel, per, middle or 0.0) if per else panel)
-        # With no channel ticked there is still one: an empty picture has no scale to come back from.
-        return replace(picture, panels=linked(panels or picture.panels[:1]))
-
-    def _offer(self, channels: list[tuple[str, str]]) -> None:
-        """Show a row for each channel; scales of those that stay are kept."""
-        # The same channels: what the user ticked and typed stays.
-        if [self._channel(row) for row in range(self.channels.rowCount())] == channels:
-            return
-        before = {
-            self._channel(row): tuple(item_at(self.channels, row, n).text() for n in (_PER, _MIDDLE))
-            for row in range(self.channels.rowCount())
-        }
-        # Qt emits itemChanged for what the program writes too: each cell would draw the picture again.
-        self.channels.blockSignals(True)
-        self.channels.setRowCount(len(channels))
-        for row, (title, unit) in enumerate(channels):
-            texts = before.get((title, unit), ("", ""))
-            name = item_at(self.channels, row, _NAME)
-            name.setText(worded(title))
-            name.setData(Qt.ItemDataRole.UserRole, title)
-            name.setFlags(Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsUserCheckable)
-            name.setCheckState(Qt.CheckState.Checked)
-            for column, text in zip((_PER, _MIDDLE), texts, strict=True):
-                item_at(self.channels, row, column).setText(text)
-            of_unit = item_at(self.channels, row, _UNIT)
-            of_unit.setText(unit_in_words(unit))
-            of_unit.setData(Qt.ItemDataRole.UserRole, unit)
-            of_unit.setFlags(Qt.ItemFlag.ItemIsEnabled)
-        self.channels.blockSignals(False)
-
-    def _channel(self, row: int) -> tuple[str, str]:
-        role = Qt.ItemDataRole.UserRole
-        return str(item_at(self.channels, row, _NAME).data(role)), str(
-            item_at(self.channels, row, _UNIT).data(role)
-        )
-
 
 def _has_trigger(answers: object) -> bool:
     return bool(answers["signal"])  # type: ignore[index]  # a mapping, as the form gives it
@@ -399,11 +333,3 @@ def _seconds(text: str) -> float | None:
     if rest.strip() not in ("", "s") or value < 0.0:
         raise ValueError(worded("A time is a number of seconds, 0 or more"))
     return value
-
-
-def _number(text: str) -> float | None:
-    """Return the number of a cell; None where there is none."""
-    try:
-        return read_number(text.strip())[0] if text.strip() else None
-    except ValueError:
-        return None

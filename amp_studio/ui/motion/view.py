@@ -187,7 +187,7 @@ class MotionView(PageOfFile):
         self.save_button.clicked.connect(self.save)
         self.chart.currentIndexChanged.connect(self._redraw)
         self.recorder.changed.connect(self.run)
-        self.recorder.rescaled.connect(self._redraw)
+        self.recorder.channels.rescaled.connect(self._redraw)
         self.recorder.live.connect(self.plot.draw)
         self.settling.clicked.connect(self._zoom_to_settling)
         self.all_of_it.clicked.connect(lambda: self.plot.zoom(None))
@@ -409,11 +409,11 @@ class MotionView(PageOfFile):
         if self.trace is None:
             # A record can be read where nothing can be simulated, too.
             if alone := self.recorder.alone():
-                self.plot.draw(self.recorder.scaled(alone))
+                self.plot.draw(self.recorder.channels.scaled(alone))
         else:
             self.chart.setVisible(self.trace.scenario == "frequency")
             picture = picture_of(self.trace, self.before, str(self.chart.currentData()))
-            self.plot.draw(self.recorder.scaled(picture))
+            self.plot.draw(self.recorder.channels.scaled(picture))
             family = self._workspace.file.schema.family.family
             self.figures.show_trace(family, self.trace, self.before, str(self.against.currentData()))
 

@@ -18,8 +18,9 @@ class RealControl:
     and obeys nothing but SIGKILL.
     """
 
-    def __init__(self, memory: Path, firmware: Path = FIRMWARE) -> None:
-        self._memory, self._firmware = memory, firmware
+    def __init__(self, memory: Path, firmware: Path = FIRMWARE, pace: str = "0") -> None:
+        """``pace`` is its time for one of the clock; 0 is as fast as it can, and a move is over at once."""
+        self._memory, self._firmware, self._pace = memory, firmware, pace
         self.port = 0
         self._process: subprocess.Popen[bytes] | None = None
 
@@ -37,7 +38,7 @@ class RealControl:
             # Without a time factor of 0 it reads a byte a millisecond of the clock, and computes all the
             # while.
             self._process = subprocess.Popen(
-                [self._firmware, "-n", "-t", "0", "-p", str(self.port), "-e", self._memory],
+                [self._firmware, "-n", "-t", self._pace, "-p", str(self.port), "-e", self._memory],
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
@@ -72,9 +73,9 @@ def _listens(port: int, process: subprocess.Popen[bytes]) -> bool:
 
 
 @contextmanager
-def real_control(folder: Path, firmware: Path = FIRMWARE) -> Iterator[RealControl]:
+def real_control(folder: Path, firmware: Path = FIRMWARE, pace: str = "0") -> Iterator[RealControl]:
     """Give a control that runs, with a memory that has never been written."""
-    control = RealControl(folder / "EEPROM.DAT", firmware)
+    control = RealControl(folder / "EEPROM.DAT", firmware, pace)
     control.start()
     try:
         yield control

@@ -21,6 +21,7 @@ from amp_studio.transfer.errors import (
     ConnectionCutError,
     ControlSilentError,
     ImageChangedError,
+    MovingError,
     ProtocolMismatchError,
     TransferError,
     WrongFamilyError,
@@ -128,7 +129,7 @@ def test_a_refusal_is_a_sentence_with_the_name_of_the_setting_and_the_rest_is_ol
 def test_a_machine_that_moves_is_not_touched(bench: Bench) -> None:
     content = bench.driver.fetch()
     bench.firmware.operate("state Run")
-    with pytest.raises(TransferError, match="the machine moves"):
+    with pytest.raises(MovingError, match="the machine moves"):
         bench.driver.fetch()
     bench.firmware.operate("state Idle")
     wanted = write_content(
