@@ -468,7 +468,7 @@ class LiveView(LivePageParts):
             self.write(address, turned.before)
 
     def take(self, address: Address) -> bool:
-        """Take a value of the control into the file, as one step of undo; where it cannot, the bar has the reason."""
+        """Take a value of the control into the file, as one step of undo; the bar has why it cannot."""
         present = self._present()
         why = ""
         if not self._workspace.may_edit:
