@@ -70,27 +70,22 @@ class ChannelScales(QTableWidget):
         here = range(self.rowCount())
         if [self._channel(row) for row in here] == channels:
             return
-        before = {
-            self._channel(row): (
-                item_at(self, row, _NAME).checkState(),
-                *(item_at(self, row, n).text() for n in (_PER, _MIDDLE)),
-            )
-            for row in here
-        }
+        ticks = {self._channel(row): item_at(self, row, _NAME).checkState() for row in here}
+        scales = {self._channel(row): [item_at(self, row, n).text() for n in (_PER, _MIDDLE)] for row in here}
         # Qt emits itemChanged for what the program writes too: each cell would draw the picture again.
         self.blockSignals(True)
         self.setRowCount(len(channels))
         unticked = self._unticked([title for title, _ in channels])
         for row, (title, unit) in enumerate(channels):
             usual = Qt.CheckState.Unchecked if title in unticked else Qt.CheckState.Checked
-            state, *texts = before.get((title, unit), (usual, "", ""))
             name = item_at(self, row, _NAME)
             name.setText(worded(title))
             name.setData(Qt.ItemDataRole.UserRole, title)
             name.setFlags(
                 Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable | Qt.ItemFlag.ItemIsUserCheckable
             )
-            name.setCheckState(state)
+            name.setCheckState(ticks.get((title, unit), usual))
+            texts = scales.get((title, unit), ["", ""])
             for column, text in zip((_PER, _MIDDLE), texts, strict=True):
                 item_at(self, row, column).setText(text)
             of_unit = item_at(self, row, _UNIT)
