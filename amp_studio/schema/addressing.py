@@ -104,6 +104,7 @@ def resolve_all(evaluation: FileState, text: str) -> list[ResolvedAddress]:
     """
     parameter = evaluation.schema.parameters.get(text.strip().casefold())
     if parameter is not None:
+        # An id alone means all its instances; a number is printed for one.
         several = [(parameter.id, instance) for instance in evaluation.machine_schema.instances(parameter)]
         several = _existing(evaluation, several)
     else:
@@ -120,12 +121,16 @@ def resolve_addresses(evaluation: FileState, text: str) -> list[Address]:
 
 
 def _whole(evaluation: FileState, text: str) -> ResolvedAddress:
+    """Return what a text without a bit means: an id, a number, the one word of a number, or a number on an
+    axis.
+    """
     schema, text = evaluation.schema, text.strip()
     name, _, instance = text.partition("@")
     parameter = schema.parameters.get(name.casefold())
     if parameter is not None:
         return ResolvedAddress((parameter.id, _instance(evaluation, parameter, instance, text)))
     existing = _claims(evaluation, text)
+    # Before the words of a number: a parameter with exactly this number is meant, if there is one.
     if existing:
         others = [a for a in evaluation.machine_schema.claims(text) if a != existing[0]]
         return ResolvedAddress(existing[0], None, text, tuple(others))
@@ -231,6 +236,7 @@ def axis_name(evaluation: FileState, axis: str) -> str:
 def _axes_named(evaluation: FileState, letter: str) -> list[str]:
     """Return the axes that the file gives a letter, fitted ones where there are any."""
     found = [axis for axis, name in _axis_names(evaluation) if name.casefold() == letter.casefold()]
+    # A letter that was left at an axis which is not there makes no choice of two.
     return [axis for axis in found if is_fitted(evaluation, axis)] or found
 
 
@@ -312,6 +318,7 @@ def _nearest(schema: Schema, text: str) -> list[str]:
     name, sign, instance = text.partition("@")
     name = name.casefold()
     numbers = list(dict.fromkeys(n for m in schema.family.machines for n in schema.on(m.key).every_number))
+    # Bounded, as below: difflib takes the square of the lengths.
     if _NUMBER_FORM.fullmatch(name) and not sign and len(name) < _LONGEST_NUMBER:
         return _nearest_numbers(numbers, name)
     # Ids last: where a name is spelled like an id, the id counts.
@@ -329,6 +336,7 @@ def _nearest_numbers(numbers: list[str], text: str) -> list[str]:
     digits = _figures(text)
 
     def far(number: str) -> tuple[bool, float, list[int]]:
+        # In tenths: of numbers that look about as much alike, the one that is next in value is likelier.
         alike = round(SequenceMatcher(None, text, number.casefold()).ratio(), 1)
         apart = [abs(a - b) for a, b in zip(digits, _figures(number), strict=False)]
         return len(number) != len(text), -alike, apart

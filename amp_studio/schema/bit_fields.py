@@ -62,6 +62,7 @@ def labels_of_word(parameter: Parameter, word: int) -> str:
     counts = Counter(plain(field.label) for field in fields)
     parts, unnamed = [], word
     for field in fields:
+        # What no field covers is written too: it would be lost when the text is read back.
         unnamed &= ~(((1 << field.width) - 1) << field.bit)
         number = field_value(field, word)
         if number:
@@ -103,6 +104,7 @@ def _with_entry(parameter: Parameter, word: int, entry: str) -> int | None:
                 f"{field.label} of {parameter.name} has {field.width} bits: write '{field.label}: …'"
             )
         return word | 1 << field.bit
+    # Each of them: a label may contain a colon itself.
     for separator in re.finditer("[:=]", entry):
         fields = _called(parameter, entry[: separator.start()])
         if fields:
@@ -154,6 +156,7 @@ def with_field(field: Bit, word: int, text: str) -> int:
     mask = (1 << field.width) - 1
     number = _chosen(field, plain(text))
     if number is None:
+        # A negative number becomes its two's complement in the width of the field.
         number = _typed_number(field, text) & mask
     return word & ~(mask << field.bit) | number << field.bit
 
@@ -179,6 +182,7 @@ def _typed_number(field: Bit, text: str) -> int:
     lowest, highest = (-(mask + 1) // 2, mask // 2) if field.signed else (0, mask)
     with contextlib.suppress(ValueError):
         if (
+            # First the length: int() of a very long text is slow.
             len(typed) <= LONGEST_NUMBER
             and lowest <= (number := int(typed.removeprefix("raw:"), 0)) <= highest
         ):

@@ -34,6 +34,8 @@ from .model.compiled_json import text_record
 from .units import angular
 
 
+# Equal by identity: schemas are keys of caches everywhere, and one loaded family is one object
+# (load_schema).
 @dataclass(frozen=True, eq=False, repr=False)
 class Schema:
     """One family. Built by ``load_schema``, once; never changed."""
@@ -62,6 +64,7 @@ class Schema:
 
     @cached_property
     def _further(self) -> FurtherFacts:
+        # Facts of a control that describes itself, or of a test, may have none.
         if not self.further_text:
             return FurtherFacts.model_construct()
         facts: FurtherFacts = text_record(self.further_text)
@@ -76,6 +79,7 @@ class Schema:
     def tables(self) -> dict[str, Table]:
         """The printed tables, by id."""
         further = self._further
+        # A message is looked up as a printed table is, by its id.
         listed = (*further.tables, *(table for m in further.messages for table in m.tables()))
         return {table.id: table for table in listed}
 
@@ -139,6 +143,7 @@ class Schema:
     def page(self, address: Address) -> str:
         """Return the page on which the manual describes an instance."""
         parameter = self.parameters[address[0]]
+        # The instance, then the whole that it is a part of, then the parameter.
         return parameter.pages.get(address[1]) or parameter.pages.get(whole_of(address[1])) or parameter.page
 
     def unit(self, parameter: Parameter, system: str, turns: bool) -> str:
@@ -190,6 +195,8 @@ class Schema:
             storage = _signed_storage(parameter.storage) if parameter.storage else None
             named = [parameter.id, parameter.name, parameter.type, parameter.quantity, parameter.unit]
             lines.append([*named, instances, numbers, choices, bits, storage])
+        # Keys sorted and no blanks: the text must not depend on the version of Python. Another checksum makes
+        # every file and control in the field one of another schema (tests/schema/test_signatures.py).
         text = json.dumps([self.family.family, lines], sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(text.encode()).hexdigest()
 

@@ -17,6 +17,9 @@ from typing import Any
 
 
 def _engine() -> ModuleType:
+    """Return the compiled module of the engine, loaded without the package around it where its file is
+    found.
+    """
     package = importlib.util.find_spec("cel")
     for folder in (package.submodule_search_locations or ()) if package else ():
         for library in sorted(Path(folder).glob("cel.*")):
@@ -24,6 +27,8 @@ def _engine() -> ModuleType:
                 spec = importlib.util.spec_from_file_location("cel.cel", library)
                 if spec and spec.loader:
                     module = importlib.util.module_from_spec(spec)
+                    # Under its own name, and before it runs, as an import does it: a later ``import cel``
+                    # then finds this one.
                     sys.modules.setdefault("cel.cel", module)
                     spec.loader.exec_module(module)
                     return module

@@ -33,6 +33,7 @@ def read_cached(path: Path) -> bytes | None:
         report_unusable(path, error.strerror or str(error))
         return None
     digest, _, kept = content.partition(b"\n")
+    # A disk that was full, or a program that was killed, leaves a part of the text.
     if digest != _digest(kept):
         report_unusable(path, "its content is not what was kept there")
         return None
@@ -74,6 +75,8 @@ def write_cached(path: Path, kept: bytes, name: str) -> None:
         with os.fdopen(handle, "wb") as stream:
             stream.write(_digest(kept) + b"\n" + kept)
         os.replace(temporary, path)
+        # Only of this name: the folder has the files of other families, and of other versions being
+        # written.
         older = re.compile(rf"{re.escape(name)}-[0-9a-f]{{24}}\.json")
         for old in path.parent.iterdir():
             if old != path and older.fullmatch(old.name):

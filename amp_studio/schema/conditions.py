@@ -129,6 +129,9 @@ class Conditions:
         return "each" if self.decisions[name].asks_instance else self._reach_of_reads(name)
 
     def _reach_of_reads(self, name: str) -> Reach:
+        """Return for which instances a condition reads the same values: all, the parts of one, or each by
+        itself.
+        """
         condition, reads_all = self._schema.family.conditions[name], True
         for parameter_id, which in map(read_address, condition.reads.values()):
             instances = self._here.instances(self._schema.parameters[parameter_id])
@@ -194,6 +197,8 @@ class Conditions:
         named, otherwise = self.steps(address[0])
         scope = self.scopes[address[0]]
         steps = [(self.asked(name, address[1], scope), wanted, info) for name, wanted, info in named]
+        # One object for equal steps: answers are kept by plan, so a state that was found for one address
+        # is known for all that share it.
         plan = self._plans.setdefault((*steps, otherwise), StatePlan(tuple(steps), otherwise))
         for asked, _, _ in steps:
             self.plans_asking.setdefault(asked, set()).add(plan)
@@ -237,6 +242,7 @@ class Conditions:
         references = chain.from_iterable(self.question(one).references for one in asked)
         found = {a for reference in references if reference for a in reference.addresses}
         by_machine = parameter.layouts or any("machine" in self.decisions[name].always for name in names)
+        # On another machine type the parameter may have another layout, or none.
         if by_machine and family.machine_parameter:
             found.add((family.machine_parameter, ""))
         return frozenset(found)
@@ -285,6 +291,7 @@ class Conditions:
             references = tuple(self._reference_or_none(t, instance, scope) for t in reads.values())
             for reference in references:
                 for address in reference.addresses if reference else ():
+                    # By this an edit finds what it makes stale, see ``_after``.
                     self.readers.setdefault(address, set()).add(asked)
             singles = [r.addresses[0] for r in references if r is not None and not r.is_list]
             plain = tuple(singles) if len(singles) == len(references) else ()
@@ -304,6 +311,7 @@ class Conditions:
         key = (text, instance, scope)
         found = self._references.get(key)
         if found is None:
+            # One object for every instance: a list over a table has thousands of addresses.
             same = instance and text.endswith("@*")  # for every instance
             found = self.reference(text, "", scope) if same else self._resolve(text, instance, scope)
             self._references[key] = found
@@ -328,6 +336,7 @@ class Conditions:
         return found
 
     def _resolve(self, text: str, instance: str, scope: str | None) -> Reference:
+        """Return what an entry of ``reads`` means for an instance; raises UnknownParameterError."""
         parameter_id, which, order, kin = self._named(text, scope)
         # Axis 1 and process 1 have one name and nothing in common.
         if not kin:

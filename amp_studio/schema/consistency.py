@@ -178,6 +178,7 @@ def _in_conditions(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
 
 
 def _in_family(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
+    """Yield what ``family.yaml`` names that does not exist: parameters, conditions, sizes of units."""
     yield from _in_conditions(family, ids)
     if family.angular_when is not None and family.angular_when not in family.conditions:
         yield Inconsistency(None, ("angular_when",), f"there is no condition {quoted(family.angular_when)}")
@@ -255,8 +256,10 @@ def _in_state(family: Family, state: StateRule) -> Iterator[tuple[KeyPath, str]]
 def _in_parameter(
     family: Family, parameter: Parameter, own_states: range, ids: set[str]
 ) -> Iterator[tuple[KeyPath, str]]:
+    """Yield what a parameter names that does not exist, with the place in its own entry."""
     if parameter.angular_when is not None and parameter.angular_when not in family.conditions:
         yield ("angular_when",), f"there is no condition {quoted(parameter.angular_when)}"
+    # Only its own: those of the group are reported once, at the group.
     for n, state in enumerate(parameter.states[i] for i in own_states):
         for place, what in _in_state(family, state):
             yield ("states", n, *place), what
@@ -330,6 +333,7 @@ def faults_of_order(order: Commissioning, groups: tuple[Group, ...]) -> Iterator
                     yield here, f"there is no {kind} {quoted(name)}"
                 elif name in seen.get(key, ()):
                     yield here, f"{quoted(name)} is in an earlier step"
+                # ``again`` may name a parameter in several steps, and has no entry in ``seen``.
                 seen.get(key, set()).add(name)
     yield from _unknown(order.of_one_machine, params)
 
@@ -343,6 +347,7 @@ def _unknown(names: Sequence[str], params: set[str]) -> Iterator[tuple[KeyPath, 
 def faults_of_areas(family: Family) -> Iterator[Inconsistency]:
     """Yield where the areas of a family are not all of its groups in their order."""
     listed = [key for area in family.areas for key in area.groups]
+    # In the same order too: an area is a head above groups that follow each other.
     if family.areas and listed != list(family.groups):
         odd = next((k for k in listed if k not in family.groups), None) or next(
             (k for k in family.groups if k not in listed), "the groups in their order"

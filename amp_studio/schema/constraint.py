@@ -75,6 +75,7 @@ def limits(evaluation: Evaluation, address: Address, unit: str) -> Limits | None
     reference = ranges[printed]
     low, low_from = _bound(evaluation, address, reference[0], printed, unit)
     high, high_from = _bound(evaluation, address, reference[1], printed, unit)
+    # A printed range that is wider than the words of the control cannot be used up.
     if storable and (low is None or low < storable[0]):
         low, low_from = storable[0], None
     if storable and (high is None or high > storable[1]):
@@ -121,6 +122,9 @@ def _system(unit: str) -> str:
 def _bound(
     evaluation: Evaluation, address: Address, bound: Bound, printed: str, unit: str
 ) -> tuple[float | None, Address | None]:
+    """Return a bound in ``unit``, and the parameter that sets it; no bound where that one has no number
+    here.
+    """
     if bound is None:
         return None, None
     if isinstance(bound, BoundRef):
@@ -139,6 +143,7 @@ def fault(evaluation: Evaluation, address: Address, value: Value) -> str | None:
     """Return one sentence why a value is not allowed, or None; bounds set by other parameters count."""
     parameter = evaluation.schema.parameters[address[0]]
     found = value.value
+    # Before anything else: no value is right, so none would be a better one.
     if parameter.access == "read":
         return f"{parameter.name} can only be read: the control writes it itself"
     if isinstance(found, str):
@@ -183,6 +188,8 @@ def _format_fault(evaluation: Evaluation, address: Address, form: str) -> str | 
     """Return why a word format is not allowed; its digits before
     and behind the point each have their own bounds.
     """
+    # A format is stored as a number (3.4), and so are its bounds: the digits on each side are compared,
+    # not the numbers.
     low, high = ranges_of(evaluation, address).get("", (None, None))
     for index in (0, 1):
         digits = digits_of(form)[index]
@@ -198,6 +205,7 @@ def _bits_fault(parameter: Parameter, word: int) -> str | None:
     or a code that a field does not have.
     """
     width = parameter.word_width
+    # Where no width is printed, every word that is not negative fits.
     if word < 0 or word >> (width or word.bit_length()):
         return f"{parameter.name} {word} does not fit {f'its {width} bits' if width else 'a word of bits'}"
     for field in parameter.bits or ():

@@ -225,6 +225,7 @@ class DescribedSchema:
     def _known_one(self, described: DescribedParameter) -> Parameter | None:
         """Return the parameter of the facts that has the same number, type and scope."""
         kind = (described.kind, bool(described.axis))
+        # A build may use a number for something else: what is known of it then does not fit.
         same_number = self._by_base.get(described.base, ())
         return next((p for p in same_number if (p.type, _is_axis(p)) == kind), None)
 
@@ -305,6 +306,7 @@ def _number_facts(described: DescribedParameter, command: str | None) -> dict[st
 
 
 def _choices(described: DescribedParameter, control: DescribedControl) -> tuple[Choice, ...]:
+    """Return the choices of a described parameter by their codes; a label that occurs twice gets its code."""
     found: dict[str, Choice] = {}
     for raw, label in enumerate(described.labels):
         if not label:

@@ -137,6 +137,9 @@ class Evaluation:
     # -- states ----------------------------------------------------------------
 
     def _present(self) -> Answers:
+        """Return the answers for the present values, shared with all files in which the deciding ones are
+        equal.
+        """
         found = self._answers
         if found is None:
             conditions, keys = self._conditions, self.keys
@@ -277,6 +280,7 @@ class Evaluation:
     def forget_dependents(self, address: Address) -> None:
         """Forget what depended on one address."""
         self.keys.pop(address, None)
+        # Another machine type has other instances, numbers and conditions.
         if address == (self.schema.family.machine_parameter, ""):
             self.forget()
         elif address in self._conditions.decides:

@@ -190,6 +190,8 @@ class Decision(Expression):
 
         def context() -> Context:
             values = dict(zip(names, map(value_of, keys), strict=True))
+            # Named by bytes: no value of a parameter is of that kind, so a function knows the name of a
+            # list from a value.
             lists = {name.encode(): values[name] for name in self._counted}
             functions = {name: _counting(function, lists) for name, function in self.functions.items()}
             given: dict[str, Any] = {**values, **{name.decode(): name for name in lists}}
@@ -224,6 +226,7 @@ class PartsDecision:
     def _is_so(
         self, every: Program, keys: tuple[ValueKey, ...], names: Sequence[str], parts: Sequence[Circumstances]
     ) -> bool:
+        """Return whether an expression over all parts is true; False where it makes no sense of them."""
         # The name of the parts is none that an expression can read.
         given = {**dict(zip(names, map(value_of, keys), strict=True)), _PARTS: [one.part for one in parts]}
         functions = self._decision.functions

@@ -23,6 +23,7 @@ def cache_folder() -> Path:
     """
     if sys.platform == "linux":
         places = (Path(os.environ.get("XDG_CACHE_HOME", "")), Path(os.environ.get("HOME", ""), ".cache"))
+        # A relative path in the variable is to be ignored (XDG Base Directory Specification).
         found = next((place for place in places if place.is_absolute()), None)
         if found is not None:
             return found / _PROGRAM

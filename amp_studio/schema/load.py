@@ -145,6 +145,7 @@ def compile_family(folder: Path) -> Compiled:
     family = _read(folder / "family.yaml", Family)
     if odd := next((key for key in family.groups if len(key) > LONGEST), None):
         raise DatabaseError(folder / "family.yaml", 1, f"{quoted(odd)} is too long for the key of a group")
+    # After the family: groups use its units and its lists of choices and bits.
     groups = tuple(_group(folder / "groups" / f"{key}.yaml", family) for key in family.groups)
     rules = _entries(_of(family, folder / "rules"), Rules, "rules")
     further = FurtherFacts(
@@ -160,6 +161,7 @@ def compile_family(folder: Path) -> Compiled:
         motion=_optional(folder / "motion.yaml", MotionFacts, NO_MOTION, faults_of_motion, groups),
     )
     plausible = _optional(folder / "plausible.yaml", Plausible, Plausible(), faults_of_experience, groups)
+    # The first fault alone: the next ones often follow from it.
     if fault := next(iter(faults_between(family, groups)), None):
         path = folder / (f"groups/{fault.group}.yaml" if fault.group else "family.yaml")
         raise DatabaseError(path, _parsed(path).line(fault.place), fault.what)
@@ -273,6 +275,7 @@ def _parsed(path: Path) -> YamlDocument:
 
 
 def _valid(path: Path, document: YamlDocument, data: Any, model: type[T], family: Family | None) -> T:
+    """Return data of a fact file as a model; raises DatabaseError with all slips of its first wrong entry."""
     from .model_errors import read_model  # a start reads compiled facts, and needs no pydantic
 
     try:
@@ -319,6 +322,7 @@ def content_key(files: list[Path]) -> str:
     """Return a checksum over fact files and over what compiles them."""
     digest = hashlib.sha256()
     here = Path(__file__).parent
+    # What gives the compiled facts their form: a change of it must not meet facts in the form of before.
     own = (*sorted((here / "model").glob("*.py")), Path(__file__), here / "compiled_cache.py", UNITS_FILE)
     for path in [*own, *files]:
         content = path.read_bytes()

@@ -117,6 +117,7 @@ class MachineSchema:
         it.
         """
         text = number.strip().casefold()
+        # The number as it is printed comes before one that was typed without its letters.
         return self._claims.get(text) or self._claims.get(self._bare_numbers.get(text, ""), [])
 
     def words(self, number: str) -> list[Address]:
@@ -184,6 +185,7 @@ class MachineSchema:
 
 
 def _layout(parameter: Parameter, machine: str) -> Layout | None:
+    """Return the layout of a parameter on a machine type; None where it does not exist there."""
     if parameter.layouts is None:
         return Layout.model_construct(  # its parts have been checked
             scope=parameter.scope, numbers=parameter.numbers, instances=parameter.instances

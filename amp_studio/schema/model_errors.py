@@ -71,6 +71,7 @@ def _keys_at(kind: Any, place: KeyPath) -> Iterable[str]:
 
 def _in_data(place: KeyPath, data: Any) -> KeyPath:
     """Return the place without what pydantic adds to it: which of several types it has tried."""
+    # pydantic puts the names of types it has tried into the path; the data know no such step.
     for n, step in enumerate(place):
         try:
             data = data[step]

@@ -35,6 +35,7 @@ def unknown_name(what: str, name: str, known: Iterable[str]) -> str:
     few.
     """
     names = list(dict.fromkeys(known))
+    # Reversed, so that of two names that differ in case the first one is shown.
     by_small = {known_name.casefold(): known_name for known_name in reversed(names)}
     near = close_matches(name.strip().casefold()[:_LONGEST], by_small, _SHOWN, 0.6)
     parts = [f"Unknown {what} {quoted(name)}"]

@@ -87,6 +87,7 @@ def registered_families() -> tuple[str, ...]:
 
 def registration_of(family: str) -> Registration:
     """Return a family's record; one without parts for a family that is facts alone."""
+    # Of this process first: a test may put its own record in the place of the program's.
     if family in _added:
         return _added[family]
     if place := own_places().get(family):

@@ -51,6 +51,7 @@ def read_file(path: Path, limit: int = MOST_BYTES, *, follow: bool = True, tail:
         finally:
             os.close(handle)
     except OSError as error:
+        # In one form, with the path, whichever of the calls above has failed.
         raise OSError(error.errno, error.strerror or str(error), str(path)) from None
     return content
 
@@ -77,6 +78,7 @@ def demand_file(status: os.stat_result) -> None:
 
 def _read(handle: int, limit: int) -> bytes:
     """Read to the end; a file may grow meanwhile, and those of /proc have no size."""
+    # One byte more than allowed: only a read that goes too far shows that a file has grown.
     parts, left = [], limit + 1
     while left and (part := os.read(handle, min(left, _AT_ONCE))):
         parts.append(part)

@@ -94,6 +94,7 @@ def faults_of_program(program: ProgramWords, groups: tuple[Group, ...]) -> Itera
 def _faults_of_choices(
     program: ProgramWords, known: Mapping[str, Parameter]
 ) -> Iterator[tuple[KeyPath, str]]:
+    """Yield each code whose choice the parameter of its group does not have."""
     for n, group in enumerate(program.groups):
         parameter = known.get(group.power_up or "")
         # A code without a choice is one that no power-up parameter selects.
@@ -112,6 +113,7 @@ def faults_of_motion(motion: MotionFacts, groups: tuple[Group, ...]) -> Iterator
 
 
 def _named(model: Model, place: KeyPath) -> Iterator[tuple[KeyPath, str]]:
+    """Yield the parameters that a record of program facts names, each with its place in the file."""
     for name, value in model.items():
         several = isinstance(value, tuple)
         for n, entry in enumerate(value if several else (value,)):

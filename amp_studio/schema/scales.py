@@ -107,6 +107,7 @@ def read_real(evaluation: Evaluation, address: Address, text: str, unit: str) ->
 
 def _counted(parameter: Parameter, text: str, count: Fraction, size: Size, unit: str) -> Value:
     whole = count.denominator == 1
+    # Beyond it a double would round the count, in silence.
     if abs(count) > EXACT or (parameter.type == "integer" and not whole):
         what = "too many" if whole else "no whole number of"
         raise InvalidValueError(

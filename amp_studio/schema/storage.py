@@ -83,6 +83,7 @@ def from_stored(parameter: Parameter, number: Fraction | float, unit: str) -> Va
     """
     if parameter.type in ("text", "format"):
         raise StorageError(f"{parameter.name} is a text, which the control does not store as a number")
+    # Stored without a scale: the double itself, without a fraction in between.
     if parameter.type == "real" and isinstance(number, float) and _storage(parameter).scale == 1.0:
         return Value(number, unit)
     found = number if isinstance(number, Fraction) else exact(number)

@@ -62,6 +62,7 @@ def define_unit(
     Raises UnitError for one that is known already with another meaning,
     and for a dimension without a canonical unit.
     """
+    # The one object by which ``canonical`` knows that there is nothing to convert.
     meaning = (measures, _ONE if factor == 1 else factor)
     _check_unit(unit, meaning)
     for text in (*also, display):
@@ -100,6 +101,7 @@ def unit_named(text: str) -> str:
         return word
     unit = _alias(word)
     if unit is None:
+        # Case is forgiven only where the text as it is written is no unit.
         unit = word.lower() if word.lower() in UNITS else None
     if unit is None:
         raise UnitError(f"{quoted(text.strip())} is not a unit")
@@ -115,6 +117,8 @@ def canonical(value: float, unit: str) -> float:
     """Return ``value`` in the canonical unit of its dimension, exact before one rounding: 0.3 in is 7.62
     mm.
     """
+    # By identity: define_unit stores this one object, and comparing fractions takes longer than the
+    # conversion of most values, which is none.
     return float(value) if UNITS[unit][1] is _ONE else _converted(value, unit, None)
 
 
@@ -138,6 +142,7 @@ def _converted(value: float, unit: str, to: str | None) -> float:
         return value
     factor = UNITS[unit][1] / (UNITS[to][1] if to is not None else 1)
     try:
+        # By the digits that were typed, not by the double beside them: 0.3 in is 7.62 mm.
         return float(Fraction(Decimal(repr(float(value)))) * factor)
     except OverflowError:
         return math.copysign(math.inf, value)
@@ -147,6 +152,7 @@ def _converted(value: float, unit: str, to: str | None) -> float:
 def canonical_unit(unit: str) -> str:
     """Return the canonical unit of the dimension of ``unit``."""
     measured = UNITS[unit][0]
+    # The first in the file, where several have the factor 1: it decides in which unit rules compare.
     return next(u for u, (d, f) in UNITS.items() if d == measured and f == 1)
 
 

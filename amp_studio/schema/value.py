@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from amp_studio.errors import AmpStudioError
 
 LONGEST_NUMBER = 400
-"""Signs of a number with its unit: the longest double written out has some 330."""
+"""Characters of a number with its unit: the longest double written out has some 330."""
 
 
 class _Keyed:
     """Remembers the key of a value (``expression.key_of``), which may be in many files."""
 
+    # A slot of the class above: dataclass would make a field of it here, which is compared and written.
     __slots__ = ("_key",)
 
 

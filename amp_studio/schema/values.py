@@ -35,17 +35,19 @@ def not_readable(parameter: Parameter, error: ValueError) -> str:
     return f"{parameter.name} takes {kind}; the value given is secret and not shown"
 
 
+# A blank, ' or _ belongs to the number only before a digit: ``12 mm`` ends at the blank.
 _NUMBER = re.compile(r"\s*([+-]?[0-9.,](?:[0-9.,]|[ '_](?=[0-9]))*)((?:[eE][+-]?[0-9]+)?)\s*(.*)$")
 _GROUPED = re.compile(r"[+-]?[0-9]{1,3}([ '_])[0-9]{3}(?:\1[0-9]{3})*(?:[.,][0-9]+)?")
 EXACT = 2**53 - 1
 """Largest whole number up to which a double is exact."""
 _LARGEST = sys.float_info.max
 LONGEST_TEXT = 100_000
-"""Signs of a text; the longest there are is a table of ballscrew compensation."""
+"""Characters of a text; the longest there are is a table of ballscrew compensation."""
 _RAW = re.compile(r"[+-]?[0-9]{1,16}")
 _NOT_ZERO = re.compile(r"[^eE]*[1-9]")
 _MINUS = "\u2212"
 """The minus sign of a printed text: a number that was copied out of a PDF has it."""
+# Half characters of UTF-16, and two that Unicode keeps out of texts: YAML and XML have no form for them.
 _UNWRITABLE = re.compile("[\ud800-\udfff\ufffe\uffff]")
 
 
@@ -146,6 +148,9 @@ def checked(parameter: Parameter, value: Value) -> Value:
 
 
 def _checked(parameter: Parameter, value: Value) -> Value:
+    """Return a value in the form of its type; raises InvalidValueError, with the value itself in the
+    message.
+    """
     found = value.value
     if isinstance(found, str):
         return _checked_text(parameter, value, found)
@@ -176,6 +181,7 @@ def _whole_number(parameter: Parameter, number: float) -> int:
 
 
 def _checked_text(parameter: Parameter, value: Value, found: str) -> Value:
+    """Return a text, a format or a choice as it is stored; raises InvalidValueError."""
     if parameter.type in ("integer", "real", "bits"):
         raise InvalidValueError(f"{parameter.name} is a number, and {quoted(found)} is none")
     if len(found) > LONGEST_TEXT:
@@ -320,6 +326,8 @@ def digits_of(form: str) -> tuple[int, int]:
 
 def _named_choice(choices: Iterable[Choice], text: str) -> Choice | None:
     """Return the choice with this label, else that with this code, else that with this key."""
+    # Field by field over all choices: the letter of one may be the label of another, and labels are what
+    # is shown.
     for field in ("label", "code", "key"):
         for choice in choices:
             name = getattr(choice, field)
@@ -329,6 +337,7 @@ def _named_choice(choices: Iterable[Choice], text: str) -> Choice | None:
 
 
 def _read_choice(parameter: Parameter, text: str) -> Value:
+    """Read a choice by any of its names, a yes/no by yes, true, on and 1 too; raises InvalidValueError."""
     choices = parameter.choices or ()
     yes_no = parameter.type == "boolean"
     word = text.casefold()

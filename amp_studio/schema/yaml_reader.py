@@ -25,7 +25,7 @@ from .quoting import quoted
 DEEPEST = 50
 """Collections in each other."""
 LARGEST = 16_000_000
-"""Signs of a document; the largest machine of the examples has 36,000."""
+"""Characters of a document; the largest machine of the examples has 36,000."""
 
 KeyPath = tuple[str | int, ...]
 """The way to a value: keys of mappings, positions in lists."""
@@ -95,6 +95,7 @@ def read_yaml(
     every entry has its place. ``references`` are for facts of our own, which give a list once.
     Raises YamlError.
     """
+    # The byte order mark that editors of Windows write.
     text = text.removeprefix("\ufeff")
     if len(text) > LARGEST:
         raise YamlError(f"is too large: {len(text):,} characters, and {LARGEST:,} are the most")
@@ -104,6 +105,7 @@ def read_yaml(
             _line_at(text, odd.start()),
         )
     start = _BLANK.match(text)
+    # It could change what tags mean, and which version of YAML the rest is.
     if start and text.startswith("%", start.end()):
         raise YamlError("is not readable: it begins with a YAML directive", _line_at(text, start.end()))
     if not spans and not references and (document := _plain_lines(text, scalar or typed_scalar)) is not None:
@@ -138,6 +140,7 @@ def _plain_lines(text: str, scalar: Callable[[str], Any]) -> YamlDocument | None
             continue
         indent, key, quoted_text, plain = found
         target = data if indent is None else section
+        # An indented line without a section, or a key that occurs twice: the parser has the words for it.
         if target is None or key in target:
             return None
         if plain is not None:
@@ -195,6 +198,7 @@ class _YamlParser:
         return self.document
 
     def _read(self, events: Iterator[Any]) -> None:
+        """Read the one document of the events into ``document``."""
         document = self.document
         for event in events:
             kind = type(event).__name__
@@ -218,6 +222,7 @@ class _YamlParser:
         anchor, kind = event.anchor, type(event).__name__
         if _is_plain_scalar(event):  # nearly all are
             text = event.value
+            # ``implicit`` is false for a quoted one, which is a text whatever is in it.
             return (self.scalar(text) if event.implicit[0] else text), event.end_mark.index
         is_alias = kind == "AliasEvent"
         if anchor is not None and (self.anchors is None or (is_alias and anchor not in self.anchors)):
@@ -232,6 +237,7 @@ class _YamlParser:
         return data, end
 
     def _content(self, event: Any, events: Iterator[Any], path: KeyPath) -> tuple[Any, int]:
+        """Return a scalar, mapping or list without anchor, and where its text ends."""
         kind = type(event).__name__
         if kind == "ScalarEvent":
             text = event.value
@@ -249,6 +255,7 @@ class _YamlParser:
         return data, end
 
     def _mapping(self, start: Any, events: Iterator[Any], path: KeyPath) -> tuple[dict[Any, Any], int]:
+        """Return a mapping whose keys are texts or whole numbers, each once, and where its text ends."""
         found: dict[Any, Any] = {}
         spans, end = self.document.spans, start.end_mark.index
         while type(event := next(events)).__name__ != "MappingEndEvent":
@@ -265,11 +272,15 @@ class _YamlParser:
             found[key], end = self._node(value, events, at)
             if spans is not None:
                 spans[at] = Span(event.start_mark.index, value.start_mark.index, end, bool(start.flow_style))
+        # Only in facts: a merged mapping is completed by the keys that are written here.
         if self.anchors is not None and isinstance(found.get("<<"), dict):
             found = {**found.pop("<<"), **found}
+        # A block ends with its last value; the parser's own end lies behind the blank lines and remarks
+        # that follow.
         return found, event.end_mark.index if start.flow_style else end
 
     def _sequence(self, start: Any, events: Iterator[Any], path: KeyPath) -> tuple[list[Any], int]:
+        """Return a list, and where its text ends."""
         found: list[Any] = []
         spans, end = self.document.spans, start.end_mark.index
         while type(event := next(events)).__name__ != "SequenceEndEvent":
@@ -311,8 +322,10 @@ def typed_scalar(text: str) -> Any:
     """
     if text in _NULLS:
         return None
+    # YAML 1.1 would take ``no`` and ``on`` too, which are keys of choices here, and 1:30 for 90.
     if text in _TRUTHS:
         return _TRUTHS[text]
+    # int() of a very long text is slow, and no number of a machine has so many digits.
     if len(text) > _LONGEST_NUMBER or text[0] not in "-+.0123456789":
         return text
     if _WHOLE.fullmatch(text):

@@ -30,6 +30,7 @@ def cached_record(path: Path, kind: type[R], name: str, make: Callable[[], R]) -
             found = None
         if isinstance(found, kind):
             return found
+        # Its digest was right, so it was written by something else, or for another kind of record.
         report_unusable(path, "it contains no facts")
     made = make()
     write_cached(path, record_text(made).encode(), name)
@@ -53,6 +54,7 @@ def text_record(text: str | bytes) -> Any:
 
     def record_of(entry: dict[str, Any]) -> Any:
         for name, value in entry.items():
+            # JSON has no tuples, and records have no lists: they are hashed.
             if value.__class__ is list:
                 entry[name] = _tuple(value)
         kind = entry.pop(_KIND, None)

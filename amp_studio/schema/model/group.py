@@ -42,6 +42,7 @@ class Group(Model):
     def __post_init__(self) -> None:
         """Give each parameter the states of the group."""
         if self.states or self.last_states:
+            # Past the frozen attributes, as the record is not in use yet.
             self.__dict__["parameters"] = tuple(map(self._with_states, self.parameters))
 
     def _with_states(self, parameter: Parameter) -> Parameter:

@@ -332,6 +332,7 @@ class Parameter(Model):
     def word_width(self) -> int | None:
         """Bits of a word in the build that has most of them; None where the width is not known."""
         width = self.storage.bits if self.storage else None
+        # A build with more outputs has a wider word, under the same number.
         return width and max(width, *(b.bit + b.width for b in self.bits or () if b.needs), 0)
 
     @property
@@ -348,6 +349,7 @@ class Parameter(Model):
         self._check_choices(self.choices or ())
 
     def _check_choices(self, choices: tuple[Choice, ...]) -> None:
+        """Raise ValueError for missing or ambiguous choices, and for a default that is no choice."""
         keys = {choice.key for choice in choices}
         if self.type == "choice" and not choices:
             raise ValueError("a choice parameter needs choices")

@@ -128,6 +128,7 @@ class Model:
     """What checks data from outside; made for each kind of record when the first are read."""
 
     def __init_subclass__(cls) -> None:
+        # Defaults stay class attributes: what is not stored in a record is found there.
         own = {name: cls.__dict__.get(name, REQUIRED) for name in cls.__annotations__}
         cls.fields = {**cls.fields, **own}
 
@@ -141,6 +142,7 @@ class Model:
         """
         from pydantic import TypeAdapter
 
+        # Its own one: by attribute a kind of record would get that of the kind above it.
         adapter = cls.__dict__.get("_adapter")
         if adapter is None:
             cls._adapter = adapter = TypeAdapter(cls)
@@ -192,6 +194,8 @@ class Model:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Model) or type(self) is not type(other):
             return NotImplemented
+        # A record out of the cache lacks the fields that have their default: getattr finds those at the
+        # class.
         return self.__dict__ == other.__dict__ or all(
             value == getattr(other, name) for name, value in self.items()
         )
@@ -222,6 +226,7 @@ class Model:
             core_schema.dataclass_args_schema(cls.__name__, fields),
             list(cls.fields),
             post_init=True,
+            # pydantic takes two schemas with one reference for the same.
             ref=f"{cls.__module__}.{cls.__qualname__}:{id(cls)}",
             config=core_schema.CoreConfig(extra_fields_behavior="forbid", title=cls.__name__),
         )

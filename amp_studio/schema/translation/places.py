@@ -53,6 +53,7 @@ def _of_help(parameter: Parameter) -> Iterator[tuple[TextPlace, str]]:
 
 
 def _english(compiled: Compiled, further: FurtherFacts) -> Iterator[tuple[TextPlace, str]]:
+    """Yield each text of a family that is translated, with its place; empty ones too."""
     for rule in compiled.rules:
         for part in ("title", "message", "reason"):
             yield ("rules", rule.id, part), getattr(rule, part)
@@ -104,5 +105,6 @@ def _leaves(place: TextPlace, value: Any) -> Iterator[tuple[TextPlace, str]]:
         return
     below = value.items() if isinstance(value, (Model, dict)) else enumerate(value or ())
     for key, entry in below:
+        # These are found by their English words, which have no place in the facts.
         if (*place, key) not in _WITHOUT_PLACE:
             yield from _leaves((*place, key), entry)

@@ -38,6 +38,7 @@ def fact_texts(family_id: str, language: str) -> FactTexts:
         return NO_TEXTS
     own = (Path(__file__), Path(__file__).with_name("places.py"))
     name = f"{family_id}.{language}"
+    # With the English facts, by whose texts these are found.
     cached = cache_folder() / f"{name}-{content_key([*own, *fact_files(folder), *files])}.json"
     return cached_record(cached, FactTexts, name, lambda: compile_texts(load_compiled(family_id), files))
 
