@@ -40,6 +40,8 @@ def made_apart(what: What, report: Report, own: Path | None, ppi: int = 0) -> li
     try:
         # Only a project's template is bounded: the program's own is known to end, and a large report takes
         # long.
+        # Only the way to the process is pickled. The answer comes from a process in which a template ran,
+        # and is JSON and bytes: unpickling it could run code.
         question = pickle.dumps((_MOST_MEMORY if own else None, what, report, own, ppi))
         answered = run_apart(__name__, question, _PATIENCE_S if own else None)
     except ReportNotMadeError as error:
@@ -84,6 +86,7 @@ def answer(asked: BinaryIO, out: BinaryIO) -> None:
     most_memory, *wanted = pickle.load(asked)  # noqa: S301  # the program itself has written it
     if most_memory:
         _bound_memory(most_memory)
+    # Any other error ends this process with an exit code, which run_apart reports.
     mistake, files = None, []
     try:
         files = made(*wanted)

@@ -74,6 +74,7 @@ def build_report(
     """
     contents = contents or Contents()
     language = language_of(contents.language, file.schema.family.family)
+    # Begun first, and asked for last: it runs beside all that follows (decision 0092).
     pictures = beside(lambda: drawings(file, language)) if "pictures" not in contents.without else ()
     found = rows_of(file, contents.units, language)
     printed = tuple(row for row in found.rows if _is_printed(row, contents))
@@ -84,6 +85,7 @@ def build_report(
     heads, axes = _axes(file, found.rows, now.findings)
     family = file.schema.family
     name = _name_of(source) if source else ""
+    # As the program writes it, without the author's comments: one may spell a secret out (decision 0087).
     content = content_of(without_secrets(file))
 
     def with_part(part: str, made: Callable[[], Iterable[_T]]) -> tuple[_T, ...]:
@@ -140,6 +142,7 @@ def _ids_of(rows: Iterable[ReportRow]) -> dict[str, None]:
 
 def _is_printed(row: ReportRow, contents: Contents) -> bool:
     """Return whether a value is printed; one that was forced is in every report."""
+    # Whatever else is left out: what is out of range on purpose must be seen on paper.
     if row.forced:
         return True
     is_wanted = contents.inactive or row.state == "in-force"
@@ -178,6 +181,7 @@ def _in_words(figure: PrintedFigure, language: Language) -> PrintedFigure:
 
 
 def _machine(file: ParameterFile, of_project: ProjectInfo | None) -> list[tuple[str, str]]:
+    """Return title and text of what is known of the machine and its control; a dash for what is not."""
     family, header, project = file.schema.family, file.header, of_project or ProjectInfo("", "")
     facts = [
         ("Machine", header.name or project.name),
@@ -203,6 +207,7 @@ def _machine(file: ParameterFile, of_project: ProjectInfo | None) -> list[tuple[
 def _facts(
     file: ParameterFile, source: Path | None, contents: Contents, content: bytes
 ) -> list[tuple[str, str]]:
+    """Return title and text of what is known of the file and of this document."""
     units = file.header.units if contents.units == "file" else UNIT_CHOICES[contents.units]
     return [
         ("File", _name_of(source) if source else "not saved yet"),
@@ -292,6 +297,7 @@ def _file_data(file: ParameterFile, source: Path | None, content: bytes) -> dict
 
 
 def _totals(file: ParameterFile, found: Rows, now: Present) -> dict[str, int]:
+    """Return the counts as data, by the keys of report.json."""
     rows = found.rows
     return {
         "errors": _severity(now.findings, "error"),
@@ -365,6 +371,7 @@ def _axis(
     rows: Sequence[ReportRow],
     findings: Sequence[Finding],
 ) -> tuple[str, ...]:
+    """Return the line of one axis in the summary, in the order of its heads."""
     own = [row for row in rows if _is_of_axis(file, (row.id, row.instance), axis)]
     settings = [_setting(file, (p, axis)) for p in asked] or [axis_kind(file, axis) or "–"]
     return (

@@ -70,6 +70,7 @@ class Contents:
             raise ValueError(f"Unknown paper '{self.paper}'. Known: {', '.join(PAPER_SIZES)}")
         if unknown := sorted({*self.without}.difference(CHAPTERS)):
             raise ValueError(f"Unknown chapter '{unknown[0]}'. Known: {', '.join(CHAPTERS)}")
+        # A caller may give lists; the fields are read as what they are declared.
         object.__setattr__(self, "without", frozenset(self.without))
         object.__setattr__(self, "programs", tuple(map(Path, self.programs)))
 

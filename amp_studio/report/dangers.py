@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 def dangers_of(schema: Schema, rows: Iterable[ReportRow], language: Language = ENGLISH) -> tuple[Danger, ...]:
     """Return the dangers of values that are active and were chosen: not the printed default."""
+    # A default was not chosen, and the dangers of all defaults would fill pages.
     chosen = (row for row in rows if row.state == "in-force" and (row.is_changed or row.no_default))
     return _grouped(schema, ((row.id, row.anchor, row.name, row.place) for row in chosen), language)
 

@@ -28,6 +28,7 @@ def drawings(file: ParameterFile, language: Language = ENGLISH) -> tuple[Printed
 
 
 def _drawn(picture: FilePicture, language: Language) -> Iterator[PrintedFigure]:
+    """Yield the parts of a picture that show something, each as a drawing in points."""
     for part in _parts(picture):
         found = picture.scene(part)
         scene = scene_in_words(found, language.sentence, language.unit)
@@ -48,6 +49,7 @@ def _shows(scene: Scene) -> bool:
 
 
 def _parts(picture: FilePicture) -> Iterator[str]:
+    """Yield what to draw of a picture: its parts, and those with signals at the speed of cutting too."""
     drawn: set[str] = set()
     for part, _ in picture.parts:
         axes = set(part.split("+"))

@@ -114,11 +114,13 @@ class Language:
         this language writes them; in its words a number (``figure 4.2``) is that of the manual.
         """
         text = " ".join(english.split())
+        # What is put into a sentence may be one itself, as a reason in a finding.
         own = self._titled(text, self.sentence)
         return self.unit(self.quantity(text)) if own is None else own
 
     def _titled(self, english: str, part: Callable[[str], str]) -> str | None:
         """Return what is known of a text by facts, titles and phrases; ``part`` words what changes in it."""
+        # The family first: its words for its own sentence come before the program's for an equal one.
         known = self.facts.sentences.get(english) or self.titles.get(english)
         if known is not None:
             return known
@@ -243,6 +245,7 @@ def language_of(code: str, family: str = "", *more: str) -> Language:
     name = name_of_language(code)
     if family:
         facts, shared = fact_texts(family, code), language_of(code, *more)
+        # Those of the family win over those of the families behind it.
         facts = facts.model_copy(update={"sentences": {**shared.facts.sentences, **facts.sentences}})
         return replace(shared, facts=facts, sentences=(*_sentences(facts.patterns), *shared.sentences))
     sentences = _own(code, "sentences")

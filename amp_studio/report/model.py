@@ -216,6 +216,8 @@ class _TableOfRows:
     @property
     def widest(self: _HasRows) -> int:
         """Most characters before the decimal sign of a figure."""
+        # Of the printed figures: the template puts as much room before shorter ones, so that decimal
+        # signs align.
         return max((len(row.whole) for row in self.rows), default=0)
 
 
@@ -262,6 +264,7 @@ def _decoded(rows: Sequence[ReportRow]) -> Iterator[DecodedWord]:
         own = list(members)
         places: dict[tuple[str, str], list[str]] = {}
         for row in own:
+            # Axes with equal bits share an entry: eight axes would print the same list eight times.
             places.setdefault((row.figure, row.detail), []).append(row.place)
         numbers = dict.fromkeys(filter(None, (row.number for row in own)))
         values = tuple((tuple(filter(None, at)), *known) for known, at in places.items())

@@ -19,6 +19,7 @@ def run_apart(module: str, question: bytes, patience_s: float | None = None) -> 
 
     try:
         command = child_command(module, "answer")
+        # Its errors are read and not shown: Typst and Python write traces that help no user.
         done = subprocess.run(command, input=question, capture_output=True, timeout=patience_s, check=False)
     except subprocess.TimeoutExpired:
         raise ReportNotMadeError("works without end") from None

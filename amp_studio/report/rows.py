@@ -102,7 +102,9 @@ def row_of(
         plain = figure = MASKED if value is not None else ""
         also, default, data = "", None, None
     is_number = parameter.type in ("real", "integer")
+    # Of a secret too: without a default beside it the mark reveals nothing.
     is_changed = value is not None and not file.is_default(address)
+    # Not ``default``, which a secret row lacks.
     has_default = file.default(address) is not None
     return ReportRow(
         id=address[0],

@@ -59,6 +59,7 @@ def _by_number(rows: Sequence[ReportRow], language: Language) -> tuple[Section, 
 
 
 def _by_axis(file: ParameterFile, rows: Sequence[ReportRow], language: Language) -> tuple[Section, ...]:
+    """Return one section for each printed axis, and one for what belongs to no axis."""
     sections = []
     for axis in printed_axes(file):
         own = [r for r in rows if r.instance == axis and _is_axis(file, r)]
@@ -70,6 +71,7 @@ def _by_axis(file: ParameterFile, rows: Sequence[ReportRow], language: Language)
                     _listings(file, own, by_place=False),
                 )
             )
+    # Behind the axes, as the manual orders it (9/PC CNC AMP Reference Manual, Documenting AMP Files).
     rest = [r for r in rows if not _is_axis(file, r)]
     if rest:
         by_place = any(r.place for r in rest)
@@ -119,6 +121,7 @@ def _by_group(file: ParameterFile, rows: Sequence[ReportRow]) -> tuple[Section, 
     """Return one section for each group; the parts of a long group stay together."""
     heads = _columns(file)
     sections: list[Section] = []
+    # Rows come in the manual's order, so that each group is one run.
     for name, members in groupby(rows, key=lambda r: r.group):
         parts: list[Listing | Grid] = []
         for title, part in groupby(members, key=lambda r: file.schema.group_of[r.id].section):
@@ -135,6 +138,7 @@ def _columns(file: ParameterFile) -> dict[str, Column]:
 def _group_parts(
     file: ParameterFile, title: str, rows: list[ReportRow], heads: dict[str, Column]
 ) -> list[Listing | Grid]:
+    """Return the rows of a group as a list, or as grids of eight axes at most where axes have values."""
     axes = tuple(heads)
     if not any(_is_axis(file, r) for r in rows):
         return [Listing(title, tuple(rows), any(r.place for r in rows))]
@@ -151,6 +155,7 @@ def _group_parts(
 def _lines(
     file: ParameterFile, rows: list[ReportRow], axes: Sequence[str], with_others: bool
 ) -> Iterable[GridLine]:
+    """Yield a line for each parameter: across the axes, or one for each value that belongs to no axis."""
     for _, members in groupby(rows, key=lambda r: r.id):
         own = list(members)
         if not _is_axis(file, own[0]):
@@ -168,6 +173,7 @@ def _lines(
 
 
 def _axis_line(present: list[ReportRow], cells: tuple[ReportRow | None, ...]) -> GridLine:
+    """Return the line of a parameter across the axes; ``by axis`` where its defaults differ."""
     defaults = dict.fromkeys(r.default for r in present)
     return GridLine(
         id=present[0].id,

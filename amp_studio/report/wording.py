@@ -54,6 +54,7 @@ def note_lines(text: str) -> list[str]:
 
 def printable(text: str) -> str:
     """Return a text without control characters for printers, terminals and text direction."""
+    # Nearly all are: each text of a report passes here.
     if text.isprintable():
         return text
     # Line by line: a drawing is long, and but for its ends of lines there is nothing in it to take away.

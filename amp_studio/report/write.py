@@ -85,6 +85,7 @@ def print_report(
         programs=programs,
     )
     content, mistake = _rendered(report, path.suffix.lower(), folder)
+    # Nothing is lost with the one before: a report is made again at any time.
     write_atomic(path, content, keep_backup=False, notify=notify)
     if isinstance(content, PdfContent) and content.remark:
         notify(content.remark)

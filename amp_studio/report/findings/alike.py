@@ -85,6 +85,7 @@ def printed_suppressed(
 def _printed(
     file: ParameterFile, same: Sequence[Finding], printed: set[str], language: Language = ENGLISH
 ) -> PrintedFinding:
+    """Return findings that report the same as one, with all their axes, values and fixes."""
     first, few = same[0], [finding.addresses for finding in same if len(finding.addresses) <= _NAMED]
     addresses, fix = _once(few), _once(finding.fix for finding in same)
     brings = next(filter(None, (finding.brings for finding in same)), None)
@@ -120,6 +121,7 @@ def _new_value(file: ParameterFile, setting: AddressedValue) -> float | bool | s
 
 
 def _places(file: ParameterFile, addresses: Sequence[Address]) -> str:
+    # By length first, as in ``_axes``.
     axes = sorted({a[1] for a in addresses if scope_of(file, a) == "axis"}, key=lambda i: (len(i), i))
     if not axes:
         return "Control" if addresses else ""
@@ -131,6 +133,7 @@ def _links(
 ) -> Iterable[tuple[str, str]]:
     """Yield anchor and label of each value, for example ``1300``, ``2300`` and ``3300 Home Calibration``."""
     order = [a[0] for a in addresses]
+    # Stable: parameters come in the order in which the finding names them, with all their axes together.
     for _, members in groupby(sorted(addresses, key=lambda a: order.index(a[0])), key=lambda a: a[0]):
         same = list(members)
         for n, address in enumerate(same):

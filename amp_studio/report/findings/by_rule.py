@@ -72,6 +72,7 @@ def _group(validator: Validator, key: str, same: list[Finding]) -> FindingGroup:
 def finding_axes(file: ParameterFile, finding: Finding) -> tuple[str, ...]:
     """Return the letters of the axes whose values cause a finding, in their order, once each."""
     axes = {a[1] for a in finding.causes if scope_of(file, a) == "axis"}
+    # By length first: axis 10 comes after axis 9.
     in_order = sorted(axes, key=lambda axis: (len(axis), axis))
     return tuple(dict.fromkeys(axis_letter(file, axis) or axis for axis in in_order))
 

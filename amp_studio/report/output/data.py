@@ -63,6 +63,7 @@ def report_data(report: Report) -> dict[str, Any]:
             "others": [{"about": about, "text": text} for about, text in report.remarked],
         },
         "axes": [
+            # By position: the heads between letter and counts differ by family.
             {"axis": axis, "letter": _or_none(letter), "values": int(values)}
             for axis, letter, *_, values, _, _ in report.axes
         ],
@@ -91,6 +92,7 @@ def _fields(record: ProgramState | ExchangeLine) -> dict[str, Any]:
 
 
 def _tuning(tuning: TuningLine) -> dict[str, Any]:
+    """Return one tuning as report.json has it."""
     gains = [
         {
             "number": each.number,
@@ -110,6 +112,7 @@ def _tuning(tuning: TuningLine) -> dict[str, Any]:
 
 
 def _check(check: CheckedMotion) -> dict[str, Any]:
+    """Return one scenario of the check as report.json has it; its drawings are in the paper only."""
     return {
         "verdict": check.verdict,
         "scenario": check.scenario,
@@ -131,6 +134,7 @@ def _address(anchor: str) -> dict[str, str]:
 
 
 def _value(row: ReportRow) -> dict[str, Any]:
+    """Return one value as report.json has it; a secret has neither value nor default."""
     return {
         "id": row.id,
         "instance": row.instance,
@@ -152,6 +156,7 @@ def _value(row: ReportRow) -> dict[str, Any]:
 
 
 def _finding(finding: PrintedFinding) -> dict[str, Any]:
+    """Return one finding as report.json has it, with every address, also those that the paper sums up."""
     return {
         "rule": finding.rule,
         "severity": finding.severity,

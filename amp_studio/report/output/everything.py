@@ -39,6 +39,7 @@ def render_workbook(report: Report) -> bytes:
     values, *others = _sheets(report, words)
     every = [
         replace(sheet, title=words.text(sheet.title), heads=tuple(map(words.text, sheet.heads)))
+        # The values stay though there may be none: a workbook needs one sheet.
         for sheet in (values, *(sheet for sheet in others if sheet.rows))
     ]
     return workbook(every, f"{report.title} – {report.subject}", report.program, report.contents.paper)
@@ -103,6 +104,7 @@ def _checks(report: Report, words: Language) -> Iterator[tuple[WorkbookCell, ...
 
 
 def _values(report: Report, words: Language) -> WorkbookSheet:
+    """Return the sheet of values; a number that a cell cannot have exactly is a text."""
     values = []
     for row in report.rows():
         value, default = (_number(text, row) for text in (row.value, row.plain_default))

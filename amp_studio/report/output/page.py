@@ -17,6 +17,7 @@ def render_html(report: Report, own: Path | None = None) -> bytes:
     Raises TemplateMistakeError.
     """
     language = language_of(report.contents.language, report.family_id)
+    # With its grade, by which the template chooses a colour: the titles are in a language.
     help_texts = {
         parameter: [(GRADES.get(title, ""), language.of_help(title), text) for title, text in parts]
         for parameter, parts in report.help.items()

@@ -75,6 +75,7 @@ def typst_literal(value: object) -> str:
         return "true" if value else "false"
     if isinstance(value, (int, float)):
         return repr(value)
+    # The backslash first: it is what the quote is then escaped with.
     text = printable(str(value)).replace("\\", "\\\\").replace('"', '\\"')
     return f'"{text if isinstance(value, Exact) else _breakable(text)}"'
 
@@ -188,6 +189,7 @@ def set_pages(report: Report, ppi: int, own: Path | None = None) -> SetReport:
             else Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="amp-studio-")))
         )
         # Typst sets a file once for both questions, and a text once for each: nearly half of the time.
+        # Inside of the root: Typst reads nothing else.
         handle, name = tempfile.mkstemp(dir=root, suffix=".typ")
         stack.callback(os.unlink, name)
         with os.fdopen(handle, "wb") as file:
@@ -214,6 +216,7 @@ def _mistakes(source: str, own: Path | None) -> Iterator[None]:
 
 def typeset(source: str, date: datetime) -> PdfContent:
     """Return the PDF of Typst source, made at a date with its zone; raises ReportNotMadeError."""
+    # The date of the paper and not that of the run: equal papers are equal files.
     when = {"timestamp": date.replace(microsecond=0).isoformat()}
     return PdfContent.with_remark(*set_pdf(source, _options(source, TEMPLATES) | when))
 
@@ -222,4 +225,5 @@ def _options(source: str, root: Path) -> dict[str, Any]:
     """Return how Typst reads a source; the root is given because Typst takes the working folder otherwise,
     which may be gone.
     """
+    # Typst's own fonts look the same everywhere; those of the system are for a script that they lack.
     return {"root": str(root), "ignore_system_fonts": re.search(_FOREIGN, source) is None}

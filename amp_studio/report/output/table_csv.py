@@ -33,7 +33,9 @@ def render_csv(report: Report) -> bytes:
     stream = io.StringIO(newline="")
     table = csv.writer(stream, lineterminator="\r\n")
     table.writerow(HEADS)
+    # A text that begins like a formula would be run by the spreadsheet that opens it.
     table.writerows(map(text_cell, line_of(row)) for row in report.rows())
+    # Without the mark Excel takes UTF-8 for the code page of the country.
     return stream.getvalue().encode("utf-8-sig")
 
 

@@ -24,6 +24,7 @@ def render_text(report: Report) -> bytes:
 
 
 def _lines(report: Report, words: Language) -> Iterator[str]:
+    """Yield all lines of the report, which may end in blanks."""
     yield from _title(report, words)
     yield from _findings(report, words)
     yield from _values(report.forced, words)
@@ -46,6 +47,7 @@ def _lines(report: Report, words: Language) -> Iterator[str]:
 
 
 def _part(part: Listing | Grid, words: Language) -> Iterator[str]:
+    """Yield the lines of one table, what the bits of its words mean, and why values are inactive."""
     if part.title:
         yield from _wrapped(part.title, "")
         yield "-" * min(len(part.title), WIDTH)
@@ -70,6 +72,7 @@ def _power_up(report: Report, words: Language) -> Iterator[str]:
 
 
 def _checks(report: Report, words: Language) -> Iterator[str]:
+    """Yield the lines of the check in motion; none where it was not asked for."""
     if not report.checks:
         return
     yield from _heading(words.text("Check in motion").upper())
@@ -83,6 +86,7 @@ def _checks(report: Report, words: Language) -> Iterator[str]:
 
 
 def _programs(report: Report, words: Language) -> Iterator[str]:
+    """Yield the lines of each part program: what limits its feed, and how long."""
     for each in report.programs:
         yield from _heading(f"{words.text('Part program').upper()} {each.name}")
         for limit in each.limits:
@@ -95,6 +99,7 @@ def _programs(report: Report, words: Language) -> Iterator[str]:
 
 
 def _tunings(report: Report, words: Language) -> Iterator[str]:
+    """Yield the lines of the tuning record."""
     if not report.tunings:
         return
     yield from _heading(words.text("Tuning record").upper())
@@ -136,6 +141,7 @@ def _remarks(report: Report) -> Iterator[str]:
 
 
 def _title(report: Report, words: Language) -> Iterator[str]:
+    """Yield the lines of the cover: facts, notes, axes and what the marks mean."""
     yield "=" * WIDTH
     head = f"{words.text('Machine parameters')} {words.text(report.order)}".upper()
     yield f"{report.program}   {head}".ljust(WIDTH - len(report.when)) + report.when
@@ -154,6 +160,7 @@ def _title(report: Report, words: Language) -> Iterator[str]:
 
 
 def _findings(report: Report, words: Language) -> Iterator[str]:
+    """Yield the lines of all findings by severity."""
     yield from _heading(words.text("Findings").upper())
     if not report.notes:
         yield words.text("No errors, no warnings, no recommendations.")
@@ -165,6 +172,7 @@ def _findings(report: Report, words: Language) -> Iterator[str]:
 
 
 def _finding(finding: PrintedFinding, words: Language) -> Iterator[str]:
+    """Yield the lines of one finding: its message, its values, its fix."""
     cited = finding.page if finding.is_own else f"{words.text('page')} {finding.page}"
     page = f" ({cited})" if finding.page else ""
     place = f"{words.text(finding.place)}: " if finding.place else ""
@@ -177,6 +185,7 @@ def _finding(finding: PrintedFinding, words: Language) -> Iterator[str]:
 
 
 def _dangers(report: Report, words: Language) -> Iterator[str]:
+    """Yield the lines of each danger with its parameters."""
     if report.dangers:
         yield from _heading(words.text("Dangers").upper())
         for danger in report.dangers:
@@ -195,6 +204,7 @@ def _values(rows: Sequence[ReportRow], words: Language) -> Iterator[str]:
 
 
 def _not_set(report: Report, words: Language) -> Iterator[str]:
+    """Yield a line for each active parameter without a value."""
     if report.not_set:
         yield from _heading(words.text("Not set").upper())
         sentence = (
@@ -216,6 +226,7 @@ def _heading(title: str) -> Iterator[str]:
 
 
 def _table(rows: Iterable[ReportRow], by_place: bool, words: Language) -> Iterator[str]:
+    """Yield the lines of a table of values; a name is written once for its values."""
     listed = tuple(rows)
     # A number that is a name (LinuxCNC) is before the name of its parameter instead of in a column of eight.
     joined = any(len(row.number) > _ROW[0] for row in listed)

@@ -82,6 +82,7 @@ def ends_parted(pdf: bytes) -> bytes:
         pdf[pdf.index(b"trailer", at) : pdf.rindex(_TABLE)],
     )
     places = sorted(int(place) for place in _ENTRY.findall(entries))
+    # From the end of each object: the data of a stream may contain the same bytes.
     ends = [pdf.rfind(_END, start, end) for start, end in zip(places, [*places[1:], at], strict=True)]
     unclear = [end for end in ends if pdf[end - 1 : end] == b"\r"]
     if not unclear:

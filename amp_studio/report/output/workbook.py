@@ -17,6 +17,7 @@ from amp_studio.report.contents import PaperSize
 WorkbookCell = str | float | int | None
 
 _FORBIDDEN = re.compile(r"[\[\]:*?/\\]")
+# Bounds of Excel, which calls a file damaged that exceeds one.
 _MOST_NAME = 31
 _WIDEST, _ACROSS = 30, 140
 """Characters of a column, and of a page, which is as wide as all columns; long texts have several lines,
@@ -105,6 +106,7 @@ def _put(cell: Any, content: str | float, places: int) -> None:
         return
     cell.value = content
     if places > 0 and (own := _decimals(content)) >= 0:
+        # The cell keeps its number; only how it is shown has the room of the missing digits.
         cell.number_format = _aligned(own, places)
 
 
@@ -139,6 +141,7 @@ def _set_up_print(page: Any, title: str, paper: PaperSize, *, has_heads: bool) -
     page.page_margins.top = page.page_margins.bottom = 2 * _MARGIN
     if has_heads:
         page.print_title_rows = "1:1"
+    # & begins a code in a foot.
     page.oddFooter.left.text = _text(title).replace("&", "&&")[:_MOST_FOOT]
     page.oddFooter.right.text = "&A   &P / &N"  # in the middle it would lie under a long title
 
@@ -154,6 +157,7 @@ def _without_times(content: io.BytesIO) -> bytes:
             if part.filename == "docProps/core.xml":
                 # openpyxl writes the time of saving into the properties.
                 text = _TIME.sub(b"2000-01-01T00:00:00Z", text)
+            # A ZipInfo made by hand has the date 1980-01-01, the first that an archive can have.
             again.writestr(zipfile.ZipInfo(part.filename), text, zipfile.ZIP_DEFLATED)
     return stream.getvalue()
 
@@ -186,5 +190,6 @@ def _widths(sheet: WorkbookSheet) -> list[int]:
             longest[column] = max(longest.get(column, 6), length + _ROOM)
     short = [width for width in longest.values() if width <= _WIDEST]
     long = len(longest) - len(short)
+    # What short columns leave of the page is shared by the long ones.
     widest = max(_WIDEST, (_ACROSS - sum(short)) // long) if long else _WIDEST
     return [min(width, widest) for width in longest.values()]

@@ -130,6 +130,7 @@ def _test_in(words: Language, test: PrintedTest) -> PrintedTest:
 
 
 def _listed(file: ParameterFile, each: StepProgress, words: Language) -> ListedStep:
+    # Active, not set by the file, and not open: the control has its default, which is to be checked.
     defaults = each.active - each.own - len(each.open)
     parts = {
         f"{len(each.open)} not set": each.open,

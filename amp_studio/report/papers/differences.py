@@ -100,6 +100,8 @@ def _side(letter: str, name: str, file: ParameterFile | None, words: Language) -
 
 
 def _by_group(file: ParameterFile, differences: Sequence[Difference], language: str) -> Iterator[PaperTable]:
+    """Yield a table for each run of differences of one group, which come in the manual's order."""
+
     def group_name(difference: Difference) -> str:
         return file.schema.group_of[difference.address[0]].name
 
@@ -249,6 +251,7 @@ def machine_lines(
 
 def alike_of(values: Sequence[Value | None]) -> tuple[int, ...]:
     """Return for each value the place of the first that is the same."""
+    # Compared one by one: values in different units can be the same, and have no common key.
     firsts: list[int] = []
     found: list[int] = []
     for place, value in enumerate(values):
@@ -266,6 +269,7 @@ def machine_groups(rows: Sequence[tuple[int, ...]]) -> list[tuple[int, ...]]:
     found: dict[tuple[int, ...], list[int]] = {}
     for place, values in enumerate(zip(*rows, strict=True)):
         found.setdefault(values, []).append(place)
+    # By size, then by the order in which they were given, so that a paper is the same each time.
     return sorted(map(tuple, found.values()), key=lambda group: (-len(group), group))
 
 
@@ -310,6 +314,7 @@ def machine_rows(
     """
     same_schema = _in_one_schema(files)
     rows, same = [], 0
+    # Also what the first machine has not set.
     for address in in_order(files[0].schema, {a for file in same_schema for a in file.values}):
         values = tuple(file.get(address) for file in same_schema)
         differs = any(not same_value(values[0], value) for value in values[1:])
@@ -333,6 +338,7 @@ def _departing(values: Sequence[Value | None]) -> Iterator[int]:
     """
     counts = [sum(same_value(value, other) for other in values) for value in values]
     most = max(counts)
+    # A majority: of two machines, or of two pairs, neither is the one that departs.
     if most * 2 > len(values):
         yield from (n for n, count in enumerate(counts) if count < most)
 

@@ -78,6 +78,7 @@ def _tables(file: ParameterFile, everything: bool, language: Language) -> Iterat
                     (_number(file, address), parameter.name, allowed, _blank(file, address, language))
                 )
             elif places:
+                # Parameters with the same places share a table, so that its columns fit all its lines.
                 several.setdefault(places, []).append(parameter)
         if single:
             yield PaperTable(group.whole_name, _HEADS, tuple(single), _SHARES)

@@ -34,11 +34,13 @@ def merge_paper(merge: Merge, names: Mapping[Side, str]) -> Paper:
 
 
 def _table(merge: Merge, group: RowGroup, sides: tuple[Side, ...], result: ParameterFile) -> PaperTable:
+    """Return a group of a comparison; the side that the result takes is bold."""
     heads = ("Number", "Parameter", "Belongs to", *(LETTERS[side] for side in sides), "Result")
     cells, strong = [], set()
     for at, row in enumerate(group.rows):
         choice = merge.choice(row)
         cells.append((*_named(merge, row), *_values(merge, row, sides, choice, result)))
+        # A typed value, and a conflict that is not settled, are in the last column.
         taken = sides.index(choice) if isinstance(choice, str) and choice in sides else len(sides)
         strong.add((at, 3 + taken))
     return PaperTable(group.title, heads, tuple(cells), _SHARES[: len(heads)], frozenset(strong))

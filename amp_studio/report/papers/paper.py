@@ -111,6 +111,7 @@ def _page(paper: Paper) -> bytes:
 
 
 def _workbook(paper: Paper) -> bytes:
+    """Return the paper as XLSX, a sheet for each table."""
     from amp_studio.report.output.workbook import WorkbookSheet, workbook
 
     text = paper.words.text
@@ -126,6 +127,7 @@ def _workbook(paper: Paper) -> bytes:
 
 
 def _csv(paper: Paper) -> bytes:
+    """Return the tables below each other, with heads where they change and the title of each in front."""
     text = io.StringIO(newline="")
     lines = csv.writer(text)
     several = len(paper.tables) > 1
@@ -134,6 +136,7 @@ def _csv(paper: Paper) -> bytes:
         if not n or table.heads != paper.tables[n - 1].heads:
             lines.writerow(map(text_cell, (paper.words.text("table"), *heads) if several else heads))
         lines.writerows(map(text_cell, (table.title, *row) if several else row) for row in table.rows)
+    # With the mark by which Excel knows UTF-8.
     return text.getvalue().encode("utf-8-sig")
 
 

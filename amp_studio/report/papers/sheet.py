@@ -159,6 +159,7 @@ def text_lines(printed: PrintedSheet) -> Iterator[str]:
 
 
 def _step_lines(step: Step, words: Language) -> Iterator[str]:
+    """Yield the lines of one entry: a box, what to key in, what is there now, and its remarks."""
     entry = step.entry
     head = (
         f"[{'x' if step.is_ticked else ' '}] {step.at:>4}  {entry.number:<12}{entry.new:>16}"
@@ -185,6 +186,7 @@ def _instructions(title: str, steps: tuple[Instruction, ...], words: Language) -
 def _wrapped(text: str, head: str) -> list[str]:
     indent = " " * len(head)
     head = printable(head)
+    # A long number or value may fill a line: what it is then still has 30 characters.
     room = max(WIDTH, len(head) + 30)
     return textwrap.wrap(printable(text), room, initial_indent=head, subsequent_indent=indent) or [head]
 

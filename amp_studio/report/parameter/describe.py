@@ -119,6 +119,7 @@ def _ranges(ranges: Mapping[str, tuple[object, object]]) -> dict[str, list[objec
 
 
 def _bound(bound: object) -> object:
+    # The address and not its value: a definition is the same for every file.
     return {"param": bound.param} if isinstance(bound, BoundRef) else bound
 
 

@@ -48,6 +48,7 @@ def page_of(schema: Schema, param: str, machine: str | None = None) -> str:
     machines = [machine] if machine else [m.key for m in schema.family.machines]
     name = read_address(param.strip())[0]
     found = schema.parameters.get(name.casefold())
+    # An id is exact; a number may be printed for several parameters, and each has its page below.
     wanted = [found.id] if found is not None else list(dict.fromkeys(_numbered(schema, name, machines)))
     if not wanted:
         raise UnknownParameterError(*unknown(schema, param.strip()))
@@ -226,6 +227,7 @@ def entry_units(schema: Schema, parameter: Parameter) -> tuple[str, ...]:
         schema.on(m.key).scopes[parameter.id] == "axis" for m in schema.family.machines
     )
     systems = tuple(schema.family.units) or ("",)
+    # Straight first; turning too where it may turn.
     units = (schema.unit(parameter, s, t) for t in (False, True)[: 1 + turns] for s in systems)
     return tuple(dict.fromkeys(u for u in units if u))
 
@@ -303,6 +305,7 @@ def _goes_on(a: Bit, b: Bit) -> bool:
 
 
 def _default(parameter: Parameter) -> str:
+    """Return the printed default with those of instances that differ, and its page."""
     default = parameter.default
     if default is None:
         return "none printed"

@@ -78,6 +78,7 @@ class BoundedEnvironment(ImmutableSandboxedEnvironment):
     It changes nothing of the report, which is printed without it where it fails.
     """
 
+    # Those that make something large of two small operands; intercepting the others would only cost time.
     intercepted_binops = frozenset({"*", "**", "%"})
 
     def __init__(self, seconds: float, **settings: Any) -> None:
@@ -110,6 +111,7 @@ class BoundedEnvironment(ImmutableSandboxedEnvironment):
             tick = nodes.ExprStmt(nodes.Call(nodes.Name(_TICK, "load"), [], [], None, None))
             # With the line of its loop, so that the mistake names it.
             loop.body.insert(0, tick.set_lineno(loop.lineno))
+        # The inserted nodes have none, and the compiler asks each node for it.
         template.set_environment(self)
         return template
 

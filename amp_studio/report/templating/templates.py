@@ -91,6 +91,7 @@ def filled(
 
     whole: dict[str, Any] = {"loader": _loader(own), "trim_blocks": True, "lstrip_blocks": True}
     if own is None:
+        # Strict: a misspelt name must not be printed as nothing.
         environment = Environment(  # noqa: S701  # settings escape a page, filters the source of Typst
             undefined=StrictUndefined, bytecode_cache=_compiled_templates(), **whole, **settings
         )
@@ -120,6 +121,7 @@ def filled(
     environment.tests["listing"] = lambda part: isinstance(part, Listing)
     if own is None:
         return environment.get_template(name).render(values)
+    # Before it is parsed, which no clock interrupts.
     if own.stat().st_size > _MOST_TEMPLATE:
         raise TemplateMistakeError(own, f"is larger than {_MOST_TEMPLATE // 1024} KB")
     try:
@@ -150,6 +152,7 @@ def _loader(own: Path | None) -> BaseLoader:
     standard = FileSystemLoader(TEMPLATES)
     if own is None:
         return standard
+    # Under a prefix, so that a project's template can extend the one whose name it has.
     return ChoiceLoader([PrefixLoader({"standard": standard}), FileSystemLoader(own.parent)])
 
 
@@ -178,6 +181,7 @@ def _bounded(environment: Environment, own: Path, values: Mapping[str, object]) 
         if size > _MOST_OUTPUT:
             raise TemplateMistakeError(own, "writes without end")
     text = "".join(parts)
+    # A report without a word would replace the standard one in silence.
     if not text.strip():
         raise TemplateMistakeError(own, "writes nothing")
     if _HALF.search(text):
@@ -245,6 +249,7 @@ def _line(own: Path, error: BaseException) -> str:
     empty where it is not known.
     """
     line, file = getattr(error, "lineno", None), getattr(error, "filename", None) or str(own)
+    # Templates are compiled into code whose frames have the file and the line of the template.
     trace = error.__traceback__
     while trace is not None and not getattr(error, "lineno", None):
         name = trace.tb_frame.f_code.co_filename
