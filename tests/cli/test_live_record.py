@@ -1,12 +1,17 @@
 """`status -o`: the readings of one axis as a table, from an emulated control whose time passes as it is asked for."""
 
 import json
+import signal
+import sys
+import time
 from collections.abc import Iterator
+from itertools import count
 from pathlib import Path
 
 import pytest
 
 from amp_studio import cli
+from amp_studio.cli import stopping
 from amp_studio.control import ConnectedControl
 from amp_studio.families.grblhal.status import status_of
 from amp_studio.transfer import ControlIdentity, ControlStatus
@@ -53,6 +58,31 @@ def test_readings_are_recorded_from_the_trigger_on_and_laid_over_the_simulation(
     result = json.loads(capsys.readouterr().out)["result"]
     # A step of the motor is 0.0125 mm; the emulated axis and the simulated one are the same machine.
     assert result["difference_rms_position"]["value"] < 0.05
+
+
+def test_ctrl_c_ends_a_recording_and_is_no_failure(
+    moving: Bench, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Without --seconds it is the only way to end one: what was read is written, and nothing was stopped."""
+    sleep, asked, before = time.sleep, count(1), signal.getsignal(signal.SIGINT)
+
+    def sleep_and_press(seconds: float) -> None:
+        sleep(seconds)
+        if next(asked) == 5:
+            signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr("time.sleep", sleep_and_press)
+    monkeypatch.setattr(stopping, "_asked", [])
+    monkeypatch.setattr(sys, "unraisablehook", sys.unraisablehook)
+    record = tmp_path / "live.csv"
+    try:
+        stopping.raise_on_interrupt()
+        code = cli.run(["status", "tcp://127.0.0.1:1", "-o", str(record), "--axis", "X", "--json"])
+    finally:
+        signal.signal(signal.SIGINT, before)
+    out = capsys.readouterr()
+    assert (code, json.loads(out.out)["readings"], out.err) == (0, 5, "")
+    assert len(record.read_text().splitlines()) == 6
 
 
 def test_what_does_not_belong_together_is_one_sentence(

@@ -8,6 +8,7 @@ from amp_studio.cli.console import family, print_json, print_remark
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.motion.trigger import trigger_given
 from amp_studio.cli.output import check_replaced
+from amp_studio.cli.stopping import stop_requested
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 TYPE_CHECKING = False  # the typing module is not loaded for it
@@ -75,13 +76,14 @@ def run(options: Options) -> int:
                 print(text(status), flush=True)
             if not options.watch:
                 return 0
+            # What the answer has taken counts: the period is from one question to the next.
             time.sleep(max(PERIOD - (time.monotonic() - begun), 0.0))
 
 
 def _record(options: Options) -> int:
     """Record the readings of one axis; Ctrl-C ends it and keeps what there is."""
     import time
-    from contextlib import closing, suppress
+    from contextlib import closing
 
     from amp_studio import connect
     from amp_studio.sim import LiveRecorder, write_recording
@@ -89,9 +91,10 @@ def _record(options: Options) -> int:
     check_replaced(options.output)
     trigger = trigger_given(options)
     recorder = LiveRecorder(trigger, options.seconds)
-    with closing(connect(options.address, options.family or "").watch()) as seen, suppress(KeyboardInterrupt):
+    # Without --seconds Ctrl-C is how a recording ends: no verb was stopped by it, and the code is 0.
+    with stop_requested() as stop, closing(connect(options.address, options.family or "").watch()) as seen:
         began = time.monotonic()
-        while not recorder.is_done:
+        while not (recorder.is_done or stop.is_set()):
             asked = time.monotonic()
             axis = _axis_of(next(seen), options.axis)
             if recorder.count == 0 and trigger is not None:
