@@ -61,6 +61,7 @@ def count(text: str) -> int:
 
 def seconds(text: str) -> float:
     """Return a number of seconds above 0."""
+    # ASCII: otherwise \d takes the digits of every script, and float() some of them.
     if not re.fullmatch(r"\d{1,5}(\.\d{1,3})?", text, re.ASCII) or float(text) <= 0:
         raise ValueError(f"{text} is no number of seconds")
     return float(text)

@@ -31,6 +31,7 @@ def answer(words: Sequence[str], breaks: str) -> None:
         if words[:1] == ["--line"]
         else 0
     )
+    # Most candidates know nothing of what is typed: the beginning is compared here, for all of them.
     for found in dict.fromkeys(_candidates(before, current)):
         if found.startswith(current):
             print(found[begin:])

@@ -83,6 +83,7 @@ def progress(of: str = "") -> Callable[[str, int, int], None]:
             print_notice(f"{before}the line is cut, trying again …")
             last["silent"] = 0
             return
+        # Of nothing all is done. Rounded down, so that 100 is the end and nothing before it.
         percent = 100 if total == 0 else done * 100 // total
         if last.get(stage) == percent:
             return

@@ -29,6 +29,7 @@ def opened(
     family, machine = (options.family, options.machine) if options else (None, None)
 
     def pass_on(message: str) -> None:
+        # What is behind the semicolon names options, which this verb does not have.
         notify(f"{path}: {message if options else message.partition('; --')[0]}")
 
     try:

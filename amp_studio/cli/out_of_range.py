@@ -17,6 +17,7 @@ class _AtTheTerminal:
     """A person at a terminal, or the decision that ``--on-fault`` has made."""
 
     def __init__(self, on_fault: str, by: str) -> None:
+        # A script or a pipe cannot answer.
         self._on_fault = "quit" if on_fault == "ask" and not sys.stdin.isatty() else on_fault
         self._by = by
 

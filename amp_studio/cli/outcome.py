@@ -28,6 +28,7 @@ class Target(NamedTuple):
     def sentence(self) -> str:
         """Return what is true now where the file has been replaced; nothing where it is as it was."""
         now = _identity_of(self.path)
+        # By device, number, size and time: a file that is replaced by a rename has another number.
         if now == self.identity:
             return ""
         if isinstance(now, str) or isinstance(self.identity, str):

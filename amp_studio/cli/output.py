@@ -25,6 +25,7 @@ def check_replaced(output: Path, *inputs: Path) -> None:
     from amp_studio.files import check_output
 
     check_output(output, *inputs)
+    # With ``> out.csv`` and ``-o out.csv`` two handles would write over each other.
     for printed in (1, 2):
         with contextlib.suppress(OSError):
             if os.path.samestat(os.fstat(printed), output.stat()):

@@ -23,6 +23,7 @@ _PLAIN = (
     (r"argument (\S+): expected one argument", r"\1 needs a value"),
     (r"argument (\S+): expected at least one argument", r"\1 needs at least one value"),
     (r"argument (\S+): ignored explicit argument (.*)", r"\1 takes no value, and was given \2"),
+    # Of every other message about an argument, and so the last.
     (r"argument (\S+): (.*)", r"\1: \2"),
 )
 """What argparse writes -> what a user reads: it names its own parts."""
@@ -46,6 +47,7 @@ class _Parser(argparse.ArgumentParser):
         )
         self.verb = verb
         for argument in verb.arguments:
+            # argparse fills ``%(…)s`` into a help text: a per cent sign has to be doubled.
             self.add_argument(*argument.names, help=argument.help.replace("%", "%%"), **self._how(argument))
 
     def _how(self, argument: VerbArgument) -> dict[str, Any]:
@@ -139,6 +141,7 @@ def _check_options(parser: _Parser, words: Sequence[str]) -> None:
         if word == "--":
             return
         name = word.partition("=")[0]
+        # The beginning of an option is one: argparse completes it, or names those that it could be.
         if name.startswith("--") and not any(option.startswith(name) for option in options):
             parser.error(_unknown("option", name, options))
 

@@ -26,6 +26,7 @@ class Screen(io.TextIOWrapper):
 
     def overwrite(self, text: str, *, last: bool) -> None:
         """Write over the present line of a terminal."""
+        # To the end of the line: a longer text may have been there.
         super().write("\r" + _printable(text) + "\x1b[K" + ("\n" if last else ""))
         self.flush()
         self.overwritten = not last
@@ -54,10 +55,13 @@ def open_streams() -> None:
 
 def _screen(stream: TextIO | None) -> TextIO:
     if stream is None:
+        # As with ``2>&-``, and for a program without a console on Windows.
         return Screen(Path(os.devnull).open("wb"), encoding="utf-8")
     if not isinstance(stream, io.TextIOWrapper):
         return stream
     encoding, lines = stream.encoding, stream.line_buffering
+    # Detached, or the old stream would close the handle when it is collected. A character that the
+    # terminal has no code for must not end a verb.
     return Screen(stream.detach(), encoding=encoding, errors="backslashreplace", line_buffering=lines)
 
 

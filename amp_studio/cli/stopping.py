@@ -22,6 +22,7 @@ _asked: list[int] = []
 def raise_on_interrupt() -> None:
     """Begin to answer Ctrl-C."""
     signal.signal(signal.SIGINT, _stop)
+    # An interrupt inside of a destructor is not raised but printed, with a traceback.
     sys.unraisablehook = _unraised
 
 
@@ -45,6 +46,7 @@ def stop_requested() -> Iterator[Stop]:
 
     stop = Stop()
     is_program = signal.getsignal(signal.SIGINT) is _stop
+    # A program that uses this one as a library has its answer to Ctrl-C back afterwards.
     with interrupts(stop.set, after=signal.SIG_IGN if is_program else None):
         yield stop
 

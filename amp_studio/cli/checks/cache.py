@@ -56,6 +56,7 @@ class CheckCache:
 
     def __init__(self, options: Options) -> None:
         given = {name: str(value) for name, value in vars(options).items() if name not in _OWN_OPTIONS}
+        # Where a format shortens paths to the present folder, its result is one of that folder.
         here = str(Path.cwd()) if CHECK_FORMATS[options.format].from_here else ""
         self._asked = json.dumps([given, here], sort_keys=True).encode()
         self._rules: Path | None = options.rules
@@ -73,6 +74,7 @@ class CheckCache:
         return [self._key(path) for path in paths]
 
     def _key(self, path: Path) -> bytes | None:
+        """Return what the result of a file is found by; None for a file that cannot be read."""
         text = os.fspath(path)
         try:
             content = read_file(path)
@@ -129,8 +131,10 @@ class CheckCache:
         try:
             with self._database() as database:
                 for key, seal, kept in _rows(database, list(by_key)):
+                    # A result that was altered, or lies under the key of another, has another seal.
                     if seal == _digest(key, kept):
                         found[by_key[key]] = _result(by_key[key], kept)
+        # Whatever is wrong with it: what it contained is worked out again.
         except (sqlite3.Error, OSError, ValueError, TypeError):
             self._remove()
             return {}
@@ -152,6 +156,7 @@ class CheckCache:
 
     @contextlib.contextmanager
     def _database(self) -> Iterator[sqlite3.Connection]:
+        """Open the database, which is made where there is none; raises sqlite3.Error, OSError."""
         self._path.parent.mkdir(parents=True, exist_ok=True)
         if not self._path.exists():
             os.close(os.open(self._path, os.O_CREAT | os.O_RDWR, 0o600))  # what it contains is of the files
@@ -206,6 +211,7 @@ def _program_digest() -> str:
     """
     contents = [part for folder in _program_folders() for part in _contents(folder)]
     sites = [Path(entry) for entry in sys.path if entry.endswith("-packages")]
+    # The name of such a folder has the version of the package in it.
     packages = sorted(path.name for site in sites for path in site.glob("*.dist-info"))
     named = json.dumps([sys.version, sorted(added_facts()), packages])
     return _digest(named.encode(), *contents).hex()[:24]
@@ -234,6 +240,7 @@ def _contents(folder: str | Path) -> Iterator[bytes]:
     for entry in entries:
         if entry.is_dir():
             yield from _contents(entry.path)
+        # Templates and texts of the window are in no result of ``validate``.
         elif entry.name.endswith((".py", ".yaml")):
             yield entry.path.encode()
             yield Path(entry.path).read_bytes()

@@ -131,6 +131,9 @@ class CheckFormat:
             yield str(checked.motion)
 
     def _finding_lines(self, checked: FileFindings) -> Iterator[str]:
+        """Yield the findings with their reasons where they are asked for, what is suppressed, what is as
+        delivered.
+        """
         from amp_studio.report import alike, delivered_text, same_finding_text, suppressed_text
 
         validator = checked.validator
@@ -178,10 +181,12 @@ class JsonFormat(CheckFormat):
         )
 
     def all(self, results: Sequence[CheckResult]) -> str:
+        # As text: each file was written as JSON by the process that checked it.
         entries = [one.printed or _dumped({"file": str(one.path), "error": one.fault}) for one in results]
         return '{\n  "files": [\n' + ",\n".join(_indented(entry, 4) for entry in entries) + "\n  ]\n}"
 
     def _finding(self, checked: FileFindings, finding: Finding) -> dict[str, Any]:
+        """Return a finding of the JSON document, with its reasons where they are asked for."""
         from amp_studio.report import finding_json
 
         validator = checked.validator
@@ -221,6 +226,8 @@ class SarifFormat(CheckFormat):
         for one in results:
             if not one.fault:
                 part = json.loads(one.printed)
+                # The first file that has a rule describes it: the order of the files decides, not which
+                # process was ready.
                 rules = part["rules"] | rules
                 found += part["results"]
         unread = [one for one in results if one.fault]
@@ -245,6 +252,7 @@ class SarifFormat(CheckFormat):
         return _dumped({"$schema": _SARIF_SCHEMA, "version": "2.1.0", "runs": [run]})
 
     def _result(self, checked: FileFindings, lines: _Lines, finding: Finding) -> dict[str, Any]:
+        """Return a finding as a result of SARIF, with the place of its first value."""
         from amp_studio.report import finding_json
         from amp_studio.schema import written
 
@@ -254,6 +262,7 @@ class SarifFormat(CheckFormat):
             {"name": name, "fullyQualifiedName": written(address)}
             for name, address in zip(found["params"], finding.addresses, strict=True)
         ]
+        # Without the message: a service knows a finding again while the figures in it change.
         same = json.dumps([finding.rule, finding.instance, *map(written, finding.causes)])
         return {
             "ruleId": finding.rule,
@@ -266,6 +275,7 @@ class SarifFormat(CheckFormat):
 
 
 def _sarif_rule(validator: Validator, finding: Finding) -> dict[str, Any]:
+    """Return a rule as SARIF lists it once for all of its findings."""
     from amp_studio.validate import rule_title
 
     title = rule_title(validator, finding)
@@ -315,6 +325,7 @@ def _github_command(command: str, path: Path, line: int, title: str, message: st
 
 def _github_message(text: str) -> str:
     """Return the message of a workflow command."""
+    # The per cent sign first: the other two are written with it.
     return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
 
 
@@ -358,6 +369,7 @@ class JunitFormat(CheckFormat):
         return document.encode("ascii", "xmlcharrefreplace").decode()
 
     def _suite(self, path: Path, cases: Sequence[tuple[str, str, str]], output: str) -> str:
+        """Return the XML of one file: its cases (name, kind, message), and what else was printed."""
         from xml.etree import ElementTree as ET
 
         kinds = {kind: sum(case[1] == kind for case in cases) for kind in ("failure", "error", "skipped")}

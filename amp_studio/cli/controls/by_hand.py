@@ -37,6 +37,7 @@ def ways_offered(family: str, address: str) -> Iterator[None]:
 
 
 def _hint(family: str, address: str, *, is_silent: bool) -> str:
+    """Return in which way a control of a family is reached; "" where there is nothing else to try."""
     if not family:
         return ""
     facts = load_schema(family).family

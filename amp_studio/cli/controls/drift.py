@@ -64,6 +64,7 @@ def _folder_of_controls(options: Options) -> Path:
 
 
 def _entry(drift: Drift, secrets: bool) -> dict[str, Any]:
+    """Return one control as ``--json`` lists it."""
     listed = [difference_json(file, each, secrets) for file, each in _differences(drift)]
     return {
         "address": drift.known.address,
@@ -94,6 +95,7 @@ def _difference_lines(each: Drift, secrets: bool) -> Iterator[str]:
 
 
 def _print(drifts: Sequence[Drift], counts: dict[str, int], secrets: bool) -> None:
+    """Print a line for each control, the first values that differ below it, and the counts."""
     wide = max(len(each.known.address) for each in drifts)
     for each in drifts:
         text = "" if each.result == "same" else f"  {each.since or each.text}"
@@ -115,6 +117,7 @@ def _rows(listed: Sequence[tuple[ParameterFile, Difference]], secrets: bool) -> 
 
 
 def _paper(drifts: Sequence[Drift], secrets: bool) -> Paper:
+    """Return the table of all controls, and one for each that differs."""
     rows = [
         (each.known.address, str(each.known.path), each.result, each.since or each.text) for each in drifts
     ]

@@ -101,6 +101,7 @@ def upload_several(options: Options, exchange: Exchange) -> int:
 
 
 def _uploaded(found: FleetResult[tuple[bytes, ParameterFile]], output: Path) -> FleetRow:
+    """Write what one control contains, and return its row; a file that cannot be written ends no other."""
     if found.result is None:
         return failed_row(found)
     content, file = found.result
@@ -159,6 +160,7 @@ def _one_code(options: Options, rows: list[FleetRow], codes: list[int]) -> int:
 
 
 def _as_json(row: FleetRow, code: int) -> dict[str, object]:
+    """Return one control as ``--json`` lists it."""
     return {
         "address": row.address,
         "result": row.word,

@@ -68,12 +68,14 @@ def run(options: Options) -> int:
         else:
             _print(files[0], rows)
         print(f"{len(rows)} listed, {same} are the same on all {len(files)}")
+    # 0 is the value of the first machine: any other number in a row is a difference.
     return int(any(map(any, alike)))
 
 
 def _rows(
     files: list[ParameterFile], *, everything: bool
 ) -> tuple[list[tuple[Address, tuple[Value | None, ...]]], int]:
+    """Return ``machine_rows``; raises UsageError for what cannot be compared."""
     from amp_studio.report import machine_rows
 
     try:
@@ -89,6 +91,7 @@ def _as_json(
     same: int,
     groups: Sequence[Sequence[int]],
 ) -> dict[str, Any]:
+    """Return the comparison as ``--json`` prints it."""
     return {
         "machines": [str(path) for path in options.paths],
         "same": same,

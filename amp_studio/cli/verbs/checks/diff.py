@@ -90,6 +90,7 @@ def _write_paper(
     digests: tuple[str | None, str | None],
     more: tuple[ParameterFile, list[Difference]],
 ) -> None:
+    """Write the differences as the document that is asked for, with the digests of controls on it."""
     from amp_studio.report import differences_paper, write_paper
 
     facts = [

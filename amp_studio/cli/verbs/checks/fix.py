@@ -79,6 +79,7 @@ def _doubtful(options: Options, findings: Sequence[Finding]) -> str:
 
 
 def _change_line(file: ParameterFile, fixed: Fixed) -> str:
+    """Return the line of one value that was changed, and by which rule."""
     from amp_studio.files import describe
     from amp_studio.schema import show_value
 
@@ -111,6 +112,7 @@ def _lines(
 
 
 def _json(file: ParameterFile, fixed: Fixed) -> dict[str, Any]:
+    """Return one value that was changed as ``--json`` lists it."""
     address, old, new = fixed.change.address, fixed.change.old, fixed.change.new
     parameter = file.schema.parameters[address[0]]
     return {

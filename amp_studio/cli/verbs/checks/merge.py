@@ -96,6 +96,7 @@ def _in_window(merge: Merge, options: Options) -> int:
 
 
 def _check_paths(options: Options) -> None:
+    """Raise UsageError, SaveError where the result could not be written."""
     from amp_studio.files import check_output
 
     if options.output is None and not options.dry_run:
@@ -149,6 +150,7 @@ def _new_findings(merge: Merge, result: ParameterFile, beside: Path) -> list[Fin
     from amp_studio.validate import Validator, new_findings, rules_beside
 
     own = rules_beside(beside, result)
+    # Of both sides: what either of them has already was not brought in by the merge.
     before = [f for file in (merge.a, merge.b) for f in Validator(file, own).run()]
     return [f for f in new_findings(before, Validator(result, own).run()) if f.severity != "advice"]
 
@@ -199,6 +201,7 @@ def _side_name(choice: MergeChoice | None) -> str:
 
 
 def _document(merge: Merge, result: ParameterFile, new: list[Finding], options: Options) -> dict[str, Any]:
+    """Return the merge as ``--json`` prints it."""
     from amp_studio.report import finding_json
 
     changed = [row for row in merge.differing if merge.choice(row) not in ("a", None)]

@@ -239,6 +239,7 @@ def _each(
     elif workers == 1:
         yield from map(check, paths)
     else:
+        # Rounded up: of few files each process gets one share.
         size = min(AT_A_TIME, -(-len(paths) // workers))
         yield from _shared(check, [paths[n : n + size] for n in range(0, len(paths), size)], workers)
 
@@ -280,6 +281,8 @@ def _shared(
         try:
             with ProcessPoolExecutor(workers, _context(), initializer=_start) as pool:
                 for results in pool.map(partial(_check_each, check), left):
+                    # Before they are handed out: where a process ends after this, what is left is checked
+                    # again, and nothing twice.
                     left.pop(0)
                     yield from results
         except BrokenProcessPool:  # one of the next files ended its process, for want of memory
@@ -306,6 +309,8 @@ def _check_each(check: Callable[[Path], CheckResult], paths: Sequence[Path]) -> 
 
 def _start() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the code that waits for the processes ends them
+    # A copy shares the memory of this process until it writes there: a collection would write to every
+    # object.
     gc.freeze()
 
 

@@ -51,6 +51,7 @@ def run(options: Options) -> int:
         if is_fleet(options, options.to):
             return download_to_several(options, machine.file, exchange_of(options, path, stop))
         control = connect(options.to[0], progress=progress(), cancel=stop, notify=print_remark)
+        # Accepted, or refused, above, where they were listed.
         outcome = control.download(machine, expect=options.expect, accept_errors=True, keep=options.keep)
         print_by_hand(name)
         return print_outcome(outcome)

@@ -84,6 +84,7 @@ def _secured(options: Options) -> Endpoint:
     from amp_studio.transfer.links import Security, can_others_read, exposure, parse_endpoint, read_password
 
     place = parse_endpoint(options.listen)
+    # A certificate alone may have its key in the same file.
     if (options.key is not None) > (options.certificate is not None):
         raise UsageError("--key belongs to a --certificate")
     password = read_password(options.password_file) if options.password_file is not None else ""

@@ -54,6 +54,7 @@ def run(options: Options) -> int:
 
 
 def _show(each: RecordedExchange) -> None:
+    """Print one exchange: the digests before and after, how to put back, and every value that changed."""
     from amp_studio.files import local_time
 
     print(f"      {each.text}")

@@ -77,9 +77,11 @@ def run(options: Options) -> int:
 
 
 def _write(file: PlainFile, path: Path, *, keep_padding: bool) -> None:
+    """Write one file, and report the padding that was taken off it."""
     from amp_studio.files import write_atomic
     from amp_studio.report import counted
 
+    # XMODEM knows no length: the last block is filled up with 1Ah, and a text may end with one itself.
     content = file.content + b"\x1a" * (file.padding if keep_padding else 0)
     write_atomic(path, content, expected=None, keep_backup=False)
     named = f" (sent as {file.name})" if file.name not in ("", path.name) else ""

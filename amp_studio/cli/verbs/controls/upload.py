@@ -82,6 +82,9 @@ def run(options: Options) -> int:
 
 
 def _readable(image: bytes, output: Path) -> MachineParameters:
+    """Return the machine of an image; raises UsageError, with how to keep the bytes, where it cannot be
+    read.
+    """
     from amp_studio import MachineParameters
     from amp_studio.transfer import ImageError, decode_content
     from amp_studio.transfer.client import IMAGE

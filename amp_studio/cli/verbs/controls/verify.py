@@ -73,6 +73,7 @@ def run(options: Options) -> int:
 def _as_json(
     file: ParameterFile, comparison: ImageComparison, sha256: str, *, secrets: bool
 ) -> dict[str, Any]:
+    """Return the comparison as ``--json`` prints it."""
     from amp_studio.cli.checks.comparing import difference_json
 
     def listed(differences: Iterable[Difference]) -> list[dict[str, Any]]:
@@ -94,6 +95,7 @@ def _as_json(
 
 
 def _print(file: ParameterFile, comparison: ImageComparison, *, secrets: bool) -> None:
+    """Print what differs: values, units, what is in use since the start, and the header."""
     from amp_studio.cli.checks.comparing import print_comparison, print_difference
 
     if not comparison.unreadable:

@@ -70,6 +70,7 @@ def run(options: Options) -> int:
     from amp_studio.files import real_path
     from amp_studio.validate import RULES_FILE
 
+    # The builder's rules are read for the report, though no argument names them.
     check_replaced(options.output, options.path, real_path(options.path).with_name(RULES_FILE))
     as_wanted = opened(options.path, options).report(
         options.output,

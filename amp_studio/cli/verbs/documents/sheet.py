@@ -167,6 +167,7 @@ def _counts(found: Sequence[ReadBack]) -> str:
 
 
 def _outcome(each: ReadBack) -> str:
+    """Return the line of an entry that is not on the screen as it was to be keyed in."""
     from amp_studio.sheet import STATES
 
     entry = each.entry
@@ -185,6 +186,7 @@ def _read_back(options: Options, file: ParameterFile, sheet: Sheet) -> Sequence[
 
     content = read_file(options.check, _LARGEST)
     try:
+        # A spreadsheet puts the mark of UTF-8 in front of the list.
         return compare_screen(sheet, file, read_screen_readings(content.decode("utf-8-sig")))
     except UnicodeDecodeError:
         raise UsageError(f"{options.check}: there is a byte that is no UTF-8 text") from None
@@ -193,6 +195,7 @@ def _read_back(options: Options, file: ParameterFile, sheet: Sheet) -> Sequence[
 
 
 def _print(options: Options, sheet: Sheet, ticks: Ticks, found: dict[str, ReadBack]) -> None:
+    """Write the sheet, or print it as text or JSON; what was read back just now comes before what is kept."""
     from amp_studio.report import PrintedSheet, counted, text_lines, write_sheet
 
     screen_text = dict(ticks.screen_text) | {
@@ -215,6 +218,7 @@ def _print(options: Options, sheet: Sheet, ticks: Ticks, found: dict[str, ReadBa
 
 
 def _json(sheet: Sheet, ticks: Ticks, found: dict[str, ReadBack]) -> dict[str, Any]:
+    """Return the sheet as ``--json`` prints it."""
     return {
         "title": sheet.title,
         "family": sheet.family,
@@ -238,6 +242,7 @@ def _instructions(steps: Sequence[Any]) -> list[dict[str, str]]:
 def _entry_json(
     step: int, entry: SheetEntry, sheet: Sheet, ticks: Ticks, read: ReadBack | None
 ) -> dict[str, Any]:
+    """Return one entry as ``--json`` lists it, with what was read back where something was."""
     stage = sheet.stages[entry.stage]
     return {
         "step": step,

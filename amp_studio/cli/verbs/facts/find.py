@@ -160,6 +160,7 @@ def _elsewhere_json(others: Sequence[tuple[Schema, Hit]]) -> dict[str, list[dict
 
 
 def _as_json(hit: Hit, source: _Source) -> dict[str, Any]:
+    """Return one hit as ``--json`` lists it; a message with all that is known of it."""
     from amp_studio.schema import written
 
     schema = source.schema
@@ -185,6 +186,7 @@ def _as_json(hit: Hit, source: _Source) -> dict[str, Any]:
 
 
 def _message_json(page: MessagePage) -> dict[str, Any]:
+    """Return what is known of a message, with the values and the broken rules of the file."""
     from amp_studio.schema import written
 
     message = page.message
@@ -222,6 +224,7 @@ def _message_json(page: MessagePage) -> dict[str, Any]:
 
 
 def _print(found: list[tuple[Hit, _Source]], named: bool) -> None:
+    """Print the hits, the best first; one that is a message with its whole page."""
     best, source = found[0]
     if best.kind == "message":
         print(_where(source, named) + best.title)

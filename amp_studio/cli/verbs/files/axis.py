@@ -121,9 +121,11 @@ def _change(file: ParameterFile, operation: str, arguments: Sequence[str]) -> li
 
 
 def _print_changes(file: ParameterFile, changes: Sequence[Change], options: Options) -> None:
+    """Print each value that is another one now; one that was changed and changed back is none."""
     from amp_studio.schema import show_value
 
     after = {change.address: change.new for change in changes}
+    # Backwards: an operation may change a value twice, and what it was before the first time counts.
     before = {change.address: change.old for change in reversed(changes)}
     changed = []
     for address, last in after.items():
@@ -143,6 +145,7 @@ def _print_changes(file: ParameterFile, changes: Sequence[Change], options: Opti
 
 
 def _axes_json(file: ParameterFile) -> list[dict[str, object]]:
+    """Return the fitted axes as ``--json`` lists them."""
     from amp_studio.files import axis_kind, axis_letter, fitted_axes
     from amp_studio.schema import axis_group
 
@@ -158,6 +161,7 @@ def _axes_json(file: ParameterFile) -> list[dict[str, object]]:
 
 
 def _list(file: ParameterFile, *, as_json: bool) -> int:
+    """Print the fitted axes."""
     from amp_studio.files import axis_instances, axis_title, fitted_axes
 
     instances = axis_instances(file)
@@ -171,6 +175,7 @@ def _list(file: ParameterFile, *, as_json: bool) -> int:
 
 
 def _compare(file: ParameterFile, first: str, second: str, options: Options) -> int:
+    """Print what differs between two axes; 1 where anything does."""
     from amp_studio.files import axis_title, compare_axes
 
     found = compare_axes(file, first, second)

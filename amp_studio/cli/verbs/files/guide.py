@@ -144,6 +144,7 @@ def _step(schema: Schema, text: str) -> SetupStep:
 
 
 def _family(options: Options, schema: Schema, asked_for: str | None) -> int:
+    """Print the steps of a family, or one step with its parameters."""
     from amp_studio.guide import steps_of
 
     if any(getattr(options, key) for key in (*_CHANGING, "next", "output")):
@@ -183,6 +184,7 @@ def _order(schema: Schema) -> dict[str, Any]:
 
 
 def _facts(step: SetupStep) -> dict[str, Any]:
+    """Return what the facts have of a step, as ``--json`` lists it."""
     return {
         "step": step.number,
         "id": step.id,
@@ -268,6 +270,7 @@ def _overview(file: ParameterFile, come: GuideProgress, path: Path) -> Iterator[
         yield _step_line(each, width)
         if each is come.current:
             yield from _open_lines(file, each.open)
+    # Ticks of tests at the machine are kept beside those of steps, by names with the axis behind an @.
     known = {each.step.id for each in come.steps}
     for name, who in file.header.done.items():
         if name not in known:
@@ -288,6 +291,7 @@ def _open_lines(file: ParameterFile, addresses: Sequence[Address]) -> Iterator[s
 
 
 def _step_line(each: StepProgress, width: int) -> str:
+    """Return the line of a step: its mark, number and title, what is set, found and ticked."""
     from amp_studio.files import with_local_times
     from amp_studio.report import counted
     from amp_studio.validate import SEVERITIES
@@ -337,6 +341,7 @@ def _step_lines(file: ParameterFile, each: StepProgress) -> Iterator[str]:
 
 
 def _as_json(file: ParameterFile, come: GuideProgress, path: Path, only: SetupStep | None) -> dict[str, Any]:
+    """Return how far a file is, as ``--json`` prints it; ``only`` one step, with its values."""
     from amp_studio.guide import next_open
     from amp_studio.validate import SEVERITIES
 
@@ -374,6 +379,7 @@ def _values_json(file: ParameterFile, each: StepProgress) -> list[dict[str, Any]
 
 
 def _step_json(file: ParameterFile, each: StepProgress) -> dict[str, Any]:
+    """Return one step as ``--json`` lists it."""
     from amp_studio.report import finding_json
 
     return _facts(each.step) | {
@@ -392,6 +398,7 @@ def _step_json(file: ParameterFile, each: StepProgress) -> dict[str, Any]:
 
 
 def _open_json(file: ParameterFile, address: Address) -> dict[str, Any]:
+    """Return a value that is not set as ``--json`` lists it, with what it can be."""
     from amp_studio.guide import step_of
     from amp_studio.report import open_value
 

@@ -83,6 +83,7 @@ def _write_parameter_file(options: Options, migration: Migration) -> None:
     from amp_studio.cli.output import write_new
 
     name, text = next(iter(migration.written.texts.items()))
+    # By its name an import knows the format.
     with TemporaryDirectory() as folder:
         path = Path(folder) / name
         path.write_text(text, encoding="utf-8")

@@ -83,6 +83,7 @@ def _show(options: Options) -> int:
 
 
 def _list(options: Options) -> int:
+    """Print every note of the file with what it is about."""
     from amp_studio.files import all_notes
 
     found = list(all_notes(opened(options.path).file))

@@ -72,6 +72,7 @@ def _labels(file: ParameterFile, addresses: Iterable[Address]) -> list[str]:
 
 
 def _json(file: ParameterFile, blocks: Sequence[ReadBlock]) -> dict[str, Any]:
+    """Return the blocks word by word, as ``--json`` prints them."""
     words = [
         {
             "block": n,
@@ -114,6 +115,7 @@ def _row(file: ParameterFile, word: BlockWord) -> tuple[str, str, str, str]:
 
 
 def _print(file: ParameterFile, blocks: Sequence[ReadBlock]) -> None:
+    """Print each word with its figure, meaning and page, then what is not known and what is assumed."""
     for n, block in enumerate(blocks):
         if len(blocks) > 1:
             print("" if n == 0 else "\n", block.text, sep="")
@@ -131,6 +133,8 @@ def _print_rows(rows: Sequence[Sequence[str]]) -> None:
 
 
 def _state_json(file: ParameterFile, state: PowerUp) -> dict[str, Any]:
+    """Return what is active after power-up, as ``--json`` prints it."""
+
     def rows(lines: Sequence[PowerUpLine]) -> list[dict[str, Any]]:
         return [
             {
@@ -147,6 +151,7 @@ def _state_json(file: ParameterFile, state: PowerUp) -> dict[str, Any]:
 
 
 def _print_state(file: ParameterFile, state: PowerUp) -> None:
+    """Print what is active after power-up, what changes it, and which codes call programs."""
     for title, lines in (
         ("After power-up", state.active),
         ("What changes it", state.changes),

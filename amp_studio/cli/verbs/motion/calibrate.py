@@ -88,7 +88,7 @@ _STARTS = {"positive": "+", "negative": "-"}
 _OPTIONS = {"unit": "--unit", "error_unit": "--error-unit", "sign": "--sign", "decimal": "--decimal"}
 
 _LONGEST = 64
-"""Signs of a value that is printed whole."""
+"""Characters of a value that is printed whole."""
 
 
 def run(options: Options) -> int:
@@ -105,6 +105,8 @@ def run(options: Options) -> int:
         axis = resolve_axis(file.evaluation, _instances(file, offered), options.axis)
         try:
             found = _correction(options, file, offered, axis, by_hand)
+            # In a dry run too: the file in memory is this process's own, and a value out of range is
+            # refused as it would be.
             changes = file.set_checked(found.settings)
         except (CalibrationError, RangeError, InvalidValueError) as error:
             raise UsageError(f"{error}; nothing was changed") from None
@@ -143,6 +145,7 @@ def _check_picture(options: Options) -> None:
 
 
 def _draw(options: Options, file: ParameterFile, proposal: Proposal) -> None:
+    """Write the picture of the errors before and after."""
     from amp_studio.cli.motion.calibration_picture import proposal_scene
     from amp_studio.drawing import scene_svg
     from amp_studio.files import write_atomic
@@ -347,6 +350,7 @@ def _measured(measurement: Measurement, proposal: Proposal) -> Iterator[str]:
 def _table_lines(
     file: ParameterFile, offered: Compensation, axis: str, table: CalibrationTable | None
 ) -> Iterator[str]:
+    """Yield the reversal error and the table of an axis, point by point; its remarks go to standard error."""
     from amp_studio.calibration import shown_unit
     from amp_studio.files import describe
     from amp_studio.schema import show_value, unit_text
@@ -434,6 +438,7 @@ def _json(
 
 
 def _proposal_json(measurement: Measurement, proposal: Proposal) -> dict[str, Any]:
+    """Return what was measured and what is expected to remain, as ``--json`` prints it."""
     figures = asdict(proposal.figures)
     targets = [asdict(t) | {"mean": t.mean, "reversal": t.reversal} for t in proposal.figures.targets]
     names = {True: "rising", False: "falling"}

@@ -74,6 +74,7 @@ def run(options: Options) -> int:
 
 
 def _draw(options: Options, cam: CamProfile) -> None:
+    """Write the picture of the cam."""
     from amp_studio.drawing import picture_svg
     from amp_studio.files import write_atomic
     from amp_studio.sim import cam_picture
@@ -85,6 +86,7 @@ def _draw(options: Options, cam: CamProfile) -> None:
 
 
 def _show(options: Options, cam: CamProfile, changed: int) -> None:
+    """Print the figures of the cam and what is doubtful about it."""
     from amp_studio.sim import cam_figures, value_text
 
     figures = cam_figures(cam)

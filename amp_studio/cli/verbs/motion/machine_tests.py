@@ -148,5 +148,6 @@ def _write(path: Path, tests: Sequence[MachineTest]) -> None:
     test = tests[0]
     if test.refusal:
         raise UsageError(test.refusal)
+    # ASCII is what every control reads; the lines are made here, and have nothing else in them.
     write_atomic(path, "".join(f"{line}\n" for line in test.lines).encode("ascii"), keep_backup=False)
     print_remark(f"{path}: {len(test.lines)} lines")

@@ -66,6 +66,7 @@ def run(options: Options) -> int:
 
 
 def _list(file: ParameterFile, *, as_json: bool) -> int:
+    """Print the pictures that the file has, each with its parts."""
     from amp_studio.pictures import pictures_of
 
     pictures = pictures_of(file)

@@ -150,6 +150,7 @@ def _earlier(options: Options) -> dict[str, ParameterFile]:
 
 
 def _write(options: Options, file: ParameterFile, found: ProgramRun) -> None:
+    """Write the moves as a table, or the path as a picture; a table of any length, part by part."""
     from amp_studio.drawing import picture_svg
     from amp_studio.files import write_atomic
     from amp_studio.sim import path_picture, program_csv
@@ -178,6 +179,7 @@ def _pdf(picture: str) -> bytes:
 
 
 def _start(options: Options, file: ParameterFile) -> Sequence[float] | None:
+    """Return where the axes are at first, in the order of the path; None for home."""
     from amp_studio.programs import path_letters
     from amp_studio.sim import typed_places
 
@@ -213,4 +215,5 @@ def _tries(texts: Sequence[str], file: ParameterFile) -> list[Mapping[Address, V
     from amp_studio.sim import typed_values
 
     each = [typed_values(file, [text]) for text in texts]
+    # Together last: of two changes to one parameter the later counts.
     return [*each, *([{k: v for one in each for k, v in one.items()}] if len(each) > 1 else [])]

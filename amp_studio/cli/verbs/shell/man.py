@@ -38,6 +38,7 @@ def man_page() -> str:
         lines += [f".SS {_plain(name)}", _plain(verb.about), ".PP", _plain(usage_of(name, verb))]
         for argument in verb.arguments:
             lines += [".TP", rf"\fB{_plain(argument.label)}\fR", _plain(argument.help)]
+        # Without the exit codes, which are the same for all verbs and come once, at the end.
         lines += _blocks(list(sections(verb))[:-1])
     lines += [".SH EXIT STATUS", ".nf", *map(_plain, EXIT_CODES), ".fi"]
     return "\n".join(lines) + "\n"
