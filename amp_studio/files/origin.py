@@ -8,6 +8,8 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from amp_studio.schema import YamlError, read_yaml, spelled_scalar
+
 from .paths import real_path
 
 if TYPE_CHECKING:
@@ -16,7 +18,7 @@ if TYPE_CHECKING:
 MADE_FROM = "made_from"
 """Key of the header: the other file, as seen from the folder of this one."""
 
-_NAMED = re.compile(rb"^[ \t]+made_from:[ \t]*(['\"]?)([^\r\n]+?)\1[ \t]*\r?$", re.MULTILINE)
+_ENTRY = re.compile(rb"^made_from:[^\r\n]*", re.MULTILINE)
 
 
 def record_origin(file: ParameterFile, path: Path, origin: Path) -> None:
@@ -36,5 +38,11 @@ def origin_of(file: ParameterFile, path: Path) -> Path | None:
 def origin_named(content: bytes, folder: str) -> Path | None:
     """Return the same of the text of a file in a folder, without reading all of it."""
     # The expression looks at each line; few files have one with the word.
-    found = _NAMED.search(content) if b"made_from:" in content else None
-    return Path(folder, os.fsdecode(found[2])) if found else None
+    found = _ENTRY.search(content) if b"made_from:" in content else None
+    if found is None:
+        return None
+    try:  # by the reader of all files: a name may be in quotes, and a remark behind it
+        source = read_yaml(found[0].decode("utf-8"), spelled_scalar).data[MADE_FROM]
+    except (UnicodeDecodeError, YamlError):
+        return None
+    return Path(folder, source) if isinstance(source, str) and source else None

@@ -110,6 +110,24 @@ def test_rules_beside_the_files_that_come_change_or_go_check_all_again(
     assert len(checked) == 9, "without rules nothing has changed since the first run"
 
 
+@pytest.mark.parametrize("name", ["router.amp", "it's # 1.amp"])
+def test_what_machines_were_made_from_is_a_part_of_their_keys(
+    amp, cache: Path, tmp_path: Path, small: bytes, checked: list[str], name: str
+) -> None:
+    origin, folder = tmp_path / name, tmp_path / "made"
+    folder.mkdir()
+    origin.write_bytes(small)
+    for copy in ("a.amp", "b.amp"):
+        assert amp("new", "grblhal", folder / copy, "--like", origin).code == 0
+    assert "made from" not in amp("validate", folder).out
+    amp("validate", folder)
+    assert len(checked) == 2
+    assert amp("set", origin, "$30=10000").code == 0
+    again = amp("validate", folder)
+    assert again.out.count(f"a tenth of the 10000 rpm in {name}, which it was made from") == 2
+    assert again.out == amp("validate", folder, "--no-cache").out
+
+
 def test_named_rules_are_a_part_of_what_is_asked(amp, cache: Path, machines: Path, tmp_path: Path) -> None:
     change_the_rules(tmp_path)
     rules = tmp_path / "rules.yaml"
