@@ -71,6 +71,7 @@ def check_output(path: Path, *inputs: Path) -> None:
     """
     with _as_save_error(path):
         real = destination(path)
+    # In any case of letters: on Windows and macOS Rules.yaml is rules.yaml.
     if real.name.casefold() in _OF_A_FOLDER:
         raise SaveError(f"{path} is read with every file of its folder: choose another name for the output")
     for source in inputs:
@@ -111,6 +112,7 @@ def write_atomic(
         previous = _content_of(real) if looks or keep_backup else None
         if expected != "" and _digest(previous) != expected:
             raise ChangedOnDiskError(f"{path.name} {_CHANGED if expected else 'exists already'}")
+    # Outside of the clause below: what ``content`` raises goes on as it is.
     made = content(previous) if callable(content) else content
     with _as_save_error(path), contextlib.ExitStack() as stack:
         like = real if os.path.lexists(real) and not companion_of else companion_of
@@ -263,7 +265,10 @@ def append_line(path: Path, content: bytes, like: Path) -> None:
     a last line that was cut off is closed. Raises OSError.
     """
     handle = os.open(
-        path, os.O_RDWR | os.O_APPEND | os.O_CREAT | NO_LINK | HARMLESS, like.stat().st_mode & 0o666
+        # At the end as the system knows it, also where another program has added a line since.
+        path,
+        os.O_RDWR | os.O_APPEND | os.O_CREAT | NO_LINK | HARMLESS,
+        like.stat().st_mode & 0o666,
     )
     try:
         found = os.fstat(handle)

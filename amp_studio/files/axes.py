@@ -156,6 +156,7 @@ def _unlike(file: ParameterFile, addresses: Sequence[Address]) -> Iterator[Addre
     """Yield the addresses whose value is not the usual one of all; none where no two are the same."""
     keys = [file.evaluation.keys[a] for a in addresses]
     usual, count = Counter(keys).most_common(1)[0]
+    # Of two axes neither is the usual one; the second is marked, so that a difference is seen at all.
     if count > 1 or len(addresses) == 2:
         yield from (a for a, key in zip(addresses, keys, strict=True) if key != usual)
 

@@ -49,6 +49,7 @@ def name_axes(file: ParameterFile, names: Sequence[str]) -> list[Change]:
         return file.set_checked(_lettered(file, declared, [name.upper() for name in names]))
     _enough_axes(file, declared, len(names))
     with file.step() as changes:
+        # Checked afterwards, inside of the step: an error takes back what was set.
         file.set_checked(_named_and_fitted(file, declared, instances, names))
         _each_name_once(file, instances[: len(names)])
         _declare_groups(file, declared)
@@ -95,6 +96,7 @@ def _typed(file: ParameterFile, names: Sequence[str]) -> dict[Address, Value | N
 
 
 def _of_type(file: ParameterFile, profile: AxisProfile, axis: str, name: str) -> dict[Address, Value | None]:
+    """Return the name of an axis and the type that goes with it; raises AxisError."""
     try:
         own = file.read((profile.name, axis), name)
     except InvalidValueError as error:
@@ -128,6 +130,7 @@ def _lettered(
 def _counted(file: ParameterFile, declared: AxisDeclaration, axes: int) -> dict[Address, Value | None]:
     """Return the number of motors: as many more or less as there are axes now."""
     present = file.evaluation.canonical((str(declared.count), ""))
+    # Motors without an axis of their letter, as the second of a gantry, stay.
     spare = int(present) - len(fitted_axes(file)) if isinstance(present, float) else 0
     return {(str(declared.count), ""): Value(axes + max(0, spare))}
 
@@ -224,6 +227,7 @@ def _make_room(file: ParameterFile, place: str, free: list[str]) -> None:
 
 
 def _add_flagged(file: ParameterFile, declared: AxisDeclaration, name: str, at: str | None) -> str:
+    """Fit an axis at a free input, by default the first; returns which. Raises AxisError."""
     fitted, taken = fitted_axes(file), shown_axes(file)
     place = at if at is not None else next((a for a in axis_instances(file) if a not in taken), "")
     if known_axis(file, place) in fitted:
@@ -239,6 +243,7 @@ def _add_flagged(file: ParameterFile, declared: AxisDeclaration, name: str, at: 
 
 
 def _add_last(file: ParameterFile, declared: AxisDeclaration, name: str, at: str | None) -> str:
+    """Fit the axis behind the last one; returns which. Raises AxisError."""
     instances, fitted = axis_instances(file), fitted_axes(file)
     if declared.any_letters:
         file.set_checked(_lettered(file, declared, [*fitted, name.upper()]))
@@ -284,6 +289,9 @@ def _unfit(file: ParameterFile, declared: AxisDeclaration, axis: str) -> None:
 
 
 def _remove(file: ParameterFile, declared: AxisDeclaration, axis: str) -> None:
+    """Take an axis of a family without types away; raises AxisError where the machine would not have the
+    rest.
+    """
     fitted = fitted_axes(file)
     if axis not in fitted:
         raise AxisError(f"axis {axis} is not there")
@@ -366,6 +374,7 @@ def _without_letter(file: ParameterFile, declared: AxisDeclaration, axis: str) -
     """Return what leaves an axis without a name and a group."""
     wanted: dict[Address, Value | None] = {}
     for field in filter(None, (declared.name, declared.group)):
+        # Name and group may be fields of one word: each is put into the result of the one before.
         wanted = _with_field(file, field, axis, "none", wanted)
     return wanted
 
@@ -377,6 +386,9 @@ def _with_field(
     text: str,
     before: dict[Address, Value | None] | None = None,
 ) -> dict[Address, Value | None]:
+    """Return the word of an axis with one field set to a text, over ``before`` where it has the word
+    already.
+    """
     address, parameter = (field.param, axis), file.schema.parameters[field.param]
     present = (before or {}).get(address) or file.get(address)
     word = int(present.value) if present and not isinstance(present.value, str) else 0

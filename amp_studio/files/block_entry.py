@@ -73,6 +73,7 @@ def plan_values(file: ParameterFile, wanted: Mapping[Address, Value | None]) -> 
 def _tried(
     file: ParameterFile, texts: Mapping[Address, str], cells: dict[Address, EnteredCell]
 ) -> BlockEntry:
+    """Return the cells with those refused that are out of range beside the others."""
     wanted = {a: cell.new for a, cell in cells.items() if cell.changes}
     while wanted:
         try:
@@ -96,6 +97,7 @@ def _read(file: ParameterFile, address: Address, text: str, read: ReadText) -> E
 
 
 def _cell(file: ParameterFile, address: Address, text: str, new: Value | None) -> EnteredCell:
+    """Return what a value would do: refused where nobody can set it, no change where it is the same."""
     old, parameter = file.get(address), file.schema.parameters[address[0]]
     if parameter.access == "read" and old != new:
         problem = f"{parameter.name} can only be read: the control writes it itself"

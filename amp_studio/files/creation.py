@@ -93,6 +93,7 @@ def made_like(source: ParameterFile, name: str, axes: Iterable[str] = ()) -> Mad
     """
     file, axes = source.copy(), list(axes)
     file.header.notes = file.header.revision = ""
+    # One empty mapping for all: these are replaced and never changed in place (``Header``).
     file.header.done = file.header.value_notes = file.header.group_notes = {}
     file.header.name = name
     file.forced.clear()

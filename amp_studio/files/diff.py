@@ -39,6 +39,7 @@ def in_one_unit(values: Sequence[Value | None], unit: str) -> list[Value | None]
         return list(values)
     for n, value in enumerate(values):
         for other in range(n):
+            # Nine digits would hide the difference that is to be shown.
             if converted[n] == converted[other] and not same_value(value, values[other]):
                 return list(values)
     return converted

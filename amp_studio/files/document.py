@@ -326,6 +326,7 @@ class Document:
             known = (*_TYPED, *HEADER_SECTIONS)
             header = {key: text for key, text in left.get("header", {}).items() if key in known}
             when, who, digest = left["when"], left["who"], left["digest"]
+        # It was written by a program that was killed, perhaps by another version: anything may be in it.
         except (OSError, ValueError, TypeError, LookupError, AttributeError, RecursionError):
             return None
         if not all(isinstance(text, str) for text in (when, who)) or not all(map(_is_entry, header.items())):

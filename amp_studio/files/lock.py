@@ -162,6 +162,7 @@ def _locked(place: Path) -> int:
 
 
 def _opened(place: Path) -> int:
+    """Return the handle of a lock file, which is made where there is none; raises OSError."""
     flags = NO_LINK | HARMLESS
     try:
         return os.open(place, flags | os.O_RDWR | os.O_CREAT, 0o666)

@@ -110,6 +110,9 @@ class Merge:
     # -- the rows --------------------------------------------------------------
 
     def _rows(self) -> Iterator[Row]:
+        """Yield the rows: the header, then the values in the manual's order, then what the schema does not
+        know.
+        """
         sources = (self.base, self.a, self.b)
         texts = [_header_texts(file) for file in sources]
         for place in dict.fromkeys(chain.from_iterable(texts)):
@@ -130,6 +133,7 @@ class Merge:
         return Row(row_id, base, a, b, self._kind(base, a, b))
 
     def _kind(self, base: Value | None, a: Value | None, b: Value | None) -> RowKind:
+        """Return which side changed a value, seen from the base."""
         if self.base is None:
             return self._kind_without_base(a, b)
         if a is b is base:  # equal texts of files are one object
@@ -253,7 +257,7 @@ class Merge:
         """Put the result into a file that contains A or B; returns the values changed.
 
         A value that is the same already stays as it is written. An axis that begins to turn takes its lengths
-        along as angles, as everywhere. HeaderSnapshot of values out of range come with their values.
+        along as angles, as everywhere. Marks of values out of range come with their values.
         """
         changes: list[Change] = []
         for row in self.differing:
@@ -266,6 +270,7 @@ class Merge:
         return changes + file.refit_turned(changes)
 
     def _put_value(self, file: ParameterFile, row: Row) -> Iterator[Change]:
+        """Set a value as the result has it, with its mark; yields the change where it is one."""
         address, value = row.address, self.result_of(row)
         choice = self.choice(row) or self.initial
         if not same_value(file.get(address), value):

@@ -173,8 +173,8 @@ class ParameterFile:
     def is_default(self, address: Address) -> bool:
         """Return whether a value equals the printed default, whatever the unit.
 
-        A secret of several instances does as a whole or not at all: which sign of a password is the printed
-        one would give the rest of it away.
+        A secret of several instances does as a whole or not at all: which character of a password is the
+        printed one would give the rest of it away.
         """
         parameter = self.schema.parameters[address[0]]
         if not parameter.secret:
@@ -214,6 +214,7 @@ class ParameterFile:
         return change
 
     def _check_address(self, address: Address) -> None:
+        """Raise TypeError for what is no address, UnknownParameterError for one that no machine type has."""
         if not (
             isinstance(address, tuple) and len(address) == 2 and all(isinstance(p, str) for p in address)
         ):

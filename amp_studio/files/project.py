@@ -272,6 +272,7 @@ _RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{d}{n}" for d in ("COM", "LPT") for
 
 
 def _check(info: ProjectInfo) -> None:
+    """Raise InvalidNameError for a project without a name, or of an unknown family or machine type."""
     if not info.name.strip():
         raise InvalidNameError("a project needs a name")
     if not info.family:
@@ -291,6 +292,7 @@ def _has_backup(path: Path) -> bool:
 
 
 def _move(source: Path, target: Path) -> None:
+    """Rename a file with what lies beside it; an error leaves all of it under the old name."""
     if is_link(source):  # what belongs to the file lies beside it, not beside the link
         source.rename(target)
         return

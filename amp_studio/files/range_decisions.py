@@ -50,6 +50,7 @@ def settle(file: ParameterFile, by: str, prompt: RangePrompt) -> bool:
 
 
 def _settled(file: ParameterFile, address: Address, problem: str, by: str, prompt: RangePrompt) -> bool:
+    """Ask about one value until it is kept, or edited to one that is allowed; False ends the walk."""
     while (decision := prompt.decide(problem)) == "edit":
         text = prompt.new_value(file, address, problem)
         if text is None:

@@ -60,7 +60,7 @@ DESCRIPTION = "description"
 so the file opens without it."""
 KNOWN_KEYS = {"amp_studio", "family", DESCRIPTION, *SECTIONS, *HEADER_KEYS}
 _REMEMBERED = 200
-"""Signs of the longest text whose meaning is remembered."""
+"""Characters of the longest text whose meaning is remembered."""
 
 
 class ParameterFileError(FileError):
@@ -146,6 +146,7 @@ class _FileReader:
         return ParameterFileError(self.path, line, what)
 
     def _parse(self) -> None:
+        """Read the text as YAML; raises ParameterFileError for what is no whole file of this format."""
         try:
             document = read_yaml(self.text, text_scalar)
         except YamlError as error:
@@ -174,6 +175,9 @@ class _FileReader:
         return ParameterFileError(self.path, line, "ends without its end mark '...': it has been cut off")
 
     def _family(self) -> Schema:
+        """Return the schema that the file names, or describes; raises ParameterFileError with the line of
+        it.
+        """
         family = self.data.get("family")
         if not isinstance(family, str):
             raise self._fault("names no control family", *(["family"] if "family" in self.data else []))
@@ -200,6 +204,8 @@ class _FileReader:
             return self._printed_schema(family)
         if not isinstance(lines, list) or not all(isinstance(line, str) for line in lines):
             raise self._fault("the description of its control is no list of lines", DESCRIPTION)
+        # The first line is the seal: a hand that changed a line of the rest would change what numbers
+        # mean.
         description = "".join(f"{line}\n" for line in lines[1:]).encode("utf-8", "replace")
         if lines[:1] != [seal_of(description)]:
             raise self._fault(
@@ -212,6 +218,9 @@ class _FileReader:
         return described_schema(family, description)
 
     def _read_header(self) -> None:
+        """Read the texts of the header; raises ParameterFileError for what is none, or an unknown machine or
+        unit.
+        """
         header, family = self.file.header, self.file.schema.family
         header.extra = extra_entries(self.text, self.data)
         for key in HEADER_KEYS:
@@ -232,6 +241,7 @@ class _FileReader:
         return entries
 
     def _read_values(self, entries: dict[str, Any]) -> None:
+        """Read the values; what this machine type does not have stays as an entry."""
         file = self.file
         values: dict[Address, Value] = {}
         machine = file.schema.family.machine_parameter
@@ -247,6 +257,7 @@ class _FileReader:
             if address in values or key in file.unknown:  # "x" and "x@"
                 raise self._fault(f"{quoted(written(address))} occurs twice", "values", key)
             if address not in places:
+                # Of the other machine type, or of a newer schema: kept, and written back as it is.
                 file.unknown[key] = text
                 continue
             try:

@@ -171,6 +171,7 @@ def _difference(file: ParameterFile, again: ParameterFile) -> str:
     if file.forced != again.forced:
         return "the marks of force would be read back as others"
     plain = replace(file.header, extra={}) == replace(again.header, extra={})
+    # By their text: to Python 1, 1.0 and True are equal, and in a file they are not.
     if not plain or repr(file.header.extra) != repr(again.header.extra):
         return "the head of the file would be read back otherwise"
     return ""

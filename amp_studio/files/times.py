@@ -47,5 +47,7 @@ def day_and_time(stamp: str, now: datetime | None = None) -> str:
     days = (present.date() - moment.date()).days
     if days in (0, 1):
         return f"{'yesterday' if days else 'today'} {moment:%H:%M}"
+    # Not by strftime: its names of months follow the locale, and the day without a zero is not on
+    # Windows.
     day = f"{moment.day} {_MONTHS[moment.month - 1]}"
     return f"{day} {moment:%H:%M}" if moment.year == present.year else f"{day} {moment.year}"

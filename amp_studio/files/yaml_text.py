@@ -67,6 +67,7 @@ def _flow_text(value: Any) -> str:
         return "{" + ", ".join(f"{_flow_text(k)}: {_flow_text(v)}" for k, v in value.items()) + "}"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(map(_flow_text, value)) + "]"
+    # In brackets a text without quotes would end at a comma.
     return _double_quoted(value) if isinstance(value, str) else scalar_text(value)
 
 
@@ -155,8 +156,10 @@ class _Editor:
     def text(self) -> str:
         """Return the text with the changes."""
         source, parts, at = self.document.text, [], 0
+        # Stable, so that new entries of one place stay in their order.
         for start, end, new in sorted(self.edits, key=lambda edit: edit[:2]):
             parts += [source[at:start], new]
+            # What lies inside of a part that is removed ends before it.
             at = max(at, end)
         return "".join([*parts, source[at:]])
 
@@ -173,6 +176,7 @@ class _Editor:
                 self._insert(behind, key, value, indent)
                 continue
             behind = self._line_behind(self.spans[*path, key].end)
+            # By their text, as 1, 1.0 and True are equal to Python.
             if repr(known[key]) != repr(value) and not self._amended_in_place(
                 (*path, key), known[key], value
             ):
