@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 MADE_FROM = "made_from"
 """Key of the header: the other file, as seen from the folder of this one."""
 
-_ENTRY = re.compile(rb"^made_from:[^\r\n]*", re.MULTILINE)
+_ENTRY = re.compile(rb"^made_from:[ \t][^\r\n]*", re.MULTILINE)
 
 
 def record_origin(file: ParameterFile, path: Path, origin: Path) -> None:
@@ -31,8 +31,7 @@ def record_origin(file: ParameterFile, path: Path, origin: Path) -> None:
 
 def origin_of(file: ParameterFile, path: Path) -> Path | None:
     """Return what a file at ``path`` was made from; None if it is not known."""
-    source = file.header.extra.get(MADE_FROM)
-    return path.parent / source if isinstance(source, str) and source else None
+    return _path_of(file.header.extra.get(MADE_FROM), path.parent)
 
 
 def origin_named(content: bytes, folder: str) -> Path | None:
@@ -42,7 +41,13 @@ def origin_named(content: bytes, folder: str) -> Path | None:
     if found is None:
         return None
     try:  # by the reader of all files: a name may be in quotes, and a remark behind it
-        source = read_yaml(found[0].decode("utf-8"), spelled_scalar).data[MADE_FROM]
+        source = read_yaml(found[0].decode("utf-8"), spelled_scalar).data.get(MADE_FROM)
     except (UnicodeDecodeError, YamlError):
         return None
-    return Path(folder, source) if isinstance(source, str) and source else None
+    return _path_of(source, Path(folder))
+
+
+def _path_of(source: object, folder: Path) -> Path | None:
+    """Return the file that an entry names as seen from a folder; None for an entry that names none."""
+    # The system refuses a path with a NUL by a ValueError, not by an OSError.
+    return folder / source if isinstance(source, str) and source and "\0" not in source else None

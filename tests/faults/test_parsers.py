@@ -103,6 +103,7 @@ READERS = {
     "files/document.py": "damaged journal and history",
     "files/example_files.py": "",  # the program's own examples, of which the heads are shown
     "files/lock.py": "damaged lock notes",
+    "files/origin.py": "damaged parameter file",
     "files/paths.py": "",  # shortens a name
     "files/project.py": "damaged project.yaml",
     "files/reading.py": "damaged parameter file",

@@ -21,6 +21,7 @@ from amp_studio.files import (
     Project,
     content_of,
     new_file,
+    origin_named,
     read_content,
 )
 from amp_studio.files.storage import readable_content, save_file
@@ -246,6 +247,7 @@ family: 57c422b
 name: 'BENCH'
 machine: module
 made_by: {name: me, parts: [1, 2.50, yes]}
+made_from: '../it''s.amp'  # copied
 rev: 1.10
 lines:
 - a
@@ -286,6 +288,7 @@ def _open_and_save(text: str) -> None:
     path, content = Path("x.amp"), text.encode("utf-8", "surrogatepass")
     file = read_content(path, content)
     assert content_of(file, content) == content, "a save without a change changes the file"
+    origin_named(content, "")  # by its line alone: of damaged ones it may find less than the reader of files
     again = read_content(path, readable_content(file, path))
     assert (again.values, again.unknown, again.forced) == (file.values, file.unknown, file.forced)
     chance = random.Random(len(text))

@@ -69,6 +69,13 @@ def test_what_it_was_made_from_is_known_by_its_header(machine: Path, tmp_path: P
     assert "is 2400 rpm, a tenth of the 24000 rpm in router.amp, which it was made from." in message
 
 
+def test_an_origin_that_no_system_can_name_is_none(machine: Path) -> None:
+    """A NUL in a path is a ValueError of Python, not an OSError: the check ended in it."""
+    plain = asked(machine)
+    machine.write_bytes(machine.read_bytes().replace(b"values:", b'made_from: "a\\0b"\nvalues:', 1))
+    assert asked(machine) == plain
+
+
 def test_saving_under_another_name_notes_the_first(machine: Path, tmp_path: Path) -> None:
     with Document.open(machine) as document, document.save_as(tmp_path / "copy.amp"):
         pass
