@@ -30,11 +30,16 @@ class Placement:
         inner = max(width - LEFT - right, 10.0), max(height - TOP - BOTTOM, 10.0)
         if not scene.equal:
             return cls(scene, LEFT, TOP, *inner)
+        return cls.equal_in(scene, LEFT, TOP, *inner)
+
+    @classmethod
+    def equal_in(cls, scene: Scene, left: float, top: float, width: float, height: float) -> Placement:
+        """Return the largest place in a box where both axes have one scale, in the middle of it."""
         spans = scene.x.high - scene.x.low, scene.y.high - scene.y.low
         # The tighter of both: a circle must stay a circle, whatever the shape of the sheet.
-        unit = min(inner[0] / spans[0], inner[1] / spans[1])
+        unit = min(width / spans[0], height / spans[1])
         size = spans[0] * unit, spans[1] * unit
-        return cls(scene, LEFT + 0.5 * (inner[0] - size[0]), TOP + 0.5 * (inner[1] - size[1]), *size)
+        return cls(scene, left + 0.5 * (width - size[0]), top + 0.5 * (height - size[1]), *size)
 
     def at(self, point: Point) -> Point:
         """Return where a world point lies; a place beyond the edge is at the edge."""

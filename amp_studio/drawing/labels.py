@@ -104,6 +104,8 @@ class Label:
     """From its point to it, where it is far away."""
     over: bool = False
     """Whether it lies on curves: on a light background."""
+    chip: bool = False
+    """Whether it is a letter in a filled square."""
 
 
 @dataclass(frozen=True)
@@ -192,6 +194,7 @@ class _Placing:
         wide = self._measure(text.text, bool(text.value)) + (
             self._measure(f" {value}", False) if value else 0.0
         )
+        wide = max(wide + 4.0, self._line) if text.chip else wide
         return Box(x - _SHARES[align] * wide, base - 0.8 * self._line, wide, self._line)
 
     def _kept_inside(self, box: Box) -> Box:
@@ -304,6 +307,9 @@ class _Placing:
         if not text.value and not any(letter.isalpha() for letter in text.text):
             box = self._free_box(text, point, "", 0, symbols=False)  # a figure belongs to its point
             return self._label(text, point, box, "")
+        if text.chip:
+            # A letter is there several times: one that is far from its piece is worse than none.
+            return self._label(text, point, self._beside(text, point), "")
         is_area = text.anchor in ("above", "inside", "corner")
         tries = [(text.value, _NEAR, True, False), ("", _NEAR, True, False), (text.value, _FAR, True, False)]
         for value, far, symbols, clear in (
@@ -324,7 +330,7 @@ class _Placing:
         # Without a line nobody could see which of several points a text so far away belongs to.
         far = max(abs(end[0] - point[0]), abs(end[1] - point[1]))
         leader = (point, end) if far > _LED else None
-        return Label(box, text.text, value, bool(text.value), text.sort, text.address, leader)
+        return Label(box, text.text, value, bool(text.value), text.sort, text.address, leader, chip=text.chip)
 
     def _free_box(
         self, text: Text, point: Point, value: str, far: int, *, symbols: bool, clear: bool = False
@@ -342,6 +348,15 @@ class _Placing:
             if self._is_free(box, symbols=symbols, clear=clear):
                 return box
         return None
+
+    def _beside(self, text: Text, point: Point) -> Box | None:
+        """Return the first free place right beside the point of a letter, clear of lines if possible."""
+        places = [
+            self._box(point[0] + dx, point[1] + dy, text, "", align)
+            for align, dx, dy in (ANCHORS[text.anchor], *_OTHERS)
+        ]
+        kept = [box for box in places if self._kept_inside(box) == box and self._is_free(box, symbols=True)]
+        return next(filter(self._is_clear, kept), kept[0] if kept else None)
 
     def _around(self, text: Text, point: Point, value: str, far: int) -> Iterator[Box]:
         """Yield the places of a text, the wanted one first, then further and further away."""

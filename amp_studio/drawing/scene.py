@@ -54,6 +54,8 @@ class Polyline:
     sort: ShapeSort = "ink"
     dashed: bool = False
     dotted: bool = False
+    wide: bool = False
+    """A band of colours along an axis."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,6 +142,8 @@ class Text:
     address: Address | None = None
     """The parameter it names."""
     sort: ShapeSort = "ink"
+    chip: bool = False
+    """A letter in a filled square of its colour; left out where it has no room."""
 
 
 @dataclass(frozen=True)

@@ -171,8 +171,7 @@ def _place_of(scene: Scene, right: float, top: float, height: float) -> Placemen
     width = right - PLOT_LEFT - (BAR_ROOM if scene.cells else 0.0)
     if not scene.equal:
         return Placement(scene, PLOT_LEFT, top, width, height)
-    side = min(width, height)
-    return Placement(scene, PLOT_LEFT + 0.5 * (width - side), top, side, side)
+    return Placement.equal_in(scene, PLOT_LEFT, top, width, height)
 
 
 def _fact_lines(facts: Sequence[str], length: int) -> list[str]:
@@ -393,6 +392,7 @@ def _line(frame: Placement, line: Polyline) -> str:
     dash = ' stroke-dasharray="5 4"' if line.dashed else ' stroke-dasharray="2 3"' if line.dotted else ""
     # The rail is what the axis moves on: wide and pale, so that what lies on it remains visible.
     width = 6.0 if line.sort == "rail" else 2.0 if line.sort in ("now", "error") else 1.2
+    width = 4.0 if line.wide else width
     return (
         f'<polyline points="{points}" fill="none" stroke="{COLOURS[line.sort]}" stroke-width="{width:g}"'
         f' stroke-opacity="{0.5 if line.sort == "rail" else 1:g}"{dash}/>'
@@ -465,6 +465,9 @@ def _texts(frame: Placement, width: float, height: float) -> Iterator[str]:
                 ' stroke-width="0.75"/>'
             )
     for label in found.placed:
+        if label.chip:
+            yield _chip(label)
+            continue
         if label.strong or label.over:
             box = label.box
             yield (
@@ -472,6 +475,16 @@ def _texts(frame: Placement, width: float, height: float) -> Iterator[str]:
                 f' height="{box.height:.1f}" fill="{BASE}" fill-opacity="0.8"/>'
             )
         yield _label(label)
+
+
+def _chip(label: Label) -> str:
+    box = label.box
+    return (
+        f'<rect x="{box.left:.1f}" y="{box.top:.1f}" width="{box.width:.1f}" height="{box.height:.1f}" rx="2"'
+        f' fill="{COLOURS[label.sort]}"/><text x="{box.left + 0.5 * box.width:.1f}"'
+        f' y="{box.top + 0.8 * box.height:.1f}" fill="{BASE}" font-weight="600"'
+        f' text-anchor="middle">{escape(label.text)}</text>'
+    )
 
 
 def _label(label: Label) -> str:

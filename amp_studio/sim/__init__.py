@@ -70,20 +70,30 @@ if TYPE_CHECKING:
     from .parameter_roles import ParameterRoles
     from .path.job import JobProgress, ProgramJob, ProgramVersion, WhatIf, versions, what_if
     from .path.moment import PathMoment, moment_at
-    from .path.picture import PathColours, limit_sort, path_picture
+    from .path.picture import (
+        NOT_GOOD,
+        PathChoice,
+        PathColours,
+        limit_sort,
+        not_good_lines,
+        path_outline,
+        path_picture,
+        path_place,
+    )
     from .path.program import ProgramRun
     from .path.result import (
         contour_text,
         limit_tries,
         limited_by,
-        line_rows,
+        line_columns,
+        lines_limited_by,
         program_csv,
         program_summary,
         program_text,
         run_against,
         try_summary,
     )
-    from .path.typed import typed_places, typed_steps, typed_values
+    from .path.typed import typed_error, typed_places, typed_steps, typed_values
     from .path_rules import (
         CornerRule,
         Corners,

@@ -190,7 +190,7 @@ def test_signs_units_and_powers_are_german() -> None:
         "phase (°)": "Phase (°)",
         "frequency, Hz": "Frequenz, Hz",
         "X, in": "X, Zoll",
-        "contour error (in)": "Konturfehler (Zoll)",
+        "contour error (in)": "Bahnfehler (Zoll)",
         "above the plot: excess error 11 mm, feedrate suppression 11.5 mm": (
             "über dem Bild: Schleppfehlergrenze 11 mm, Vorschubabsenkung 11,5 mm"
         ),

@@ -31,12 +31,12 @@ from amp_studio.sim.law import law_of
 from amp_studio.sim.path.contour import distances
 from amp_studio.sim.path.moment import moment_in
 from amp_studio.sim.path.passes import lowest_sums
-from amp_studio.sim.path.picture import MOST_POINTS, path_picture
+from amp_studio.sim.path.picture import MOST_POINTS, PathChoice, path_picture
 from amp_studio.sim.path.planned import PlannedProgram
 from amp_studio.sim.path.planner import ProgramPlan
 from amp_studio.sim.path.profiles import axis_profiles
 from amp_studio.sim.path.program import ProgramRun, run_program
-from amp_studio.sim.path.result import LinesOfTime, limit_letters, line_rows
+from amp_studio.sim.path.result import LinesOfTime, limit_letters, line_columns
 from amp_studio.sim.path_rules import Corners, PathLimit
 from amp_studio.sim.zones import Zone
 from tests.programs.test_block import example
@@ -435,11 +435,11 @@ def test_a_picture_has_a_bounded_number_of_points_and_every_limit_of_a_long_prog
     run = ProgramJob(lines, [0.0] * 3, dict.fromkeys("XYZ", 0.0), with_contour=False).run(router)
     assert run.plan.path.fault is None
     for colours in ("limit", "feed"):
-        picture = path_picture(router, run, None, colours)
+        picture = path_picture(router, run, None, PathChoice(colours))
         for scene in (picture.above, picture.close):
             assert scene is not None
             assert sum(len(line.points) for line in scene.lines) < 2 * MOST_POINTS
             assert {line.dashed for line in scene.lines} == {False, True}
-    rows = line_rows(run, 4)
-    assert [rows[n][0] for n in (2, 3)] == ["R", line_rows(run, len(lines))[3][0]]
-    assert max(rows) == 4
+    letters, times = line_columns(run, 4)
+    assert letters.tolist() == line_columns(run, len(lines))[0].tolist()[:5]
+    assert (letters[2], len(times)) == ("R", 5)

@@ -16,7 +16,7 @@ from amp_studio.sim import ProgramJob, ProgramRun, moment_at, path_picture, prog
 from amp_studio.sim.path.geometry import geometry_of
 from amp_studio.sim.path.kept_columns import KeptColumns
 from amp_studio.sim.path.planner import ProgramPlan
-from amp_studio.sim.path.result import line_rows
+from amp_studio.sim.path.result import line_columns
 from amp_studio.sim.path.summing import rows_of
 from amp_studio.sim.path_rules import Geometry, Indices, row_sums
 from tests.programs.test_block import example
@@ -81,7 +81,11 @@ def test_stretches_change_no_figure(name: str, stretch: int, monkeypatch: pytest
         (each.line, each.message) for each in whole.alarms
     ]
     assert parts.assumptions == whole.assumptions
-    assert line_rows(parts, 40).keys() == line_rows(whole, 40).keys()
+    (one, one_time), (other, other_time) = (line_columns(run, 40) for run in (whole, parts))
+    assert other.tolist() == one.tolist()
+    assert other_time == pytest.approx(one_time, rel=1e-9, abs=1e-9)
+    begins, others = ([run.plan.listed.begin(n) or -1.0 for n in range(40)] for run in (whole, parts))
+    assert others == pytest.approx(begins, rel=1e-9)
     assert [*program_summary(file, parts)["blocks"]] == [*program_summary(file, whole)["blocks"]]
     assert len("".join(program_csv(file, parts)).splitlines()) == whole.plan.whole.entry.size + 1
     for share in (0.0, 0.3, 0.77, 1.0):

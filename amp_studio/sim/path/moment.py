@@ -24,6 +24,8 @@ class PathMoment:
     """(axes,)"""
     speed: float
     """Along the path."""
+    feed: float
+    """As programmed; infinite in rapid, 0 in a dwell."""
 
 
 def moment_at(program: PlannedProgram, time: float) -> PathMoment | None:
@@ -53,7 +55,8 @@ def moment_in(plan: ProgramPlan, time: float) -> PathMoment | None:
     share = min(gone / length, 1.0) if length > 0.0 else 1.0
     line = int(plan.path.line[plan.geometry.row[row]])
     # Time that is left after the three parts of a row is its rest (dwell, in position).
-    return PathMoment(line, _place(plan, row, share), 0.0 if left > 0.0 else speed)
+    feed = math.inf if plan.is_rapid[row] else float(plan.programmed[row])
+    return PathMoment(line, _place(plan, row, share), 0.0 if left > 0.0 else speed, feed)
 
 
 def _place(plan: ProgramPlan, row: int, share: float) -> PathRows:

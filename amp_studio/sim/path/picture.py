@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Literal
 
 import numpy as np
+import numpy.typing as npt
 
 from amp_studio.drawing import (
     Curve,
     Dot,
     FilledArea,
+    NamedPlace,
     Picture,
     Polyline,
     Scale,
@@ -28,6 +30,7 @@ from amp_studio.sim.path_rules import Indices, PathRows
 from amp_studio.sim.rounding import value_text
 from amp_studio.sim.unit_system import length_unit, own_unit, path_error_text, path_error_unit
 
+from .contour import ContourError
 from .limits_met import GuardedBox
 from .moment import PathMoment
 from .planned import PlannedProgram
@@ -35,7 +38,7 @@ from .planner import ProgramPlan
 from .profiles import path_points
 from .program import ProgramRun
 from .result import limit_letters, limit_name
-from .summing import SAMPLE, main_cause
+from .summing import LAST_BIT, SAMPLE, causes_of, main_cause
 
 MOST_POINTS = 4000
 """Of the rows that are drawn; of more, so many are chosen by chance."""
@@ -44,10 +47,21 @@ SEEN = 1e-3
 MOST_ON_ARCS = 40_000
 WITHIN = 0.01
 """u between an arc and what is drawn of it; more where arcs would have above ``MOST_ON_ARCS`` points."""
-SORTS: tuple[ShapeSort, ...] = ("now", "outside", "second", "limit", "error", "output")
+SORTS: tuple[ShapeSort, ...] = ("now", "outside", "output", "second", "error", "limit")
 """Colours of the limits beside the programmed feed, the longest first."""
+THIN = 0.2
+"""Of the longer side of a path, what its picture is high or wide at least."""
 TILT = ((0.866, 0.5), (-0.5, 0.433), (0.0, 0.75))
 """What a unit of X, Y, Z is in the tilted picture: right, up."""
+
+
+MOST_LETTERS, MOST_OF_ONE, APART = 14, 3, 0.06
+"""Letters on a path, those of one limit, and the share of the width of the path that they are apart at
+least."""
+STRIP = 600
+"""Parts of the strip at the foot of the contour error."""
+NOT_GOOD = "!"
+"""Chooses what is not good: alarms, and a contour error above one's own limit."""
 
 
 PathColours = Literal["limit", "feed", "error"]
@@ -58,8 +72,22 @@ ERROR_PARTS = (0.25, 0.5, 0.75)
 """Shares of the largest contour error that part its colours."""
 
 
+@dataclass(frozen=True)
+class PathChoice:
+    """What of a path is seen, and what it is judged by."""
+
+    colours: PathColours = "limit"
+    only: str = ""
+    """Letter of the one limit that has its colour, `NOT_GOOD`, or "" for all."""
+    limit: float = math.inf
+    """mm: one's own of the contour error."""
+
+
 def path_picture(
-    file: ParameterFile, run: ProgramRun, moment: PathMoment | None = None, colours: PathColours = "limit"
+    file: ParameterFile,
+    run: ProgramRun,
+    moment: PathMoment | None = None,
+    choice: PathChoice = PathChoice(),  # it is frozen
 ) -> Picture:
     """Return the picture of a program in the unit of the file, with a dot where the axes are at a moment."""
     program, plan, length = run.plan, run.plan.sample.plan, length_unit(file)
@@ -75,21 +103,90 @@ def path_picture(
         facts.append(f"largest contour error {path_error_text(run.contour.largest, length)}")
     panels = [_speed(program, length)]
     if run.contour is not None:
-        unit, per_mm = path_error_unit(length)
-        error = Curve("contour error", run.contour.time, per_mm * run.contour.error, "now", dense=True)
-        panels.append(panel_of("contour error", (error,), ("time", "s"), unit))
+        panels.append(_error_panel(run, run.contour, letters, length, choice.limit))
     moving = np.flatnonzero(plan.geometry.length > 0.0)
     drawn = moving[_chosen(len(moving), SAMPLE)]
-    classes = _classes(file, run, letters, colours, drawn)
+    classes = _classes(file, run, letters, choice.colours, drawn)
     points, rows = path_points(plan, _within(plan, drawn), drawn)
-    # Twice the class, and 1 more in rapid, of the row that ends in each point; the first has none.
+    # Four times the class, 1 more in rapid, 2 more where it is not chosen, of the row that ends in each
+    # point; the first has none.
     kinds = np.zeros(1, np.int64)
     if len(drawn):
-        kinds = (2 * classes.of_rows + plan.is_rapid[drawn])[np.searchsorted(drawn, rows)]
+        own = 4 * classes.of_rows + plan.is_rapid[drawn] + 2 * ~_are_chosen(run, letters, choice, drawn)
+        kinds = own[np.searchsorted(drawn, rows)]
     flat, space = (
         path_scene(run, classes, moment, length, (points, kinds), tilted=tilted) for tilted in (False, True)
     )
     return Picture("program", tuple(facts), tuple(panels), flat, space, bool(run.alarms), run.assumptions)
+
+
+def path_outline(file: ParameterFile, run: ProgramRun, *, tilted: bool) -> tuple[PathRows, Indices]:
+    """Return points (n, 2) of the path as they lie in its picture, and the line of the program of each."""
+    plan = run.plan.sample.plan
+    moving = np.flatnonzero(plan.geometry.length > 0.0)
+    drawn = moving[_chosen(len(moving), SAMPLE)]
+    points, rows = path_points(plan, _within(plan, drawn), drawn)
+    lines = plan.lines[rows] if len(drawn) else np.zeros(len(points), np.int64)
+    return _flat(points / canonical(1.0, length_unit(file)), tilted=tilted), lines
+
+
+def _error_panel(
+    run: ProgramRun, contour: ContourError, letters: Mapping[int, str], length: str, limit: float
+) -> Scene:
+    """Return the contour error over time: its largest value, one's own limit, and what limits at its foot."""
+    unit, per_mm = path_error_unit(length)
+    error = Curve("contour error", contour.time, per_mm * contour.error, "now", dense=True)
+    own = f"own limit {path_error_text(limit, length)}"
+    levels = (NamedPlace(own, per_mm * limit, "output"),) if math.isfinite(limit) else ()
+    panel = panel_of("contour error", (error,), ("time", "s"), unit, levels=levels)
+    largest = (float(contour.time[contour.worst]), per_mm * contour.largest)
+    is_over = contour.largest > limit
+    return replace(
+        panel,
+        lines=tuple(_strip(run, letters)),
+        dots=(Dot(largest, "point", "error" if is_over else "ink"),),
+        texts=(Text(largest, path_error_text(contour.largest, length), sort="error" if is_over else "ink"),),
+    )
+
+
+def _strip(run: ProgramRun, letters: Mapping[int, str]) -> Iterator[Polyline]:
+    """Yield the colours of what limits over time."""
+    plan = run.plan.sample.plan
+    if not len(plan.start):
+        return
+    edges = np.linspace(0.0, run.plan.time, STRIP + 1)
+    rows = np.clip(np.searchsorted(plan.start, 0.5 * (edges[1:] + edges[:-1]), "right") - 1, 0, None)
+    kinds = np.where(plan.is_rapid[rows], -1, main_cause(plan, rows))
+    changes = [0, *(np.flatnonzero(np.diff(kinds)) + 1).tolist(), STRIP]
+    for first, last in pairwise(changes):
+        letter = "R" if kinds[first] < 0 else letters.get(int(kinds[first]), "")
+        ends = ((float(edges[first]), 0.0), (float(edges[last]), 0.0))
+        yield Polyline(ends, limit_sort(letter), wide=True)
+
+
+def not_good_lines(run: ProgramRun, limit: float = math.inf) -> set[int]:
+    """Return the lines with an alarm, or with a contour error above one's own limit in mm."""
+    found = {alarm.line for alarm in run.alarms}
+    if run.contour is not None and math.isfinite(limit):
+        rows = np.unique(run.contour.row[np.abs(run.contour.error) > limit])
+        found |= set(run.plan.whole.lines[rows].tolist())
+    return found
+
+
+def _are_chosen(
+    run: ProgramRun, letters: Mapping[int, str], choice: PathChoice, rows: Indices
+) -> npt.NDArray[np.bool_]:
+    """Return which rows have their colour."""
+    plan = run.plan.sample.plan
+    if choice.only == NOT_GOOD:
+        return np.isin(plan.lines[rows], list(not_good_lines(run, choice.limit)))
+    if not choice.only:
+        return np.ones(len(rows), bool)
+    if choice.only == "R":
+        return plan.is_rapid[rows]
+    bits = sum(1 << min(n, LAST_BIT) for n, letter in letters.items() if letter == choice.only)
+    chosen: npt.NDArray[np.bool_] = (causes_of(plan, rows) & np.uint32(bits)) > 0
+    return chosen
 
 
 def _speed(program: PlannedProgram, length: str) -> Scene:
@@ -174,21 +271,23 @@ def path_scene(
     kept = _thinned(flat, kinds)
     flat, kinds = flat[kept], kinds[kept]
     lines: list[Polyline] = []
-    texts: list[Text] = []
-    seen: set[str] = set()
+    pieces: list[tuple[str, PathRows]] = []
     for first, last in _stretches(kinds):
-        letter = "R" if kinds[last] % 2 else classes.letters.get(int(kinds[last]) // 2, "")
+        kind = int(kinds[last])
+        letter = "R" if kind % 2 else classes.letters.get(kind // 4, "")
         part = tuple(map(tuple, flat[first : last + 1].tolist()))
-        lines.append(Polyline(part, limit_sort(letter), letter == "R"))
-        if letter and letter not in seen:
-            seen.add(letter)
-            middle = flat[(first + last) // 2 if last - first > 1 else last]
-            near = 0.5 * (flat[first] + flat[last]) if last - first == 1 else middle
-            texts.append(Text((float(near[0]), float(near[1])), letter, anchor="above"))
+        is_chosen = kind % 4 < 2
+        lines.append(Polyline(part, limit_sort(letter) if is_chosen else "before", letter == "R"))
+        if letter and is_chosen:
+            pieces.append((letter, flat[first : last + 1]))
+    # What is chosen lies on the rest.
+    lines.sort(key=lambda line: line.sort != "before")
+    texts = _letters(pieces, float(np.ptp(flat, axis=0).max()))
+    seen = {letter for letter, _ in pieces}
     names = {**classes.names, "R": "rapid"}
     title = "in space" if tilted else "in plan"
     key = ", ".join(f"{letter} {names[letter]}" for letter in sorted(seen))
-    (left, right), (low, high) = (_span(flat[:, n]) for n in (0, 1))
+    (left, right), (low, high) = _spans(flat)
     axes = path.axes
     return Scene(
         name=f"path-{'tilted' if tilted else 'plan'}",
@@ -201,9 +300,43 @@ def path_scene(
         areas=() if tilted else tuple(_zones(run, axes, size, (left, right), (low, high))),
         lines=(*lines, *(() if tilted else _limits(run, axes, size, (left, right), (low, high)))),
         dots=() if moment is None else (_dot(moment, size, tilted=tilted),),
-        texts=tuple(texts),
+        texts=texts,
         share=2.2,
     )
+
+
+def _letters(pieces: Sequence[tuple[str, PathRows]], width: float) -> tuple[Text, ...]:
+    """Return the letters beside the pieces of a path: the longest ones, none near another of its kind."""
+    ways = [float(np.hypot(*np.diff(points, axis=0).T).sum()) for _, points in pieces]
+    placed: dict[str, list[PathRows]] = {}
+    texts: list[Text] = []
+    order = sorted(range(len(pieces)), key=lambda n: -ways[n])
+    # The longest piece of each kind first, so that no kind is without its letter.
+    first = {pieces[n][0]: n for n in reversed(order)}
+    for n in dict.fromkeys([*first.values(), *order]):
+        letter, points = pieces[n]
+        own = placed.setdefault(letter, [])
+        at = _middle(points)
+        is_near = any(float(np.hypot(*(at - each))) < APART * width for each in own)
+        if len(texts) >= MOST_LETTERS or len(own) >= MOST_OF_ONE or (own and is_near):
+            continue
+        own.append(at)
+        texts.append(
+            Text((float(at[0]), float(at[1])), letter, anchor="above", sort=limit_sort(letter), chip=True)
+        )
+    return tuple(texts)
+
+
+def _middle(points: PathRows) -> PathRows:
+    """Return the place half of the way along a piece."""
+    gone = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
+    half = 0.5 * gone[-1]
+    return np.array([np.interp(half, gone, points[:, n]) for n in (0, 1)])
+
+
+def path_place(file: ParameterFile, moment: PathMoment, *, tilted: bool) -> tuple[float, float]:
+    """Return where a moment lies in the picture of a path."""
+    return _dot(moment, canonical(1.0, length_unit(file)), tilted=tilted).at
 
 
 def _dot(moment: PathMoment, size: float, *, tilted: bool) -> Dot:
@@ -253,11 +386,16 @@ def _flat(points: PathRows, *, tilted: bool) -> PathRows:
     return rows
 
 
-def _span(values: PathRows) -> tuple[float, float]:
-    low, high = float(values.min()), float(values.max())
-    # A path in a straight line has no extent across it.
-    room = 0.06 * (high - low) or 1.0
-    return low - room, high + room
+def _spans(flat: PathRows) -> list[tuple[float, float]]:
+    """Return what is seen of both axes."""
+    lows, highs = flat.min(axis=0), flat.max(axis=0)
+    # A path in a straight line has no extent across it, and both axes have one scale.
+    most = float((highs - lows).max())
+    found = []
+    for low, high in zip(lows.tolist(), highs.tolist(), strict=True):
+        room = max(0.06 * (high - low), 0.5 * (THIN * most - (high - low))) or 1.0
+        found.append((low - room, high + room))
+    return found
 
 
 def limit_sort(letter: str) -> ShapeSort:

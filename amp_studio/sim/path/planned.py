@@ -176,4 +176,4 @@ class PlannedProgram:
     def forget_rows(self) -> None:
         """Keep the totals alone."""
         self._rows = self._speeds = KeptColumns()
-        self._planned = None
+        self._planned, self.listed = None, LineTimes()

@@ -7,11 +7,12 @@ from contextlib import suppress
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value, show_value
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.path_rules import PathLimit
+from amp_studio.sim.path_rules import PathLimit, PathRows
 from amp_studio.sim.rounding import rounded, value_text
 from amp_studio.sim.unit_system import in_text, length_unit, path_error_text, path_error_unit
 
@@ -19,6 +20,7 @@ from .job import ProgramVersion, WhatIf, scaled
 from .planned import PlannedProgram
 from .planner import ProgramPlan
 from .program import ProgramRun
+from .summing import LAST_BIT
 
 TRIED_SHARE, MOST_TRIES = 1.2, 5
 """By what a parameter that limits is multiplied to see what that brings, and how many are tried at most."""
@@ -44,15 +46,25 @@ def limit_letters(run: ProgramRun) -> dict[int, str]:
     return {0: "A", **{n: letter for letter, n in zip(_LETTERS, order, strict=False)}}
 
 
-def line_rows(run: ProgramRun, most: int) -> dict[int, tuple[str, float]]:
-    """Return line of the program, up to ``most`` -> letter of what limits it longest ("R" in rapid),
-    and its time in s.
+def line_columns(run: ProgramRun, most: int) -> tuple[npt.NDArray[np.str_], PathRows]:
+    """Return of each line up to ``most``, by its number from 1, the letter of what limits it longest ("R" in
+    rapid, "" where it moves nothing), and its time in s.
     """
-    letters = limit_letters(run)
-    return {
-        line: ("R" if rapid else letters.get(cause, ""), time)
-        for line, cause, rapid, time in run.plan.listed.of_lines(most)
-    }
+    lines, causes, rapid, times = run.plan.listed.columns(most)
+    letters, found = np.full(most + 1, "", "<U1"), np.zeros(most + 1)
+    names = np.full(len(run.plan.causes) + 1, "", "<U1")
+    for cause, letter in limit_letters(run).items():
+        names[cause] = letter
+    letters[lines], found[lines] = np.where(rapid, "R", names[causes]), times
+    return letters, found
+
+
+def lines_limited_by(run: ProgramRun, letter: str, most: int) -> npt.NDArray[np.int64]:
+    """Return the lines up to ``most`` that a limit has a part of, by its letter ("R": those in rapid)."""
+    if letter == "R":
+        return np.flatnonzero(line_columns(run, most)[0] == "R")
+    bits = sum(1 << min(n, LAST_BIT) for n, own in limit_letters(run).items() if own == letter)
+    return np.flatnonzero(run.plan.listed.causes(most) & np.uint32(bits))
 
 
 class LinesOfTime(list[dict[str, Any]]):

@@ -4,13 +4,14 @@ the times of the lines that are listed.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
 from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
-from amp_studio.sim.path_rules import Geometry, Indices, PathRows, row_sums
+from amp_studio.sim.path_rules import Causes, Geometry, Indices, PathRows, row_sums
 
 from .planner import ProgramPlan
 
@@ -19,8 +20,14 @@ SAMPLE = 10_000
 program repeats."""
 PARTS = 512
 """Of a stretch, whose least and greatest speed are drawn where there are several."""
-LISTED = 5000
-"""Lines of a program whose time and limit are kept."""
+LISTED = 200_000
+"""Lines of a program whose time and limit are kept: 25 bytes for each."""
+
+
+PART = 0.1
+"""Of the time of a row, from which a limit belongs to it."""
+LAST_BIT = 31
+Masks = npt.NDArray[np.uint32]
 
 
 class PathSample:
@@ -162,13 +169,25 @@ def _least_and_most(plan: ProgramPlan) -> tuple[PathRows, PathRows, PathRows]:
 
 
 class LineTimes:
-    """Time of each of the first lines, and of its longest row what limits it."""
+    """Time of each of the first lines, when it first begins, and of its longest row what limits it."""
 
     def __init__(self) -> None:
-        self._time = np.zeros(LISTED + 1)
-        self._longest = np.full(LISTED + 1, -1.0)
-        self._cause = np.full(LISTED + 1, -1)
-        self._rapid = np.zeros(LISTED + 1, bool)
+        self._time, self._begin = np.zeros(1), np.full(1, math.inf)
+        self._longest = np.full(1, -1.0, np.float32)
+        self._cause, self._rapid = np.full(1, -1, np.int16), np.zeros(1, bool)
+        self._causes = np.zeros(1, np.uint32)
+
+    def _grow(self, last: int) -> None:
+        # In leaps: a short program needs little, and a long one few copies.
+        more = min(max(last + 1, 2 * len(self._time)), LISTED + 1) - len(self._time)
+        if last < len(self._time):
+            return
+        self._time = np.pad(self._time, (0, more))
+        self._begin = np.pad(self._begin, (0, more), constant_values=math.inf)
+        self._longest = np.pad(self._longest, (0, more), constant_values=-1.0)
+        self._cause = np.pad(self._cause, (0, more), constant_values=-1)
+        self._rapid = np.pad(self._rapid, (0, more))
+        self._causes = np.pad(self._causes, (0, more))
 
     def look(self, plan: ProgramPlan) -> None:
         """Take one more stretch."""
@@ -176,8 +195,12 @@ class LineTimes:
         rows = np.flatnonzero(lines <= LISTED)
         if not len(rows):
             return
-        lines, times = lines[rows], row_sums(plan.times[rows])
-        self._time += np.bincount(lines, plan.whole[rows], LISTED + 1)
+        lines, times = lines[rows], row_sums(plan.times[rows]).astype(np.float32)
+        self._grow(int(lines.max()))
+        self._time += np.bincount(lines, plan.whole[rows], len(self._time))
+        np.bitwise_or.at(self._causes, lines, causes_of(plan, rows))
+        begun, first = np.unique(lines, return_index=True)
+        self._begin[begun] = np.minimum(self._begin[begun], plan.start[rows[first]])
         order = np.lexsort((-times, lines))
         own, first = np.unique(lines[order], return_index=True)
         longest, time = rows[order[first]], times[order[first]]
@@ -186,13 +209,37 @@ class LineTimes:
         self._longest[own], self._rapid[own] = time[longer], plan.is_rapid[longest]
         self._cause[own] = main_cause(plan, longest)
 
-    def of_lines(self, most: int) -> Sequence[tuple[int, int, bool, float]]:
-        """Return line up to ``most``, cause of most of the time of its longest row, whether that is rapid,
-        and its time in s.
+    def begin(self, line: int) -> float | None:
+        """Return when a line begins, in s from the start; None for one that moves nothing or is not kept."""
+        found = float(self._begin[line]) if 0 <= line < len(self._begin) else math.inf
+        return found if math.isfinite(found) else None
+
+    def causes(self, most: int) -> Masks:
+        """Return the causes of each line up to ``most`` as bits, as `causes_of`, by its number."""
+        found = np.zeros(most + 1, np.uint32)
+        own = self._causes[: most + 1]
+        found[: len(own)] = own
+        return found
+
+    def columns(self, most: int) -> tuple[Indices, Causes, npt.NDArray[np.bool_], PathRows]:
+        """Return lines up to ``most``, cause of most of the time of the longest row of each, whether that is
+        rapid, and the time of the line in s.
         """
         lines = np.flatnonzero(self._longest[: most + 1] >= 0.0)
-        columns = (lines, self._cause[lines], self._rapid[lines], self._time[lines])
-        return list(zip(*(each.tolist() for each in columns), strict=True))
+        return lines, self._cause[lines], self._rapid[lines], self._time[lines]
+
+
+def causes_of(plan: ProgramPlan, rows: Indices) -> Masks:
+    """Return for some rows the causes of at least `PART` of their time, as bits (rows,); those from the last
+    bit on share it.
+    """
+    times = plan.times[rows]
+    least = PART * row_sums(times)
+    found = np.zeros(len(rows), np.uint32)
+    for n, by in enumerate((plan.faster_by, plan.even_by, plan.slower_by)):
+        bits = np.left_shift(np.uint32(1), np.clip(by[rows], 0, LAST_BIT).astype(np.uint32))
+        found |= np.where((times[:, n] > 0.0) & (times[:, n] >= least), bits, np.uint32(0))
+    return found
 
 
 def main_cause(plan: ProgramPlan, rows: Indices) -> Indices:

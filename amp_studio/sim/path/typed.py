@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, InvalidValueError, UnknownParameterError, Value, quoted
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.unit_system import MM_PER_INCH, length_unit
+from amp_studio.sim.unit_system import MM_PER_INCH, length_unit, path_error_unit
 from amp_studio.validate import read_plain
 
 from .job import scaled
@@ -18,6 +18,7 @@ _STEPS = re.compile(
     r"([+-]?[0-9]+(?:\.[0-9]+)?)(%)? ?: ?([+-]?[0-9]+(?:\.[0-9]+)?)(%)?(?: ?: ?([0-9]{1,4}))?"
 )
 MOST_STEPS = 100
+_ERROR = re.compile(r"([0-9]+\.?[0-9]*|\.[0-9]+) ?(um|mm|in)?")
 _SHARE = re.compile(r"([+-][0-9]+(?:\.[0-9]+)?) ?%")
 
 
@@ -33,6 +34,17 @@ def typed_places(text: str, file: ParameterFile) -> dict[str, float]:
             raise SimulationError(f"{quoted(text)} has to be places of axes, as X10,Y-20")
         found[word[1]] = float(word[2]) * size
     return found
+
+
+def typed_error(text: str, file: ParameterFile) -> float:
+    """Return an error of a path in mm: a number in the unit in which one is shown, or with a unit. Raises
+    SimulationError.
+    """
+    word = _ERROR.fullmatch(text.strip().replace(",", ".").replace("\u00b5", "u").replace("\u03bc", "u"))
+    if word is None or float(word[1]) <= 0.0:
+        raise SimulationError(f"{quoted(text)} has to be an error above 0, as 30 or 0.03 mm")
+    _, per_mm = path_error_unit(length_unit(file))
+    return float(word[1]) * {"um": 1e-3, "mm": 1.0, "in": MM_PER_INCH, None: 1.0 / per_mm}[word[2]]
 
 
 def typed_values(file: ParameterFile, texts: Sequence[str]) -> dict[Address, Value]:

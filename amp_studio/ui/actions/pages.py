@@ -235,6 +235,14 @@ def open_live(window: PartsWindow) -> None:
         made.start()
 
 
+def go_to(window: PartsWindow) -> None:
+    """Ask for a number: of a block where the page in front has blocks, else of a parameter."""
+    page = None if window.control.is_shown else window.page
+    shown = page.pages.get(page.turned_to) if page is not None else None
+    if shown is None or not shown.go_to():
+        window.finder.box.begin()
+
+
 # -- blocks and programs -----------------------------------------------------------
 
 
@@ -244,8 +252,8 @@ def open_program(window: PartsWindow) -> None:
     if not page.workspace.file.schema.program.page:
         page.bar.say(tr("No page here prints how the blocks of this control are read."))
         return
-    load("amp_studio.sim", "amp_studio.programs", "amp_studio.ui.motion.program_page")
-    from amp_studio.ui.motion.program_page import ProgramPage
+    load("amp_studio.sim", "amp_studio.programs", "amp_studio.ui.program.page")
+    from amp_studio.ui.program.page import ProgramPage
 
     def make(page: FilePage) -> ProgramPage:
         workspace = page.workspace

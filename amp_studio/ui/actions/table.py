@@ -152,7 +152,7 @@ def _edit() -> Menu[PartsWindow]:
             ),
             None,
             Action("edit.find", tr("&Find…"), lambda w: w.finder.box.begin(), ("Ctrl+F", "Ctrl+K"), ""),
-            Action("edit.go_to", tr("&Go to Number…"), lambda w: w.finder.box.begin(), "Ctrl+G"),
+            Action("edit.go_to", tr("&Go to Number…"), pages.go_to, "Ctrl+G"),
             Action(
                 "edit.bookmark",
                 tr("Boo&kmark"),

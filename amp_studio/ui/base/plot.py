@@ -67,12 +67,15 @@ class Plot(QWidget):
     """What the cursors read, as HTML; empty without a picture."""
     pointed = Signal(float, float)
     """A place of the map above the panels that was clicked or dragged to, in its units."""
+    timed = Signal(float)
+    """A place along the axis of the panels that was clicked, of a plot without cursors."""
     stepped = Signal(int, int)
     """Steps to the right and upwards that the arrow keys take on the map."""
 
-    def __init__(self, *, has_cursors: bool = True) -> None:
+    def __init__(self, *, has_cursors: bool = True, is_pointed: bool = False) -> None:
+        """``is_pointed``: a click on the drawing above the panels is told, as one on a map is."""
         super().__init__()
-        self._has_cursors = has_cursors
+        self._has_cursors, self._is_pointed = has_cursors, is_pointed
         self.picture: Picture | None = None
         self.panels: tuple[Scene, ...] = ()
         """What is visible of the panels of the picture, in the language of the window."""
@@ -82,6 +85,9 @@ class Plot(QWidget):
         self._map: Placement | None = None
         self._is_on_map = False  # the mouse was pressed there and is dragged
         self._marked: tuple[str, tuple[float, float]] | None = None
+        self._now: tuple[float, str] | None = None
+        """A place along the axis of the panels, and what is read there."""
+        self._pressed: float | None = None
         self._painted: QPixmap | None = None
         """All but the cursors; None where it is to be painted again."""
         self._grip: int | tuple[float, tuple[float, float]] | None = None
@@ -109,7 +115,7 @@ class Plot(QWidget):
             panels=linked([scene_in_words(panel, sentenced, unit_in_words) for panel in picture.panels]),
             above=picture.above and scene_in_words(picture.above, sentenced, unit_in_words),
         )
-        self.panels, self._marked = self.picture.panels, None
+        self.panels, self._marked, self._now = self.picture.panels, None, None
         low, high = self.span
         if not same or not all(low <= place <= high for place in self.cursors):
             self._spread_cursors()
@@ -125,6 +131,13 @@ class Plot(QWidget):
     def mark(self, name: str, place: tuple[float, float]) -> None:
         """Mark a place of the map by name; the next picture has none."""
         self._marked = name, place
+        self.update()
+
+    def show_now(self, name: str, place: tuple[float, float], at: float, reading: str) -> None:
+        """Mark a place above by name, and one along the axis of the panels with what is read there; nothing
+        else is painted again.
+        """
+        self._marked, self._now = (name, place), (at, reading)
         self.update()
 
     @property
@@ -176,12 +189,51 @@ class Plot(QWidget):
             if self._frames and self._has_cursors:
                 self._paint_cursors(painter)
             if self._map is not None and self._marked is not None:
-                name, place = self._marked
-                at = QPointF(*self._map.at(place))
-                painter.setFont(caption_fonts()[0])
-                painter.setPen(QPen(colour("sel"), 2))
-                painter.drawEllipse(at, GRIP, GRIP)
-                painter.drawText(at + QPointF(GRIP + 2.0, -GRIP), name)
+                self._paint_marked(painter, *self._marked, self._map)
+            if self._now is not None and self._frames:
+                self._paint_now(painter, *self._now)
+
+    def _paint_marked(
+        self, painter: QPainter, name: str, place: tuple[float, float], place_of: Placement
+    ) -> None:
+        at = QPointF(*place_of.at(place))
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setFont(caption_fonts()[1 if self._is_pointed else 0])
+        painter.setPen(QPen(colour("sel"), 2))
+        if self._is_pointed:
+            painter.setPen(QPen(colour("base"), 2))
+            painter.setBrush(colour("sel"))
+        painter.drawEllipse(at, GRIP, GRIP)
+        size = painter.fontMetrics().boundingRect(name).size()
+        # Where there is no room at the right it is at the left.
+        is_left = at.x() + GRIP + 4.0 + size.width() > self.width()
+        x = at.x() - GRIP - 4.0 - size.width() if is_left else at.x() + GRIP + 4.0
+        y = max(at.y() - GRIP, size.height() + 2.0)
+        if self._is_pointed:
+            painter.fillRect(
+                QRectF(x - 2.0, y - size.height(), size.width() + 4.0, size.height() + 4.0), colour("base")
+            )
+        painter.setPen(colour("sel"))
+        painter.drawText(QPointF(x, y), name)
+
+    def _paint_now(self, painter: QPainter, at: float, reading: str) -> None:
+        first, end = self.span
+        if not first <= at <= end:
+            return
+        painter.setPen(QPen(colour("sel"), 1))
+        for frame in self._frames:
+            x = frame.at((at, 0.0))[0]
+            painter.drawLine(QPointF(x, frame.top), QPointF(x, frame.top + frame.height))
+        last = self._frames[-1]
+        x = last.at((at, 0.0))[0]
+        painter.setFont(caption_fonts()[1])
+        wide = painter.fontMetrics().horizontalAdvance(reading) + 4.0
+        left = x + 4.0 if x + 8.0 + wide < self.width() else x - 4.0 - wide
+        # Low: at the top is the limit, with its name.
+        high = painter.fontMetrics().height()
+        box = QRectF(left, last.top + last.height - high - 8.0, wide, high)
+        painter.fillRect(box, colour("base"))
+        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, reading)
 
     def _paint_scenes(self, painter: QPainter) -> None:
         """Paint the panels below each other in the height that there is, each with its heading."""
@@ -210,7 +262,7 @@ class Plot(QWidget):
             paint_heading(painter, pieces, frame.top)
             if scene in self.panels:
                 self._frames.append(frame)
-            elif scene.cells is not None:
+            elif scene.cells is not None or self._is_pointed:
                 self._map = frame
             top += (
                 head
@@ -259,7 +311,7 @@ class Plot(QWidget):
                     self._is_on_map = True
                     self._point(event)
                 return
-            cursor = self._cursor_at(x)
+            cursor, self._pressed = self._cursor_at(x), x
             self._grip = cursor if cursor is not None else (x, self.span)
             self.update()
 
@@ -284,7 +336,10 @@ class Plot(QWidget):
             self.pointed.emit(*place.world(x, y))
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        self._grip, self._is_on_map = None, False
+        is_click = self._pressed is not None and abs(event.position().x() - self._pressed) < GRIP
+        if is_click and not self._has_cursors and self._frames and not self._is_on_map:
+            self.timed.emit(self._at_share(min(max(self._share_of(event.position().x()), 0.0), 1.0)))
+        self._grip, self._is_on_map, self._pressed = None, False, None
         self.update()
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
@@ -361,8 +416,7 @@ def _place_of(scene: Scene, right: float, top: float, height: float) -> Placemen
     width = max(right - LEFT - (BAR_ROOM if scene.cells else 0.0), 10.0)
     if not scene.equal:
         return Placement(scene, LEFT, top, width, height)
-    side = min(width, height)
-    return Placement(scene, LEFT + 0.5 * (width - side), top, side, side)
+    return Placement.equal_in(scene, LEFT, top, width, height)
 
 
 def _shifted(

@@ -81,7 +81,7 @@ class ScenePainter:
         self._painter, self._place, self._scene = painter, place, place.scene
         self._caption, self._strong = caption_fonts()
         self.labels = painted_labels(place, size)
-        self._is_fine = sum(len(line.points) for line in place.scene.lines) > MOST_WIDE
+        self._is_fine = sum(len(line.points) for line in place.scene.lines if not line.wide) > MOST_WIDE
         self.named: list[tuple[QRectF, Address]] = []
         """Where a name is that leads to its parameter."""
 
@@ -208,7 +208,7 @@ class ScenePainter:
         shade = colour(TOKENS[line.sort])
         if line.sort == "rail":
             shade.setAlphaF(0.5)
-        pen = QPen(shade, 1.0 if self._is_fine else width)
+        pen = QPen(shade, 4.0 if line.wide else 1.0 if self._is_fine else width)
         pen.setCapStyle(Qt.PenCapStyle.FlatCap)
         pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
         if line.dashed or line.dotted:
@@ -252,6 +252,10 @@ class ScenePainter:
         box = QRectF(label.box.left, label.box.top, label.box.width, label.box.height)
         if label.address is not None:
             self.named.append((box, label.address))
+        if label.chip:
+            paint_chip(painter, box, label.text, colour(TOKENS[label.sort]))
+            painter.setFont(self._caption)
+            return
         if label.strong or label.over:
             background = colour("base")
             background.setAlphaF(0.8)
@@ -269,6 +273,17 @@ class ScenePainter:
                 QPointF(base.x() + measure.horizontalAdvance(label.text), base.y()),
                 f" {with_figures(label.value)}",
             )
+
+
+def paint_chip(painter: QPainter, box: QRectF, letter: str, shade: QColor) -> None:
+    """Paint a letter in a filled square."""
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(shade)
+    painter.drawRoundedRect(box, 3.0, 3.0)
+    painter.setPen(colour("base"))
+    painter.setFont(font("small", own=True))
+    painter.drawText(box, Qt.AlignmentFlag.AlignCenter, letter)
 
 
 def _mixed(share: float) -> QColor:

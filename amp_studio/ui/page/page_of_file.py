@@ -22,6 +22,10 @@ class PageOfFile(QWidget):
         """Go back to the values."""
         self.left.emit()
 
+    def go_to(self) -> bool:
+        """Ask for a place in what the page shows; returns whether it has places to go to."""
+        return False
+
     def may_turn_away(self) -> bool:
         """Ask about what is to be settled before another page comes; returns whether it may."""
         return True

@@ -7,25 +7,25 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, Qt
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, QRectF, Qt
 from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import (
     QHeaderView,
     QStyledItemDelegate,
     QStyleOptionViewItem,
+    QTableView,
     QTableWidget,
     QTableWidgetItem,
 )
 
 from amp_studio.sim import limit_sort
-from amp_studio.ui.base.scene_painter import TOKENS
-from amp_studio.ui.base.theme import GAP2, colour, font
+from amp_studio.ui.base.scene_painter import TOKENS, paint_chip
+from amp_studio.ui.base.theme import GAP2, colour
 
 ROW = 26
 """Height in pixels of a row with one line."""
 _CHIP, _BAR = 16, 4
 """Side of the square with a letter, and width of the bar at the left of a row."""
-_ROUND = 3.0
 
 
 @dataclass(frozen=True)
@@ -42,10 +42,10 @@ class TableLook:
     """The column with the letter whose colour is at the left edge of the row."""
 
 
-class _RowDelegate(QStyledItemDelegate):
+class RowDelegate(QStyledItemDelegate):
     """Draws the cells of a table with its look."""
 
-    def __init__(self, look: TableLook, table: QTableWidget) -> None:
+    def __init__(self, look: TableLook, table: QTableView) -> None:
         super().__init__(table)
         self._look = look
 
@@ -66,14 +66,8 @@ class _RowDelegate(QStyledItemDelegate):
             option.rect.adjust(_BAR, 0, 0, 0)
         super().paint(painter, option, index)
         if index.column() == look.chips and index.data():
-            side = QRect(place.left() + GAP2, place.center().y() - _CHIP // 2 + 1, _CHIP, _CHIP)
-            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-            painter.setPen(Qt.PenStyle.NoPen)
-            painter.setBrush(colour(TOKENS[limit_sort(index.data())]))
-            painter.drawRoundedRect(side, _ROUND, _ROUND)
-            painter.setPen(colour("base"))
-            painter.setFont(font("small", own=True))
-            painter.drawText(side, Qt.AlignmentFlag.AlignCenter, index.data())
+            side = QRectF(place.left() + GAP2, place.center().y() - _CHIP // 2 + 1, _CHIP, _CHIP)
+            paint_chip(painter, side, index.data(), colour(TOKENS[limit_sort(index.data())]))
         if index.column() == 0 and look.bars is not None:
             letter = index.siblingAtColumn(look.bars).data()
             if letter:
@@ -91,7 +85,7 @@ def read_table(name: str, heads: Sequence[str], look: TableLook) -> QTableWidget
     table.setSelectionBehavior(QTableWidget.SelectionBehavior.SelectRows)
     table.setShowGrid(False)
     table.setWordWrap(False)
-    table.setItemDelegate(_RowDelegate(look, table))
+    table.setItemDelegate(RowDelegate(look, table))
     table.verticalHeader().hide()
     table.verticalHeader().setDefaultSectionSize(ROW)
     head = table.horizontalHeader()

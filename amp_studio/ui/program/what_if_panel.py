@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -14,18 +15,23 @@ from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.theme import GAP, GAP2, font
 from amp_studio.ui.base.translated import unit_in_words
 
-from .program_tables import TableLook, fill, read_table
+from .tables import TableLook, fill, read_table
 
 Values = Mapping[Address, Value]
 
 
-def effect(found: Mapping[str, Any], length: str) -> tuple[str, str, str]:
+ABOVE = "\u26a0 "
+"""Before an error that is above one's own limit."""
+
+
+def effect(found: Mapping[str, Any], length: str, limit: float = math.inf) -> tuple[str, str, str]:
     """Return time, its change and that of the largest contour error of a try, as they are shown."""
     error = found.get("contour_error_change", {}).get("value")
+    mark = ABOVE if found.get("contour_error", {}).get("value", 0.0) > limit else ""
     return (
         written(f"{found['time']['value']:.4g}"),
         written(f"{100.0 * found['time_change']:+.1f}"),
-        "" if error is None else written(f"{path_error_unit(length)[1] * error:+.3g}"),
+        "" if error is None else mark + written(f"{path_error_unit(length)[1] * error:+.3g}"),
     )
 
 
@@ -38,7 +44,9 @@ class WhatIfPanel(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self._length = "mm"
+        self._limit = math.inf
         self._values: list[Values | None] = []
+        self._found: list[Mapping[str, Any]] = []
         self.table = read_table(
             self.tr("What if"),
             (self.tr("What if"), self.tr("s"), self.tr("%"), ""),
@@ -84,8 +92,9 @@ class WhatIfPanel(QWidget):
         # Qt emits itemChanged for each cell that is filled: the first ones come before the row has its
         # values.
         self.table.blockSignals(True)
-        fill(self.table, [(change, *effect(found, self._length))], add=True)
+        fill(self.table, [(change, *effect(found, self._length, self._limit))], add=True)
         self._values.append(values)
+        self._found.append(found)
         if values is not None:
             item = self.table.item(self.table.rowCount() - 1, 0)
             item.setFlags(item.flags() | Qt.ItemFlag.ItemIsUserCheckable)
@@ -99,9 +108,17 @@ class WhatIfPanel(QWidget):
         unit = unit_in_words(path_error_unit(length)[0])
         self.table.horizontalHeaderItem(3).setText(self.tr("Error, {unit}").format(unit=unit))
 
+    def judge_by(self, limit: float) -> None:
+        """Mark the tries whose largest contour error is above one's own limit in mm."""
+        self._limit = limit
+        self.table.blockSignals(True)
+        for row, found in enumerate(self._found):
+            self.table.item(row, 3).setText(effect(found, self._length, limit)[2])
+        self.table.blockSignals(False)
+
     def clear(self) -> None:
         """Forget all changes."""
-        self._values = []
+        self._values, self._found = [], []
         self.table.setRowCount(0)
         self.together.clear()
         self._show_buttons()

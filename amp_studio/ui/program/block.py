@@ -4,13 +4,18 @@ power-up.
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Sequence
+
+import numpy as np
 
 from amp_studio.files import ParameterFile
 from amp_studio.programs import BlockReader, power_up
-from amp_studio.schema import Address
-from amp_studio.sim import value_text
-from amp_studio.ui.base.translated import sentenced, tr
+from amp_studio.schema import Address, canonical
+from amp_studio.sim import PathMoment, ProgramRun, path_error_text, value_text
+from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.translated import sentenced, tr, unit_in_words
 from amp_studio.ui.forms.form import Field
 
 BlockRows = list[tuple[str, str, str, str]]
@@ -32,7 +37,49 @@ def block_fields() -> Sequence[Field]:
             hint="X0,Y0",
             tip=tr("Where the zero of the program is in the machine; empty takes work coordinates"),
         ),
+        Field(
+            "limit",
+            tr("Error limi&t"),
+            hint="0.03 mm",
+            tip=tr("The contour error that you allow: what is above it is marked, and is not good"),
+        ),
     )
+
+
+def found_line(lines: Sequence[str], text: str) -> int:
+    """Return the line, from 1, of what was typed: ``N150`` is the block of that number, ``150`` the line; 0
+    without one.
+    """
+    wanted = text.strip().upper()
+    number = re.fullmatch(r"(N?)\s*0*([0-9]{1,9})", wanted)
+    if number is None:
+        return 0
+    if not number[1]:
+        return int(number[2]) if 1 <= int(number[2]) <= len(lines) else 0
+    own = re.compile(rf"[ \t/%]*N\s*0*{number[2]}(?![0-9.])", re.IGNORECASE)
+    return next((n for n, line in enumerate(lines, 1) if own.match(line)), 0)
+
+
+def moment_name(block: str, moment: PathMoment, length: str) -> str:
+    """Return the block of a moment with its speed: ``N150: 1420 of 4800 mm/min``."""
+    number = re.match(r"[ \t/%]*(N\s*[0-9]+)", block, re.IGNORECASE)
+    name = number[1].upper() if number else tr("Line {number}").format(number=moment.line)
+    size = canonical(1.0, length) / 60.0
+    unit = unit_in_words(f"{length}/min")
+    speed = written(value_text(moment.speed / size, "", 4))
+    if math.isfinite(moment.feed) and moment.feed > 0.0:
+        of_feed = written(value_text(moment.feed / size, unit, 4))
+        return f"{name}: " + tr("{speed} of {feed}").format(speed=speed, feed=of_feed)
+    return f"{name}: {speed} {unit}"
+
+
+def error_now(run: ProgramRun, time: float, length: str) -> str:
+    """Return the contour error at a moment in words; "" without one."""
+    contour = run.contour
+    if contour is None or not len(contour.time):
+        return ""
+    at = min(int(np.searchsorted(contour.time, time)), len(contour.time) - 1)
+    return tr("now {error}").format(error=sentenced(path_error_text(float(contour.error[at]), length)))
 
 
 def block_in_words(file: ParameterFile, text: str) -> tuple[BlockRows, str]:

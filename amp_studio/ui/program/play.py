@@ -82,6 +82,8 @@ class PlayBar(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self._whole = 0.0
+        self._exact: float | None = None
+        """The moment that was gone to; None where the slider was moved since."""
         self._begun = 0.0
         self._clock, self._timer = QElapsedTimer(), QTimer(self)
         self._timer.setInterval(EVERY_MS)
@@ -114,7 +116,17 @@ class PlayBar(QWidget):
     @property
     def moment(self) -> float:
         """Seconds from the start."""
-        return self._whole * self.slider.value() / STEPS
+        return self._whole * self.slider.value() / STEPS if self._exact is None else self._exact
+
+    def go_to(self, seconds: float) -> None:
+        """Show a moment: exactly, where the slider has a place for a ten thousandth."""
+        if self._whole > 0.0:
+            self.pause()
+            self._exact = min(max(seconds, 0.0), self._whole)
+            self.slider.blockSignals(True)
+            self.slider.setValue(round(STEPS * self._exact / self._whole))
+            self.slider.blockSignals(False)
+            self._show_time()
 
     def toggle(self) -> None:
         """Play, or pause."""
@@ -141,5 +153,9 @@ class PlayBar(QWidget):
             self.pause()
 
     def _slid(self, _place: int) -> None:
+        self._exact = None
+        self._show_time()
+
+    def _show_time(self) -> None:
         self.time.setText(written(value_text(self.moment, "s", 3)))
         self.moved.emit(self.moment)
