@@ -14,7 +14,7 @@ from amp_studio.drawing import Picture
 from amp_studio.files import SavedVersion, open_file
 from amp_studio.schema import Address, Value
 from amp_studio.ui.base.task import Task
-from amp_studio.ui.program.block_list import BlockModel, BlockRows, kinds_of
+from amp_studio.ui.program.block_list import BlockModel, BlockTable, kinds_of
 from amp_studio.ui.program.page import FIRST, ProgramPage
 from amp_studio.ui.program.play import STEPS
 from amp_studio.ui.program.tables import TableLook, fill, read_table
@@ -312,9 +312,9 @@ def test_blocks_that_are_alike_are_folded(wave: ProgramPage, qtbot: QtBot) -> No
     fold = f"+{count} blocks like these"
     assert count > 15
     assert folded == [*WAVE[: first + 6], f"\u25b8 {fold}", *WAVE[last:]]
-    shown = float(cell(wave, first + 6, 2).replace(",", "."))
+    listed_time = float(cell(wave, first + 6, 2).replace(",", "."))
     whole = float(rows.times[first + 7 : last + 1].sum())
-    assert shown == pytest.approx(whole, rel=5e-3), "with their time together"
+    assert listed_time == pytest.approx(whole, rel=5e-3), "with their time together"
     wave.lines.setFocus()
     wave.lines.selectRow(first + 6)
     qtbot.keyClick(wave.lines, Qt.Key.Key_Return)
@@ -389,7 +389,7 @@ def test_a_hundred_thousand_blocks_are_folded_by_numbers_alone() -> None:
     letters[50_000] = "B"
     model = BlockModel()
     found = {"B": [50_000]}
-    model.show_rows(BlockRows(lines, letters, times, kinds_of(lines, letters), {}, found.__getitem__))
+    model.show_rows(BlockTable(lines, letters, times, kinds_of(lines, letters), {}, found.__getitem__))
     assert model.rowCount() == 15, "six and a fold, one, six and a fold"
     assert model.row_of(70_000) == 14
     assert model.open_at(70_000) == 13 + 70_000 - 50_005

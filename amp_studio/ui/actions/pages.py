@@ -238,8 +238,8 @@ def open_live(window: PartsWindow) -> None:
 def go_to(window: PartsWindow) -> None:
     """Ask for a number: of a block where the page in front has blocks, else of a parameter."""
     page = None if window.control.is_shown else window.page
-    shown = page.pages.get(page.turned_to) if page is not None else None
-    if shown is None or not shown.go_to():
+    front = page.pages.get(page.turned_to) if page is not None else None
+    if front is None or not front.go_to():
         window.finder.box.begin()
 
 

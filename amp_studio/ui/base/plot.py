@@ -73,7 +73,7 @@ class Plot(QWidget):
     """Steps to the right and upwards that the arrow keys take on the map."""
 
     def __init__(self, *, has_cursors: bool = True, is_pointed: bool = False) -> None:
-        """``is_pointed``: a click on the drawing above the panels is told, as one on a map is."""
+        """``is_pointed``: a click on the drawing above the panels is reported, as one on a map is."""
         super().__init__()
         self._has_cursors, self._is_pointed = has_cursors, is_pointed
         self.picture: Picture | None = None

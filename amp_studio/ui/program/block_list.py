@@ -18,7 +18,7 @@ from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.theme import colour
 from amp_studio.ui.base.translated import tr
 
-from .tables import ROW, RowDelegate, TableLook
+from .tables import ROW, LimitRowDelegate, TableLook
 
 SHOWN, LEAST = 6, 3
 """Of blocks that are alike so many are listed; so many are worth a fold at least."""
@@ -26,11 +26,11 @@ MOST_LISTED = 200_000
 """Blocks that are listed; the rest is computed too."""
 _SHAPE = re.compile(r"N\s*[0-9.]+|[^A-Z]+", re.ASCII)
 AnyIndex = QModelIndex | QPersistentModelIndex
-Integers = npt.NDArray[np.int64]
+LineKinds = npt.NDArray[np.int64]
 
 
 @dataclass(frozen=True)
-class BlockRows:
+class BlockTable:
     """The blocks of a program with what is shown beside them."""
 
     lines: Sequence[str]
@@ -38,15 +38,15 @@ class BlockRows:
     """By line from 1: the letter of what limits it, "" where it moves nothing."""
     times: npt.NDArray[np.float64]
     """By line from 1, s."""
-    alike: Integers
+    alike: LineKinds
     """(lines,): a number for each kind of block; -1 for those that are never folded."""
     faults: Mapping[int, str]
-    """Line from 1 -> what the control says of it."""
+    """Line from 1 -> the message of the control."""
     lines_of: Callable[[str], Collection[int]] = lambda _letter: ()
     """lines_of(letter of a limit, or `NOT_GOOD`) -> the lines that it has a part of."""
 
 
-def kinds_of(lines: Iterable[str], letters: npt.NDArray[np.str_]) -> Integers:
+def kinds_of(lines: Iterable[str], letters: npt.NDArray[np.str_]) -> LineKinds:
     """Return a number for each of some lines: equal for blocks of the same words that one thing limits."""
     known: dict[str, int] = {}
     pairs = zip(islice(lines, MOST_LISTED), letters[1:].tolist(), strict=False)
@@ -62,14 +62,14 @@ class BlockModel(QAbstractTableModel):
 
     def __init__(self) -> None:
         super().__init__()
-        self.rows = BlockRows((), np.full(1, ""), np.zeros(1), np.zeros(0, np.int64), {})
+        self.rows = BlockTable((), np.full(1, ""), np.zeros(1), np.zeros(0, np.int64), {})
         self.only = ""
         self._open: set[int] = set()
         """First lines of the folds that are open."""
         self._first, self._count = np.zeros(0, np.int64), np.zeros(0, np.int64)
         """Of each row: its first line from 0, and how many it folds; 0 for a block."""
 
-    def show_rows(self, rows: BlockRows) -> None:
+    def show_rows(self, rows: BlockTable) -> None:
         """Show other blocks, all of them, folded."""
         self.rows, self.only = rows, ""
         self._open.clear()
@@ -90,7 +90,7 @@ class BlockModel(QAbstractTableModel):
             self._first, self._count = self._folded()
         self.endResetModel()
 
-    def _folded(self) -> tuple[Integers, Integers]:
+    def _folded(self) -> tuple[LineKinds, LineKinds]:
         """Return the rows with folds."""
         alike = self.rows.alike
         edges = np.flatnonzero(np.diff(alike, prepend=-2)) if len(alike) else np.zeros(0, np.int64)
@@ -197,7 +197,7 @@ class BlockView(QTableView):
         self.blocks = BlockModel()
         self.setModel(self.blocks)
         self.setAccessibleName(name)
-        self.setItemDelegate(RowDelegate(TableLook(figures=(2,), bars=1), self))
+        self.setItemDelegate(LimitRowDelegate(TableLook(figures=(2,), bars=1), self))
         self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         self.setShowGrid(False)

@@ -56,12 +56,12 @@ from amp_studio.ui.forms.form import Field, FieldForm
 from amp_studio.ui.page.page_of_file import PageOfFile
 
 from .block import block_fields, block_in_words, found_line
-from .block_list import MOST_LISTED, BlockRows, BlockView, kinds_of
+from .block_list import MOST_LISTED, BlockTable, BlockView, kinds_of
 from .choosing import GoToField
 from .path_view import PathView
 from .play import PlayBar, TimePart
 from .tables import TableLook, fill, read_table
-from .trying import Apply, Earlier, ProgramTries
+from .trying import Apply, EarlierFiles, ProgramTries
 from .what_if_panel import WhatIfPanel
 
 _LEFT = 210
@@ -85,7 +85,7 @@ class ProgramPage(PageOfFile):
         apply: Apply,
         parent: QWidget | None = None,
         *,
-        earlier: Earlier = tuple,
+        earlier: EarlierFiles = tuple,
     ) -> None:
         """``read`` returns the file as it is now, in a copy that nothing else changes; ``apply`` takes the
         values of a try into the file; ``earlier`` returns the file before its last saves.
@@ -351,10 +351,10 @@ class ProgramPage(PageOfFile):
             )
             self.path.show_run(self.file, beginning)
 
-        def run(show: JobProgress) -> tuple[ProgramRun, BlockRows]:
+        def run(show: JobProgress) -> tuple[ProgramRun, BlockTable]:
             found = job.run(self.file, show)
             letters, times = line_columns(found, min(len(job.lines), MOST_LISTED))
-            return found, BlockRows(job.lines, letters, times, kinds_of(job.lines, letters), {})
+            return found, BlockTable(job.lines, letters, times, kinds_of(job.lines, letters), {})
 
         self.begin(run, self._show)
 
@@ -379,7 +379,7 @@ class ProgramPage(PageOfFile):
         )
         task.begin()
 
-    def _show(self, found: tuple[ProgramRun, BlockRows]) -> None:
+    def _show(self, found: tuple[ProgramRun, BlockTable]) -> None:
         run, blocks = found
         self.outcome = run
         self.tries.clear()

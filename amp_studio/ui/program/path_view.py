@@ -117,7 +117,7 @@ class PathView(QWidget):
         self.plot.show_now(moment_name(block, moment, length), place, time, error_now(run, time, length))
 
     def _point(self, x: float, y: float) -> None:
-        """Tell the line of the piece that is nearest to a place of the picture."""
+        """Report the line of the piece that is nearest to a place of the picture."""
         if self._run is None:
             return
         if self._outline is None:

@@ -42,7 +42,7 @@ class TableLook:
     """The column with the letter whose colour is at the left edge of the row."""
 
 
-class RowDelegate(QStyledItemDelegate):
+class LimitRowDelegate(QStyledItemDelegate):
     """Draws the cells of a table with its look."""
 
     def __init__(self, look: TableLook, table: QTableView) -> None:
@@ -85,7 +85,7 @@ def read_table(name: str, heads: Sequence[str], look: TableLook) -> QTableWidget
     table.setSelectionBehavior(QTableWidget.SelectionBehavior.SelectRows)
     table.setShowGrid(False)
     table.setWordWrap(False)
-    table.setItemDelegate(RowDelegate(look, table))
+    table.setItemDelegate(LimitRowDelegate(look, table))
     table.verticalHeader().hide()
     table.verticalHeader().setDefaultSectionSize(ROW)
     head = table.horizontalHeader()

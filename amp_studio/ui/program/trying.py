@@ -26,7 +26,7 @@ from amp_studio.ui.base.translated import tr
 from .what_if_panel import WhatIfPanel
 
 Apply = Callable[[Mapping[Address, Value]], bool]
-Earlier = Callable[[], Sequence[SavedVersion]]
+EarlierFiles = Callable[[], Sequence[SavedVersion]]
 
 
 class TriedProgram(Protocol):
@@ -52,7 +52,7 @@ class TriedProgram(Protocol):
 class ProgramTries:
     """Computes the rows of a panel of tries."""
 
-    def __init__(self, page: TriedProgram, panel: WhatIfPanel, apply: Apply, earlier: Earlier) -> None:
+    def __init__(self, page: TriedProgram, panel: WhatIfPanel, apply: Apply, earlier: EarlierFiles) -> None:
         self._page, self.panel, self._apply, self._earlier = page, panel, apply, earlier
         panel.limits_button.clicked.connect(self._try_limits)
         panel.earlier_button.clicked.connect(self._try_earlier)
