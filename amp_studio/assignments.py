@@ -76,8 +76,8 @@ def _assign(trial: ParameterFile, values: dict[Address, Value | None], param: st
     resolved = resolve_address(trial.evaluation, param)
     address = resolved.address
     if isinstance(text, Value):
-        values[address] = text
         trial.set(address, text)
+        values[address] = trial.get(address)
         return ""
     value = _read_assigned(trial, param, address, resolved.bit, text)
     if resolved.bit is None and values.get(address, value) != value:

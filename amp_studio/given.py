@@ -10,8 +10,19 @@ from typing import TypeVar, cast
 from .errors import AmpStudioError
 
 _Called = TypeVar("_Called", bound=Callable[..., object])
-_NAMED = {"str": "a text", "Path": "a path", "None": "None"}
-_CHECKED = {*_NAMED, "bytes", "Copy", "MachineParameters", "SweepWay", "Trace", "Validator"}
+_CALLED = {"Progress", "Notify"}
+_NAMED = {"str": "a text", "Path": "a path", "None": "None", **dict.fromkeys(_CALLED, "a function")}
+_CHECKED = {
+    *_NAMED,
+    *_CALLED,
+    "bytes",
+    "Event",
+    "Copy",
+    "MachineParameters",
+    "SweepWay",
+    "Trace",
+    "Validator",
+}
 """Types that are checked; an argument that may be of another one too is left to its function."""
 
 
@@ -44,6 +55,8 @@ def checked_types(function: _Called) -> _Called:
 def _is_of(value: object, kinds: list[str]) -> bool:
     """Return whether a value is of one of these types, by their names: a start does not load them for it."""
     own = {"None"} if value is None else {kind.__name__ for kind in type(value).__mro__}
+    if callable(value) and not _CALLED.isdisjoint(kinds):
+        return True
     if "Path" not in kinds or not isinstance(value, (str, os.PathLike)):
         return not own.isdisjoint(kinds)
     try:

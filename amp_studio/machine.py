@@ -102,6 +102,7 @@ class MachineParameters:
         """Set one value; raises AssignmentError, RangeError."""
         self.set({address: value})
 
+    @checked_types
     def set(
         self, values: NewValues, *, force: str = "", notify: Notify = lambda _message: None
     ) -> list[Change]:
@@ -113,6 +114,7 @@ class MachineParameters:
         """
         return self.file.set_checked(self._read(values, notify), force=force)
 
+    @checked_types
     def with_values(self, values: NewValues, *, notify: Notify = lambda _message: None) -> MachineParameters:
         """Return a copy with these values, to try them: they may be out of range, and this machine and its
         file stay as they are. Raises AssignmentError.
@@ -213,6 +215,8 @@ class MachineParameters:
         from amp_studio.validate import GENERAL_RULES, apply_fixes
 
         validator = validator or self.validator()
+        if validator.file is not self.file:
+            raise MachineError(f"the validator is one of another machine than {self!r}")
         rules = {*GENERAL_RULES, *(each.id for each in (*self.schema.rules, *validator.own.rules))}
         if rule is not None and rule not in rules:
             raise MachineError(unknown_name("rule", rule, sorted(rules)))
@@ -270,6 +274,7 @@ class MachineParameters:
         """
         from amp_studio.sim import simulate, sweep
 
+        _need_name(axis)
         given = {_setting(name): value for name, value in settings.items()}
         if way is not None:
             return sweep(self.file, axis, given, units, way=way)
@@ -282,6 +287,7 @@ class MachineParameters:
         """
         from amp_studio.sim import check_motion
 
+        _need_name(axis)
         return tuple(check_motion(self.file, axis))
 
     @checked_types
@@ -471,6 +477,12 @@ def _refused(error: Exception) -> AmpStudioError:
     if isinstance(error, OSError) and error.strerror:
         return MachineError(f"{error.filename}: {error.strerror}")
     return MachineError(str(error))
+
+
+def _need_name(axis: str | None) -> None:
+    """Refuse an empty name, which is no axis and not the first one."""
+    if axis is not None and not axis.strip():
+        raise MachineError("an axis is named, as X or 1, or left out")
 
 
 def _setting(name: str) -> str:

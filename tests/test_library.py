@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import amp_studio as amp
@@ -115,6 +116,18 @@ NO_CONTROLS = ("", "mill", "tcp://1", "tcp://a:99999", "serial:", "COM1?baud=x",
         (lambda m: m.set({"1300@X": b"5"}), amp.AssignmentError),
         (lambda m: m.set({"1300@X": amp.Value(LIST)}), amp.AssignmentError),
         (lambda m: m.set({"1740": amp.Value(10**5000)}), amp.AssignmentError),
+        (lambda m: m.set({"1300@X": amp.Value(5.0, "rpm")}), amp.AssignmentError),
+        (lambda m: m.set({"1300@X": amp.Value(5.0)}), amp.AssignmentError),
+        (lambda m: m.set({"1300@X": amp.Value(5.0, FIVE)}), amp.AssignmentError),
+        (lambda m: m.set({"1300@X": amp.Value(LIST, "mm")}), amp.AssignmentError),
+        (lambda m: m.set({"1300@X": "5 mm"}, force=FIVE), TypeError),
+        (lambda m: m.set({"1300@X": "5 mm"}, notify=FIVE), TypeError),
+        (lambda m: m.fix(validator=amp.new("9pc").validator()), amp.MachineError),
+        (lambda m: m.simulate("step", ""), amp.AmpStudioError),
+        (lambda m: m.check_motion(""), amp.AmpStudioError),
+        (lambda m: amp.connect("tcp://127.0.0.1:1").download(m, expect="5"), amp.AmpStudioError),
+        (lambda _: amp.connect("tcp://127.0.0.1:1", cancel=FIVE), TypeError),
+        (lambda _: amp.connect("tcp://127.0.0.1:1", progress=FIVE), TypeError),
         (lambda m: m.axis(1), TypeError),
         (lambda m: m.fix(rule=5), TypeError),
         (lambda m: m.compare("mill.amp"), TypeError),
@@ -149,6 +162,15 @@ def test_an_error_is_one_of_the_program_and_changes_nothing(
     assert sorted(mill.parent.iterdir()) == folder
 
 
+def test_numbers_of_other_libraries_become_plain_ones(mill: Path) -> None:
+    """One of numpy was a value, and ended what it was compared with in an error of Python."""
+    machine = amp.open(mill)
+    machine.set({"1300@X": amp.Value(np.float64(5.25), "mm"), "1300@Z": np.float64(-0.0)})
+    assert [type(machine[f"1300@{axis}"].value) for axis in "XZ"] == [float, float]
+    machine.save()
+    assert amp.open(mill)["1300@X"].value == 5.25
+
+
 def test_a_save_notices_another_program_and_never_replaces_another_file(mill: Path) -> None:
     mine, other = amp.open(mill), amp.open(mill)
     other["1300@X"] = "1 mm"
@@ -175,7 +197,7 @@ def test_the_package_runs_as_a_program() -> None:
 
 
 def test_a_checked_type_has_the_name_by_which_annotations_know_it() -> None:
-    plain = {"str", "bytes", "Path", "None"}
+    plain = {"str", "bytes", "Path", "None", "Event", *given._CALLED}
     for name in given._CHECKED - plain:
         found = [getattr(room, name, None) for room in (amp, sim, client, validate)]
         assert {kind.__name__ for kind in found if kind is not None} == {name}

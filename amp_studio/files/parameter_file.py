@@ -13,7 +13,9 @@ from amp_studio.schema import (
     UNITS,
     Address,
     Evaluation,
+    InvalidValueError,
     MachineSchema,
+    Parameter,
     Schema,
     Scope,
     UnitError,
@@ -21,11 +23,13 @@ from amp_studio.schema import (
     Value,
     angular,
     checked,
+    dimension,
     fault,
     read_real,
     read_value,
     same_value,
     unit_named,
+    unit_text,
     unknown,
 )
 
@@ -229,12 +233,30 @@ class ParameterFile:
         self._check_address(address)
         if value is None:
             return None
-        if not (isinstance(value, Value) and isinstance(value.value, (int, float, str))):
-            raise TypeError(f"a value is a Value, as Value(5.0, 'mm'), or None, not {value!r}")
+        if not (
+            isinstance(value, Value)
+            and isinstance(value.value, (int, float, str))
+            and isinstance(value.unit, str)
+        ):
+            raise TypeError(f"a value is a Value, as Value(5.0, 'mm'), or None, not {value!r:.80}")
         if value.unit and value.unit not in UNITS:
             unit_named(value.unit)  # raises UnitError for what is none
             raise UnitError(f"{value.unit!r} is written {unit_named(value.unit)!r} in a Value")
-        return checked(self.schema.parameters[address[0]], value)
+        parameter = self.schema.parameters[address[0]]
+        if parameter.type in ("integer", "real", "bits"):
+            self._check_dimension(parameter, value.unit)
+        return checked(parameter, value)
+
+    def _check_dimension(self, parameter: Parameter, unit: str) -> None:
+        """Refuse a unit that measures something else than the parameter, on a straight axis or a turning
+        one: no file could contain it.
+        """
+        units = self.schema.units_of(parameter)
+        if unit not in units and dimension(unit) not in map(dimension, units):
+            usual = unit_text(units[0]) or "a bare number"
+            raise InvalidValueError(
+                f"{parameter.name} is given in {usual}, not in {unit_text(unit) or 'a bare number'}"
+            )
 
     def _check_known(self, address: Address) -> None:
         """Refuse an address that no machine type of the family has; raises UnknownParameterError."""

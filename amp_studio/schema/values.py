@@ -41,6 +41,8 @@ _GROUPED = re.compile(r"[+-]?[0-9]{1,3}([ '_])[0-9]{3}(?:\1[0-9]{3})*(?:[.,][0-9
 EXACT = 2**53 - 1
 """Largest whole number up to which a double is exact."""
 _LARGEST = sys.float_info.max
+_PLAIN: tuple[type[bool] | type[int] | type[float] | type[str], ...] = (bool, int, float, str)
+"""Types of what a file contains; what is made after one of them (numpy.float64) becomes it."""
 LONGEST_TEXT = 100_000
 """Characters of a text; the longest there are is a table of ballscrew compensation."""
 _RAW = re.compile(r"[+-]?[0-9]{1,16}")
@@ -152,6 +154,9 @@ def _checked(parameter: Parameter, value: Value) -> Value:
     message.
     """
     found = value.value
+    if type(found) not in _PLAIN:  # a number or text of another library
+        value = Value(next(kind(found) for kind in _PLAIN if isinstance(found, kind)), value.unit)
+        found = value.value
     if isinstance(found, str):
         return _checked_text(parameter, value, found)
     is_of_type = parameter.type not in ("choice", "text", "format")

@@ -10,6 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import Self
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.files import ParameterFile
 from amp_studio.schema import quoted
 from amp_studio.transfer.content import ContentKind, decode_content
@@ -32,6 +33,10 @@ __all__ = [
     "restore_copy",
     "sha256",
 ]
+
+
+class DigestError(AmpStudioError, ValueError):
+    """A text that is no SHA-256."""
 
 
 def download_file(
@@ -139,11 +144,11 @@ def sha256(image: bytes) -> str:
 
 
 def read_digest(text: str | None) -> bytes | None:
-    """Return the SHA-256 a person passes on; raises ValueError."""
+    """Return the SHA-256 a person passes on; raises DigestError."""
     if text is None:
         return None
     if not re.fullmatch("[0-9a-fA-F]{64}", text.strip()):
-        raise ValueError(
+        raise DigestError(
             f"{quoted(text)} is no SHA-256: write its 64 hexadecimal digits, as verify and upload print them"
         )
     return bytes.fromhex(text.strip())
