@@ -148,6 +148,15 @@ def test_a_copy_that_is_not_what_was_kept_is_refused(digest: bytes, message: str
         open_copy(path)
 
 
+def test_a_digest_that_is_there_and_cannot_be_read_is_not_none(tmp_path: Path) -> None:
+    path = tmp_path / "x.img"
+    save_image(GARBAGE, path)
+    digest_path(path).unlink()
+    digest_path(path).symlink_to("nowhere")
+    with pytest.raises(OSError, match=r"x\.img\.sha256"):
+        open_copy(path)
+
+
 def test_one_changed_byte_is_found(tmp_path: Path) -> None:
     path = keep_image(mill_image(), tmp_path, "mill")
     path.write_bytes(mill_image().replace(b"0 mm", b"1 mm", 1))

@@ -8,7 +8,7 @@ import pytest
 
 from amp_studio.files import Document, ParameterFile, new_file
 from amp_studio.schema import Value
-from amp_studio.transfer.client.kept import keep_image
+from amp_studio.transfer.client.kept import digest_path, keep_image
 from amp_studio.transfer.client.previous_download import NoDownloadError, last_download
 from amp_studio.transfer.client.record import add_exchange, changes_of, exchange_now
 from amp_studio.transfer.image import encode_image
@@ -82,6 +82,15 @@ def test_without_a_record_or_without_the_kept_copy_it_shows_it(path: Path) -> No
     kept = record(path, mill(0.0), mill(1.0))
     assert kept is not None
     kept.unlink()
+    with pytest.raises(NoDownloadError, match="the copy that was kept before it is not in"):
+        last_download(mill(9.0), path)
+
+
+def test_another_copy_under_the_name_of_the_kept_one_is_not_taken_for_it(path: Path) -> None:
+    kept = record(path, mill(0.0), mill(1.0))
+    assert kept is not None
+    kept.write_bytes(encode_image(mill(7.0)))
+    digest_path(kept).unlink()
     with pytest.raises(NoDownloadError, match="the copy that was kept before it is not in"):
         last_download(mill(9.0), path)
 

@@ -6,7 +6,7 @@ import pytest
 
 from amp_studio.families.grblhal.settings import addresses_by_number
 from amp_studio.files import ParameterFile
-from amp_studio.schema import load_schema
+from amp_studio.schema import Value, load_schema
 from amp_studio.schema.values import read_value
 from amp_studio.transfer.client.exchange import WantedContent, download
 from amp_studio.transfer.client.verification import completed, verify_content
@@ -50,6 +50,16 @@ def of_grbl(**settings: str) -> ParameterFile:
         parameter = file.schema.parameters[address[0]]
         file.take({address: read_value(parameter, text, file.values[address].unit)})
     return file
+
+
+def test_a_setting_that_the_control_does_not_have_is_a_difference() -> None:
+    """All that it has is the same."""
+    file = of_grbl(n110="500")
+    assert verify_content(file, GRBL).is_same
+    file.set(addresses_by_number(file.schema.on(file.machine))[131], Value(200.0, "mm"))
+    found = verify_content(file, GRBL)
+    assert (found.is_same, found.agrees) == (False, False)
+    assert found.missing == "the control does not have $131"
 
 
 def test_what_a_control_shows_coarser_is_no_difference_beside_one_that_is() -> None:
