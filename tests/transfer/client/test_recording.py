@@ -1,4 +1,4 @@
-"""What the record tells of a download however it ends, and with which copies the next reading is compared."""
+"""What the record has of a download however it ends, and with which copies the next reading is compared."""
 
 from pathlib import Path
 from typing import Any
