@@ -86,3 +86,5 @@ def test_a_user_else_who_changes_the_control_is_noticed(bench: Bench, live: Live
     bench.firmware.answer()
     with pytest.raises(TransferError, match=r"something else than what was approved|changed the settings"):
         live.set({live.file.find("$120"): Value(25.0, "mm/s2")})
+    assert live.file is None, "the values before are those of nobody now"
+    assert live.look().values[live.file.find("$130")].value == 300
