@@ -9,12 +9,14 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import NoReturn, TypeVar
+from typing import NoReturn, TypeVar, overload
 
 _T = TypeVar("_T")
 _own: list[bool] = []
+_copies: list[int] = []
+"""The copies of this process that are at work."""
 
 
 def is_the_program() -> None:
@@ -22,14 +24,44 @@ def is_the_program() -> None:
     _own.append(True)
 
 
+class Awaited(Sequence[_T]):
+    """What is made beside, or here when it is asked for: a sequence that waits for it at the first look."""
+
+    def __init__(self, made: Iterable[_T]) -> None:
+        self._made: Iterable[_T] | None = made
+        self._found: tuple[_T, ...] = ()
+
+    def _all(self) -> tuple[_T, ...]:
+        if self._made is not None:
+            self._found, self._made = tuple(self._made), None
+        return self._found
+
+    @overload
+    def __getitem__(self, at: int) -> _T: ...
+    @overload
+    def __getitem__(self, at: slice) -> tuple[_T, ...]: ...
+    def __getitem__(self, at: int | slice) -> _T | tuple[_T, ...]:
+        return self._all()[at]
+
+    def __len__(self) -> int:
+        return len(self._all())
+
+    def __iter__(self) -> Iterator[_T]:
+        return iter(self._all())
+
+    def __reduce__(self) -> tuple[type[tuple[_T, ...]], tuple[tuple[_T, ...]]]:
+        return tuple, (self._all(),)
+
+
 def beside(make: Callable[[], Iterable[_T]]) -> Iterator[_T]:
-    """Yield what ``make`` returns; where there is a second processor, it is made there from now on.
+    """Yield what ``make`` returns; where another processor has nothing to do, it is made there from now on.
 
     That is a copy of this process, which has all that was read already. A library's caller may have threads,
     which no copy has, and a copy is not safe on every system: there, and where no process can be begun or one
     ended early, it is made here when it is asked for.
     """
-    if sys.platform != "linux" or not _own or len(os.sched_getaffinity(0)) < 2:
+    # One more than there are processors would only take time from a copy that is waited for.
+    if sys.platform != "linux" or not _own or len(os.sched_getaffinity(0)) < 2 + len(_copies):
         return _here(make)
     answer, out = os.pipe()
     try:
@@ -41,6 +73,7 @@ def beside(make: Callable[[], Iterable[_T]]) -> Iterator[_T]:
     if not copy:
         _answer(make, out)
     os.close(out)
+    _copies.append(copy)
     return _of_copy(make, copy, answer)
 
 
@@ -54,6 +87,7 @@ def _of_copy(make: Callable[[], Iterable[_T]], copy: int, answer: int) -> Iterat
     with open(answer, "rb") as file:
         content = file.read()
     _, status = os.waitpid(copy, 0)
+    _copies.remove(copy)
     # An error of the work is met here again, and raised to the caller.
     yield from make() if status else pickle.loads(content)  # noqa: S301  # the program itself has written it
 

@@ -31,20 +31,18 @@ from amp_studio.report import (
     PrintedProgram,
     PrintedTest,
     ProgramLimit,
-    SetReport,
     TunedFigure,
     TunedGain,
     TuningLine,
-    print_report,
-    run_apart,
-    set_report,
 )
 from amp_studio.validate import NO_RULES, BuilderRules
 
 if TYPE_CHECKING:
+    from amp_studio.report import SetReport
     from amp_studio.sim import Trace
 
-_DRAWN = (".pdf", ".html", ".json")
+_DRAWN = {".pdf": (True, True), ".html": (True, False), ".json": (False, True)}
+"""Whether a format has the drawings of a motion, and whether it has its data."""
 _WIDTH, _UNIT = 640, 92
 """Of a drawing: in the width of a page its letters are 8.5 points, and it is no longer than the page."""
 _SCENARIOS = ("step", "frequency")
@@ -68,7 +66,15 @@ def write_report(
     on. Returns and raises as ``print_report`` does; OSError for a record of exchanges that cannot be read.
     """
     path, source, contents = Path(path), Path(source) if source else None, contents or Contents()
-    has_drawings = path.suffix.lower() in _DRAWN and "motion" not in contents.without
+    drawn = _DRAWN.get(path.suffix.lower())
+
+    def figures() -> Iterable[PrintedFigure]:
+        return motion(file) if motion else motion_figures(file, drawings=drawn[0], data=drawn[1])
+
+    # Begun before the report is even loaded: what takes longest.
+    moved = beside(figures) if drawn and "motion" not in contents.without else ()
+    from amp_studio.report import print_report
+
     return print_report(
         file,
         path,
@@ -77,7 +83,7 @@ def write_report(
         date=date,
         own=own,
         notify=notify,
-        motion=beside(lambda: (motion or motion_figures)(file)) if has_drawings else (),
+        motion=moved,
         exchanges=() if "exchanges" in contents.without or source is None else tuple(exchanges_of(source)),
         tunings=() if "tuning" in contents.without or source is None else tuple(tunings_of(file, source)),
         checks=tuple(checks_of(file)) if contents.check else (),
@@ -98,6 +104,8 @@ def set_dossier(
     """Return the pages of what ``write_report`` writes as PDF; ``motion`` was drawn before
     (``motion_figures``), as that takes longest.
     """
+    from amp_studio.report import set_report
+
     return set_report(
         file,
         contents,
@@ -113,34 +121,43 @@ def set_dossier(
     )
 
 
-def motion_figures(file: ParameterFile) -> Iterator[PrintedFigure]:
+def motion_figures(
+    file: ParameterFile, *, drawings: bool = True, data: bool = True
+) -> Iterator[PrintedFigure]:
     """Yield step and frequency response of each axis that can be simulated;
     why one cannot is a figure without a drawing.
+
+    Without ``drawings`` or ``data`` they have none, for a format that prints none.
     """
-    from amp_studio.sim import SimulationError, listing, plot_svg, simulate
+    from amp_studio.sim import SimulationError, law_of, plot_svg, simulate
 
     try:
-        known = listing(file)
-    except SimulationError:  # a family without a law
+        law = law_of(file.schema.family.family)
+    except SimulationError:
         return
-    scenarios = {each.name for each in known.scenarios}
-    assumed: dict[str, None] = {}
-    failed: dict[str, None] = {}
-    for axis in known.axes:
-        for scenario in filter(scenarios.__contains__, _SCENARIOS):
+    axes, scenarios = tuple(law.axes(file)), [each for each in _SCENARIOS if each in law.motion.scenarios]
+    runs: dict[tuple[str, str], Trace | str] = {}
+    # Frequency responses first: what they need, the machine code, is then there for the moves too.
+    for scenario in reversed(scenarios):
+        for axis in axes:
             try:
-                trace = simulate(file, scenario, axis, advise=False)
+                runs[axis, scenario] = simulate(file, scenario, axis, advise=False)
             except SimulationError as error:
-                failed[str(error)] = None
-                continue
-            named = axis if trace.letter in ("", axis) else f"{axis} ({trace.letter})"
-            drawn = plot_svg(trace, width=_WIDTH, unit=_UNIT, small_print=False)
-            assumed |= dict.fromkeys(trace.assumptions)
-            yield PrintedFigure(f"{scenario.capitalize()}, axis {named}", drawn, (), _run(trace))
-    if failed:
-        yield PrintedFigure("Not simulated", "", tuple(failed))
-    if assumed:
-        yield PrintedFigure("What was assumed", "", tuple(assumed))
+                runs[axis, scenario] = str(error)
+    made = [runs[axis, scenario] for axis in axes for scenario in scenarios]
+    for trace in made:
+        if isinstance(trace, str):
+            continue
+        drawn = plot_svg(trace, width=_WIDTH, unit=_UNIT, small_print=False) if drawings else ""
+        letter = "" if trace.letter in ("", trace.axis) else f" ({trace.letter})"
+        title = f"{trace.scenario.capitalize()}, axis {trace.axis}{letter}"
+        yield PrintedFigure(title, drawn, (), _run(trace) if data else None)
+    if failed := tuple(dict.fromkeys(each for each in made if isinstance(each, str))):
+        yield PrintedFigure("Not simulated", "", failed)
+    if assumed := tuple(
+        dict.fromkeys(note for each in made if not isinstance(each, str) for note in each.assumptions)
+    ):
+        yield PrintedFigure("What was assumed", "", assumed)
 
 
 def _run(trace: Trace) -> dict[str, Any]:
@@ -245,6 +262,8 @@ def motion_apart(file: ParameterFile) -> tuple[PrintedFigure, ...]:
     ReportNotMadeError.
     """
     import pickle
+
+    from amp_studio.report import run_apart
 
     figures: tuple[PrintedFigure, ...] = pickle.loads(run_apart(__name__, content_of(file)))  # noqa: S301  # the program itself has written it
     return figures

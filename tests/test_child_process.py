@@ -1,6 +1,7 @@
 """The command line makes parts of a report on a second processor, and nobody sees a difference."""
 
 import os
+import pickle
 import signal
 from collections.abc import Iterator
 from datetime import UTC, datetime
@@ -9,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio import child_process
-from amp_studio.child_process import beside
+from amp_studio.child_process import Awaited, beside
 from amp_studio.dossier import write_report
 from amp_studio.files import open_file
 from amp_studio.files.example_files import examples_folder
@@ -83,6 +84,29 @@ def test_in_a_program_that_uses_the_library_it_is_made_here_and_not_before_it_is
     assert asked == []
     assert list(made) == [3]
     assert asked == [os.getpid()]
+
+
+@needs_copies
+@pytest.mark.usefixtures("program")
+def test_as_many_are_made_at_once_as_there_are_processors() -> None:
+    first = beside(lambda: [os.getpid()])
+    assert list(beside(lambda: [os.getpid()])) == [os.getpid()]  # the second processor has the first
+    assert list(first) != [os.getpid()]
+    assert list(beside(lambda: [os.getpid()])) != [os.getpid()]
+
+
+def test_what_is_awaited_is_asked_for_at_the_first_look_and_once() -> None:
+    asked: list[int] = []
+
+    def make() -> Iterator[str]:
+        asked.append(1)
+        yield from "ab"
+
+    found = Awaited(make())
+    assert asked == []
+    assert (len(found), found[0], found[1:], list(found)) == (2, "a", ("b",), ["a", "b"])
+    assert pickle.loads(pickle.dumps(found)) == ("a", "b")
+    assert asked == [1]
 
 
 @needs_copies

@@ -2,6 +2,7 @@
 
 import shutil
 import subprocess
+from dataclasses import replace
 from datetime import UTC, datetime
 from itertools import islice
 from pathlib import Path
@@ -39,6 +40,15 @@ def test_an_axis_without_a_servo_loop_shows_its_steps_and_no_frequency_response(
     figures = tuple(motion_figures(file))
     assert motion_apart(file) == figures
     assert [f.title for f in figures] == [*(f"Step, axis {axis}" for axis in "XYZ"), "What was assumed"]
+
+
+def test_a_format_gets_of_the_motion_what_it_prints() -> None:
+    file = open_file(EXAMPLES / "grblhal-router" / "GRBL_ROUTER.amp").file
+    whole = tuple(motion_figures(file))
+    page, data = tuple(motion_figures(file, data=False)), tuple(motion_figures(file, drawings=False))
+    assert all(figure.svg and figure.run for figure in whole[:-1])
+    assert [replace(figure, run=None) for figure in whole] == list(page)
+    assert [replace(figure, svg="") for figure in whole] == list(data)
 
 
 def test_exchanges_are_in_every_kind_of_document(mill: Path, tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import TypeVar
 
-from amp_studio.child_process import beside
+from amp_studio.child_process import Awaited, beside
 from amp_studio.files import (
     ParameterFile,
     ParameterFileError,
@@ -126,7 +126,9 @@ def build_report(
         help={i: tuple(_help(file.schema, i, language)) for i in _ids_of(printed)},
         # Last, as they are made beside all this.
         pictures=tuple(pictures),
-        motion=with_part("motion", lambda: (_in_words(figure, language) for figure in motion)),
+        motion=Awaited(_in_words(figure, language) for figure in motion)
+        if "motion" not in contents.without
+        else (),
     )
 
 

@@ -330,7 +330,8 @@ class Report:
     """(number, parameter, places) of each active parameter without a value."""
     sections: tuple[Section, ...]
     pictures: tuple[PrintedFigure, ...]
-    motion: tuple[PrintedFigure, ...]
+    motion: Sequence[PrintedFigure]
+    """May still be made while the pages before it are."""
     power_up: tuple[ProgramState, ...]
     exchanges: tuple[ExchangeLine, ...]
     tunings: tuple[TuningLine, ...]

@@ -38,7 +38,8 @@ class SimulationListing:
 
 def known_settings(law: Law, scenario: str) -> dict[str, str]:
     """Return every setting of a scenario and of the machine -> what it is."""
-    return {**model_settings(), **law.motion.settings, **{**SCENARIOS, **law.own()}[scenario].settings}
+    own = (law.own().get(scenario) or SCENARIOS[scenario]).settings
+    return {**model_settings(), **law.motion.settings, **own}
 
 
 def listing(file: ParameterFile, system: str | None = None) -> SimulationListing:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema import Address, axis_name, load_part, registration_of, unknown_name
 
 from .axis_parameters import AxisParameters, ParameterValue
 from .binding import axis_values, bind_axis, parameter_names
-from .doubts import doubts
 from .errors import SimulationError
 from .law import AxisLaw, BoundMachine, Law, law_of
 from .listings import known_settings
@@ -24,7 +23,9 @@ from .trace import Trace
 from .tuning.advice import recommendations
 from .tuning.trial import Trial
 from .unit_system import axis_unit, in_unit, length_unit
-from .variations.scenario import SweepWay
+
+if TYPE_CHECKING:
+    from .variations.scenario import SweepWay
 
 _V = TypeVar("_V")
 POINTS = ("move.start", "move.to", "move.zone")
@@ -75,6 +76,8 @@ def simulate(
         letter = axis_name(file.evaluation, bound.axis)
         trace = _of_one_axis(scenario, file, law, bound, model, own, way, advise=advise)
     if advise or whole is not None or _always_doubts(law, scenario):
+        from .doubts import doubts  # it takes the rules and the guide along, which a picture does not need
+
         trace = replace(trace, doubts=(*trace.doubts, *doubts(file, read, model)))
     return in_unit(_named(trace, letter), length)
 
@@ -103,8 +106,9 @@ def _listed(axes: str) -> tuple[str, ...]:
 
 
 def _refuse_unknown_scenario(file: ParameterFile, law: Law, scenario: str) -> None:
-    if scenario not in {**SCENARIOS, **law.own()}:
-        raise SimulationError(unknown_name("scenario", scenario, {**SCENARIOS, **law.own()}))
+    known = (*SCENARIOS, *law.own())
+    if scenario not in known:
+        raise SimulationError(unknown_name("scenario", scenario, known))
     if scenario not in (*law.motion.scenarios, *law.own()):
         raise SimulationError(
             f"{file.schema.family.name} has no scenario '{scenario}':"

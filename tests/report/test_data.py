@@ -7,12 +7,12 @@ from typing import Any
 import pytest
 from jsonschema import Draft7Validator
 
-from amp_studio.dossier import write_report
+from amp_studio.dossier import motion_figures, write_report
 from amp_studio.files import open_file
 from amp_studio.files.example_files import examples_folder
 from amp_studio.report import Contents
 from amp_studio.report.build import build_report
-from amp_studio.report.output.data import report_data
+from amp_studio.report.output.data import render_json, report_data
 from amp_studio.schema import Value
 from tests.campaigns import some
 
@@ -29,6 +29,14 @@ def broken() -> dict[str, Any]:
     file = open_file(examples_folder() / "mill-1394" / "MILL_1394.amp").file
     file.set(("servo.excess_error", "1"), Value(0.2, "in"))
     return report_data(build_report(file, Contents(language="de", inactive=True)))
+
+
+def test_the_document_is_indented_as_json_writes_it() -> None:
+    file = open_file(examples_folder() / "grblhal-router" / "GRBL_ROUTER.amp").file
+    file.header.name = 'a "name", [in] {brackets}\\ Ü'
+    report = build_report(file, motion=tuple(motion_figures(file)))
+    expected = json.dumps(report_data(report), ensure_ascii=False, indent=1) + "\n"
+    assert render_json(report).decode("utf-8") == expected
 
 
 @pytest.mark.parametrize("path", some(EXAMPLES), ids=lambda path: path.parent.name)

@@ -258,7 +258,7 @@ def test_the_title_of_a_picture_names_its_scenario_in_german(name: str) -> None:
         "measured less predicted, where used (%)",
         "radius deviation (µm)",
         "sensitivity (dB)",
-        "way of the load for one unit of torque (mm/%)",
+        "way of the load per torque (mm/%)",
         "axis less spindle (mm)",
         "machine less simulation (mm)",
         "distance from the end (mm)",
