@@ -41,8 +41,8 @@ if TYPE_CHECKING:
     from amp_studio.report import SetReport
     from amp_studio.sim import Trace
 
-_DRAWN = {".pdf": (True, True), ".html": (True, False), ".json": (False, True)}
-"""Whether a format has the drawings of a motion, and whether it has its data."""
+_DRAWN, _WITH_DATA = (".pdf", ".html"), (".pdf", ".json")
+"""Formats that have the drawings of a motion, and those that have its data."""
 _WIDTH, _UNIT = 640, 92
 """Of a drawing: in the width of a page its letters are 8.5 points, and it is no longer than the page."""
 _SCENARIOS = ("step", "frequency")
@@ -66,13 +66,15 @@ def write_report(
     on. Returns and raises as ``print_report`` does; OSError for a record of exchanges that cannot be read.
     """
     path, source, contents = Path(path), Path(source) if source else None, contents or Contents()
-    drawn = _DRAWN.get(path.suffix.lower())
+    ending = path.suffix.lower()
+    drawings, data = ending in _DRAWN, ending in _WITH_DATA
 
     def figures() -> Iterable[PrintedFigure]:
-        return motion(file) if motion else motion_figures(file, drawings=drawn[0], data=drawn[1])
+        return motion(file) if motion else motion_figures(file, drawings=drawings, data=data)
 
     # Begun before the report is even loaded: what takes longest.
-    moved = beside(figures) if drawn and "motion" not in contents.without else ()
+    has_motion = (drawings or data) and "motion" not in contents.without
+    moved = beside(figures) if has_motion else ()
     from amp_studio.report import print_report
 
     return print_report(
