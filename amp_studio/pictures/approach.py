@@ -8,7 +8,9 @@ from dataclasses import dataclass, replace
 from amp_studio.drawing import Dot, PictureNote, Point, Polyline, Scale, Scene, ShapeSort, Text
 from amp_studio.sim import SimulationError, Trace, bind_axis, law_of, simulate, value_text
 
+from .figures import ValueReader
 from .file_pictures import FilePicture, travel_ends
+from .homing import read_home
 
 ACROSS = 0.8
 """Where across its travel the first axis is: near one side, as zones are in the middle more often."""
@@ -33,11 +35,13 @@ def usual_way(picture: FilePicture, part: str) -> PlaneWay | None:
     scene = picture.scene(part)
     ends = travel_ends(picture.file, _axes(picture, scene, part))
     shares = (ACROSS, 0.5) if len(ends) == 2 else (0.5,)
+    # Without two ends there is no middle: from 0, which every axis has.
     start = [
         low + share * (high - low) if _is_finite(low, high) else 0.0
         for (low, high), share in zip(ends, shares, strict=True)
     ]
     to = list(start)
+    # The first axis only where the second one has no limit.
     for n in reversed(range(len(ends))):
         low, high = ends[n]
         if math.isfinite(high):
@@ -57,6 +61,7 @@ def _point(places: list[float]) -> Point:
 def _axes(picture: FilePicture, scene: Scene, part: str) -> list[str]:
     """Return the axes along x and y of a picture, which may have turned them."""
     axes = picture.key(part).split("+")
+    # A turned picture keeps its part: only its scales are in the other order.
     is_turned = len(axes) == 2 and scene.x.label == picture.axis(axes[1])
     return axes[::-1] if is_turned else axes
 
@@ -65,7 +70,7 @@ def run_way(picture: FilePicture, part: str, way: PlaneWay) -> Trace:
     """Simulate a way; raises SimulationError where the axes cannot go it."""
     scene = picture.scene(part)
     axes = _axes(picture, scene, part)
-    way = _shifted(way, *_shift(picture, scene, axes))
+    way = _shifted(way, *_shift(picture, axes))
     if len(axes) == 1:
         direction = "plus" if way.to[0] >= way.start[0] else "minus"
         settings = {"move.start": _written(scene.x, way.start[0]), "move.direction": direction}
@@ -79,19 +84,20 @@ def run_way(picture: FilePicture, part: str, way: PlaneWay) -> Trace:
     return simulate(picture.file, "travel", names, {"move.start": start, "move.to": to}, advise=False)
 
 
-def _shift(picture: FilePicture, scene: Scene, axes: list[str]) -> list[float]:
+def _shift(picture: FilePicture, axes: list[str]) -> list[float]:
     """Return what is added to a place of the picture for that of the machine: where the picture counts from
     the home switch, both have the home position.
     """
     roles = picture.file.schema.pictures.travel
-    home = next((dot.at for dot in scene.dots if dot.kind == "home"), None)
-    if roles is None or roles.reach is None or home is None:
-        return [0.0, 0.0]
+    found = [0.0, 0.0]
+    if roles is None or roles.reach is None:
+        return found
     law = law_of(picture.file.schema.family.family)
-    found = []
-    for axis, place in zip(axes, home, strict=True):
-        homing = bind_axis(picture.file, law, axis).homing
-        found.append(0.0 if homing is None else homing().coordinate - place)
+    figures = ValueReader(picture.file)
+    for n, axis in enumerate(axes):
+        place = read_home(figures, roles, axis, picture.file).place
+        if place is not None and (homing := bind_axis(picture.file, law, axis).homing) is not None:
+            found[n] = homing().coordinate - place
     return found
 
 
@@ -100,6 +106,7 @@ def _shifted(way: PlaneWay, x: float, y: float) -> PlaneWay:
 
 
 def _written(scale: Scale, place: float) -> str:
+    # A setting without a unit is in that of the law, mm or degrees.
     return f"{place!r} in" if scale.unit == "in" else repr(place)
 
 
@@ -128,7 +135,7 @@ def draw_approach(
     if hard is not None:
         lines += _hard_stops(picture, axes, base, hard)
     if way is not None:
-        x, y = _shift(picture, base, axes) if trace is not None else (0.0, 0.0)
+        x, y = _shift(picture, axes) if trace is not None else (0.0, 0.0)
         stop, past, text = _stopped(trace, axes, way, (x, y))
         lines.append(Polyline((way.start, way.to), "before", dashed=True))
         lines.append(Polyline((way.start, past or stop), "now"))
@@ -176,6 +183,7 @@ def _hard_stops(picture: FilePicture, axes: list[str], base: Scene, hard: float)
     """Return the edges behind the finite limits, dashed."""
     views = ((base.x.low, base.x.high), (base.y.low, base.y.high))
     ends = [(low - hard, high + hard) for low, high in travel_ends(picture.file, axes)]
+    # A picture of one axis has no travel across: from edge to edge.
     ends += [views[1]] * (2 - len(ends))
     (left, right), (low, high) = [
         (max(end[0], view[0] - hard), min(end[1], view[1] + hard))
@@ -199,12 +207,13 @@ def _stopped(
         stop, limit = figure.get("stop_position"), figure.get("limit")
         if stop is None or limit is None:
             return way.start, None, text
-        return (stop, 0.0), (limit, 0.0), text
+        return (stop - shift[0], 0.0), (limit - shift[0], 0.0), text
     names = [name for name in trace.columns if name.startswith("position_")]
     x, y = (float(trace.columns[name][-1]) - by for name, by in zip(names, shift, strict=False))
     overrun, limit, distance = (figure.get(name) for name in ("overrun", "limit", "distance"))
     if overrun is None or limit is None or not distance:
         return (x, y), None, text
+    # The axes move together on a straight line, so that one share of it is that of both.
     share = limit / distance
     past = (
         way.start[0] + share * (way.to[0] - way.start[0]),
@@ -221,5 +230,6 @@ def draw_usual_approach(picture: FilePicture, part: str) -> Scene:
     try:
         return draw_approach(picture, part, way, run_way(picture, part, way))
     except SimulationError as error:
+        # Without a way the limits are still drawn, and the sentence names what is missing.
         plan = draw_approach(picture, part)
         return replace(plan, notes=(*plan.notes, PictureNote(error.what, is_remark=True)))

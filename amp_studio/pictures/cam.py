@@ -23,6 +23,7 @@ def draw_cam(file: ParameterFile, roles: CamRoles, part: str) -> Scene:
     """
     axis, _, view = part.partition("@")
     figures = ValueReader(file)
+    # Read for its note and for what the picture is drawn from; the law reads the points.
     figures.figure(roles.points, axis)
     shapes, panel = SceneShapes(figures), None
     points = 0
@@ -37,6 +38,7 @@ def draw_cam(file: ParameterFile, roles: CamRoles, part: str) -> Scene:
             figures.add_note(doubt)
     except SimulationError as error:
         figures.add_note(str(error))
+    # Without a panel there are no figures that a scale could have.
     empty = Scale("", "", 0.0, 1.0, is_written=False)
     subtitle = f"{figures.axis(axis)}, {points} points, page {roles.page}"
     scene = shapes.scene("cam", part, "Cam", subtitle, *((panel.x, panel.y) if panel else (empty, empty)))

@@ -40,7 +40,9 @@ def _stepped(file: ParameterFile, handle: Handle, drag: Drag, count: int) -> Val
     if isinstance(own.value, str):  # a table: its point moves
         at = handle.at[0 if drag.along == "x" else 1]
         return drag.value_at(at + count * drag.step)
+    # A value in a unit of another dimension is a finding; there is no next step from it.
     if dimension(own.unit) != dimension(drag.unit):
         return None
+    # On the grid of the steps: 12.37 goes to 13 and then to 14, as a person would enter it.
     number = multiple(convert(float(own.value), own.unit, drag.unit) + count * drag.step, drag.step)
     return Value(int(number) if isinstance(own.value, int) else number, drag.unit)

@@ -60,6 +60,7 @@ class ValueReader:
 
     def __init__(self, file: ParameterFile) -> None:
         self.file, self.evaluation = file, file.evaluation
+        # A dict as a set with an order: the picture lists what it is drawn from as it was read.
         self.read: dict[Address, None] = {}
         self.notes: dict[str, PictureNote] = {}
 
@@ -68,6 +69,7 @@ class ValueReader:
         None where there is none.
         """
         instances = self.file.machine_schema.instances(self.file.schema.parameters[parameter])
+        # An instance of the parameter itself, as a gear is, needs no reference by an axis.
         if instance in instances:
             return parameter, instance
         try:
@@ -128,6 +130,9 @@ class ValueReader:
         )
 
     def _number(self, address: Address, value: Value, unit: str) -> float | None:
+        """Return the number of a value in a unit, of what it really is where its unit has a size; None where
+        a picture has no scale for it.
+        """
         if isinstance(value.value, (str, bool)):
             return None
         real = real_value(self.evaluation, address, value) or value
@@ -171,6 +176,7 @@ class ValueReader:
         self, text: str, address: Address | None = None, *, wrong: bool = False, is_remark: bool = False
     ) -> None:
         """Say something about the picture, once."""
+        # Several shapes of one picture read the same value.
         self.notes.setdefault(text, PictureNote(text, address, wrong, is_remark))
 
     def figures(self, parameters: Iterable[ParameterId], instance: str) -> list[DrawnValue]:
@@ -201,6 +207,7 @@ class ValueReader:
         if role.bits and instance in axes and not isinstance(value.value, str):
             is_set = int(value.value) >> axes.index(instance) & 1
             return 1.0 if bool(is_set) == (role.bits == "plus") else -1.0
+        # A choice in neither list, as of an axis that is not homed, has no direction.
         return float((value.value in role.plus) - (value.value in role.minus))
 
     # -- back to values ----------------------------------------------------------
@@ -222,6 +229,7 @@ class ValueReader:
     def _to_entry(self, address: Address, number: float, unit: str, entry: str) -> float | None:
         size = size_of(self.evaluation, address, entry)
         if size and dimension(size.unit) == dimension(unit):
+            # Exactly: a size as 1/3 µm would else give another count back than the one that was drawn.
             return float(exact(convert(number, unit, size.unit)) / size.number)
         return convert(number, unit, entry) if dimension(unit) == dimension(entry) else None
 

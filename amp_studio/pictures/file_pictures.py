@@ -55,6 +55,7 @@ class FilePicture:
         ``like`` is what was drawn before a drag began: its scales stay.
         """
         scene = self.drawn(self.key(part), like)
+        # An empty frame would look like a fault of the program.
         if scene.handles or scene.notes or scene.curves:
             return scene
         return replace(scene, notes=(PictureNote("No parameter of this picture is active on this machine"),))
@@ -64,6 +65,7 @@ class FilePicture:
 
         Axes on which nothing is set are drawn when they are asked for.
         """
+        # The @ in the key of a cam is that of its view.
         part, _, share = part.partition("@") if self.has_speed else (part, "", "")
         if share:
             return f"{self.key(part)}@{_percent(share):g}"
@@ -73,6 +75,7 @@ class FilePicture:
         for key, name in self.parts:
             if wanted in (key.upper().split("+"), name.upper().split()):
                 return key
+        # A pair without a value is not offered, but a link or a user may ask for it.
         if own := self._axes_of(wanted):
             return "+".join(own)
         raise KeyError(
@@ -87,6 +90,7 @@ class FilePicture:
         """Return the axes of these names; empty where they make no part."""
         letters = {name.upper(): axis for axis, name in _named(self.file, every_axis(self.file))}
         own = [letters.get(each, each) for each in names]
+        # X against X is no plan.
         is_part = self.axes == len(own) == len(set(own)) and set(own) <= set(letters.values())
         return own if is_part else []
 
@@ -139,6 +143,7 @@ def _ladders(file: ParameterFile, roles: JogRoles) -> Iterator[FilePicture]:
 
 def _cam_views(file: ParameterFile, cam: CamRoles) -> PartNames:
     """Return the cam of each axis that has points, its speed and its acceleration."""
+    # `axes_with` offers an axis even where none has a value; a cam without points is nothing to draw.
     own = [name for name in _own(file, (cam.points,)) if file.evaluation.canonical((cam.points, name[0]))]
     views = {"": "", "@speed": " speed", "@acceleration": " acceleration"}
     return tuple((f"{axis}{key}", f"{name}{view}") for axis, name in own for key, view in views.items())
@@ -178,6 +183,7 @@ def _cam(file: ParameterFile, roles: CamRoles, part: str, _like: Scene | None) -
 def _percent(text: str) -> float:
     """Return a share of the rapid feedrate in %; raises KeyError for what is none."""
     try:
+        # As a user types it, with the comma of some languages.
         share = float(text.strip().removesuffix("%").replace(",", "."))
     except ValueError:
         share = math.nan

@@ -38,6 +38,7 @@ def draw_gain(file: ParameterFile, roles: ErrorRoles, axis: str, like: Scene | N
 def _scales(
     gain: DrawnValue | None, drawn: Sequence[DrawnValue], found: Sequence[DrawnValue]
 ) -> tuple[Scale, Scale]:
+    # Three times beyond the outermost on either side: half a decade of a logarithmic scale.
     places = [each.number or 1.0 for each in drawn]
     unit = next((each.unit for each in (*drawn, *found)), "")
     low, high = min(places, default=1.0) / 3.0, max(places, default=3.0) * 3.0
@@ -53,6 +54,7 @@ def _draw_limit(shapes: SceneShapes, each: DrawnValue, n: int, scales: tuple[Sca
     # The geometric mean is the middle of a logarithmic scale.
     side: Literal["left", "right"] = "right" if place * place > x.low * x.high else "left"
     shapes.texts.append(Text((place, level), each.label, each.text, side, each.address, "dim"))
+    # Two handles of one value would lie on each other.
     if all(handle.drags[0].address != each.address for handle in shapes.handles):  # the break has one already
         drag = shapes.figures.drag(each, "x", 2.0 * place)
         shapes.handles.append(shapes.figures.handle(each, (place, 0.92 * y.high), drag, second=True))
@@ -83,6 +85,7 @@ def _draw_gain(
     drag = figures.drag(at, "x", 2.0 * place)
     shapes.handles.append(figures.handle(at, (place, 0.5 * (level + reduced)), drag))
     if ratio is not None and level:
+        # Dragged is the reduced gain; the value is its share of the gain, which stays.
         drag = figures.drag(ratio, "y", 1.0, lambda y_at: y_at / level)
         shapes.handles.append(figures.handle(ratio, ((place * x.high) ** 0.5, reduced), drag))
 

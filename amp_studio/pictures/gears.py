@@ -80,6 +80,7 @@ def _gears(figures: ValueReader, roles: GearRoles, spindle: str) -> list[str]:
         for i in file.machine_schema.instances(file.schema.parameters[roles.high])
         if i.partition(".")[0] == spindle
     ]
+    # Without a number of gears in the file, those are used whose highest speed is not 0.
     if roles.count is None:
         return [i for i in every if len(every) == 1 or _has_gear(file, roles.high, i)] or every[:1]
     return every[: int(number_of(figures.figure(roles.count, spindle)) or 0)]
@@ -146,6 +147,7 @@ def _scaled(figures: ValueReader, roles: GearRoles) -> _Gear | None:
 
 
 def _handles(figures: ValueReader, roles: GearRoles, gear: _Gear, across: float, top: float) -> list[Handle]:
+    """Return the handles of speeds and output; ``across`` and ``top`` are the spans of the picture."""
     low, high, output, output_low, limit = gear.figures
     if roles.scaling and high is not None:
         return [_scaling_handle(figures, high, gear, roles.full or 10.0)]
@@ -164,6 +166,7 @@ def _handles(figures: ValueReader, roles: GearRoles, gear: _Gear, across: float,
 
 def _scaling_handle(figures: ValueReader, scaling: DrawnValue, gear: _Gear, full: float) -> Handle:
     def scaling_at(speed: float) -> float | None:
+        # At the left edge the scaling would be infinite: the value stays.
         return full / speed if speed > 0.0 else None
 
     drag = figures.drag(scaling, "x", 2.0 * (scaling.number or 1.0), scaling_at, rises=False)

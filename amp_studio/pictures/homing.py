@@ -57,6 +57,7 @@ def read_home(figures: ValueReader, roles: TravelRoles, axis: str, file: Paramet
     own = (role.position, role.marker, role.switch)
     position, calibration, switch = (figures.figure(parameter, axis) for parameter in own)
     place, before = number_of(position), number_of(calibration)
+    # A calibration is how far the home position lies beyond the marker.
     marker = None if place is None or before is None else place - before
     towards, off = _directions(figures, role, axis, file)
     pull_off = figures.figure(role.pull_off, axis)
@@ -138,6 +139,7 @@ def draw_rail(
         return
     across = views[1 - n]
     margin = MARGIN * (across[1] - across[0])
+    # In the margin, beside what is drawn of the travel itself.
     level = across[0] + 0.5 * margin if n == 0 else across[1] - 0.3 * margin
     rail = _Rail(drawing, n, level, views[n][1] - views[n][0])
     low, high = max(travel[0], views[n][0]), min(travel[1], views[n][1])
@@ -145,6 +147,7 @@ def draw_rail(
     if home.calibration is not None and home.marker is not None:
         drawing.dots.append(Dot(rail.at(home.marker), "marker"))
         rail.name(home.marker, "marker", "", home.calibration.address)
+        # The home position stays, as zones and limits are counted from it: the marker moves.
         rail.handle(home.calibration, home.marker, lambda place: (home.place or 0.0) - place, rises=False)
     _draw_switch(rail, home, (low, high))
 
@@ -157,6 +160,8 @@ def _draw_switch(rail: _Rail, home: Home, ends: tuple[float, float]) -> None:
         rail.name(home.switch_place, "switch", home.switch.text, home.switch.address)
         rail.handle(home.switch, home.switch_place)
         rail.arrow(home.switch_place - 2.0 * home.side * beyond, home.side)
+    # Places are counted from this switch, so it is at 0 and stays; the home position beside it is
+    # dragged.
     elif home.pull_off is not None and home.side:
         dots.append(Dot(rail.at(0.0), "switch"))
         if home.place is not None:

@@ -69,6 +69,7 @@ class _Way:
         """Return the points of a stage, and the first one of the next."""
         begins = [stage.begin for stage in self.course.stages] + [math.inf]
         time = self.trace.columns["time_s"]
+        # One row earlier and one later: the lines of two stages meet.
         first, last = (int(np.searchsorted(time, begins[k])) for k in (n, n + 1))
         found = self.points[max(first - 1, 0) : last + 1]
         step = max(1, len(found) // MOST_POINTS)
@@ -108,6 +109,7 @@ def draw_homing(file: ParameterFile, trace: Trace) -> Scene:
 
 
 def _scales(way: _Way) -> tuple[Scale, Scale]:
+    """Return the scales of position and speed, with room for the switch and the home position."""
     course, unit = way.course, way.course.unit
     places = [place for place, _ in way.points]
     speeds = [speed for _, speed in way.points]
@@ -165,6 +167,7 @@ class _Shapes:
             math.ceil((self.x.low - first) / course.turn),
             math.floor((self.x.high - first) / course.turn),
         )
+        # A short turn has thousands of markers in a long picture; number 0 is the one of the homing.
         if high - low >= MOST_MARKERS:
             low, high = max(low, -MOST_MARKERS // 2), min(high, MOST_MARKERS // 2)
         return [first + n * course.turn for n in range(low, high + 1)]
@@ -182,6 +185,7 @@ class _Shapes:
             yield Text((at, 0.0), "home", value_text(course.coordinate, unit), "below")
         numbers: dict[str, int] = {}
         for n, stage in enumerate(course.stages):
+            # A stage that comes again, as in a homing of two passes, has its name and number once.
             if stage.name not in numbers:
                 numbers[stage.name] = len(numbers) + 1
                 yield self._of_stage(file, stage, n, numbers[stage.name])
@@ -201,8 +205,10 @@ class _Shapes:
             yield Text((markers[len(markers) // 2], 0.0), "marker", about, "below", None, "dim")
 
     def _of_stage(self, file: ParameterFile, stage: HomingStage, n: int, number: int) -> Text:
+        """Return the text of a stage, at the middle of where it is at its speed."""
         points = self.way.stage(n)
         fastest = max(abs(speed) for _, speed in points)
+        # Where the speed is even there is a place for a text, and its figure is that of the line.
         even = [point for point in points if abs(point[1]) >= 0.95 * fastest]
         at = even[len(even) // 2]
         speed = value_text(stage.speed, f"{self.way.course.unit}/min")

@@ -82,6 +82,7 @@ class LoopDiagram:
     ) -> None:
         self.shapes, self._figures, self._axis, self._signals = SceneShapes(figures), figures, axis, signals
         order = ("command", "ahead", "chain", "back")
+        # The sort is stable: blocks of one place stay in the order of the facts.
         rows = sorted(roles.blocks, key=lambda block: order.index(block.place))
         lines = [self._lines(block) for block in rows]
         machine = figures.file.machine_schema
@@ -120,6 +121,7 @@ class LoopDiagram:
         return lines
 
     def _box(self, block: LoopBlock, texts: list[Text], bottom: float, top: float) -> None:
+        """Draw a block with its name, and its texts beside it in rows from the top."""
         self.shapes.areas.append(FilledArea(LEFT, bottom, RIGHT, top, "overlap"))
         edge = ((LEFT, bottom), (RIGHT, bottom), (RIGHT, top), (LEFT, top), (LEFT, bottom))
         self.shapes.lines.append(Polyline(edge))

@@ -18,6 +18,8 @@ def axes_with(file: ParameterFile, parameters: Iterable[ParameterId]) -> tuple[s
     own = [p for p in parameters if file.machine_schema.scopes[p] == "axis"]
     axes = every_axis(file)
     found = tuple(axis for axis in axes if any(_is_drawn(file, p, axis) for p in own))
+    # A file that does not say which axes are fitted would offer every axis of the family, all of them
+    # empty.
     return found or (axes if file.schema.family.fits_axes else axes[:1])
 
 

@@ -97,6 +97,7 @@ def _draw_moves(
         except SimulationError as error:
             figures.add_note(f"{each.role.name}: {error}", wrong=True)
             continue
+        # Without a choice in the file, moves have the first kind that can be drawn.
         is_used = used in each.role.modes if roles.mode else not shapes.lines
         end = _draw_move(shapes, each, pieces, feedrate, feedrate / speed, n, is_used=is_used)
         shapes.handles += _handles(figures, each, speed, feedrate / speed, distance, pieces)
@@ -260,6 +261,8 @@ def _within_scans(
             f"{first.label}: without a scan above 0 the bounds of the jerk are not known", first.address
         )
         return given
+    # acceleration / jerk is the time in which the acceleration is reached: so many scans at least and at
+    # most.
     used = min(max(given, up / (role.jerk_scans.most * scan)), up / (role.jerk_scans.least * scan))
     if used != given:
         figures.add_note(
@@ -290,6 +293,7 @@ def sampled(pieces: Sequence[Piece]) -> list[Point]:
     points: list[Point] = [(0.0, 0.0)]
     start = 0.0
     for piece in pieces:
+        # Of a straight piece the ends are enough.
         straight = piece.kind == 0.0 and piece.jerk == 0.0
         count = 1 if straight else SAMPLES
         points += [
@@ -297,6 +301,7 @@ def sampled(pieces: Sequence[Piece]) -> list[Point]:
             for k in range(count + 1)
         ]
         start += piece.duration
+    # An exponential only comes near to rest.
     return [*points, (start, 0.0)]
 
 
@@ -345,6 +350,7 @@ def _handles(
         return t / each.factor
 
     if each.time is not None and each.time.number and ramp.kind == "exponential":
+        # After one time constant 63 % of the speed is reached.
         at = (ramp.time, speed * -math.expm1(-1.0))
         yield handle(each.time, at, time_at, end / each.factor, rises=True, second=True)
     elif each.rise is not None:
@@ -352,6 +358,7 @@ def _handles(
     elif each.acceleration is not None and ramp.acceleration > 0.0:
         is_s_curve, span = ramp.kind == "s-curve", 2.0 * ramp.acceleration
         yield handle(each.acceleration, (risen, top), _acceleration_at(ramp, top), span, second=is_s_curve)
+        # Where the speed is not reached, the end of the move depends on both slopes.
         if each.deceleration and ramp.kind == "linear" and top >= speed * (1.0 - 1e-9):
             inverse = _deceleration_at(speed, distance / speed + 0.5 * risen)
             yield handle(each.deceleration, (end, 0.0), inverse, 2.0 * ramp.deceleration)
@@ -363,6 +370,7 @@ def _handles(
 
 
 def _deceleration_at(speed: float, rest: float) -> Callable[[float], float | None]:
+    # A move of fixed length ends at rest + v / (2 d), at `rest` with an endless deceleration.
     return lambda t: speed / (2.0 * (t - rest)) if t > rest else None
 
 

@@ -68,6 +68,7 @@ def draw_table(file: ParameterFile, roles: TableRoles, axis: str, like: Scene | 
     shapes.texts.append(Text((x.low, y.high), label, "", "left", address, "dim"))
 
     def with_point(at: Point) -> tuple[Address, Value] | None:
+        # A text that cannot be read is not replaced by one point.
         if form is None or (value is not None and not points):
             return None
         more = form.put_in(points, (at[0], multiple(at[1], form.grain)))
@@ -123,6 +124,7 @@ def _handle(
     step = max(form.grain, round_step((y.high - y.low) / STEPS))
 
     def value_at(level: float) -> Value | None:
+        # Up and down only: the positions are those at which the points were measured.
         changed = [*points[:n], (points[n][0], multiple(level, step)), *points[n + 1 :]]
         return Value(form.write(letter, changed, text, ""))
 

@@ -60,6 +60,7 @@ def draw_travel(
         is_turned = len(axes) == 2 and like.x.label == ValueReader(file).axis(back[0])
         return replace(_drawn(file, roles, back if is_turned else axes, like), part="+".join(axes))
     scene = _drawn(file, roles, axes, None)
+    # Only with one scale for both axes does a long y make a narrow picture.
     if not scene.equal or scene.y.high - scene.y.low < TALL * (scene.x.high - scene.x.low):
         return scene
     return replace(_drawn(file, roles, back, None), part="+".join(axes))
@@ -113,6 +114,7 @@ def _draw_homes(
     homes: list[Home],
     views: list[tuple[float, float]],
 ) -> None:
+    """Draw the rail of each axis, and the home position of two axes."""
     for n, home in enumerate(homes):
         draw_rail(drawing, n, travel[n], home, views)
     if len(homes) == 2:
@@ -151,6 +153,7 @@ def _span(figures: ValueReader, span: SpanRole, axis: str) -> _Ends:
     for n, figure in enumerate(found):
         none = (-math.inf, math.inf)[n]
         value = figures.file.get(figure.address) if figure else None
+        # As entered: the control writes "no limit" as its greatest number, ±999999999 (Syntec 3.2).
         if figure is not None and value is not None and span.none is not None and value.value == span.none[n]:
             figures.add_note(f"{figure.label}: {figure.text} is no limit", figure.address, is_remark=True)
             found[n] = None
@@ -175,6 +178,7 @@ def _reach(figures: ValueReader, roles: TravelRoles, axis: str, file: ParameterF
 
 def _inner(ends: list[_Ends]) -> tuple[float, float]:
     """Return what all spans of an axis leave."""
+    # Each span stops the axis, so the narrowest does.
     return max((e.low for e in ends), default=-math.inf), min((e.high for e in ends), default=math.inf)
 
 
@@ -228,10 +232,12 @@ def _scale(figures: ValueReader, axis: str, unit: str, rows: list[list[_Ends]], 
     numbers += home.places
     if has_reach := any(row[n].turned for row in rows):
         numbers.append(0.0)
+    # All limits 0, as in a new file: there is no length to draw.
     if not has_reach and not any(numbers):
         return Scale(figures.axis(axis), unit, -1.0, 1.0, rows=((0.0, figures.axis(axis), ""),))
     low, high = min(numbers), max(numbers)
     margin = MARGIN * (high - low) or abs(high) * MARGIN or 1.0
+    # Below it is room for the rail with marker and switch.
     return Scale(figures.axis(axis), unit, low - 2.0 * margin, high + margin)
 
 
@@ -291,6 +297,7 @@ def _corner(along_x: Handle, along_y: Handle) -> Handle:
 def _edge_drag(
     figures: ValueReader, figure: DrawnValue, ends: _Ends, n: int, view: tuple[float, float]
 ) -> Drag:
+    """Return how an end follows the pointer; of a length from the switch, by its distance from 0."""
     along: Literal["x", "y"] = "x" if n == 0 else "y"
     if ends.turned:
         sign = -ends.turned
@@ -312,6 +319,7 @@ def _draw_zone(
     side = zone.forbidden or _side(figures, zone)
     (left, right), *more = [_shown_edges(ends, view) for ends, view in zip(box, views, strict=False)]
     bottom, top = more[0] if more else views[1]
+    # Ends in the wrong order are a finding, and still a body to draw.
     left, right, bottom, top = min(left, right), max(left, right), min(bottom, top), max(bottom, top)
     sort: ShapeSort = "error" if any(ends.wrong for ends in box) else SORTS.get(side, "dim")
     drawing.areas.append(FilledArea(left, bottom, right, top, sort, zone.name))
@@ -328,6 +336,9 @@ def _draw_zone(
 
 
 def _side(figures: ValueReader, zone: ZoneRole) -> str:
+    """Return which side of a zone is forbidden, by what the file chooses; "" with a note where it is not
+    set.
+    """
     role = zone.forbidden_by
     address = figures.address(role.param, "", "global") if role else None
     if role is None or address is None:
@@ -357,6 +368,7 @@ def _name_travel(
     axes: tuple[str, ...],
     views: list[tuple[float, float]],
 ) -> None:
+    """Write the name of a travel with its ends at its upper left corner."""
     texts = {axis: _end_texts(ends) for ends, axis in zip(row, axes, strict=True)}
     parts = [f"{figures.axis(axis)} {' to '.join(of_axis)}" for axis, of_axis in texts.items() if of_axis]
     if not parts:

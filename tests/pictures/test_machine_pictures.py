@@ -104,6 +104,24 @@ def test_a_picture_that_counts_from_the_switch_is_run_in_the_places_of_the_machi
     assert refused.startswith("The way would break the soft limit of Y")
 
 
+def test_one_axis_alone_is_run_in_the_places_of_the_machine_too() -> None:
+    """X homes towards minus: its picture is 0 to 790 mm, its machine -790 to 0 (machine_limits.c). The way
+    began in the middle of the picture, where the machine has no limit.
+    """
+    file = example("grblhal-router")
+    for axis in "YZ":
+        file.set(("axis.max_travel", axis), None)
+    travel = picture(file, "travel")
+    assert travel.parts == (("X", "X"),)
+    way = usual_way(travel, "")
+    assert way is not None
+    trace = run_way(travel, "", way)
+    assert trace.columns["position"][0] == pytest.approx(way.start[0] - 790.0)
+    scene = draw_approach(travel, "", way, trace)
+    assert next(line.points[0] for line in scene.lines if line.sort == "now") == way.start
+    assert "refused" in next(note.text for note in scene.notes if note.wrong)
+
+
 def test_axes_of_two_units_have_a_plan_with_the_reason() -> None:
     scene = draw_usual_approach(picture(example("syntec-mill"), "travel"), "1+4")
     assert any(note.text.startswith("The axes do not move in one unit") for note in scene.notes)
