@@ -71,6 +71,7 @@ def account_of_export(
         after = back.get(address)
         if after is None:
             missing.append(NotWritten(address, value, _why_missing(file, address, title, left_out)))
+        # In another unit it may be the same value; only what a reader would notice is rounding.
         elif not same_value(value, after):
             rounded.append(Rounded(address, value, after))
     return Account(
@@ -93,6 +94,7 @@ def account_of_import(file: ParameterFile, read: TextRead) -> Account:
 
 
 def _why_missing(file: ParameterFile, address: Address, title: str, left_out: frozenset[Address]) -> str:
+    """Return why a value of a file is not in a text."""
     if address in left_out:
         return "secret values are left out (to write them: --secrets, in the window View > Show Secrets)"
     state = file.evaluation.state(address)
@@ -152,6 +154,9 @@ def account_lines(file: ParameterFile, account: Account, named: str = "") -> Ite
 
 
 def _unknown_line(account: Account, named: str) -> Iterator[str]:
+    """Yield one line about the entries that name no parameter; nothing where the reader's notes name all of
+    them.
+    """
     # $10 is not named where $100 is; and a log may have a hundred thousand, each of which is looked for.
     words = set(_WORD.findall(named))
     unknown = [

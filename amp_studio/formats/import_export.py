@@ -178,6 +178,7 @@ def _beside(path: Path) -> Callable[[str], str | None]:
         try:
             # Resolved, so that neither ".." nor a link leads out of the folder.
             place = (folder / name).resolve()
+            # Latin-1 keeps every byte: which encoding the file has is a matter of its format.
             return read_file(place, _MOST_BYTES).decode("latin-1") if place.is_relative_to(folder) else None
         except (OSError, ValueError):
             return None
@@ -186,6 +187,7 @@ def _beside(path: Path) -> Callable[[str], str | None]:
 
 
 def _decoded(content: bytes, chosen: TextFormat) -> str:
+    """Return the text of a content without the marks that its format does not have; raises FormatError."""
     for mark in WRITTEN_AROUND:
         if mark not in chosen.around:
             content = content.removeprefix(mark).removesuffix(mark)
@@ -209,6 +211,7 @@ def file_of(schema: Schema, read: TextRead, name: str) -> ParameterFile:
     )
     file = ParameterFile(schema, header)
     machine_parameter = schema.family.machine_parameter
+    # First, as it decides which of the values exist.
     if machine_parameter and read.machine and (machine_parameter, "") not in read.values:
         file.set((machine_parameter, ""), Value(read.machine))
     file.take(read.values)
@@ -247,9 +250,9 @@ def export_of(
         newline = chosen.newline_of(file) if chosen.newline_of else chosen.newline
         content = text.replace("\n", newline).encode(chosen.encoding)
     except UnicodeEncodeError as error:
-        sign, line = error.object[error.start], error.object.count("\n", 0, error.start) + 1
+        character, line = error.object[error.start], error.object.count("\n", 0, error.start) + 1
         raise FormatError(
-            f"'{sign}' is no sign of {chosen.encoding}, in which this format is written", line
+            f"'{character}' is no character of {chosen.encoding}, in which this format is written", line
         ) from None
     try:
         included = chosen.included(file) if chosen.included else {}
@@ -283,6 +286,7 @@ def export_file(
 
 
 def _format_for_reading(content: bytes, family: str | None, format_key: str | None) -> TextFormat:
+    """Return the format that is named, or by which the content is recognised; raises FormatError."""
     offered = formats_of(family) if family else all_formats()
     if format_key is not None:
         return _named(format_key, offered)
@@ -301,6 +305,7 @@ def _format_for_reading(content: bytes, family: str | None, format_key: str | No
 
 
 def _format_for_writing(family: str, path: Path, format_key: str | None) -> TextFormat:
+    """Return the format that is named, or that has the ending of the path; raises FormatError."""
     offered = formats_of(family)
     if format_key is not None:
         return _named(format_key, offered)

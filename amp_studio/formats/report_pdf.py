@@ -30,6 +30,7 @@ def attached_machine(content: bytes) -> bytes | None:
 
 
 def _attached(content: bytes) -> Iterator[bytes]:
+    """Yield the contents of the files that are attached, unpacked up to a bound."""
     for number, found in enumerate(_EMBEDDED.finditer(content)):
         if number == _MOST_FILES:
             return
@@ -38,5 +39,6 @@ def _attached(content: bytes) -> Iterator[bytes]:
             # Bounded while it unpacks: a few kilobytes can become gigabytes.
             unpacked = zlib.decompressobj().decompress(packed, _MOST_BYTES)
         except zlib.error:
+            # A PDF may have it unpacked.
             unpacked = packed[:_MOST_BYTES]
         yield unpacked

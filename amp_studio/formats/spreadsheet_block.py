@@ -108,15 +108,16 @@ def _rows_of_text(text: str) -> list[list[str]]:
 
 
 def _rows_of_html(markup: str) -> list[list[str]]:
+    """Return the rows of the first table; none for what is no HTML that Python reads."""
     reader = _TableReader()
     try:
-        reader.feed(markup)  # never closed: what has no end would be tried from each sign of it on
+        reader.feed(markup)  # never closed: what has no end would be tried from each character of it on
     except BlockError:
         raise
     except (
         AssertionError,
         ValueError,
-    ):  # a declaration or a sign in digits that Python's reader does not take
+    ):  # a declaration or a character in digits that Python's reader does not take
         return []
     return reader.whole()
 
@@ -172,6 +173,7 @@ class _TableReader(HTMLParser):
             self._cell.append(re.sub(r"[ \t\r\n]+", " ", data))
 
     def _begin_cell(self, attributes: dict[str, str | None]) -> None:
+        """Begin a cell behind those that cells above cover; raises BlockError where there are too many."""
         self._end_cell()
         if not self.rows:
             self.rows.append([])
@@ -190,6 +192,7 @@ class _TableReader(HTMLParser):
             row.append("")
 
     def _end_cell(self) -> None:
+        """Put the cell that was read into its row; the others of its span stay empty."""
         if self._cell is None:
             return
         lines = "".join(self._cell).split("\n")
@@ -259,6 +262,7 @@ def block_html(rows: Sequence[Sequence[BlockCell]], heads: int = 0) -> str:
 
 
 def _html_cell(cell: BlockCell, tag: str) -> str:
+    """Return a cell by which both LibreOffice and Excel take a number as one, and a text as it is."""
     text = html.escape(cell.text).replace("\n", "<br>")
     figure = "" if cell.number is None else write_number(cell.number)
     if not re.fullmatch(r"-?[0-9]+(\.[0-9]+)?", figure):

@@ -48,8 +48,8 @@ def _separator(text: str) -> str | None:
     lines = io.StringIO(text.removeprefix(_MARK).removeprefix("ï»¿"))
     head = next(lines, "")
     head = (next(lines, "") if _NAMED.match(head) else head).strip().casefold()
-    heads = {sign: {each.strip('" ') for each in head.split(sign)} for sign in _SEPARATORS}
-    return next((sign for sign in _SEPARATORS if {"id", "value"} <= heads[sign]), None)
+    heads = {mark: {each.strip('" ') for each in head.split(mark)} for mark in _SEPARATORS}
+    return next((mark for mark in _SEPARATORS if {"id", "value"} <= heads[mark]), None)
 
 
 def _rows(text: str) -> Any:
@@ -61,6 +61,7 @@ def _rows(text: str) -> Any:
 
 
 def _write(file: ParameterFile) -> str:
+    """Return the table of a file's values, then of the entries that its schema does not know."""
     stream = io.StringIO(newline="")
     table = csv.writer(stream, lineterminator="\n")
     has_notes = any(value_note(file, address) for address in file.values)
@@ -82,6 +83,7 @@ def _write(file: ParameterFile) -> str:
 
 
 def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
+    """Return what a table contains; raises FormatError with line and column."""
     table = _rows(text)
     found = TextRead()
     try:

@@ -43,6 +43,7 @@ _Part = tuple[str, str, str, str, tuple[Parameter, ...], tuple[Parameter, ...]]
 
 
 def _by_facts(schema: Schema, order: Commissioning) -> Iterator[_Part]:
+    """Yield the parts of the facts, then one with the parameters that are in none of them."""
     left = dict(schema.parameters)  # a control that describes itself may lack some
     named = {name for step in order.steps for name in step.params}
     groups = {group.key: group for group in schema.groups}

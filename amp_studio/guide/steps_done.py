@@ -127,6 +127,8 @@ class _StepCounts:
                 self.open.setdefault(number, []).append(address)
                 self.total[number] += 1
             elif address in file.values:
+                # A default that is kept may be a choice too, but in a file it is like one that was never
+                # checked.
                 has_default = file.schema.parameters[address[0]].default is not None
                 self.total[number] += not has_default
                 self.own[number] += not has_default or not file.is_default(address)

@@ -47,6 +47,7 @@ class MeaningRow:
     @property
     def is_same(self) -> bool:
         """Whether all machines have the same."""
+        # With the first alone: equality within a part of a millionth does not go on from one to the next.
         first = self.values[0]
         return all(_is_same(first, other) for other in self.values[1:])
 

@@ -46,6 +46,7 @@ def write_migration(migration: Migration, folder: Path, lines: Iterable[str]) ->
             with (made / name).open("w", encoding="utf-8", newline="\n") as file:
                 file.write(text)
                 file.flush()
+                # Before the rename: a power cut must not leave the folder with empty files in it.
                 os.fsync(file.fileno())
         # mkdtemp makes it for its owner alone.
         made.chmod(0o755)

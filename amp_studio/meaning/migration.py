@@ -75,6 +75,7 @@ def migrate(file: ParameterFile, target: str, answers: Mapping[str, str] | None 
     machine = read_meaning(file, answers or {})
     if not machine.axes:
         raise TargetError("no axis of the file is fitted: there is nothing to migrate")
+    # Before anything is written: limits that are crossed in the old file would be taken for a choice.
     _refuse_crossed(machine)
     _refuse_turning(machine)
     written: WrittenMachine = load_part(registration_of(target).migrate)(machine, answers or {})
@@ -181,6 +182,7 @@ def _other(file: ParameterFile, address: Address, param: str, raw: str) -> Migra
     parameter = file.schema.parameters[address[0]]
     facts = meanings_of(file.schema.family.family)
     rest = facts.rest if facts else ()
+    # The first that fits: a fact about one parameter is written above that of its group.
     fact = next((r for r in rest if any(fnmatchcase(address[0], p) for p in r.params)), _NO_FACT)
     if fact.outcome == "old_hardware":
         return MigratedParameter(address, param, "old_hardware", {"raw": raw})
@@ -205,6 +207,7 @@ def _of_axes(sentences: Iterable[str]) -> list[str]:
     heads: dict[str, list[str]] = {}
     for sentence in sentences:
         head, colon, end = sentence.partition(": ")
+        # By what is behind the axis: ``X: no ceiling`` and ``Y: no ceiling`` are one sentence.
         heads.setdefault(end if colon else sentence, []).append(head if colon else "")
     return [f"{', '.join(dict.fromkeys(own))}: {end}".removeprefix(": ") for end, own in heads.items()]
 
@@ -251,6 +254,7 @@ def migration_json(migration: Migration) -> dict[str, Any]:
 def _question_json(
     question: MigrationQuestion, params: Mapping[str, list[str]], written: WrittenMachine
 ) -> dict[str, Any]:
+    """Return one question as ``--json`` lists it, with its answer where there is one."""
     return {
         "id": question.id,
         "question": question.question,

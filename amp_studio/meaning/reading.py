@@ -101,6 +101,8 @@ class _Reader:
             if fact.reads and not sources:
                 continue
             value = self.value(fact.reads, fact.value, instance, derived)
+            # Outside of a closed choice a reader is wrong: no figure is better than one that no writer
+            # knows.
             if value is _NOTHING or (fact.concept in CHOICES and value not in CHOICES[fact.concept]):
                 continue
             yield ConceptFigure(fact.concept, value, sources, fact.value, fact.page)
@@ -150,6 +152,7 @@ class _Reader:
                     )
 
     def _addresses(self, text: str, instance: str) -> tuple[Address, ...]:
+        # With the scope, axis 1 is not taken for process 1.
         scope = "axis" if instance else None
         try:
             return self.file.evaluation.reference(text, instance, scope).addresses
@@ -160,6 +163,7 @@ class _Reader:
 
     def _canonical(self, text: str, instance: str) -> Any:
         addresses = self._addresses(text, instance)
+        # To an expression a value without effect is not set, as in rules.
         values = [
             self.file.evaluation.canonical(a) if self.file.evaluation.state(a).is_active else None
             for a in addresses

@@ -100,6 +100,7 @@ class WrittenMachine:
         """
         taken = [a.letter for a in axes if a is not axis]
         free = [x for x in alike if x not in taken]
+        # Programs name axes by their letters: a letter that can stay, stays.
         if axis.letter in free:
             return axis.letter
         what = "turns" if axis.turns else "does not turn"
@@ -118,6 +119,7 @@ class WrittenMachine:
         )
         found = self.answer(question, answers, "[A-Z, ]*").upper()
         steps = [step.replace(" ", "") for step in found.split(",") if step.strip()]
+        # Each axis once: one that is left out would never be homed.
         if found and sorted("".join(steps)) != sorted(letters):
             raise TargetError(f"home.order: {quoted(found)} does not have each of {names} once")
         return steps

@@ -35,7 +35,7 @@ _LEVELS: tuple[Mapping[str, Callable[[float, float], float]], ...] = (
     {"+": lambda a, b: a + b, "-": lambda a, b: a - b},
     {"*": lambda a, b: a * b, "/": lambda a, b: a / b},
 )
-"""Signs and what they do, those that bind least first."""
+"""Operators and what they do, those that bind least first."""
 
 
 def worth(text: str, parameters: Mapping[int, float]) -> float:

@@ -97,6 +97,7 @@ def make_sheet(
 
 
 def _check_sides(wanted: ParameterFile, present: ParameterFile) -> None:
+    """Raise SheetError where numbers of one side may mean something else on the other."""
     if wanted.schema.family.family != present.schema.family.family:
         names = [side.schema.family.name for side in (wanted, present)]
         raise SheetError(
@@ -201,6 +202,8 @@ def _in_order(
     message: Callable[[Finding], str],
 ) -> list[_Line]:
     """Return the lines in a safe order, each with why it comes so late and what it breaks for how long."""
+    # By stage, and within one in the manual's order, in which the differences come: this is what the
+    # search keeps to as far as it can.
     lines = sorted(lines, key=lambda line: line.stage)
     if not lines:
         return lines
@@ -237,6 +240,8 @@ def _explain(
     open_from: dict[Hashable, tuple[_Line, Finding]] = {}
     for n, line in enumerate(order):
         for late in order[n + 1 :]:
+            # Only of a line that was wished earlier, and that a check reads together with this one, is
+            # there a reason to ask for.
             if wish[late.step] < wish[line.step] and not read_by[late.step].isdisjoint(read_by[line.step]):
                 _ask_why(late, line, interim, wanted, allowed, message)
         new = bad(interim.set(line.step), allowed, ("error", "warning"))
@@ -286,6 +291,7 @@ def _warnings(
 
 
 def _entry(line: _Line, wanted: ParameterFile, secrets: bool) -> SheetEntry:
+    """Return the entry of a line, with what the value means if it is keyed in otherwise."""
     address, value = line.step.address, line.step.value
     assert value is not None
     parameter = wanted.schema.parameters[address[0]]

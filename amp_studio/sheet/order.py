@@ -85,6 +85,7 @@ def _effort(start: Interim, step: NewValue) -> int:
 def _ordered(
     start: Interim, steps: list[NewValue], allowed: Collection[Hashable], budget: _Budget
 ) -> list[NewValue]:
+    """Return the steps of one group in the best order that is found within the budget."""
     if len(steps) == 1:
         return steps
     for severities in (("error", "warning"), ("error",)):

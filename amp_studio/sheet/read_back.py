@@ -88,6 +88,7 @@ def _delimiter(line: str) -> str:
 
 
 def _of_table(lines: list[str], delimiter: str) -> list[ScreenReading]:
+    """Return what was filled into the sheet's own table; raises ReadBackError."""
     readings: list[ScreenReading] = []
     reader = csv.reader(io.StringIO("\n".join(lines)), delimiter=delimiter)
     head: list[str] | None = None
@@ -96,6 +97,8 @@ def _of_table(lines: list[str], delimiter: str) -> list[ScreenReading]:
             head = row
             continue
         cells = dict(zip(head, row, strict=False))
+        # The apostrophe is how the sheet keeps a spreadsheet from taking a text for a formula
+        # (``text_cell``).
         if screen_text := cells.get(_SHOWN_HEAD, "").strip().removeprefix("'"):
             number = cells.get(_NUMBER_HEAD, "").strip().removeprefix("'")
             readings.append(ScreenReading(number, screen_text, reader.line_num))

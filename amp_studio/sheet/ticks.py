@@ -79,6 +79,7 @@ class Ticks:
         self._save()
 
     def _save(self) -> None:
+        """Write what is ticked or read back; entries with neither are left out."""
         kept = [
             {
                 "number": e.number,
@@ -94,6 +95,9 @@ class Ticks:
 
 
 def _read(path: Path) -> list[tuple[str, str, str, str, bool]]:
+    """Return number, old and new text, what was read back, and the tick of each entry; raises TicksError,
+    OSError.
+    """
     try:
         content = read_file(path, _LARGEST)
     except FileNotFoundError:
@@ -101,6 +105,7 @@ def _read(path: Path) -> list[tuple[str, str, str, str, bool]]:
     try:
         kept = json.loads(content)["ticks"]
         found = [(*(each[key] for key in _KEYS), each["ticked"]) for each in kept]
+        # type() and not isinstance(): true is a number to Python, and a number here is a damaged text.
         if not all(
             isinstance(ticked, bool) and all(type(text) is str for text in texts) for *texts, ticked in found
         ):

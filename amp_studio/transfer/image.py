@@ -41,9 +41,9 @@ from amp_studio.schema import (
 MAGIC = "AMP-IMAGE 1"
 _HEAD = ("family", "signature", "machine", "application", "revision")
 _LONGEST = 200
-"""Signs of a value that is no text; the longest that is written has far fewer."""
+"""Characters of a value that is no text; the longest that is written has far fewer."""
 _SHOWN = 60
-"""Signs of a damaged line that a message shows."""
+"""Characters of a damaged line that a message shows."""
 
 _CONTROL_CHARACTER = re.compile(
     r"[\x00-\x08\x0b-\x1f\x7f-\x9f]"

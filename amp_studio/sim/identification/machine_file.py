@@ -31,7 +31,7 @@ from .identify import figure_text, machine_settings
 _KEYS = ("family", "axis", "torque", "model", "identified")
 _MOST_BYTES = 2**18
 _LONGEST = 60
-"""Signs of a value."""
+"""Characters of a value."""
 
 
 @dataclass(frozen=True)

@@ -153,7 +153,7 @@ def test_a_sign_that_a_dos_file_does_not_have_is_reported(servo: Schema, tmp_pat
     file = taken(TASK, servo, "10 PGAIN%=1\n20 STOP\n", keep=True)
     file.unknown["basic line 20"] = "20 STOP ! Ж"
     with pytest.raises(
-        FormatError, match=r"^line 2: 'Ж' is no sign of cp437, in which this format is written$"
+        FormatError, match=r"^line 2: 'Ж' is no character of cp437, in which this format is written$"
     ):
         export_file(file, tmp_path / "a.bas")
     assert not (tmp_path / "a.bas").exists()
