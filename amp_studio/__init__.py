@@ -12,28 +12,75 @@ from .version import __version__
 TYPE_CHECKING = False  # the typing module is not loaded for it
 if TYPE_CHECKING:
     from .assignments import AssignmentError, MachineError
-    from .control import ConnectedControl, connect
-    from .files import Change, RangeError
+    from .control import ConnectedControl, ControlLook, connect
+    from .files import (
+        Change,
+        ChangedOnDiskError,
+        Comparison,
+        Difference,
+        InUseError,
+        ParameterFileError,
+        RangeError,
+        SaveError,
+    )
+    from .formats import Account, FormatError
+    from .given import GivenTypeError
     from .machine import MachineParameters, import_text
     from .machine import edit_machine as edit
     from .machine import new_machine as new
     from .machine import open_machine as open  # noqa: A004  # amp.open, as gzip.open
-    from .schema import UnknownParameterError, Value, family_ids, load_schema
-    from .validate import Finding
+    from .schema import (
+        DatabaseError,
+        Schema,
+        UnknownFamilyError,
+        UnknownParameterError,
+        Value,
+        family_ids,
+        load_schema,
+    )
+    from .sim import MotionCheck, SimulationError, Trace
+    from .transfer import CancelledError, ControlIdentity, ControlStatus, ImageError, TransferError
+    from .transfer.client import CopyError, ImageComparison, Outcome
+    from .validate import Finding, Fixed
     from .value_rows import ParameterEntry
 else:
     __getattr__ = front_page(__name__)
 
 __all__ = [
+    "Account",
     "AmpStudioError",
     "AssignmentError",
+    "CancelledError",
     "Change",
+    "ChangedOnDiskError",
+    "Comparison",
     "ConnectedControl",
+    "ControlIdentity",
+    "ControlLook",
+    "ControlStatus",
+    "CopyError",
+    "DatabaseError",
+    "Difference",
     "Finding",
+    "Fixed",
+    "FormatError",
+    "GivenTypeError",
+    "ImageComparison",
+    "ImageError",
+    "InUseError",
     "MachineError",
     "MachineParameters",
+    "MotionCheck",
+    "Outcome",
     "ParameterEntry",
+    "ParameterFileError",
     "RangeError",
+    "SaveError",
+    "Schema",
+    "SimulationError",
+    "Trace",
+    "TransferError",
+    "UnknownFamilyError",
     "UnknownParameterError",
     "Value",
     "__version__",
@@ -45,3 +92,7 @@ __all__ = [
     "new",
     "open",
 ]
+
+
+def __dir__() -> list[str]:
+    return __all__  # for completion: the names are loaded when they are asked for

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from numbers import Real
 from types import NoneType
 from typing import TYPE_CHECKING
 
@@ -32,6 +33,21 @@ class MachineError(AmpStudioError, ValueError):
 
 class AssignmentError(MachineError):
     """Values that cannot be set; the text names each of them, and nothing was changed."""
+
+
+def refused(error: Exception) -> AmpStudioError:
+    """Return an error of the system or of Python as one of the program; one of the program as it is."""
+    if isinstance(error, AmpStudioError):
+        return error
+    if isinstance(error, OSError) and error.strerror:
+        return MachineError(f"{error.filename}: {error.strerror}")
+    return MachineError(str(error))
+
+
+def need_name(axis: str | None) -> None:
+    """Refuse an empty name, which is no axis and not the first one."""
+    if axis is not None and not axis.strip():
+        raise MachineError("an axis is named, as X or 1, or left out")
 
 
 def read_assignments(
@@ -134,7 +150,7 @@ def typed(value: NewValue | ParameterEntry) -> str | Value:
         return CLEARING_TEXT if value.value is None else f"{_plain(value.value)} {value.unit}".rstrip()
     if isinstance(value, (str, Value)):
         return value
-    if not isinstance(value, (int, float, NoneType)):
+    if not isinstance(value, (Real, NoneType)):
         raise AssignmentError(f"a value is a text, a number, yes or no, a Value or None, not {value!r:.80}")
     return CLEARING_TEXT if value is None else _plain(value)
 
@@ -144,4 +160,7 @@ def _plain(value: float | bool | str) -> str:
 
     if isinstance(value, bool):
         return "yes" if value else "no"
-    return value if isinstance(value, str) else write_number(value)
+    if isinstance(value, str):
+        return value
+    # float and int write themselves; a number of numpy, which is one of them too, writes its type.
+    return write_number(int(value) if hasattr(value, "__index__") else float(value))

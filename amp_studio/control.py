@@ -80,6 +80,9 @@ class ConnectedControl:
     def __exit__(self, *_: object) -> None:
         """Nothing is open between two methods."""
 
+    def __repr__(self) -> str:
+        return f"<ConnectedControl {self.address}{f': {self.family}' if self.family else ''}>"
+
     def identify(self) -> ControlIdentity:
         """Return what the control states of itself: name, revision, whether it is in E-stop,
         the digest of its content.

@@ -7,12 +7,11 @@ the verbs of the command line are made of the same.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
-from amp_studio.assignments import AssignmentError, MachineError, read_assignments, typed
-from amp_studio.errors import AmpStudioError
+from amp_studio.assignments import AssignmentError, MachineError, need_name, read_assignments, refused, typed
 from amp_studio.files import ENDING, ParameterFileError, open_file
 from amp_studio.given import checked_types
 from amp_studio.schema import Value
@@ -30,9 +29,6 @@ if TYPE_CHECKING:
 
 # Every verb that opens a file loads this module, and most need little of it: a function imports what it
 # needs, so that a check starts as fast as without the library.
-
-_OF_SCENARIOS = ("move", "model", "tune", "sweep", "gear", "cam")
-"""First words of the settings of a scenario that are no parameters."""
 
 
 class MachineParameters:
@@ -69,9 +65,14 @@ class MachineParameters:
     def __repr__(self) -> str:
         name = self.path.name if self.path else self.file.header.name or "not saved"
         return (
-            f"<MachineParameters {name}: {self.schema.family.name}, {self.file.machine},"
-            f" {len(self.file.values)} values>"
+            f"<MachineParameters {name}: {self.schema.family.name}, {self.file.machine}, {len(self)} values>"
         )
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """Return what makes an independent one, by ``copy`` and in another process, without a lock."""
+        from amp_studio.files import content_of
+
+        return _made_again, (content_of(self.file), self.path, self.source, self._digest, self.account)
 
     @property
     def schema(self) -> Schema:
@@ -90,6 +91,23 @@ class MachineParameters:
         from amp_studio.schema import resolve_address
 
         return entry_of(self.file, resolve_address(self.file.evaluation, address))
+
+    def __contains__(self, address: object) -> bool:
+        """Return whether this machine has a parameter of this address, set or not."""
+        from amp_studio.schema import UnknownParameterError
+
+        try:
+            return isinstance(address, str) and bool(self[address])
+        except UnknownParameterError:
+            return False
+
+    def __iter__(self) -> Iterator[str]:
+        """Yield the address of every value that is set, in the order of the manual."""
+        return (entry.param for entry in self.values())
+
+    def __len__(self) -> int:
+        """Return how many values are set."""
+        return len(self.file.values)
 
     def row(self, resolved: ResolvedAddress, *, secrets: bool = False) -> dict[str, Any]:
         """Return a value, or one field of a word of bits, as ``get --json`` gives it.
@@ -178,8 +196,8 @@ class MachineParameters:
     def validator(self, rules: str | Path | None = None) -> Validator:
         """Return what finds the findings, where they are asked for more than once; ``run`` it first.
 
-        ``rules`` is a file of a builder's own rules instead of the one beside the machine.
-        Raises BuilderRulesError.
+        ``rules`` is a file of a builder's own rules instead of the one beside the machine. One that
+        cannot be used is a finding too.
         """
         from amp_studio.validate import validator_of
 
@@ -272,10 +290,11 @@ class MachineParameters:
         ``like`` a trace whose move is made again; ``way`` the cores or the cluster of a sweep.
         Raises SimulationError.
         """
+        from amp_studio.scenarios import setting_of_keyword
         from amp_studio.sim import simulate, sweep
 
-        _need_name(axis)
-        given = {_setting(name): value for name, value in settings.items()}
+        need_name(axis)
+        given = {setting_of_keyword(name): value for name, value in settings.items()}
         if way is not None:
             return sweep(self.file, axis, given, units, way=way)
         return simulate(self.file, scenario, axis, given, units, like=like)
@@ -287,7 +306,7 @@ class MachineParameters:
         """
         from amp_studio.sim import check_motion
 
-        _need_name(axis)
+        need_name(axis)
         return tuple(check_motion(self.file, axis))
 
     @checked_types
@@ -299,13 +318,13 @@ class MachineParameters:
         is called with the reason. Raises MachineError, SaveError.
         """
         from amp_studio.dossier import write_report
-        from amp_studio.report import Contents
+        from amp_studio.report import contents_of
 
         try:
-            chosen, own = Contents(**contents), self.builder_rules()
+            chosen, own = contents_of(contents), self.builder_rules()
             return write_report(self.file, path, chosen, source=self.source, own=own, notify=notify)
         except (OSError, TypeError, ValueError) as error:
-            raise _refused(error) from None
+            raise refused(error) from None
 
     # -- files -----------------------------------------------------------------------
 
@@ -332,7 +351,7 @@ class MachineParameters:
                 with Document(self.file, self.path, self._digest) as document:
                     document.save(verb)
         except OSError as error:
-            raise _refused(error) from None
+            raise refused(error) from None
         self.path = self.source = target
         self.notes, self._digest = document.notes, document.digest
 
@@ -427,7 +446,7 @@ def new_machine(
             raise TypeError(f"axes are names such as X, not {names!r:.80}")
         return MachineParameters(new_file(family, machine, names, name))
     except (KeyError, TypeError, ValueError) as error:
-        raise _refused(error) from None
+        raise refused(error) from None
 
 
 @checked_types
@@ -464,28 +483,17 @@ def import_text(
             take_account=accounts.append,
         )
     except OSError as error:
-        raise _refused(error) from None
+        raise refused(error) from None
     imported = MachineParameters(file)
     (imported.account,) = accounts
     return imported
 
 
-def _refused(error: Exception) -> AmpStudioError:
-    """Return an error of the system or of Python as one of the program; one of the program as it is."""
-    if isinstance(error, AmpStudioError):
-        return error
-    if isinstance(error, OSError) and error.strerror:
-        return MachineError(f"{error.filename}: {error.strerror}")
-    return MachineError(str(error))
+def _made_again(
+    content: bytes, path: Path | None, source: Path | None, digest: str | None, account: Account | None
+) -> MachineParameters:
+    from amp_studio.files import read_content
 
-
-def _need_name(axis: str | None) -> None:
-    """Refuse an empty name, which is no axis and not the first one."""
-    if axis is not None and not axis.strip():
-        raise MachineError("an axis is named, as X or 1, or left out")
-
-
-def _setting(name: str) -> str:
-    """Return the setting of a scenario that a name of Python means: ``move_feedrate``, ``servo__p_gain``."""
-    first, _, rest = name.partition("_")
-    return f"{first}.{rest}" if first in _OF_SCENARIOS and "." not in name else name.replace("__", ".")
+    machine = MachineParameters(read_content(path or Path("machine.amp"), content), path, digest)
+    machine.source, machine.account = source, account
+    return machine

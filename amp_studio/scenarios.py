@@ -29,6 +29,15 @@ IDENTIFY = "identify"
 CHARTS = ("bode", "nyquist", "nichols")
 """How `frequency` draws the open loop: over the frequency, in the complex plane, its gain over its phase."""
 
+_OF_SCENARIOS = ("move", "model", "tune", "sweep", "gear", "cam")
+"""First words of the settings of a scenario that are no parameters."""
+
+
+def setting_of_keyword(name: str) -> str:
+    """Return the setting of a scenario that a name of Python means: ``move_feedrate``, ``servo__p_gain``."""
+    first, _, rest = name.partition("_")
+    return f"{first}.{rest}" if first in _OF_SCENARIOS and "." not in name else name.replace("__", ".")
+
 
 def scenario_names() -> tuple[str, ...]:
     """Return the scenarios of any family, then those that single families bring."""

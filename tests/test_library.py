@@ -1,10 +1,15 @@
 """The public library: the examples of its page, its names, and its errors."""
 
+import builtins
+import copy
+import inspect
+import pickle
 import re
 import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -148,6 +153,7 @@ NO_CONTROLS = ("", "mill", "tcp://1", "tcp://a:99999", "serial:", "COM1?baud=x",
         (lambda _: amp.new("9pc", axes=[FIVE]), amp.MachineError),
         (lambda _: amp.connect("tcp://127.0.0.1:1").identify(), amp.AmpStudioError),
         *((lambda _, place=place: amp.connect(place).upload(), ValueError) for place in NO_CONTROLS),
+        (lambda m: amp.connect("tcp://127.0.0.1:1").download(m, expect="00"), ValueError),
     ],
 )
 def test_an_error_is_one_of_the_program_and_changes_nothing(
@@ -187,6 +193,68 @@ def test_a_save_notices_another_program_and_never_replaces_another_file(mill: Pa
 def test_every_public_name_is_there_and_typed() -> None:
     assert all(getattr(amp, name) is not None for name in amp.__all__)
     assert (Path(amp.__file__).parent / "py.typed").is_file()
+
+
+def test_every_error_and_result_that_the_library_names_is_public() -> None:
+    things = [getattr(amp, name) for name in amp.__all__]
+    methods = [m for c in (amp.MachineParameters, amp.ConnectedControl) for m in vars(c).values()]
+    documents = " ".join(str(inspect.getdoc(each)) for each in (*things, *methods))
+    named = set(re.findall(r"\b[A-Z]\w+Error\b", documents))
+    assert named - {*dir(builtins)} <= {*amp.__all__}
+    assert {*amp.__all__} == set(dir(amp))  # what a notebook completes
+
+
+def _errors_below(kind: type[Exception]) -> set[type[Exception]]:
+    return {kind}.union(*(_errors_below(each) for each in kind.__subclasses__()))
+
+
+def test_every_error_comes_out_of_another_process_as_it_was(mill: Path) -> None:
+    machine = amp.open(mill)
+    with pytest.raises(amp.RangeError) as caught:
+        machine["1203@X"] = 1e9
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert (str(again), again.faults) == (str(caught.value), caught.value.faults)
+    for kind in _errors_below(amp.AmpStudioError):
+        error = kind.__new__(kind, "a sentence")
+        error.args, error.at_control = ("a sentence",), "mixed"
+        again = pickle.loads(pickle.dumps(error))
+        assert (type(again), again.args, again.at_control) == (kind, error.args, "mixed")
+
+
+@pytest.mark.parametrize("example", [e.path for e in examples()], ids=lambda p: p.stem)
+def test_a_copy_of_a_machine_is_one_of_its_own(example: Path) -> None:
+    machine = amp.open(example)
+    for again in (copy.copy(machine), copy.deepcopy(machine), pickle.loads(pickle.dumps(machine))):
+        assert (again.path, again.file.header, again.diff(machine)) == (example, machine.file.header, ())
+        again.set({next(iter(again)): None})
+        assert len(again) == len(machine) - 1
+
+
+def test_a_machine_is_asked_as_a_mapping_of_addresses(mill: Path) -> None:
+    machine = amp.open(mill)
+    assert [machine[address] for address in machine] == list(machine.values())
+    assert len(machine) == len(machine.values())
+    assert "1300@X" in machine
+    assert "home.calibration@X" in machine
+    assert "nothing" not in machine
+    assert 1300 not in machine
+
+
+@pytest.mark.parametrize("number", [np.float64(2.5), np.float32(2.5), Fraction(5, 2)])
+def test_a_number_of_numpy_is_a_number(mill: Path, number: float) -> None:
+    machine = amp.open(mill)
+    machine.set({"1300@X": number, "1801@X": np.int64(6001)})
+    assert (machine["1300@X"].value, machine["1801@X"].value) == (2.5, 6001)
+
+
+def test_what_a_notebook_shows_is_short(mill: Path) -> None:
+    machine = amp.open(mill)
+    assert repr(amp.connect("COM3", "num")) == "<ConnectedControl COM3: num>"
+    text = repr(machine.simulate("step", axis="X", move_distance=5))
+    assert "distance 5 mm" in text
+    assert len(text) < 1000
+    with pytest.raises(amp.MachineError, match=r"Unknown content of a report 'colour'.*changed_only"):
+        machine.report("mill.txt", colour="red")
 
 
 def test_the_package_runs_as_a_program() -> None:

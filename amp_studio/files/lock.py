@@ -114,7 +114,9 @@ class EditLock:
             left = read_file(self._holder_path(), 4096, follow=False).decode("utf-8", "replace").strip()
         except OSError:
             return "it left no details"
-        return visible(left[:_LONGEST_NOTE])
+        from .times import with_local_times  # the file keeps it in UTC, and only a refusal shows it
+
+        return with_local_times(visible(left[:_LONGEST_NOTE]))
 
     def _write_owner(self) -> None:
         """Write who has the lock into a file of his own: a link that was put there is removed,

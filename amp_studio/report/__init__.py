@@ -25,7 +25,7 @@ if TYPE_CHECKING:
         TunedGain,
         TuningLine,
     )
-    from .contents import CHAPTERS, PAPER_SIZES, SORTS, UNIT_CHOICES, Contents
+    from .contents import CHAPTERS, PAPER_SIZES, SORTS, UNIT_CHOICES, Contents, contents_of
     from .dangers import dangers_of_change
     from .findings.alike import alike, same_finding_text
     from .findings.by_rule import FindingGroup, finding_axes, finding_groups, fix_lines, fix_text

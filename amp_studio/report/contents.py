@@ -4,9 +4,12 @@ the choices of the person who prints it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
+
+from amp_studio.schema import unknown_name
 
 Sort = Literal["axis", "number", "group", "steps"]
 """The three orders of a report (9/PC CNC AMP Reference Manual, Documenting AMP Files),
@@ -89,3 +92,11 @@ class Contents:
         """The choice in words."""
         which = "active parameters" if not self.inactive else "all parameters"
         return f"{which} that differ from the printed default or have none" if self.changed_only else which
+
+
+def contents_of(given: Mapping[str, Any]) -> Contents:
+    """Return the contents that a script names; raises ValueError for one that there is not."""
+    known = [each.name for each in fields(Contents)]
+    if unknown := [name for name in given if name not in known]:
+        raise ValueError(unknown_name("content of a report", unknown[0], known))
+    return Contents(**given)

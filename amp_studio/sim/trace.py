@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NamedTuple
 
+from amp_studio.schema import write_figure
+
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
@@ -86,7 +88,7 @@ class Recommendation:
     """What it costs, in a sentence."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Trace:
     """One scenario run on one axis."""
 
@@ -122,6 +124,14 @@ class Trace:
     """Of those that are parameters: column -> number and name."""
     figure: str = ""
     """The column that a sweep is about."""
+
+    def __repr__(self) -> str:
+        """Its figures; the rows of the columns would be thousands of numbers."""
+        figures = ", ".join(
+            f"{name} {'–' if value is None else write_figure(value)} {unit}".rstrip()
+            for name, (value, unit) in self.result.items()
+        )
+        return f"<Trace {self.scenario}, axis {self.axis_title}, {self.rows} rows: {figures}>"
 
     @property
     def axis_title(self) -> str:

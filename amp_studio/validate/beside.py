@@ -52,7 +52,7 @@ def axes_by_letter(file: ParameterFile) -> dict[str, str]:
 def validator_of(file: ParameterFile, path: Path | None, own: BuilderRules | None = None) -> Validator:
     """Return the validator of a file at ``path`` with all that lies beside it and counts: the one way to its
     findings, so that they are the same wherever they are shown. ``own`` are a builder's rules where they are
-    not those beside it. Raises BuilderRulesError.
+    not those beside it.
     """
     if own is None:
         own = rules_beside(path, file) if path else NO_RULES

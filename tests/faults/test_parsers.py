@@ -148,6 +148,7 @@ READERS = {
     "find/synonyms.py": "",  # a file of the program itself
     "schema/expression.py": "",  # its own names
     "ui/actions/find.py": "",  # writes to the clipboard
+    "machine.py": "damaged parameter file",
     "trouble.py": "",  # what the program itself has written down of its faults
     "formats/text_format.py": "",  # which format a text has; it is read by that one
     "schema/units.py": "",  # a file of the program itself

@@ -152,7 +152,8 @@ def test_a_second_program_is_reported_who_has_the_file(on_disk: Path, other) -> 
     program = other(OPEN, on_disk)
     assert program.says() == "open"
     with pytest.raises(
-        InUseError, match=r"bench\.amp is open in another program \(.*process \d+, since 20"
+        InUseError,
+        match=r"bench\.amp is open in another program \(.*process \d+, since 20\d\d-\d\d-\d\d \d\d:\d\d\)",
     ) as refused:
         Document.open(on_disk)
     assert f"{getpass.getuser()} on " in str(refused.value)

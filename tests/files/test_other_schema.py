@@ -59,11 +59,11 @@ def test_diff_lists_what_only_one_control_has(tmp_path: Path, capsys: pytest.Cap
     (row,) = json.loads(capsys.readouterr().out)["differences"]
     assert (row["param"], row["a"], row["b"]) == ("$350", None, "120.5 V")
     assert run(["diff", str(b), str(a)]) == 1
-    assert "1 differ, 1 are the same, 0 not set in A, 1 not set in B" in capsys.readouterr().out
+    assert "1 differs, 1 is the same, 0 not set in A, 1 not set in B" in capsys.readouterr().out
     assert run(["diff", str(a), str(b)]) == 1
     displayed = capsys.readouterr().out
     assert "$350 Arc voltage" in displayed
-    assert "1 differ, 1 are the same, 1 not set in A, 0 not set in B" in displayed
+    assert "1 differs, 1 is the same, 1 not set in A, 0 not set in B" in displayed
 
 
 def test_diff_of_a_new_file_and_one_of_a_control_is_by_parameter(

@@ -10,9 +10,9 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from amp_studio.files import Document, ParameterFile
+from amp_studio.files import Document, ParameterFile, new_file
 from amp_studio.schema import Value
-from amp_studio.sim import Alarm, LimitUse, MotionCheck, Recommendation, check_again, simulate
+from amp_studio.sim import Alarm, LimitUse, MotionCheck, Recommendation, check_again, check_motion, simulate
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import colour, scheme
 from amp_studio.ui.base.workspace import Workspace
@@ -91,6 +91,14 @@ def test_what_is_bad_comes_first_in_its_part_and_the_counts_filter(router: Works
     for verdict in ("bad", "doubtful"):
         page.chips[verdict].click()
     assert listed(page) == whole
+
+
+def test_a_new_file_without_a_spindle_is_listed(qapp: object) -> None:
+    file = new_file("9pc", "mill", ["X"])
+    spindle = next(check for check in check_motion(file) if check.scenario == "spindle")
+    assert (spindle.axis, figure_of(file, spindle)) == ("", "not possible")
+    del file.values[("axis.type", "1")]
+    assert figure_of(file, MotionCheck("step", "1", "X", "not possible", params=("axis.type",))) == "not set"
 
 
 def test_a_row_has_the_share_of_its_limit_or_its_figure(router: Workspace) -> None:

@@ -85,8 +85,15 @@ def print_comparison(
         print_dangers((file, comparison.differences), (second, of_second))
     more = len(of_second)
     print(
-        f"{len(comparison.differences) + more} differ, {comparison.same} are the same,"
+        f"{how_many(len(comparison.differences) + more, comparison.same)},"
         f" {comparison.not_set_in_a + more} not set in A, {comparison.not_set_in_b} not set in B"
+    )
+
+
+def how_many(differ: int, same: int) -> str:
+    """Return how many values differ and are the same, in words."""
+    return (
+        f"{differ} {'differs' if differ == 1 else 'differ'}, {same} {'is' if same == 1 else 'are'} the same"
     )
 
 

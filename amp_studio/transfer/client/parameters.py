@@ -53,7 +53,7 @@ def download_file(
     ``expected`` is the digest of what may be replaced, None for whatever is there; ``known`` is what was
     fetched from this control just before. Raises TransferError, whose text names what the control contains,
     ImageError for a file no image can carry or that sets what the control cannot take,
-    and ValueError for an address or a digest that is none.
+    EndpointError or DigestError for an address or a digest that is none.
     """
     approved = read_digest(expected)
     family = file.schema.family.family

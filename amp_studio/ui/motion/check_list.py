@@ -116,8 +116,9 @@ def _of_limit(use: LimitUse, *, is_good: bool) -> str:
 
 def _is_not_set(file: ParameterFile, parameter: str, axis: str) -> bool:
     instances = file.machine_schema.instances(file.schema.parameters[parameter])
-    where = axis if axis in instances else instances[0] if len(instances) == 1 else ""
-    return file.get((parameter, where)) is None
+    # A check that is of no axis, as of a spindle that there is not, asks for a parameter of any of them.
+    places = (axis,) if axis in instances else instances
+    return all(file.get((parameter, each)) is None for each in places)
 
 
 class CheckRows(QAbstractListModel):

@@ -158,7 +158,7 @@ def _other_axis(file: ParameterFile, target: str, source: str) -> ParameterFile:
 
 def _print_three(options: Options, merge: Merge) -> int:
     """Print what two sides changed of their base; 1 where anything differs."""
-    from amp_studio.cli.checks.comparing import named, row_json, value_text
+    from amp_studio.cli.checks.comparing import how_many, named, row_json, value_text
 
     rows = [row for row in merge.differing if row.id.part == "value"]
     same = sum(row.id.part == "value" for row in merge.rows) - len(rows)
@@ -169,7 +169,7 @@ def _print_three(options: Options, merge: Merge) -> int:
         base, a, b = (value_text(merge.a, row, value, options.secrets) for value in (row.base, row.a, row.b))
         print(f"{named(merge.a, row):52} base {base}  |  A {a}  |  B {b}  ({WHO[row.kind]})")
     conflicts = sum(row.kind == "conflict" for row in rows)
-    print(f"{len(rows)} differ, {same} are the same, {conflicts} changed by both to different values")
+    print(f"{how_many(len(rows), same)}, {conflicts} changed by both to different values")
     return int(bool(rows))
 
 
