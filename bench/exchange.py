@@ -1,13 +1,11 @@
 """The example on its way to an emulated control and back, over a socket and over a serial line."""
 
 import os
-import subprocess
-import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
 from itertools import cycle
 from pathlib import Path
 
+from emulated_process import emulated
 from measure import Measure, timed
 
 from amp_studio.files import open_file
@@ -30,7 +28,8 @@ def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Me
     for name, listen in LINES.items():
         kept = folder / f"kept-{name.replace(' ', '-')}"
         kept.mkdir()
-        with _control(listen, kept / "control") as address:
+        with emulated("9pc", listen, kept / "control", "--machine", "mill") as control:
+            address = control.address
             down = timed(
                 lambda a=address, k=kept: download_file(file, a, Exchange(keep=k / "bench")),
                 times,
@@ -45,7 +44,8 @@ def _of_full_file(folder: Path, full: Path, times: int) -> Iterator[Measure]:
     file, values = open_file(full).file, cycle([Value(12.0, "mm"), Value(11.0, "mm")])
     kept = folder / "kept-full"
     kept.mkdir()
-    with _control(LINES["TCP loopback"], kept / "control") as address:
+    with emulated("9pc", LINES["TCP loopback"], kept / "control", "--machine", "mill") as control:
+        address = control.address
 
         def change() -> None:
             file.set(("servo.excess_error", "1"), next(values))
@@ -58,38 +58,3 @@ def _of_full_file(folder: Path, full: Path, times: int) -> Iterator[Measure]:
         )
         verify = timed(lambda: verify_content(file, fetch_image(address, family="9pc")), times)
         yield Measure("verify of a full file, TCP", verify, target=0.15)
-
-
-@contextmanager
-def _control(listen: str, state: Path) -> Iterator[str]:
-    """Run an emulated control in its own process, and give its address."""
-    command = [
-        sys.executable,
-        "-m",
-        "amp_studio.cli",
-        "emulate",
-        "9pc",
-        "--listen",
-        listen,
-        "--machine",
-        "mill",
-    ]
-    with subprocess.Popen(
-        [*command, "--state", str(state)],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
-    ) as process:
-        assert process.stdin is not None
-        assert process.stdout is not None
-        try:
-            line = next(said for said in process.stdout if said.startswith("listening on "))
-            yield line.removeprefix("listening on ").strip()
-        finally:
-            process.stdin.write("quit\n")
-            process.stdin.close()
-            try:
-                process.wait(timeout=10)
-            except subprocess.TimeoutExpired:
-                process.kill()

@@ -22,6 +22,7 @@ import find
 import grid
 import machine
 import many_files
+import moving
 import published
 import rules
 import screen
@@ -45,6 +46,7 @@ GROUPS = (
     "drag",
     "memory",
     "exchange",
+    "moving",
 )
 """In the order of the table."""
 
@@ -91,6 +93,7 @@ def measures(folder: Path, times: int, groups: Collection[str]) -> Iterator[Meas
         "drag": lambda: drag.measures(folder, times),
         "memory": lambda: many_files.measures(folder, full, times),
         "exchange": lambda: exchange.measures(folder, full, example, few),
+        "moving": lambda: moving.measures(folder, times),
     }
     for group in GROUPS:
         if group in groups:
