@@ -1,5 +1,5 @@
-"""Whether an emulated control keeps the times of its protocol while its machine moves: at rest, and with every
-axis under way.
+"""Whether an emulated control keeps the times of its protocol while its machine moves: at rest, and with
+all of its axes under way.
 """
 
 import socket
@@ -19,8 +19,8 @@ from amp_studio.transfer.client import StatusReader, download_file, fetch_image
 
 TCP = "tcp://127.0.0.1:0"
 SHARE, MOST = 1.1, 0.005
-"""What an answer may take of its time at rest, and s more: it waits for the slice of the machine that is under
-way."""
+"""What an answer may take of its time at rest, and s more: it waits for the slice of the machine that is
+under way."""
 
 
 @dataclass(frozen=True)

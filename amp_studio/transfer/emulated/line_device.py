@@ -26,6 +26,7 @@ from .memory import Memory
 from .screen import open_screen
 
 SLICE = 0.02  # seconds a turn waits for bytes
+STEP = 0.001  # seconds of the machine that are stepped at least: a step for each character costs more
 PIECE = 256  # bytes that are worked on before the operator has a turn
 COMMANDS_WAITING = 256
 
@@ -135,9 +136,9 @@ class DeviceService:
 
     def turn(self) -> None:
         """Do what the operator asks for, then send and take some bytes; waits 0.02 s at most."""
-        if isinstance(self._device, TimedDevice):
-            before, self._now = self._now, self._clock()
-            self._device.advance(self._now - before)
+        if isinstance(self._device, TimedDevice) and (passed := self._clock() - self._now) >= STEP:
+            self._now += passed
+            self._device.advance(passed)
         self._screen()
         self._obey()
         caller = self._listener.accept(0 if self._link else SLICE)
