@@ -16,7 +16,7 @@ from amp_studio.schema import Address, axis_name
 
 from .binding import bind_axis
 from .errors import SimulationError
-from .law import Law, law_of
+from .law import AxisLaw, Law, law_of
 from .rounding import value_text
 from .run import simulate
 from .scenario import CheckPart, Scenario
@@ -30,6 +30,8 @@ NEAR_GRID = (20.0, 80.0)
 """% of a turn between switch and marker that is sure (Syntec 2.2)."""
 WORSE = ("not possible", "good", "doubtful", "bad")
 ONE_END = "Only one end of the travel has a limit"
+MOST_OF_TRAVEL = 0.5
+"""Share of its travel from which an axis has its switch ahead; near an end it is almost all or nothing."""
 ASKED = {"home": "homing", "jog": "jogging", "travel": "travel"}
 """Scenario -> the part of an axis that reads its parameters."""
 RATES = ("feedrate", "acceleration", "linear_acceleration")
@@ -178,6 +180,8 @@ def _judged(
     loops = Loops(bind_axis(file, law, decided.axis)) if scenario.name in SHOWN_BY else None
     if verdict == "good" and loops is not None:
         verdict, why = _of_loops(loops, scenario.name)
+    if verdict == "good" and scenario.name == "home":
+        verdict, why = _of_direction(bind_axis(file, law, instance), decided)
     if scenario.opposite and len(runs) == 1 and verdict == "good":
         verdict, why = "doubtful", ONE_END
     if verdict == "bad" and scenario.programmed:
@@ -299,6 +303,30 @@ def _verdict(trace: Trace) -> tuple[Verdict, str]:
             ),
         )
     return "good", ""
+
+
+def _of_direction(axis: AxisLaw, trace: Trace) -> tuple[Verdict, str]:
+    """Return whether a homing finds its switch from most of the travel: one in the wrong direction runs away
+    from it. Only the switch of the course and both limits show that.
+    """
+    if axis.homing is None or axis.travel is None or trace.course is None or trace.course.switch is None:
+        return "good", ""
+    sign = math.copysign(1.0, axis.homing().approach)
+    home, gone = (trace.result[name][0] for name in ("home_position", "home_from_start"))
+    edges = axis.travel().limits.values()
+    low, high = (least for least, _ in edges), (most for _, most in edges)
+    begin, end = max(low, default=-math.inf), min(high, default=math.inf)
+    if home is None or gone is None or not math.isfinite(end - begin) or begin >= end:
+        return "good", ""
+    switch = home - gone + trace.course.switch[0]
+    share = (switch - begin if sign > 0.0 else end - switch) / (end - begin)
+    if share >= MOST_OF_TRAVEL:
+        return "good", ""
+    place, first, last = (value_text(each, axis.unit) for each in (switch, begin, end))
+    return "doubtful", (
+        f"The axis has its switch at {place} ahead in {max(share, 0.0) * 100.0:.0f} % of its travel,"
+        f" {first} to {last}: from the rest it goes away from it. Look at the direction of homing"
+    )
 
 
 def _of_loops(loops: Loops, scenario: str) -> tuple[Verdict, str]:

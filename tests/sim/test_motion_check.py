@@ -128,3 +128,51 @@ def test_what_is_not_good_leads_to_its_parameter(
     found = next(each for each in check_motion(file, axis) if each.scenario == scenario)
     assert found.verdict in ("bad", "not possible")
     assert named in found.params
+
+
+@pytest.mark.parametrize(
+    ("name", "axis", "turned"),
+    [
+        (
+            "mill-1394",
+            "1",
+            {("home.g28_direction", "1"): "minus", ("home.direction_off_switch", "1"): "positive"},
+        ),
+        ("num-1060-mill", "0", {("travel.homing_negative", ""): 2}),
+        (
+            "linuxcnc-mill",
+            "X",
+            {("joint.home_search_velocity", "0"): -20.0, ("joint.home_latch_velocity", "0"): 2.0},
+        ),
+    ],
+)
+def test_a_homing_in_the_wrong_direction_is_doubtful(
+    name: str, axis: str, turned: dict[tuple[str, str], object], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """`check` was silent: the switch is on the other end of the travel, from which the axis runs away."""
+    monkeypatch.setattr(motion_check, "SCENARIOS", {"home": USUAL["home"]})
+    file = example(name)
+
+    def home() -> MotionCheck:
+        return next(each for each in check_motion(file, axis) if each.scenario == "home")
+
+    assert home().verdict == "good"
+    for address, value in turned.items():
+        unit = "mm/s" if isinstance(value, float) else ""
+        file.set(address, Value(value, unit))
+    assert home().verdict == "doubtful"
+    assert "from the rest it goes away from it" in home().why
+    assert {parameter for parameter, _ in turned} <= set(home().params)
+
+
+@pytest.mark.parametrize(
+    ("name", "axis", "words"),
+    [("grblhal-router", "X", "on which side of the machine"), ("num-1060-mill", "0", "in no parameter")],
+)
+def test_what_no_value_can_show_is_named(
+    name: str, axis: str, words: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """$23 turns the travel with the homing, and P11 is made of figures that no parameter has."""
+    monkeypatch.setattr(motion_check, "SCENARIOS", {"home": USUAL["home"]})
+    (home,) = [each for each in check_motion(example(name), axis) if each.scenario == "home"]
+    assert any(words in note for note in home.assumptions)

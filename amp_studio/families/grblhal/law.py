@@ -57,6 +57,10 @@ HOMED = (
         f" locate rate to the switch again, and back by the pull-off ({SOURCE}, homing_cycle). ASSUMED: the"
         " axis is homed alone, and the debounce delay passes at rest."
     ),
+    (
+        "The travel lies on the other side of the switch, whatever $23 is: no value shows on which side of"
+        " the machine the switch is. Look at the first move of $H."
+    ),
 )
 LIMITED = (
     "A move beyond the travel is refused before it begins, with ALARM:2; a jog is refused with error:15, or"

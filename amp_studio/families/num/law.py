@@ -44,6 +44,10 @@ if TYPE_CHECKING:
 
 ALWAYS = (
     (
+        "A unit is what P11 makes of the counts: lead and lines of the encoder, of which it is made (5-6),"
+        " are in no parameter. Measure the first move with a rule."
+    ),
+    (
         "The reference is KVAR / 1000 points for each internal unit of following error, in whole points of a"
         " converter with 32768 points at 10 V, and ends at 10 V (6-14)."
     ),
