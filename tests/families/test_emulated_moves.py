@@ -4,7 +4,7 @@ following error of `simulate` of the same move, count for count: one engine is b
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -224,3 +224,31 @@ def test_an_order_after_a_limit_has_limits_again() -> None:
             axis.advance(STEP)
         assert axis.alarm is not None
         assert 0.0 < sign * (axis.position - edge) < 20.0
+
+
+def test_an_axis_beyond_its_limit_is_moved_back_wherever_its_zero_is() -> None:
+    """After a reset the command begins where the axis is, and is there to the last digit but one: that was
+    taken for a way on beyond the limit, and the axis could not be jogged back.
+    """
+    bound = bind_axis(example("mill-1394"), law_of("9pc"), "1")
+    assert bound.manual_ramp is not None
+    assert bound.travel is not None
+    ramp, travel = bound.manual_ramp(False), bound.travel()
+    for n in range(12):
+        axis = SimulatedAxis(bound)
+        axis.go(50.0, ramp)
+        axis.advance(0.3 + 0.0371 * n)
+        axis.switch_off()
+        axis.advance(1.0)
+        axis.reset()
+        axis.go(20.0, ramp)
+        axis.advance(0.4)
+        axis.stop(ramp)
+        while axis.is_busy:
+            axis.advance(0.1)
+        axis.travel = replace(travel, limits={"the limit": (-500.0, axis.position - 1.0)})
+        before = axis.position
+        axis.go(-0.8, ramp)
+        axis.advance(0.3)
+        assert axis.alarm is None
+        assert axis.position < before

@@ -61,6 +61,8 @@ CHUNK = 4096
 """Servo samples of one call of the kernel."""
 LONGEST = 3600.0
 """s of one order that are simulated."""
+ROUNDED = 8.0
+"""Last digits of a position that the sums of a profile may be off."""
 LAW_STATE, MACHINE, PROFILE = 1, 3, 9
 """Places among the vectors of the kernel."""
 
@@ -376,7 +378,9 @@ class MovingAxis:
             k = kernel.WATCH + n * kernel.WATCH_WIDTH
             timing[k] = kernel.AT_DEVICE if watch.device else kernel.AT_LOAD
             timing[k + 1], timing[k + 2] = watch.sign, watch.at - self._origin
-            timing[k + 3] = self.position - self._origin
+            # The last digits of a command that stands still are no way towards the place.
+            hair = ROUNDED * math.ulp(max(abs(self.position), abs(self._origin)))
+            timing[k + 3] = self.position - self._origin + watch.sign * hair
         found: Seen | None = None
         while not self.is_over:
             before = x[kernel.SAMPLE]
