@@ -159,3 +159,18 @@ def test_a_grbl_1_1_is_deaf_after_a_critical_alarm_until_its_reset(tmp_path: Pat
     assert "Grbl 1.1" in bench.read()
     assert bench.status()[0] == "Alarm"
     assert (bench.identity_word("G0 X1"), bench.identity_word("$X")) == ("error:9", "ok")
+
+
+def test_a_block_that_goes_on_after_a_hold_is_a_run_and_no_setting_is_taken_in_it(bench: Bench) -> None:
+    """As the real firmware shows after ``~``; it was Idle, in which a moving axis got other settings."""
+    bench.identity_word("G91 G1 X200 F3000")
+    bench.after(1.0)
+    bench.firmware.receive(b"!")
+    bench.after(1.0)
+    assert bench.status()[0] == "Hold:0"
+    bench.firmware.receive(b"~")
+    bench.after(0.2)
+    assert bench.status()[0] == "Run"
+    assert bench.identity_word("$120=50") == "error:8"
+    bench.after(5.0)
+    assert bench.status() == ("Idle", [pytest.approx(200.0, abs=0.02), 0.0, 0.0])

@@ -208,7 +208,7 @@ class Firmware:
             self.state = "Hold:0"
         elif command == "~" and self.state == "Hold:0":
             self._motion.resume()
-            self.state, unread, self._unread = "Idle", self._unread, []
+            self.state, unread, self._unread = self._motion.state, self._unread, []
             for line in unread:
                 self._answer_line(line)
 
