@@ -177,3 +177,23 @@ def test_every_axis_of_a_typical_machine_comes_home_where_it_is_simulated(name: 
     assert all(axis.is_homed and axis.alarm is None for axis in found.values())
     for axis, each in found.items():
         assert each.position == pytest.approx(stop_of(file, axis), abs=0.002)
+
+
+def test_a_homing_that_is_ordered_in_a_jog_stops_the_axis_first() -> None:
+    """The command went from one speed to the opposite one at once: a velocity error and a position error."""
+    from tests.families.test_emulated_moves import module_of, press  # which imports this module
+
+    bench = module_of(press(), 0)
+
+    def after(seconds: float) -> None:
+        for _ in range(round(seconds / 0.1)):
+            bench.module.advance(0.1)
+
+    bench.module.write(65, 5)
+    after(0.5)
+    assert bench.look()[0] > 10000.0
+    bench.module.write(66, HOME)
+    bench.module.write(66, 0)
+    after(12.0)
+    assert bench.module.read(73) == 0
+    assert bench.module.read(72) & HOMED

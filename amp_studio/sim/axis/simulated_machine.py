@@ -137,7 +137,7 @@ class SimulatedAxis:
         self.is_homed, self._homed = False, Homed()
         if self._around is None:
             self._around = moved(usual_around(self.law, homing, ramp), self._moving.position)
-        self._begin(home_axis(self._moving, homing, ramp, self._around, self._homed))
+        self._begin(self._to_home(homing, ramp, self._around, self._homed))
 
     def switch_off(self) -> None:
         """Take the drive away: an emergency stop, or a fault of the drive."""
@@ -187,6 +187,12 @@ class SimulatedAxis:
         sign = math.copysign(1.0, velocity)
         yield GoOrder(velocity, ramp, Watch(sign * math.inf, sign), farthest)
         yield StopOrder(ramp)
+
+    def _to_home(self, homing: Homing, ramp: Ramp, around: Around, homed: Homed) -> Orders:
+        # A homing begins at rest, whatever the axis was doing.
+        if self._moving.velocity != 0.0:
+            yield StopOrder(ramp)
+        yield from home_axis(self._moving, homing, ramp, around, homed)
 
     @staticmethod
     def _stopped(ramp: Ramp) -> Orders:
