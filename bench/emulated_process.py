@@ -1,4 +1,4 @@
-"""An emulated control in a process of its own, with an operator who types."""
+"""An emulated control in a separate process, with an operator who types."""
 
 import os
 import queue

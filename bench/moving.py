@@ -103,7 +103,7 @@ def _of_control(control: Moving, process: EmulatedProcess, state: Path, times: i
 
 
 def _person_at(process: EmulatedProcess) -> Callable[[str, int, int], None]:
-    """Return who reads what a NUM wants to have pressed, and presses it."""
+    """Return who reads which key a NUM has to be given, and presses it."""
 
     def read(stage: str, _done: int, _total: int) -> None:
         for key, menu in (("unload", "3 UNLOAD"), ("load", "2 LOAD")):
