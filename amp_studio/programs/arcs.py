@@ -70,7 +70,16 @@ def _refuse_off_circle(off: float, radius: float, tolerance: ArcTolerance | None
         )
 
 
-def arc_by_radius(x0: float, y0: float, x1: float, y1: float, radius: float, *, clockwise: bool) -> Arc:
+def arc_by_radius(
+    x0: float,
+    y0: float,
+    x1: float,
+    y1: float,
+    radius: float,
+    tolerance: ArcTolerance | None = None,
+    *,
+    clockwise: bool,
+) -> Arc:
     """Return the arc of a radius between two points: the longer one of a negative radius.
     Raises ProgramBlockError where the points are farther apart than a circle is wide.
     """
@@ -78,6 +87,8 @@ def arc_by_radius(x0: float, y0: float, x1: float, y1: float, radius: float, *, 
     if chord <= CLOSED:
         raise ProgramBlockError("An arc by R has to end somewhere else", "arc-radius")
     size = abs(radius)
+    if tolerance and size < 0.5 * chord <= size + tolerance.reach:
+        size = 0.5 * chord
     inside = size * size - 0.25 * chord * chord
     # A half circle of rounded figures is a little below 0: that is no fault of the program.
     if inside < -1e-9 * size * size:

@@ -12,7 +12,7 @@ from amp_studio.schema import Address, WordUse, axis_name
 
 from .codes import Call, ControlCodes
 from .formats import Justified, NumberFormat, WordNumber, digits_of, number_of
-from .words import TypedWord, words_of
+from .words import TypedWord, without_blanks, without_open_remark, words_of
 
 FED = ("line", "arc-cw", "arc-ccw")
 """What a code does that moves at the feed."""
@@ -77,7 +77,7 @@ class BlockReader:
         line = block.strip()
         if (statement := self._statement(line)) is not None:
             return ReadBlock(line, (statement,))
-        words = tuple(words_of(block, self.codes.facts.expressions))
+        words = tuple(words_of(self._as_read(block), self.codes.facts.expressions))
         if (call := self._macro_call(words)) is not None:
             return ReadBlock(line, call)
         # All codes before any word: a G behind a word decides how that word is read too.
@@ -88,6 +88,12 @@ class BlockReader:
             if known and known.group and code not in self.codes.calls and not known.facts.only_amp:
                 self.active[known.group.key] = code
         return ReadBlock(line, tuple(self._read_words(words, here)))
+
+    def _as_read(self, block: str) -> str:
+        """Return a block as the control takes its blanks and remarks."""
+        path = self.codes.facts.path
+        block = without_blanks(block) if path and path.joined_blanks else block
+        return without_open_remark(block) if path and path.open_remarks else block
 
     def _statement(self, line: str) -> BlockWord | None:
         """Return a whole line as one word where it is a statement of the control."""

@@ -24,7 +24,7 @@ from .single_codes import SingleCodes
 from .toolpath import DWELL, EXACT, LINE, MOST_ROWS, RAPID, ProgramFault, ToolPath
 from .word_numbers import BlockNumbers, WordNumbers
 from .words import ProgramBlockError as BlockError
-from .words import in_capitals, words_of
+from .words import in_capitals, without_blanks, without_open_remark, words_of
 
 MOST_REPEATED = 150_000
 """Blocks that are executed more often than once; a program that needs more counts as one without an end."""
@@ -64,14 +64,14 @@ class Interpreter:
         self.blocks = self.line = 0
         codes = self.reader.codes
         self._modal = ModalCodes(file, self.reader, path, self.notes)
-        self._numbers = WordNumbers(
-            self.reader, self.axes, self.parameters, self.notes, number_first=path.number_first
-        )
+        self._numbers = WordNumbers(self.reader, self.axes, self.parameters, self.notes, path)
         self._at = ProgramCoordinates(file, path, self.axes, self.letters, self.start, zero, self.notes)
         self._moves = PathMoves(file, path, self._at)
         self._cycles = CycleRuns(file, path, codes, self._moves, retract)
         self._single = SingleCodes(path, codes, self._moves)
         self._over = False
+        self._has_end = False
+        """Whether a % ends the program."""
         self._refused = ""
         """How a line begins that the control refuses in this program."""
         systems = [code for code in codes.known.values() if code.facts.does == "work-system"]
@@ -111,6 +111,8 @@ class Interpreter:
                 if len(self._moves.rows) >= most:
                     yield self._taken(None)
             self._note_cycles_taken_in(lines)
+            if not self._over and not self._has_end and self._path.note_without_end:
+                self.notes.append(self._path.note_without_end)
         except BlockError as error:
             block = lines[self.line - 1] if 0 < self.line <= len(lines) else ""
             code = self._path.faults.get(error.key, "")
@@ -148,6 +150,7 @@ class Interpreter:
         if self._path.percent == "pair" and begins != first["%"]:
             self._refused = "%"
             return len(lines)
+        self._has_end = True
         if any(line.strip() for line in islice(lines, ends + 1, None)):
             self.notes.append(f"The % in line {ends + 1} ends the program: the blocks behind it are not run.")
         return ends
@@ -224,7 +227,7 @@ class Interpreter:
 
     def _letters_and_numbers(self, line: str) -> Sequence[tuple[str, str]]:
         if 0 < self._path.longest < len(line):
-            raise BlockError(f"A block has at most {self._path.longest} characters")
+            raise BlockError(f"A block has at most {self._path.longest} characters", "too-long")
         # Most lines are plain words, for which two patterns are faster than the reader of words.
         if _PLAIN.fullmatch(line):
             return _PAIRS.findall(line)
@@ -233,6 +236,10 @@ class Interpreter:
         if self._path.plain_delete and re.match(r"[ \t]*/[0-9]", line):
             raise BlockError("A number behind the / in front of a block")
         expressions = self.reader.codes.facts.expressions
+        if self._path.joined_blanks:
+            line = without_blanks(line)
+        if self._path.open_remarks:
+            line = without_open_remark(line)
         return [(word.letter, word.number) for word in words_of(line, expressions)]
 
     def _keep_roles(self, roles: dict[str, float], codes: BlockCodes) -> None:

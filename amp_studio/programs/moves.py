@@ -109,7 +109,9 @@ class PathMoves:
                 raise BlockError("No page prints arcs by R for this control")
             if words.centers:
                 raise BlockError("An arc with R and with a center", "unused-words")
-            arc = arc_by_radius(*ends, words.roles["radius"] * scale, clockwise=clockwise)
+            arc = arc_by_radius(
+                *ends, words.roles["radius"] * scale, self._path.arc_tolerance, clockwise=clockwise
+            )
         else:
             if not self._path.arcs_by_radius and "level" in words.roles:
                 raise BlockError("No page prints arcs by R for this control: give the center")
@@ -142,13 +144,13 @@ class PathMoves:
     ) -> Arc:
         if not {first, second} & set(words.centers):
             raise BlockError("An arc without its center in the plane", "no-center")
-        if set(words.centers) - {first, second}:
+        if set(words.centers) - {first, second} and not self._path.centers_beside:
             raise BlockError("The center of an arc is outside of its plane", "unused-words")
         given = [words.centers.get(place, 0.0) for place in (first, second)]
         if self._centers == "absolute":
             point = list(self.at.programmed)
-            for place, value in words.centers.items():
-                point[place] = value
+            for place in {first, second} & set(words.centers):
+                point[place] = words.centers[place]
             machine = self.at.to_machine(point)
             center = machine[first], machine[second]
         else:

@@ -6,10 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from amp_studio.schema import WordUse
+from amp_studio.schema import ProgramPath, WordUse
 
 from .block import BlockReader
 from .expression import worth
+from .formats import NumberFormat
 from .modal import BlockCodes, WordReading
 from .words import ProgramBlockError as BlockError
 from .words import TypedWord, sentence
@@ -52,13 +53,10 @@ class WordNumbers:
         axes: Sequence[str],
         parameters: Mapping[int, float],
         notes: list[str],
-        *,
-        number_first: bool,
+        path: ProgramPath,
     ) -> None:
-        """``parameters`` are those that the program sets; ``notes`` gets what is assumed; ``number_first`` is
-        whether the number of a block has to be its first word.
-        """
-        self._number_first = number_first
+        """``parameters`` are those that the program sets; ``notes`` gets what is assumed."""
+        self._path = path
         self._reader, self._axes, self._parameters, self._notes = reader, axes, parameters, notes
 
     def read(self, pairs: Sequence[tuple[str, str]], codes: BlockCodes) -> BlockNumbers:
@@ -95,8 +93,13 @@ class WordNumbers:
             raise BlockError("N is given twice in a block", "repeated")
         if any(letter == "N" and text[:1] == "-" for letter, text in pairs):
             raise BlockError("The number of a block is below 0", "negative")
-        if self._number_first and pairs[0][0] != "N":
+        if self._path.number_first and pairs[0][0] != "N":
             raise BlockError("N is not at the beginning of its block")
+        number = next(text for letter, text in pairs if letter == "N")
+        if not number and (fault := self._reader.number_in("", NumberFormat()).fault):
+            raise BlockError(f"N: {fault}", "no-digits")
+        if 0 < self._path.most_number < float(number or 0.0):
+            raise BlockError(f"N{number[:20]}: {self._path.most_number} is the greatest number", "too-high")
 
     def _number(self, letter: str, text: str, reading: WordReading) -> float:
         if "(" in text or text[:1] in ("P", "#"):

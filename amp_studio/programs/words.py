@@ -22,6 +22,9 @@ _PART = re.compile(
     re.ASCII,
 )
 _BLOCK_DELETE = re.compile(r"\s*/[1-9]?", re.ASCII)
+_REMARK_OR_BLANK = re.compile(r"\([^)]*\)|;.*|[ \t]+")
+_REMARK_OR_END = re.compile(r"\([^)]*\)|;.*|\)")
+_OPEN_REMARK = re.compile(r"^((?:[^(;]|\([^)]*\))*)\([^)]*$")
 _DEMARCATION = re.compile(r"\s*%\s*[0-9.]*\s*(?:;.*|\([^)]*\)\s*)?", re.ASCII)
 """A line that begins or ends a program; some controls have its number behind the %."""
 _FLOW = re.compile(r"\s*(?:N\s*[0-9]+\s*)?O\s*(?:[0-9]+\s*[A-Z]|<|\[)", re.ASCII)
@@ -86,14 +89,31 @@ def words_of(block: str, expressions: bool = False) -> Iterator[TypedWord]:
         )
     deleted = _BLOCK_DELETE.match(text)
     place = deleted.end() if deleted else 0
+    bare = False
     while place < len(text):
         # Expressions first: for the other pattern their parentheses would begin a remark.
         found = (_WITH_EXPRESSION.match(text, place) if expressions else None) or _PART.match(text, place)
         if found is None:
-            raise ProgramBlockError(_unreadable(block[place : place + 12], expressions=expressions))
+            # Controls that part both: a letter whose number cannot be read, and what is no letter.
+            key = "no-digits" if bare else "no-letter" if block[place] > " " and block[place] != "$" else ""
+            raise ProgramBlockError(_unreadable(block[place : place + 12], expressions=expressions), key)
+        bare = bool(found.groupdict().get("letter")) and not found["number"]
         if found.groupdict().get("letter"):
             yield TypedWord(found["letter"], found["number"] or "", block[place : found.end()].strip())
         place = found.end()
+
+
+def without_blanks(block: str) -> str:
+    """Return a block without the blanks outside of its remarks; one that is no words stays as it is."""
+    return block if _FLOW.match(block) else _REMARK_OR_BLANK.sub(lambda found: "" if found[0].isspace() else found[0], block)
+
+
+def without_open_remark(block: str) -> str:
+    """Return a block without a remark that is not closed, which goes to the end of its line, and without the
+    end of one that has not begun.
+    """
+    closed = _OPEN_REMARK.sub(r"\1", block)
+    return _REMARK_OR_END.sub(lambda found: "" if found[0] == ")" else found[0], closed)
 
 
 def in_capitals(block: str) -> str:

@@ -298,6 +298,8 @@ class ArcTolerance(Model):
     """mm that never may be passed."""
     least: float = 0.0
     """mm of a radius below which there is no arc."""
+    reach: float = 0.0
+    """mm by which half of the way between the ends of an arc by R may be longer than R."""
 
 
 class ProgramPath(Model):
@@ -318,6 +320,17 @@ class ProgramPath(Model):
     """Whether the control takes a CR inside of a file for a blank, and the mark of UTF-8 for a character."""
     number_first: bool = False
     """Whether the number of a block (N) has to be its first word."""
+    most_number: int = 0
+    """The greatest number of a block; 0 where no source has one."""
+    joined_blanks: bool = False
+    """Whether a blank inside of a word is left out: ``G9 0`` is G90."""
+    open_remarks: bool = False
+    """Whether a remark that is not closed goes to the end of its line."""
+    centers_beside: bool = False
+    """Whether words of a center outside of the plane count for nothing beside one inside of it."""
+    note_without_end: str = ""
+    """What the control does behind the last block of a program that does not end by a code or a %, a
+    sentence."""
     needs: dict[str, tuple[str, ...]] = {}
     """Letter -> codes, one of which has to be in its block or active: else the control refuses the word."""
     apart: tuple[tuple[str, ...], ...] = ()
