@@ -237,7 +237,7 @@ def programs_of(file: ParameterFile, paths: Sequence[Path]) -> Iterator[PrintedP
         return
     from amp_studio.drawing import picture_svg
     from amp_studio.programs import read_program
-    from amp_studio.sim import ProgramJob, contour_text, limited_by, path_picture
+    from amp_studio.sim import ProgramJob, alarm_text, assumed_texts, contour_text, limited_by, path_picture
 
     for path in paths:
         run = ProgramJob(read_program(path, file)).run(file)
@@ -253,9 +253,9 @@ def programs_of(file: ParameterFile, paths: Sequence[Path]) -> Iterator[PrintedP
                 for row in limited_by(file, run)
             ),
             contour_text(file, run),
-            tuple(f"Line {alarm.line}: {f'{alarm.code} {alarm.message}'.strip()}" for alarm in run.alarms),
+            tuple(f"Line {alarm.line}: {alarm_text(file, alarm)}" for alarm in run.alarms),
             drawn,
-            run.assumptions,
+            tuple(assumed_texts(file, run)),
         )
 
 

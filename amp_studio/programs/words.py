@@ -105,7 +105,11 @@ def words_of(block: str, expressions: bool = False) -> Iterator[TypedWord]:
 
 def without_blanks(block: str) -> str:
     """Return a block without the blanks outside of its remarks; one that is no words stays as it is."""
-    return block if _FLOW.match(block) else _REMARK_OR_BLANK.sub(lambda found: "" if found[0].isspace() else found[0], block)
+    return (
+        block
+        if _FLOW.match(block)
+        else _REMARK_OR_BLANK.sub(lambda found: "" if found[0].isspace() else found[0], block)
+    )
 
 
 def without_open_remark(block: str) -> str:

@@ -82,6 +82,8 @@ if TYPE_CHECKING:
     )
     from .path.program import ProgramRun
     from .path.result import (
+        alarm_text,
+        assumed_texts,
         contour_text,
         limit_tries,
         limited_by,

@@ -1,5 +1,6 @@
 """The chapter of part programs: in each format, and only where they are given."""
 
+import dataclasses
 import json
 import re
 from pathlib import Path
@@ -78,6 +79,34 @@ def test_a_real_program_has_its_path_and_its_time(checkout: Path, tmp_path: Path
     path.write_bytes(bytes(4))
     with pytest.raises(ProgramBlockError):
         list(dossier.programs_of(file, [path]))
+
+
+def test_the_notes_of_a_program_are_in_the_unit_of_its_file(checkout: Path, tmp_path: Path) -> None:
+    """They were in mm in a report of a file in inches, and some did not begin by what they are."""
+    file = open_file(checkout / "examples" / "acromill-router" / "ROUTER.amp").file
+    (tmp_path / "a.nc").write_text("G20 G90 G1 X-1 F60\nG2 X-3 I-1 J-0.5\n")
+    (found,) = dossier.programs_of(file, [tmp_path / "a.nc"])
+    assert all(note.startswith("ASSUMED: ") for note in found.assumptions)
+    assert any("in/s2 for 1 V" in note for note in found.assumptions)
+    assert not any(" mm" in note for note in (*found.assumptions, *found.alarms))
+
+
+@poppler
+def test_what_a_picture_leaves_no_room_for_is_on_the_next_page(
+    checkout: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """All notes of a program were printed over each other at the foot of the page of its path."""
+    svg = '<svg xmlns="http://www.w3.org/2000/svg" width="640" height="900"><path d="M0 0H640V900H0Z"/></svg>'
+    notes = tuple(f"Note{n} is one of many." for n in range(20))
+    given = dataclasses.replace(FOUND, svg=svg, assumptions=notes)
+    monkeypatch.setattr(dossier, "programs_of", lambda _file, _paths: iter([given]))
+    file = open_file(checkout / "examples" / "acromill-router" / "ROUTER.amp").file
+    contents = Contents(without=BARE, changed_only=True, programs=(Path("plate.nc"),))
+    dossier.write_report(file, tmp_path / "r.pdf", contents)
+    boxes = output_of("pdftotext", "-bbox", tmp_path / "r.pdf", "-")
+    tops = [float(top) for top in re.findall(r'yMin="([0-9.]+)"[^>]*>Note[0-9]+<', boxes)]
+    assert len(tops) == 20
+    assert len(set(tops)) == 20
 
 
 @poppler

@@ -17,6 +17,7 @@ from amp_studio.sim.rounding import rounded, value_text
 from amp_studio.sim.unit_system import in_text, length_unit, path_error_text, path_error_unit
 
 from .job import ProgramVersion, WhatIf, scaled
+from .limits_met import PathAlarm
 from .planned import PlannedProgram
 from .planner import ProgramPlan
 from .program import ProgramRun
@@ -209,6 +210,17 @@ def program_text(
     return "\n".join(in_text(line, length) for line in _lines(file, run, tries, others))
 
 
+def assumed_texts(file: ParameterFile, run: ProgramRun) -> list[str]:
+    """Return what a run assumes, each a sentence that begins so, in the unit of the file."""
+    notes = (note if note.startswith("ASSUMED") else f"ASSUMED: {note}" for note in run.assumptions)
+    return [in_text(note, length_unit(file)) for note in notes]
+
+
+def alarm_text(file: ParameterFile, alarm: PathAlarm) -> str:
+    """Return code and message of an alarm in the unit of the file."""
+    return in_text(f"{alarm.code} {alarm.message}".strip(), length_unit(file))
+
+
 def contour_text(file: ParameterFile, run: ProgramRun) -> str:
     """Return the contour error in words, in the unit of the file, or why there is none."""
     contour = run.contour
@@ -238,8 +250,7 @@ def _lines(
     for alarm in run.alarms:
         code = f"{alarm.code}: " if alarm.code else ""
         yield f"Line {alarm.line}: {code}{alarm.message}"
-    for note in run.assumptions:
-        yield note if note.startswith("ASSUMED") else f"ASSUMED: {note}"
+    yield from assumed_texts(file, run)
 
 
 def _shares_of_time(file: ParameterFile, run: ProgramRun) -> Iterator[str]:

@@ -36,6 +36,8 @@ from amp_studio.sim import (
     ProgramJob,
     ProgramRun,
     SimulationError,
+    alarm_text,
+    assumed_texts,
     length_unit,
     limit_sort,
     limited_by,
@@ -398,7 +400,7 @@ class ProgramPage(PageOfFile):
         )
         self._limiting = [row["param"] for row in limited]
         assert self.job is not None
-        faults = {each.line: f"{each.code} {self.worded(each.message)}".strip() for each in run.alarms}
+        faults = {each.line: self.worded(alarm_text(self.file, each)) for each in run.alarms}
         self.lines.blocks.show_rows(replace(blocks, faults=faults, lines_of=partial(self._lines_of, run)))
         self.path.filter.offer([(row["letter"], worded(row["name"])) for row in limited if row["letter"]])
         time = written(value_text(run.plan.time, "s", 4))
@@ -408,7 +410,7 @@ class ProgramPage(PageOfFile):
             words.append(self.tr("largest contour error {error}").format(error=error))
         self.path.title.setText(", ".join(words))
         alarms = [
-            f"{self.tr('Line')} {each.line}: {each.code} {self.worded(each.message)}"
+            f"{self.tr('Line')} {each.line}: {self.worded(alarm_text(self.file, each))}"
             for each in run.alarms[:2]
         ]
         self.say("; ".join(alarms))
@@ -426,7 +428,7 @@ class ProgramPage(PageOfFile):
             left = len(self.job.lines) - fault.line + 1
             parts.insert(0, self.tr("Blocks that are not run: {count}.").format(count=left))
         self.missing.setText(" ".join(parts))
-        self.missing.setToolTip("\n".join(map(self.worded, run.assumptions)))
+        self.missing.setToolTip("\n".join(map(self.worded, assumed_texts(self.file, run))))
 
     def _number_of(self, typed: str) -> str:
         """Return the number of a parameter as the control shows it; "" of one that has a name alone."""
