@@ -111,6 +111,7 @@ def _settled(
 
 
 def _check(answers: MeasurementAnswers) -> None:
+    """Raise MeasurementError for an answer that was not offered."""
     for what, given, known in (
         ("unit", answers.unit, POSITION_UNITS),
         ("unit of errors", answers.error_unit, ERROR_UNITS),
@@ -135,6 +136,7 @@ def _in_base(run: MeasuredRun, kind: str, used: MeasurementAnswers) -> MeasuredR
 
 
 def _read_columns(text: str, answers: MeasurementAnswers) -> RawTable:
+    """Return the table of a text of columns behind any head; raises MeasurementError."""
     lines = lines_of(text)
     # Titles, dates and serial numbers may come before the columns in any number.
     first = next((n for n, (_, line) in enumerate(lines) if _is_data(line, answers.decimal)), None)

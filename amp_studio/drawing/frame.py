@@ -81,6 +81,7 @@ def _gap(scene: Scene, horizontal: bool) -> float:
 
 
 def _share(scale: Scale, value: float) -> float:
+    """Return how far along a scale a value is: 0 to 1, a hair more for one beyond an end."""
     if scale.log:
         # A logarithmic scale has no place for it: a frequency or a gain of 0 is drawn at its lower end.
         if value <= 0.0:

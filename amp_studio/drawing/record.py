@@ -51,6 +51,7 @@ def _handle(handle: Handle) -> dict[str, Any]:
 
 
 def _drag(drag: Drag) -> dict[str, Any]:
+    """Return what a handle changes and between which values, without infinite bounds: JSON has none."""
     low, high = (
         bound if bound is not None and math.isfinite(bound) else None for bound in (drag.low, drag.high)
     )

@@ -75,6 +75,7 @@ def _inside(frame: Placement, curve: Curve) -> tuple[Series, Series]:
 
 
 def _placed(frame: Placement, x: Series, y: Series) -> Series:
+    """Return values as points of the drawing, a row for each."""
     scale, height = frame.scene.x, frame.scene.y
     across = (
         # The spectrum begins at 0 Hz, which has no logarithm.

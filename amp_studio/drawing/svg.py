@@ -149,6 +149,7 @@ def panels_json(picture: Picture, *, width: int = PLOT_WIDTH, unit: int = PLOT_U
 
 
 def _panel_json(frame: Placement) -> dict[str, Any]:
+    """Return a panel as plain data: its scales, levels and the values of its curves."""
     from .strokes import drawn_values  # numpy, as below
 
     scene, curves = frame.scene, []
@@ -245,6 +246,7 @@ def _across(frame: Placement) -> Iterator[str]:
 
 
 def _cells(frame: Placement, cells: HeatMap) -> Iterator[str]:
+    """Yield the rectangles of a map and the bar with its scale at the right."""
     from .strokes import cell_boxes  # see below
 
     for left, top, width, height, share, is_safe in cell_boxes(frame, cells):
@@ -286,6 +288,7 @@ def _shade(share: float) -> str:
 
 
 def _curve(frame: Placement, curve: Curve) -> Iterator[str]:
+    """Yield a curve: rings, or a line over its band."""
     from .strokes import strokes_of  # numpy, which a picture without curves does not need
 
     stroke = COLOURS[curve.sort]
@@ -338,6 +341,7 @@ def _title(scene: Scene) -> str:
 
 
 def _wrapped(text: str) -> Iterator[str]:
+    """Yield the lines of a note, of at most `WRAP` characters."""
     line = ""
     for word in text.split():
         if len(line) + len(word) > WRAP:
@@ -349,6 +353,7 @@ def _wrapped(text: str) -> Iterator[str]:
 
 
 def _patterns() -> str:
+    """Return the hatches with which areas are filled."""
     hatches = (("hatch", COLOURS["forbidden"]), ("either", COLOURS["either"]), ("wrong", COLOURS["error"]))
     made = "".join(
         f'<pattern id="{name}" width="7" height="7" patternUnits="userSpaceOnUse"'
@@ -360,6 +365,7 @@ def _patterns() -> str:
 
 
 def _grid(frame: Placement) -> Iterator[str]:
+    """Yield the lines of the scales; a panel has its zero and a frame, rings have neither."""
     right, bottom = frame.left + frame.width, frame.top + frame.height
     if frame.scene.look == "rings":
         return
@@ -388,6 +394,7 @@ def _area(frame: Placement, area: FilledArea) -> str:
 
 
 def _line(frame: Placement, line: Polyline) -> str:
+    """Return a line by its sort: now and error are wide."""
     points = " ".join(f"{x:.1f},{y:.1f}" for x, y in map(frame.at, line.points))
     dash = ' stroke-dasharray="5 4"' if line.dashed else ' stroke-dasharray="2 3"' if line.dotted else ""
     # The rail is what the axis moves on: wide and pale, so that what lies on it remains visible.
@@ -404,6 +411,7 @@ def _handle_dot(at: Point) -> str:
 
 
 def _dot(frame: Placement, dot: Dot) -> str:
+    """Return the symbol of a point."""
     x, y = frame.at(dot.at)
     stroke = COLOURS[dot.sort]
     if dot.kind == "home":
@@ -488,6 +496,7 @@ def _chip(label: Label) -> str:
 
 
 def _label(label: Label) -> str:
+    """Return the text of a label, its value in second ink."""
     box, value = label.box, ""
     if label.value:
         value = f' <tspan fill="{DIM}" font-weight="400">{escape(label.value)}</tspan>'

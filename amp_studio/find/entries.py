@@ -113,6 +113,7 @@ def _choices(parameter: Parameter) -> Iterator[Entry]:
 
 
 def _message(message: ControlMessage, listed: str) -> Entry:
+    """Return the entry of a message or symptom, with the texts that a search compares, by where each is."""
     if message.reaction == "symptom":  # its causes have the words of many parameters
         return Entry(
             "message",

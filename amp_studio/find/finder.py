@@ -180,6 +180,7 @@ class Finder:
         return [self._value_hit(addresses, "value") for addresses in found.values()]
 
     def _value_hit(self, addresses: list[Address], why: str) -> Hit:
+        """Return the hit of one value that several addresses have, the first of them one that was chosen."""
         assert self.file is not None
         file, first = self.file, addresses[0]
         own = [a for a in addresses if not file.is_default(a)]
@@ -217,6 +218,7 @@ class Finder:
     # -- words --------------------------------------------------------------------------
 
     def _hit(self, match: Match) -> Hit:
+        """Return what a search offers for a match: an entry of the index, or a place in the file."""
         entry = match.entry
         why = self._why(match)
         if entry.kind == "parameter":

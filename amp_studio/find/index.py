@@ -144,6 +144,7 @@ class SearchIndex:
         return list(dict.fromkeys(words))
 
     def _parted(self, word: str) -> list[str]:
+        """Return the words that a compound is made of where the vocabulary has them, else the word alone."""
         if self.vocabulary.like(word):
             return [word]
         parts = parts_of(word)

@@ -110,6 +110,7 @@ class ValueFilters:
         return found
 
     def _compared(self, row: Sequence[Address]) -> bool:
+        """Return whether two axes of a row differ in a value that could be the same."""
         file, profile = self.file, self.file.schema.family.axes
         # What makes an axis another one differs by its nature.
         if profile is not None and row[0][0] in (profile.name, profile.type, profile.fitted_by):
@@ -129,6 +130,7 @@ class ValueFilters:
 
     @property
     def _asks(self) -> dict[FilterName, Callable[[Address], bool]]:
+        """Filter -> the question that it asks of an address; "axes-differ" is asked of a whole row."""
         return {
             "not-set": self.not_set.__contains__,
             "changed": self._is_own,

@@ -122,6 +122,7 @@ class Vocabulary:
         return known
 
     def _similar_words(self, word: str) -> dict[str, float]:
+        """Return the words of the index that a typed one may be, with 0 to 1 for how likely."""
         found = {word: 1.0} if word in self._at else {}
         for longer in self.begun(word):
             # The less is still to be typed, the likelier; never as much as the whole word.

@@ -58,6 +58,9 @@ def arc_by_center(
 
 
 def _refuse_off_circle(off: float, radius: float, tolerance: ArcTolerance | None) -> None:
+    """Refuse an end that is ``off`` mm beside the circle: by the printed tolerance, or by ours where none
+    is.
+    """
     if tolerance is None:
         if off > OFF_CIRCLE:
             raise ProgramBlockError(

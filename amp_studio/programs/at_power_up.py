@@ -71,6 +71,7 @@ def _active_values(codes: ControlCodes) -> Iterator[PowerUpLine]:
 
 
 def _changes(codes: ControlCodes) -> Iterator[PowerUpLine]:
+    """Yield a line for each event after which codes are back or stay."""
     kept = [group.name for group in codes.groups if group.kept_at_reset]
     back = f"the codes of power-up are back{', but for ' + ' and '.join(kept) if kept else ''}"
     for change in codes.facts.backs:
@@ -85,6 +86,7 @@ def _changes(codes: ControlCodes) -> Iterator[PowerUpLine]:
 
 
 def _calls(codes: ControlCodes) -> Iterator[PowerUpLine]:
+    """Yield a line for each code and word that calls a program."""
     kinds = {None: "", True: "modal", False: "not modal"}
     for code, call in codes.calls.items():
         yield PowerUpLine(f"program {call.program}", code, kinds[call.modal], call.params, call.facts.page)

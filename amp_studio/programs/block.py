@@ -104,6 +104,7 @@ class BlockReader:
         return None
 
     def _read_words(self, words: Sequence[TypedWord], here: set[str]) -> Iterator[BlockWord]:
+        """Yield each word as it is read, with what is wrong about it beside the others of its block."""
         seen: set[str] = set()
         letters = {word.letter for word in words}
         for word in words:
@@ -167,6 +168,7 @@ class BlockReader:
     # -- codes -------------------------------------------------------------------
 
     def _word(self, word: TypedWord, here: set[str]) -> BlockWord:
+        """Return a word as code, number with a use, coordinate of an axis, or call of a program."""
         if word.letter in ("G", "M"):
             return self._code(word)
         use = self.use(word.letter, here)
@@ -249,6 +251,7 @@ class BlockReader:
         return units is not None and self.file.evaluation.canonical((units.param, "")) in units.inch
 
     def _of_use(self, word: TypedWord, use: WordUse, here: set[str]) -> BlockWord:
+        """Return a word whose number has a use, as F or S, with its unit and what speaks against it."""
         unit = use.unit if isinstance(use.unit, str) else use.unit["in" if self.is_inch() else "mm"]
         number = self.number(word, (use.format, "") if use.format else None, use.whole)
         if use.bounds and number.value is not None and not use.bounds[0] <= number.value <= use.bounds[1]:
@@ -275,6 +278,7 @@ class BlockReader:
         return feed < 0.0 or (feed == 0.0 and any(moves))
 
     def _of_axis(self, word: TypedWord) -> BlockWord | None:
+        """Return a word of an axis, as X or I; None where the letter is that of no axis."""
         axes = self.codes.facts.axes
         found = next(iter(self.axis_words(word.letter)), None)
         if axes is None or found is None:

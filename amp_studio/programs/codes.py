@@ -100,6 +100,7 @@ class ControlCodes:
         return {call.code: call for facts in self.facts.calls for call in self._calls(facts)}
 
     def _calls(self, facts: MacroCall) -> Iterator[Call]:
+        """Yield the codes to which the file gives a program."""
         for instance, number in self._numbers_of_codes(facts.code, facts.none):
             kind = self._value(facts.call, instance)
             if facts.call and kind in (None, facts.not_used):

@@ -86,6 +86,7 @@ class ProgramCoordinates:
         self._apply_length()
 
     def _apply_length(self) -> None:
+        """Move the coordinates by the length of the tool that is chosen; number 0 has none."""
         if self._length_sign == 0.0:
             return
         third = self.axis("Z")
@@ -101,6 +102,7 @@ class ProgramCoordinates:
         self.set_shift("length", shift)
 
     def _switch_off(self, what: str) -> None:
+        """Cancel the length of the tool, a scale or a turn."""
         if what == "length":
             self._length_sign = 0.0
             self.set_shift("length", [0.0] * len(self._axes))

@@ -104,6 +104,7 @@ class CycleHole:
             yield from self._between_pecks(between, at)
 
     def _between_pecks(self, steps: Sequence[str], at: float) -> Iterator[CycleMove]:
+        """Yield the rapid moves between two pecks, the first one done down to ``at``."""
         for step in steps:
             if step == "rapid to R":
                 yield CycleMove(self.level, is_rapid=True)
@@ -194,6 +195,7 @@ class CycleRuns:
         return CycleHole(initial, level, depth, stored, clearance, retract, modal.to_initial)
 
     def _do(self, move: CycleMove, third: int, modal: ModalState) -> None:
+        """Make one move of a cycle: a dwell in s, or a way along the third axis, or aside."""
         if move.seconds is not None:
             self._moves.dwell(move.seconds)
             return

@@ -87,6 +87,7 @@ class _ExpressionReader:
         return value
 
     def _single(self, depth: int) -> float:
+        """Return what one operator has at a side: a number, parameter, function or parenthesis."""
         if depth > DEEPEST:
             raise ProgramBlockError(f"{quoted(self._text)} is deeper than {DEEPEST} parentheses")
         sign = self._next()

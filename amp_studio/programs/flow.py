@@ -134,6 +134,7 @@ class ProgramFlow:
         self._levels.append(level)
 
     def _return(self) -> None:
+        """Go on behind the call, or at its begin where it is repeated."""
         if not self._levels:
             raise BlockError("RET comes without a GOSUB before it", "return-without-call")
         level = self._levels.pop()
@@ -165,6 +166,7 @@ class ProgramFlow:
     # -- calls with values ---------------------------------------------------------
 
     def _call_macro(self, line: str) -> None:
+        """Begin the program that a code calls, once or at each move until it is cancelled."""
         head, *words = (word for word in words_of(line, self._facts.expressions) if word.letter != "N")
         does = self._macros[head.code]
         if does == "no-subroutine":

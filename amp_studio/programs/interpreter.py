@@ -185,6 +185,7 @@ class Interpreter:
     # -- one block -----------------------------------------------------------------
 
     def _block(self, line: str) -> None:
+        """Do one block: its codes, then its numbers, then its pause, cycle or move."""
         pairs = self._letters_and_numbers(line)
         if not pairs:
             return
@@ -226,6 +227,9 @@ class Interpreter:
         return self._path.speed_waits == "always" or (turns and roles["spindle"] != self._moves.speed)
 
     def _letters_and_numbers(self, line: str) -> Sequence[tuple[str, str]]:
+        """Return the words of a line as they are written; raises BlockError for one that a control refuses
+        whole.
+        """
         if 0 < self._path.longest < len(line):
             raise BlockError(f"A block has at most {self._path.longest} characters", "too-long")
         # Most lines are plain words, for which two patterns are faster than the reader of words.
@@ -243,6 +247,7 @@ class Interpreter:
         return [(word.letter, word.number) for word in words_of(line, expressions)]
 
     def _keep_roles(self, roles: dict[str, float], codes: BlockCodes) -> None:
+        """Keep what words set beyond their block: feed, speed, tool and its length, rounding."""
         if roles:
             self._moves.keep(roles)
         if roles.get("tool"):
@@ -261,6 +266,7 @@ class Interpreter:
         self._moves.rows.guard_by(code.facts.zones)
 
     def _move(self, words: BlockNumbers, codes: BlockCodes) -> None:
+        """Move along a line, an arc or the holes of a cycle, by the code that is active."""
         modal = codes.modal
         motion = codes.motion or modal.motion
         exact = EXACT if codes.is_exact else modal.corner
@@ -281,6 +287,7 @@ class Interpreter:
             self._forget_probed()
 
     def _target(self, words: BlockNumbers, codes: BlockCodes, *, is_arc: bool) -> list[float]:
+        """Return where a block moves to, in the coordinates of the program."""
         if not codes.in_machine:
             return self._at.target(words, is_absolute=codes.modal.is_absolute)
         if self._path.machine_absolute and not codes.modal.is_absolute:

@@ -208,6 +208,7 @@ class ModalCodes:
             )
 
     def _state_of(self, active: Mapping[str, str]) -> ModalState:
+        """Return what codes that are active together select; each set of them is read once."""
         key = tuple(active.values())
         if key in self._states:
             return self._states[key]

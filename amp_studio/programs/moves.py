@@ -142,6 +142,9 @@ class PathMoves:
         *,
         clockwise: bool,
     ) -> Arc:
+        """Return an arc in the plane of two axes by I, J and K, which are distances or coordinates by the
+        family.
+        """
         if not {first, second} & set(words.centers):
             raise BlockError("An arc without its center in the plane", "no-center")
         if set(words.centers) - {first, second} and not self._path.centers_beside:

@@ -64,6 +64,7 @@ class SingleCodes:
         self._moves.read_centers(_CENTERS[number])
 
     def _turn(self, words: BlockNumbers, modal: ModalState) -> None:
+        """Turn the coordinates about a point, given or the one that the tool is at."""
         if modal.plane != 0:
             raise BlockError("A turn is printed with other axes than those of this plane: not simulated")
         a, b = self._at.axis("X"), self._at.axis("Y")
@@ -89,6 +90,7 @@ class SingleCodes:
         self._at.set_system(self._systems[number - 1], words.axes)
 
     def _reference(self, does: str, words: BlockNumbers, modal: ModalState) -> None:
+        """Move to a reference point over a middle point, back from it, or to check that it is reached."""
         number = int(words.roles.get("reference", 2.0)) if does == "reference-other" else 1
         if not 1 <= number <= len(self._path.references):
             raise BlockError(f"P{number}: there are reference points 2 to {len(self._path.references)}")

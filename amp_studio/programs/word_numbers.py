@@ -102,6 +102,7 @@ class WordNumbers:
             raise BlockError(f"N{number[:20]}: {self._path.most_number} is the greatest number", "too-high")
 
     def _number(self, letter: str, text: str, reading: WordReading) -> float:
+        """Return the number that is written behind a letter, as the format of the file reads it."""
         if "(" in text or text[:1] in ("P", "#"):
             sign = -1.0 if text.startswith("-") else 1.0
             return sign * worth(text.lstrip("+-"), self._parameters)
@@ -117,6 +118,7 @@ class WordNumbers:
         return number.value
 
     def _reading(self, letter: str, codes: BlockCodes) -> WordReading:
+        """Return how the number of a letter is read under the codes of the block."""
         self._reader.active = dict(codes.modal.active)
         here = {TypedWord(code.code[0], code.code[1:], "").code for code in codes.codes}
         if self._reader.is_unused(letter, here):
@@ -142,6 +144,7 @@ class WordNumbers:
         )
 
     def _reading_of_role(self, use: WordUse, codes: BlockCodes) -> WordReading:
+        """Return the same for a word with a role, as a feed: in mm and s."""
         is_inch = codes.feed_in_inch if use.role == "feed" else codes.modal.is_inch
         unit = use.unit if isinstance(use.unit, str) else use.unit["in" if is_inch else "mm"]
         scale = INCH if unit.startswith("in") else {"ms": 1e-3, "min": 60.0}.get(unit, 1.0)
