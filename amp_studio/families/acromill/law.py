@@ -284,6 +284,7 @@ def _predicted(p: Sequence[float], machine: Machine, speed: float) -> Prediction
 
 
 def _sources(pulses: float, feedrate: str) -> Mapping[str, Source]:
+    """Return from which parameter and page each figure of the law is."""
     return {
         "position_gain": Source(ids.p_gain, page="59"),
         "derivative_gain": Source(ids.d_gain, page="59"),

@@ -52,6 +52,7 @@ def notch(frequency: float, width: float, servo_hz: float) -> Biquad:
 
 
 def _warped(name: str, frequency: float, servo_hz: float) -> float:
+    """Return the frequency as the digital filter needs it; raises SimulationError for one it cannot have."""
     if not 0.0 < frequency < 0.5 * servo_hz:
         raise SimulationError(
             f"{name} {frequency:g} Hz cannot be simulated: it must be above 0 and below half of the servo"

@@ -88,6 +88,7 @@ def _bounds(setting: DescribedSetting, axes: int) -> tuple[int, int]:
 
 
 def _check_decimal(setting: DescribedSetting, name: str, text: str) -> None:
+    """Raise BoundsError for a number that the firmware would refuse."""
     least, most = setting.least or "0", setting.most
     try:
         number = read_number(text)

@@ -165,6 +165,7 @@ def _read_fact(description: Description, tag: str, rest: str) -> None:
 
 
 def _read_axes(description: Description, _tag: str, rest: str) -> None:
+    """Keep the letters of the axes; raises DescriptionError."""
     count, _, letters = rest.partition(":")
     if (
         not re.fullmatch("[A-Z]{1,9}", letters)
@@ -184,6 +185,7 @@ def _read_group(description: Description, _tag: str, rest: str) -> None:
 
 
 def _read_setting(description: Description, _tag: str, rest: str) -> None:
+    """Keep one setting that the firmware describes; raises DescriptionError."""
     number, group, name, unit, kind, form, least, most, restart, zero = _parts(rest, 10, "a setting")
     if not re.fullmatch("[0-9]", kind):
         raise DescriptionError(f"the setting '{short(rest)}' has the type {short(kind)}, which is not known")
@@ -231,6 +233,7 @@ _READERS = {
 
 
 def _keep(known: dict[int, T], number: int, entry: T, most: int, what: str) -> None:
+    """Keep an entry by its number, of at most so many; raises DescriptionError for a second, other one."""
     if number in known:
         # Asked twice it comes twice: only a contradiction is an error.
         if known[number] == entry:

@@ -115,6 +115,7 @@ def _refused(found: ParameterFile) -> list[Misfit]:
 def _set(
     file: ParameterFile, found: ParameterFile, address: Address, value: Value, target: Address | None
 ) -> list[Misfit]:
+    """Set the value of a file in the one that is found; returns why it does not fit, empty where it does."""
     parameter = file.schema.parameters[address[0]]
     name, value_text = file.machine_schema.label(address), show_value(parameter, value)
     if target is None:
@@ -136,6 +137,7 @@ def _set(
 
 
 def _set_text(found: ParameterFile, target: Address | None, name: str, text: str) -> list[Misfit]:
+    """Set a value by its text; returns why it does not fit, empty where it does."""
     if target is None:
         return [Misfit(name, text, LACKING)]
     try:

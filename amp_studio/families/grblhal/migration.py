@@ -238,6 +238,7 @@ class _SettingsWriter:
         return _thousandth(number) if number else ""
 
     def _limited(self, axis: AxisMeaning, n: int, way: str) -> None:
+        """Write the travel of an axis, which has only a length here, and what of its place is lost."""
         self.values[130 + n] = way
         low, high = axis.number("travel.low"), axis.number("travel.high")
         old = (

@@ -110,6 +110,7 @@ class Writing:
         line.ask("G20" if in_inches else "G21", writes=True)
 
     def _write(self, line: GrblLine, name: str, command: str) -> None:
+        """Send one setting, recorded before and after; raises GrblRefusalError."""
         # Between two settings is the only point at which a download may stop.
         line.go_on()
         self.sent.begin(name)

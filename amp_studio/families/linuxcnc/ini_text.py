@@ -107,6 +107,7 @@ class _Reader:
             at += count
 
     def _line(self, file: str, rows: Sequence[str], at: int, count: int) -> None:
+        """Read a line, with the ``count`` - 1 lines that go on from it."""
         row = rows[at]
         if match := _INCLUDE.match(row):
             if not file:  # the start script looks for them in the configuration alone
@@ -134,6 +135,7 @@ class _Reader:
         self._sections.setdefault(section, _place(file, at))
 
     def _entry(self, match: re.Match[str], file: str, rows: Sequence[str], at: int, count: int) -> None:
+        """Keep an entry, and why it does not count where it does not."""
         assert self._section is not None
         first = (
             match.string[match.end() :].rstrip("\r")

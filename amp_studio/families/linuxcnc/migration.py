@@ -219,6 +219,7 @@ class _Migration:
     # ------------------------------------------------------------------------------------------------------
 
     def _joint(self, axis: AxisMeaning, sign: str, steps: Mapping[str, int]) -> None:
+        """Write an axis: its joint, travel, speeds, loop and homing."""
         joint, letter = self.axes[axis.instance], self.letters[axis.instance]
         j, a = f"JOINT_{joint}", f"AXIS_{letter}"
         self.ini.put(j, "TYPE", "ANGULAR" if axis.turns else "LINEAR", taken_from(axis, "kind", "exact"))
@@ -258,6 +259,7 @@ class _Migration:
             )
 
     def _travel(self, axis: AxisMeaning, j: str, a: str) -> None:
+        """Write the limits of an axis, and whether it goes round."""
         kind = axis.choice("travel.kind")
         for concept, key, rounded in (
             ("travel.low", "MIN_LIMIT", inwards_low),
@@ -303,6 +305,7 @@ class _Migration:
             self.out.less_safe.append(f"{axis.letter}: no travel limits, as before")
 
     def _motion(self, axis: AxisMeaning, j: str, a: str) -> None:
+        """Write the greatest speed and acceleration of an axis."""
         rapid, ramp = axis.number("rapid"), axis.number("acceleration")
         if rapid:
             for section in (j, a):
@@ -359,6 +362,7 @@ class _Migration:
             )
 
     def _loop(self, axis: AxisMeaning, j: str, sign: str) -> None:
+        """Write the limit of the following error, the gains, backlash and scale of a joint."""
         limit, gain, forward = axis.number("error.limit"), axis.number("gain"), axis.number("feed_forward")
         if limit:
             # The old control has one limit at every speed; with both alike LinuxCNC has too.

@@ -137,6 +137,7 @@ class HomeKeys:
             self.out.grade(axis, concept, "exact", f"[{j}]HOME_SEARCH_VEL", "left out: nothing moves")
 
     def _asked_speed(self, axis: AxisMeaning, towards: float) -> tuple[float | None, float | None]:
+        """Return the speeds of search and latch that a user enters, with direction; None until then."""
         unit = "deg/min" if axis.turns else "mm/min"
         question = MigrationQuestion(
             f"home.speed.{axis.name}",
@@ -147,6 +148,7 @@ class HomeKeys:
         return (speed * towards, -speed * towards / 10.0) if speed else (None, None)
 
     def _home_place(self, axis: AxisMeaning, j: str) -> None:
+        """Write where a joint is after homing, and where its switch or marker is."""
         at, offset = axis.number("home.coordinate"), axis.number("home.offset")
         if at is None:
             return
@@ -184,6 +186,7 @@ class HomeKeys:
         )
 
     def _home_speeds(self, axis: AxisMeaning, j: str, search: float, leave: float, *, alone: bool) -> None:
+        """Write the speeds of search, latch and final move, at most the rapid speed."""
         rapid = axis.number("rapid") or abs(search)
         # Without a switch there is no search: the latch goes to the marker.
         first = 0.0 if alone else math.copysign(min(abs(search), rapid), search)

@@ -263,6 +263,7 @@ def _common(
 
 
 def _limits(parameters: list[float], read: AxisParameters, loop: Loop) -> dict[str, float]:
+    """Return the levels of the following error at which the control does something, in units of the axis."""
     limits = {
         "excess error": parameters[samples.EXCESS],
         "feedrate suppression": parameters[samples.SUPPRESSION],

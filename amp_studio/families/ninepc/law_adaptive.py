@@ -104,6 +104,7 @@ def _refuse(machine: BoundMachine, axis: AxisLaw) -> None:
 
 
 def _cut(machine: BoundMachine, axis: AxisLaw, asked: dict[str, float]) -> Motion:
+    """Return a cut whose feedrate follows the torque; from half of it on the material is harder."""
     read, feed = machine.read(axis.axis), asked["move.feedrate"] / 60.0
     gains = read.number(ids.adaptive_proportional), read.number(ids.adaptive_integral)
     ramp = axis.ramps["linear"] if read.choice(ids.adaptive_ramp) == "yes" else Ramp()

@@ -107,6 +107,7 @@ def _excess_target(m: ServoFigures) -> float:
 
 
 def _excess_error(m: ServoFigures) -> Iterator[Recommendation]:
+    """Yield the recommendation to allow 110 % of the following error that the rapid speed needs."""
     now, wanted = m.p[samples.EXCESS], _excess_target(m)
     if wanted == now:
         return
@@ -147,6 +148,7 @@ def _order(m: ServoFigures) -> Iterator[Recommendation]:
 
 
 def _suppression(m: SimulatedMove) -> Iterator[Recommendation]:
+    """Yield the recommendation to raise the level at which the feedrate was halved."""
     limit, point = _excess_target(m), m.p[samples.SUPPRESSION]
     lost = int((m.trace.columns["feed_share"] < 1.0).sum()) * _step(m)
     # Above the excess error it never acts: there is nothing to gain.
@@ -209,6 +211,7 @@ def _available(m: SimulatedMove) -> float:
 
 
 def _time_at_limit(m: SimulatedMove) -> float:
+    """Return for how many s the torque is at its limit."""
     import numpy as np
 
     torque = np.abs(m.trace.columns["torque"])
@@ -220,6 +223,7 @@ def _time_at_limit(m: SimulatedMove) -> float:
 
 
 def _gain_break(m: SimulatedMove) -> Iterator[Recommendation]:
+    """Yield the recommendation to move the break of the gain above the cutting speeds."""
     cutting = m.axis.sources.get("cutting_feedrate")
     point = m.axis.limits.get("gain break point")
     if point is None or cutting is None or not m.p[samples.CUTTING]:
@@ -240,6 +244,7 @@ def _gain_break(m: SimulatedMove) -> Iterator[Recommendation]:
 
 
 def _band(m: SimulatedMove) -> Iterator[Recommendation]:
+    """Yield the recommendation to widen a band of less than a count to two."""
     count = m.p[samples.COUNT]
     if m.axis.inposition_band >= count:
         return

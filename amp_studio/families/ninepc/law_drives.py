@@ -333,6 +333,7 @@ def _volts(read: AxisParameters, name: str, sign: float) -> float:
 
 
 def _peak(read: AxisParameters) -> float:
+    """Return the peak current in %; the choice is written p300 for 300 %."""
     choice = read.choice(ids.peak_current)
     digits = choice.lstrip("p")
     if not digits.isdigit() or int(digits) == 0:

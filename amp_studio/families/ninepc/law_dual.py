@@ -50,6 +50,7 @@ def grouped(law: AxisLaw, read: AxisParameters) -> AxisLaw:
 
 
 def _slower(ramp: Ramp, other: Ramp) -> Ramp:
+    """Return the ramp that both axes of a pair can follow."""
     # 0 is no ramp: the other one is slower.
     return replace(
         ramp,

@@ -55,6 +55,7 @@ def feedback_of(read: AxisParameters, unit: str, *, digital: bool, notes: list[s
 
 
 def _turn(read: AxisParameters, unit: str, device: str, *, digital: bool, notes: list[str]) -> float:
+    """Return how far the axis goes in one turn of the device, in its unit."""
     if read.optional(OWN_TRAVEL) is not None:
         return above_zero(read, OWN_TRAVEL)
     if unit == "deg":

@@ -111,6 +111,7 @@ def _pressed(axis: AxisLaw, detection: float, stiffness: float, speed: float) ->
 def _figures(
     axis: AxisLaw, motion: Motion, row: int | None, of_stop: tuple[float, float, float]
 ) -> dict[str, Figure]:
+    """Return what the run found; ``row`` is the one in which the stop was detected."""
     detection, holding, stiffness = of_stop
     columns, unit = motion.columns, axis.unit
 

@@ -116,6 +116,7 @@ def _output_ramp(
 
 
 def _orient(read: AxisParameters, number: str) -> Orient | None:
+    """Return how a spindle is oriented, in rpm and deg; None where no speed is set."""
     speed = read.optional(ids.orient_speed, at=number)
     if not speed:
         return None

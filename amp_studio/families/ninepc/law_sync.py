@@ -348,6 +348,7 @@ def _raised(pair: SpindlePair, error: float, follower_error: float) -> float:
 
 
 def _figures(pair: SpindlePair, speed: float, later: float, course: Course) -> dict[str, Figure]:
+    """Return speeds, errors and times of a synchronized pair."""
     gears, last = pair.gears, course.rows[-1]
     return {
         "speed": (speed, "rpm"),

@@ -240,6 +240,7 @@ def _ramps(read: AxisParameters, acceleration: float, notes: list[str]) -> dict[
 
 
 def _machine(read: AxisParameters, words: Words) -> Machine:
+    """Return the machine behind an axis: its measuring system by the file, drive and motor as assumed."""
     sensor = read.optional(ids.measure_sensor) or 0.0
     scale = read.optional(SCALE)
     if scale is not None and scale not in (0.0, 1.0):

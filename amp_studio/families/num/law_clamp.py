@@ -127,6 +127,7 @@ def _columns(
 def _figures(
     axis: AxisLaw, trace: Trace, starts: float, ended: float | None, closing: float
 ) -> dict[str, Figure]:
+    """Return the times before, in and after a move of a clamped axis, and the error when it is clamped."""
     time, error = trace.columns["time_s"], np.abs(trace.columns["following_error"])
     return {
         "distance": trace.result["distance"],

@@ -266,6 +266,7 @@ def _of_speed(machine: BoundMachine, axis: AxisLaw, letter: str, speed: float) -
 
 
 def _circle(machine: BoundMachine, axis: AxisLaw, letter: str) -> MachineTest:
+    """Return the ball-bar test of two axes, or why there is none."""
     title = "Ball-bar: circle of the firmware program %9997.9"
     others = [name for name in machine.fitted if name != axis.axis]
     if not others:

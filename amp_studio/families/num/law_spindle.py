@@ -80,6 +80,7 @@ def spindle(read: AxisParameters, number: str) -> Spindle:
 
 
 def _orient(read: AxisParameters, number: str) -> Orient | None:
+    """Return how a spindle is indexed, in rpm and deg; None where it is not."""
     speed, points = (
         read.optional(ids[f"spindle_{each}"], at=number) for each in ("indexing_speed", "points")
     )

@@ -152,6 +152,7 @@ def _curve_error(read: AxisParameters, turns: bool, notes: list[str]) -> float:
 
 
 def _dividers(read: AxisParameters, turns: bool, notes: list[str]) -> tuple[float, float]:
+    """Return the internal units in a mm and in a degree; 0 for the one that an axis does not have."""
     if not turns:
         read.require([(ids.internal_unit, "")])
         return read.number(ids.internal_unit, everywhere=True), 0.0

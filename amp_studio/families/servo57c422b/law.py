@@ -178,6 +178,7 @@ def bind(read: AxisParameters) -> AxisLaw:
 
 
 def _refuse_missing(read: AxisParameters) -> None:
+    """Raise SimulationError where a register that the loop needs is not set."""
     missing = [parameter for parameter in NEEDED if read.value(parameter) is None]
     if missing:
         names = ", ".join(read.called(parameter) for parameter in missing)
@@ -230,6 +231,7 @@ def _scale(read: AxisParameters, name: str) -> float:
 
 
 def _ramps(read: AxisParameters) -> Mapping[str, Ramp]:
+    """Return the ramps of an axis in counts and s."""
     up, down = (
         read.within(ids.command_acceleration, -1e12, 1e12),
         read.within(ids.command_deceleration, -1e12, 1e12),
@@ -244,6 +246,7 @@ def _ramps(read: AxisParameters) -> Mapping[str, Ramp]:
 
 
 def _alarms(read: AxisParameters, p: Sequence[float]) -> Mapping[int, AlarmText]:
+    """Return number -> text of the alarms that switch the loop off."""
     return {
         1: AlarmText(
             "POSITION ERROR",
@@ -313,6 +316,7 @@ def _predicted(p: Sequence[float], machine: Machine, speed: float) -> Prediction
 
 
 def _sources() -> Mapping[str, Source]:
+    """Return from which register and page each figure of the law is."""
     return {
         "position_gain": Source(ids.gain_proportional, whole=True, largest=_WORD[1], page="4-7"),
         "velocity_gain": Source(ids.gain_velocity, whole=True, largest=_WORD[1], page="4-7"),

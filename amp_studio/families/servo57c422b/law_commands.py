@@ -117,6 +117,7 @@ def _tune_gains(axis: ModuleAxis) -> tuple[tune.Left, ScenarioSettings]:
 
 
 def _tune_dynamics(axis: ModuleAxis) -> tuple[tune.Left, ScenarioSettings]:
+    """Return the registers that tuning the dynamics leaves, and the travel that it takes."""
     travel = axis.needed(ids.setup_overtravel_positive, "tune dynamics takes its travel from it (page 4-30)")
     if travel < 1.0:
         raise SimulationError(
@@ -128,6 +129,7 @@ def _tune_dynamics(axis: ModuleAxis) -> tuple[tune.Left, ScenarioSettings]:
 
 
 def _tune_feed_forward(axis: ModuleAxis) -> tuple[tune.Left, ScenarioSettings]:
+    """Return the registers that tuning the feed forward leaves, and the travel that it takes."""
     ends = [
         axis.needed(ids[f"setup_overtravel_{side}"], "tune feedforward takes its travel from it (page 4-31)")
         for side in ("positive", "negative")
@@ -226,6 +228,7 @@ def run_cam(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
 
 
 def _time_cam(axis: ModuleAxis, settings: ScenarioSettings, points: int, cycles: int) -> list[float]:
+    """Return the position of a cam over time at each scan, in counts."""
     if axis.bit(ids.cam_mode, 0):
         values = _table(axis, ids.time_points, points)
     else:
@@ -257,6 +260,7 @@ def _position_cam(axis: ModuleAxis, settings: ScenarioSettings, points: int) -> 
 
 
 def _table(axis: ModuleAxis, parameter: str, points: int) -> list[int]:
+    """Return the points of a cam as words; raises SimulationError for one that is not set."""
     values = [axis.register(parameter, k) for k in range(points)]
     if None in values:
         raise SimulationError(
@@ -323,6 +327,7 @@ def _followed(
     assumption: str,
     rest: float = _PAUSE,
 ) -> Trace:
+    """Run an axis along the positions of each scan."""
     profile = profile_of(pieces_of(positions), positions[-1] if positions else 0.0)
     return _run(axis, scenario, profile, end_of(profile), figures, assumption, rest)
 
@@ -336,6 +341,7 @@ def _run(
     assumption: str,
     rest: float = _PAUSE,
 ) -> Trace:
+    """Run an axis along a profile, and ``rest`` s more."""
     motion = run_axis(axis, profile, Until(end + rest))
     columns = motion.columns
     # At the scans: between them the command goes on, and the module sees none of it.

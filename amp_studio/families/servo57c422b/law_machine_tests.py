@@ -93,6 +93,7 @@ def _wiring(axis: ModuleAxis) -> MachineTest:
 
 
 def _home(axis: ModuleAxis) -> MachineTest:
+    """Return the test of the homing, or why there is none."""
     title = "Home the axis by the sequence of register 2"
     try:
         homing = axis.homing() if axis.homing else None
@@ -128,6 +129,7 @@ def _home(axis: ModuleAxis) -> MachineTest:
 
 
 def _move(machine: BoundMachine, axis: ModuleAxis) -> MachineTest:
+    """Return the test of one move out and back, or why there is none."""
     title = "One move out and back at the speeds of the file"
     read, base = machine.read(axis.axis), _base(axis.axis)
     figures = {number: read.optional(name) for number, name in MOVE_WORDS}

@@ -19,6 +19,7 @@ def machine_tests(machine: BoundMachine, axis: AxisLaw) -> list[MachineTest]:
 
 
 def _zero_point(letter: str, *, is_absolute: bool) -> MachineTest:
+    """Return the setting of an absolute encoder, or why there is none."""
     title = "Zero point of an absolute encoder"
     if not is_absolute:
         why = (
@@ -44,6 +45,7 @@ def _zero_point(letter: str, *, is_absolute: bool) -> MachineTest:
 
 
 def _homing(axis: AxisLaw, letter: str) -> MachineTest:
+    """Return the test of a search for the dog, or why there is none."""
     title = "Home grid and repeatability"
     try:
         homing = axis.homing() if axis.homing else None
@@ -74,6 +76,7 @@ def _homing(axis: AxisLaw, letter: str) -> MachineTest:
 
 
 def _limits(axis: AxisLaw, letter: str) -> MachineTest:
+    """Return the test of the first stroke limit, or why there is none."""
     title = "First stroke limit, jogged against at a low speed"
     limits = list(axis.travel().limits.values()) if axis.travel else []
     places = [place for edges in limits for place in edges if math.isfinite(place)]

@@ -76,6 +76,7 @@ class AcrCard:
             self._out += characters
 
     def _obey(self) -> None:
+        """Answer the line that was typed, and begin the next one with the prompt of the program."""
         line, self._line = self._line.decode("ascii"), bytearray()
         self._echo(b"\r\n")
         try:

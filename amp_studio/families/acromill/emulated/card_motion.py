@@ -134,6 +134,7 @@ class CardMotion:
         return None if rate is None else rate * self._unit
 
     def _jog(self, what: str, rest: str) -> list[str]:
+        """Obey a JOG command for each axis that it names; returns the lines of the answer."""
         answer = []
         for name, figure in _arguments(rest):
             key = f"JOG {what} {name}"

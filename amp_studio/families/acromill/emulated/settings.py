@@ -185,6 +185,7 @@ class CardSettings:
         raise CommandError("Not in this emulated card" if word in _LISTED.split() else "Unknown command")
 
     def _arguments(self, word: str, rest: str) -> list[str]:
+        """Set or list the figures behind a command; returns the lines of the answer."""
         form, at, answer = _ARGUMENT[word], 0, list[str]()
         if not rest.strip():
             raise CommandError("Axis expected")

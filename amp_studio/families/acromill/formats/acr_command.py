@@ -108,6 +108,7 @@ class Command:
 
     @cached_property
     def _pattern(self) -> re.Pattern[str]:
+        """The expression of a command as a person may type it: instances and figures are its groups."""
         # The longest first, or AXIS1 would be found in AXIS10.
         names = "|".join(re.escape(i) for i in sorted(self.instances, key=len, reverse=True))
         places = {"i": rf"\s*(?P<i>{names})\s*", "k": "(?P<k>[0-9]{1,9})", "n": "(?P<n>[0-9]{1,9})"}
@@ -146,6 +147,7 @@ def _usual_form(parameter: Parameter) -> tuple[str, ...]:
 
 
 def _commands(schema: Schema, machine: str, forms: Callable[[Parameter], tuple[str, ...]]) -> list[Command]:
+    """Return the commands that set parameters of a machine, each with its settings."""
     commands: dict[str, dict[tuple[Address, ...], CommandSetting]] = {}
     for parameter in schema.parameters.values():
         for template in forms(parameter):

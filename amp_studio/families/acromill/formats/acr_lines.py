@@ -142,6 +142,7 @@ def _known_at_begin(text: str, at: int, commands: list[Command]) -> tuple[list[C
 
 
 def _not_read(line: ScriptLine, at: int, known: list[Command]) -> FormatError:
+    """Return why what begins at a place of a line sets nothing."""
     rest = line.text[at:].strip()
     text = rest if len(rest) <= 40 else rest[:39] + "…"
     if not known or not known[0].word:

@@ -241,6 +241,7 @@ def _layout(line: ScriptLine) -> PassthroughLine:
 
 
 def _recognises(text: str) -> bool:
+    """Return whether a text has our heading or a command that sets a parameter."""
     if text.startswith(_HEAD):
         return True
     try:
@@ -258,6 +259,7 @@ def _recognises(text: str) -> bool:
 
 
 def _write(file: ParameterFile) -> str:
+    """Return a file as a script, in the lines that it was read from where there are any."""
     system = system_of(file)
     rows = {s.addresses[0]: row for s in _settings(file) if (row := _row(file, s, system))}
     units = [f"REM units {system}"] if file.schema.family.unit_parameter else []

@@ -22,6 +22,7 @@ def _recognises(text: str) -> bool:
 
 
 def _read(text: str, schema: Schema, _options: ReadOptions) -> TextRead:
+    """Return the tables of a text; raises FormatError for a word out of its order."""
     table = schema.parameters[_TABLE]
     offered = schema.on(schema.family.default_machine).instances(table)
     tables: dict[str, list[str]] = {}

@@ -73,6 +73,9 @@ class CardContent:
         return found
 
     def _read_line(self, line: str, number: int, by_name: dict[str, CommandSetting]) -> None:
+        """Keep what a line of the script sets; raises ImageError for one that sets nothing known, or sets it
+        again.
+        """
         # Cut before it is matched: a damaged line may be of any length.
         word = _BALLSCREW.fullmatch(line[: LONGEST + 1])
         name, figures = (f"BSC {word[1]}", (str(word[3]),)) if word else _figures_of(line, by_name)

@@ -47,6 +47,7 @@ def status_of(identity: ControlIdentity, unit: str, axes: list[CardAxis]) -> Con
 
 
 def _axis(figures: CardAxis, unit: str) -> AxisStatus:
+    """Return the reading of an axis in its unit, or in pulses; the compensation is a state."""
     # Without PPU the figures stay pulses.
     scale, compensation = figures.pulses or 1.0, figures.secondary - figures.primary
     states = () if abs(compensation) < 1.0 else (f"compensation {compensation:g} pulses",)

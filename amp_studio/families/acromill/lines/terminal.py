@@ -213,6 +213,7 @@ class Terminal:
     # -- the line ---------------------------------------------------------------------------------
 
     def _line(self) -> Link:
+        """Return the connection to the card, opened where there is none."""
         if self._link is None:
             try:
                 self._link = self._open_link(self.look)

@@ -77,6 +77,7 @@ class Firmware:
     # -- power ---------------------------------------------------------------------------------------
 
     def _boot(self) -> None:
+        """Start as after power: with what is stored, or with the defaults and error 7 where nothing is."""
         self._line, self._overflows, self._is_deaf, self._last_end = "", False, False, ""
         self._is_critical = False
         self._unit = 21
@@ -112,6 +113,7 @@ class Firmware:
         return found
 
     def _save(self) -> None:
+        """Store settings, offsets and startup lines, as a board does in its EEPROM."""
         content = json.dumps(
             {
                 "settings": self.settings.values(),
@@ -228,6 +230,7 @@ class Firmware:
         self._answer_line(line)
 
     def _answer_line(self, line: str) -> None:
+        """Answer a line with ok or error; some answers come later."""
         overflows, self._overflows = self._overflows, False
         try:
             if overflows:

@@ -44,6 +44,7 @@ class FirmwareReports:
         }
 
     def _identity(self) -> Iterator[str]:
+        """Yield the answer to $I."""
         if self.settings.is_classic:
             yield from (f"[VER:1.1h.20190830:{self.build}]", "[OPT:V,15,128]")
             return

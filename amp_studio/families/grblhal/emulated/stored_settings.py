@@ -87,6 +87,7 @@ class StoredSetting:
         return least, math.inf if self.most is None else self.most
 
     def _decimal(self, text: str) -> float:
+        """Return a number as the board stores it; raises RefusedError."""
         # The firmware keeps a float of 32 bits: what is shown is what is left of the figure.
         number = struct.unpack("<f", struct.pack("<f", float(text)))[0]
         if number == 0 and self.number in _ZERO_OR:

@@ -40,6 +40,7 @@ def _recognises(text: str) -> bool:
 
 
 def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
+    """Return what a listing contains, or a log with one, also of firmware that is older or another."""
     relative = _relative(text)
     log = read_log(text) if relative is None else _log_of(relative)
     chosen = _chosen(log, options.listing)
@@ -192,6 +193,7 @@ def _hint(log: Log, listing: LoggedListing) -> str:
 
 
 def _fit(schema: Schema, log: Log, listing: LoggedListing, machine: str) -> _Fit:
+    """Return how a listing fits the settings of a machine type: values, and what has no place in it."""
     known = addresses_by_number(schema.on(machine))
     texts = _texts(schema, listing, known)
     values, unreadable = _readable(schema, texts, machine)
@@ -359,6 +361,7 @@ def _are(numbers: list[int]) -> str:
 
 
 def _write(file: ParameterFile) -> str:
+    """Return a file as the listing that its control would print; raises FormatError."""
     try:
         settings = settings_of_file(file, padded=True, hidden=True)
     except StorageError as error:

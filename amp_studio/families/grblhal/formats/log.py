@@ -169,6 +169,7 @@ def is_listing(text: str) -> bool:
 
 
 def _has_settings(text: str, anywhere: bool) -> bool:
+    """Return whether a text is a listing: it has more settings than other lines, or many."""
     found = others = 0
     for n, _, line, pieces in _lines(text, anywhere):
         found += len(pieces)

@@ -268,6 +268,7 @@ class _OfAxes:
                 found.settings[_JOINED[name]] = text
 
     def _joined(self, name: str, entries: list[tuple[str, str, str]]) -> str | None:
+        """Return the one setting that entries of several axes make; None where they make none."""
         texts = {text.casefold() for _, _, text in entries}
         if name == _DIRECTION:
             return _directions(entries) if texts <= {"true", "false"} else None

@@ -158,6 +158,7 @@ class ConfigurationDriver(ConfigurationContent):
         return place if place.is_relative_to(folder) and place != self.path else None
 
     def _read(self, path: Path) -> bytes:
+        """Return the content of a file of the folder; raises NoConnectionError."""
         try:
             with path.open("rb") as stream:
                 content = stream.read(_MOST_BYTES + 1)

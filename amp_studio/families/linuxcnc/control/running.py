@@ -124,6 +124,8 @@ def status_from(file: ParameterFile, listed: dict[str, str], protocol: str) -> C
 
 
 def _joint(n: int, name: str, listed: dict[str, str], file: ParameterFile) -> AxisStatus:
+    """Return the reading of a joint from the pins that are listed."""
+
     def figure(pin: str) -> float:
         return _number(listed.get(f"joint.{n}.{pin}", ""))
 

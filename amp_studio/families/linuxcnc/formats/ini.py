@@ -63,6 +63,7 @@ def _recognises(text: str) -> bool:
 
 
 def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
+    """Return what an INI file and those that it includes contain."""
     text, encoding, newline = _plain(text)
 
     def beside(name: str) -> str | None:
@@ -187,6 +188,7 @@ def _placed(entry: IniEntry) -> str:
 
 
 def _unknown_name(entry: IniEntry, schema: Schema, machine: str, known: Mapping[str, Address]) -> str:
+    """Return an entry as it is named among the unknown ones, with the machine or key that may be meant."""
     others = [
         m.name
         for m in schema.family.machines
@@ -209,6 +211,7 @@ def _system(counting: Mapping[tuple[str, str], IniEntry], schema: Schema) -> str
 
 
 def _turns(schema: Schema, address: Address, counting: Mapping[tuple[str, str], IniEntry]) -> bool:
+    """Return whether a value is of an axis or joint that turns, by the file itself."""
     scope = (
         schema.on(schema.family.default_machine).scopes.get(address[0])
         or schema.parameters[address[0]].scopes[0]
@@ -312,6 +315,7 @@ class _Edited:
         return new
 
     def _value(self, row: _Row, address: Address, before: Value) -> None:
+        """Change, keep or take out the entry of a value."""
         value, unit = self.file.get(address), unit_in(self.file, address)
         self.written.add(address)
         if value is None:
@@ -367,6 +371,7 @@ def _new_text(file: ParameterFile) -> Iterator[str]:
 
 
 def _write(file: ParameterFile) -> str:
+    """Return the text of the INI file; raises FormatError for a change in one that it includes."""
     texts = texts_of(file)
     included = _included(file)
     if changed := [name for name, text in texts.items() if name and text != included[name]]:

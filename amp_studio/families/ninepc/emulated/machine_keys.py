@@ -106,6 +106,7 @@ class MachineKeys:
         return self._machine.fail(axis.strip(), kind)
 
     def _jog(self, words: list[str]) -> str:
+        """Jog an axis by its key, at a speed or by an increment; returns the answer of the screen."""
         match words:
             case [key]:
                 speed = increment = ""
@@ -120,6 +121,7 @@ class MachineKeys:
         return self._machine.jog(key[:-1], 1.0 if key[-1] == "+" else -1.0, speed, increment)
 
     def _mdi(self, block: str) -> str:
+        """Begin the move of a block; returns it, or why the control does not move."""
         match = _BLOCK.fullmatch(block.strip())
         if match is None:
             raise ValueError("of MDI blocks this control moves G0, G1, G28 and G30 with axes and F")

@@ -69,6 +69,7 @@ class OnlineAmp:
     # -- values ----------------------------------------------------------------------
 
     def _axis_param(self, control: Control, number: str, words: list[str]) -> str:
+        """Change a value on the screen of axis parameters; returns the line as it then is."""
         file = decode_image(control.image)
         address = file.find(number)
         parameter = file.schema.parameters[address[0]]
@@ -83,6 +84,7 @@ class OnlineAmp:
         return f"{number} {show_value(parameter, file.get(address))}"
 
     def _value(self, file: ParameterFile, address: Address, words: list[str]) -> Value:
+        """Return the value that an operator enters, or steps to."""
         try:
             match words:
                 case ["increase"]:
@@ -103,6 +105,7 @@ class OnlineAmp:
     # -- points ------------------------------------------------------------------------
 
     def _axis_calib(self, control: Control, axis: str, action: str, words: list[str]) -> str:
+        """Change the table of an axis; returns its number of points, after which the axis is not homed."""
         file = decode_image(control.image)
         instance = self._axis(file, axis)
         form = COMPENSATION.table

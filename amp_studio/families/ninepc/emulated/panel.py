@@ -135,6 +135,7 @@ class NinePcPanel:
         return self._edited
 
     def _search(self, number: str) -> str:
+        """Return number and value of a parameter as the patch screen lists it."""
         file = decode_image(self._screen())
         try:
             address = file.find(number)

@@ -56,6 +56,7 @@ def estop_reasons(file: ParameterFile, axes: int) -> Iterator[str]:
 
 
 def _monitor_codes(file: ParameterFile) -> Iterator[str]:
+    """Yield the errors of power-up in the outputs of the DAC monitor."""
     for instance, number in (("2", 86), ("3", 87)):
         code = _number(file, ("patch.dac_monitor", instance))
         # By the manual no value switches the monitor off; 0 is taken as off.
@@ -67,6 +68,7 @@ def _monitor_codes(file: ParameterFile) -> Iterator[str]:
 
 
 def _dual_groups(file: ParameterFile, here: list[str]) -> Iterator[str]:
+    """Yield the dual groups whose first axis has no name."""
     groups: dict[str, str] = {}
     for axis in here:
         group = _choice(file, ("dual.group", axis))

@@ -76,6 +76,7 @@ def read_calibration(text: str) -> CalibrationText:
 
 
 def _check(table: CalibrationText) -> None:
+    """Raise CalibrationTextError for a table that the screen of the control would refuse."""
     # The screen checks in the order of entry, which begins at the start of the table (36-7).
     entered = table.points if table.start == "-" else table.points[::-1]
     if len(entered) > MOST_POINTS:

@@ -120,6 +120,7 @@ class NumControl:
             self._later += data[: BUFFER - len(self._later)]
 
     def _read(self, byte: int) -> None:
+        """Take one byte of a table; a wrong one ends the reading."""
         if not self._fits:
             self._fail("a character without its stop bits, or of another rate")
             return
@@ -151,6 +152,7 @@ class NumControl:
         self._to_menu()
 
     def _whole_line(self) -> None:
+        """Read a line of the table, and stop the sender for a while after some of them."""
         line, self._line = bytes(self._line), bytearray()
         self._lines += 1
         try:
@@ -182,6 +184,7 @@ class NumControl:
             self._say(f"dialogue line: {text[:9]}")
 
     def _data(self, text: str) -> None:
+        """Load or verify the words below a header; raises TableError."""
         header, self._header = self._header, None
         if header is None:
             raise TableError("a data line without a header")
@@ -270,6 +273,7 @@ class NumControl:
         return f"dialogue line: {READY}"
 
     def _enter(self) -> str:
+        """Begin the job that the menu has chosen; returns what the screen shows."""
         if self._doing != "ready":
             raise ValueError("there is nothing to enter")
         if self._job == "unload":
@@ -298,6 +302,7 @@ class NumControl:
         return "(reading)"
 
     def _patch(self, parameter: int, word: int, text: str) -> str:
+        """Set one word as an operator does in the menu; returns it as the control then has it."""
         if self._doing != "menu":
             raise ValueError(f"the control is not in the {MENU} menu (exit)")
         words = self._parameters.words.get(parameter, [])

@@ -105,6 +105,7 @@ class ParameterMemory:
         self._replay(memory.read(TAKEN) or b"")
 
     def _take_all(self, table: bytes) -> None:
+        """Take the words of a stored table; raises ValueError for one that this program has not written."""
         try:
             lines = [content_of(line) for line in table.rstrip(b"\x13").splitlines()]
             self.job_reference = lines[0][1:9]

@@ -199,6 +199,7 @@ def runs(words: Iterable[Word], typed: bool) -> Iterator[Placed]:
 
 
 def _data(block: Placed, texts: WordTexts, forms: Mapping[int, Spelling]) -> str:
+    """Return the data line of a block, as it was spelled where it means the same."""
     spelled = [texts[word] for word in block.words]
     form = forms.get(block.first[0])
     if block.data is not None and form is not None:

@@ -62,6 +62,7 @@ def _content(text: str, n: int) -> str:
 
 
 def _unmeasured(text: str, n: int) -> FormatError:
+    """Return what is wrong with a line that does not end with its length."""
     if not text.strip():
         return FormatError("an empty line", n, 1)
     if text.endswith("\r") or "\n" in text:

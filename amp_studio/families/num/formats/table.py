@@ -190,6 +190,9 @@ class _Reader:
         yield from self._missing_words(here)
 
     def _missing_words(self, here: Mapping[int, set[int]]) -> Iterator[str]:
+        """Yield which words of known parameters a table lacks, and which parameters have other numbers of
+        them.
+        """
         left, other = [], []
         for parameter, words in sorted(here.items()):
             known = self.known.counts.get(parameter)
@@ -216,6 +219,7 @@ def _runs_of(letters: str, numbers: list[int]) -> str:
 
 
 def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
+    """Return what a parameter table contains, with what is needed to write it as it was."""
     lines, layout = split_table(text)
     reader = _Reader(schema, options.keep_unknown)
     known, blocks = reader.known, list(blocks_of(lines))
@@ -260,6 +264,7 @@ def _kept(unknown: dict[str, str]) -> Iterator[tuple[Word, tuple[int, int] | Non
 
 
 def _write(file: ParameterFile) -> str:
+    """Return a file as a parameter table; raises FormatError for a word that it cannot contain."""
     known = words_of(file.schema, file.machine)
     layout = TableLayout.from_header(file.header.extra.get(KEY))
     heads = _heads(known, layout, file.unknown)

@@ -46,6 +46,7 @@ class TableReader:
                 self._read_byte(byte)
 
     def _begin(self, byte: int) -> None:
+        """Wait for the % that begins a table; its top bit shows the parity."""
         if byte & 0x7F == _START:
             self.table.append(_START)
             self.parity = "even" if byte & 0x80 else "none"
@@ -56,6 +57,7 @@ class TableReader:
             raise ImageDamagedError("what comes is not a parameter table: it does not begin with %")
 
     def _read_byte(self, byte: int) -> None:
+        """Keep a byte of the table; raises ImageDamagedError."""
         if byte & 0x80 and self.parity == "none" and len(self.table) < 13:
             # The job reference has eight digits: one of 0, 3, 5, 6 or 9, or the ";" with its length, shows
             # odd parity.

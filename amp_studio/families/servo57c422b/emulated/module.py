@@ -172,6 +172,7 @@ class Module:
             self._run(axis)
 
     def _run(self, axis: int) -> None:
+        """Run an axis in its direction at the velocity of the registers."""
         motion = self._motion[axis]
         if not self.words[axis + STATUS] & ENABLED or not motion.bind(self.words):
             return
@@ -187,6 +188,7 @@ class Module:
         self._motion[axis].bind(self.words)
 
     def _obey(self, axis: int) -> None:
+        """Obey the command words of an axis by their handshake: a command, its acknowledge, 0."""
         first, second = self.words[axis + COMMAND], self.words[axis + COMMAND_2]
         if (
             first == second == 0
@@ -219,6 +221,7 @@ class Module:
         return all(rates) and bool(self.words[axis + STATUS] & ENABLED)
 
     def _actions(self) -> dict[int, Callable[[int], None]]:
+        """Bit of the first command word -> what it does with an axis."""
         return {
             MOVE: self._move,
             DEFINE: self._define,
@@ -230,6 +233,7 @@ class Module:
         }
 
     def _move(self, axis: int) -> None:
+        """Move an axis to the position of the registers, or by it."""
         motion, target = self._motion[axis], float(double(self.words, axis + POSITION))
         motion.bind(self.words)
         if self.words[axis + MODE] & INCREMENTAL:

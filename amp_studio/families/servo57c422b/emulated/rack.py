@@ -60,12 +60,11 @@ class Rack:
         match = _REQUEST.fullmatch(line)
         if match is None or int(match[7], 16) != binascii.crc_hqx(line[:-5], 0xFFFF):
             return
-        answer = self._answer(match)
-        if answer is not None:
-            body = match[1] + b" " + answer.encode("ascii")
-            self._out += body + b"*%04X\r\n" % binascii.crc_hqx(body, 0xFFFF)
+        body = match[1] + b" " + self._answer(match).encode("ascii")
+        self._out += body + b"*%04X\r\n" % binascii.crc_hqx(body, 0xFFFF)
 
-    def _answer(self, found: re.Match[bytes]) -> str | None:
+    def _answer(self, found: re.Match[bytes]) -> str:
+        """Return the answer to a request: its name, registers, or a register as it was written."""
         if found[2] == b"ID":
             return f"ID {NAME}"
         if found[3] is not None:

@@ -82,6 +82,7 @@ def _is_table(text: str) -> bool:
 
 
 def _write_table(file: ParameterFile) -> str:
+    """Return a file as a table of registers."""
     registers = registers_of(file.schema, file.machine)
     rows: dict[int, str] = {}
     for key, text in file.unknown.items():
@@ -104,6 +105,7 @@ def _write_table(file: ParameterFile) -> str:
 
 
 def _read_table(text: str, schema: Schema, options: ReadOptions) -> TextRead:
+    """Return what a table of registers contains."""
     machine = schema.family.default_machine
     meaning = RegisterValues(registers_of(schema, machine), options.keep_unknown)
     for n, line in enumerate(_lines(text), 1):
@@ -189,6 +191,7 @@ def _is_task(text: str) -> bool:
 
 
 def _write_task(file: ParameterFile) -> str:
+    """Return a file as assignments of a BASIC task, in the lines that it was read from if there are any."""
     registers, variables = registers_of(file.schema, file.machine), Variables(file.schema)
     # A variable is one register or two: longer values have none.
     settings = [one for one in contents_of(file, registers) if len(one.words) <= 2]
@@ -271,6 +274,7 @@ def _marked_registers(statement: BasicStatement) -> tuple[int, ...]:
 
 
 def _read_task(text: str, schema: Schema, options: ReadOptions) -> TextRead:
+    """Return what the assignments of a BASIC task set."""
     variables, machine = Variables(schema), schema.family.default_machine
     lines = list(read_lines("\n".join(_lines(text))))
     settings = _settings(lines, variables, keep_unknown=options.keep_unknown)

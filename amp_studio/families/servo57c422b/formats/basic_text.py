@@ -124,6 +124,7 @@ def _ends_in_remark(line: str) -> bool:
 
 
 def _line(text: str, number: int) -> BasicLine:
+    """Return a line of a task with its statements, each with its place."""
     head = re.match(r"\s*[0-9]{1,9}(?![0-9])[ \t]*", text)
     if head is None:
         raise FormatError("a line of a task begins with its number", number, 1)

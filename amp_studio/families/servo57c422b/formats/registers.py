@@ -193,6 +193,7 @@ class RegisterValues:
             self._decide(register, existing, f"means nothing here: {'; '.join(w for w in why if w)}")
 
     def _decide(self, register: int, claims: list[Address], text: str) -> None:
+        """Give a register to the one value that claims it; raises FormatError where several do."""
         if register in self._done:
             return
         cell = self._cells[register]
@@ -221,6 +222,7 @@ class RegisterValues:
         self._done.update(mine)
 
     def _value(self, address: Address, cells: list[_RegisterContent]) -> Value:
+        """Return the value that the words of some registers mean; raises FormatError."""
         parameter, unit = self.registers.parameter(address), self.registers.unit(address)
         source = cells[0].source
         is_whole = source.words == len(cells) and all(cell.source is source for cell in cells)

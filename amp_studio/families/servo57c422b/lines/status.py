@@ -89,6 +89,7 @@ def status_of(identity: ControlIdentity, axes: Sequence[AxisRegisters]) -> Contr
 
 
 def _axis(registers: AxisRegisters) -> AxisStatus:
+    """Return the reading of an axis in counts and counts/s, with its raw words."""
     status, scans = registers.word(STATUS), max(registers.word(PERIOD), 1)
     return AxisStatus(
         registers.axis,
