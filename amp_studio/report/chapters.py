@@ -4,8 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from amp_studio.schema import unit_text
+
 from .language import Language
 from .wording import NO_BREAK
+
+ASSUMED = "assumed: "
+"""Before the reason of an assumption in the record of tunings."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,15 +92,22 @@ class TuningLine:
         def figure(value: float | None, unit: str) -> str:
             if value is None:
                 return words.text("unstable")
-            return f"{words.number(f'{value:.4g}')} {words.unit(unit)}".rstrip()
+            return words.quantity(f"{value:.4g} {unit_text(unit)}".rstrip())
+
+        def known(name: str, value: str, how: str) -> str:
+            if not how.startswith(ASSUMED):
+                return words.sentence(how)
+            # The whole sentence of the simulator has words in another language, its reason alone has none.
+            whole = words.sentence(f"ASSUMED: {name} = {value}. {how.removeprefix(ASSUMED)}")
+            return words.text("assumed") + ": " + whole.partition(". ")[2]
 
         kept = words.text("in the file"), words.text("another in the file")
         return (
             *(
                 (
                     f"{each.number} {words.sentence(each.name)}".strip(),
-                    each.before,
-                    each.after,
+                    words.quantity(each.before),
+                    words.quantity(each.after),
                     kept[not each.is_in_file],
                 )
                 for each in self.gains
@@ -109,7 +121,7 @@ class TuningLine:
                 )
                 for n in self.figures
             ),
-            *((name, "", value, words.sentence(how)) for name, value, how in self.plant),
+            *((name, "", words.quantity(value), known(name, value, how)) for name, value, how in self.plant),
         )
 
     def head(self, words: Language) -> str:

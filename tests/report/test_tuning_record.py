@@ -1,7 +1,9 @@
 """The tuning record: kept beside the file, only ever added to, and a chapter of the report in each format."""
 
 import json
+import re
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 from shutil import copy, which
 
@@ -102,3 +104,16 @@ def test_keep_belongs_to_tune_and_no_output_replaces_the_record(
     with pytest.raises(SaveError):
         check_output(record, tuned)
     assert record.read_text("utf-8") == before
+
+
+@pytest.mark.skipif(which("pdftotext") is None, reason="poppler is not installed")
+def test_a_german_chapter_is_german_and_a_note_ends_before_the_next_tuning(tuned: Path) -> None:
+    """The note ran into ``== Achse Y``; reasons, units and decimal signs of the record were English."""
+    add_tuning(tuned, replace(read_tunings(tuned)[0], axis="Y", note="kalt"))
+    made = written(tuned, "pdf", language="de")
+    printed = subprocess.run(["pdftotext", "-layout", made, "-"], capture_output=True, text=True, check=True)
+    chapter = printed.stdout[printed.stdout.rindex("Einstellprotokoll") :]
+    assert "==" not in chapter
+    assert [line.strip() for line in chapter.splitlines() if "warm machine" in line] == ["warm machine"]
+    assert "angenommen: " in chapter
+    assert not re.search(r"assumed|[0-9] deg\b|(?<![0-9A-Z-])[0-9]+\.[0-9]+ (?:V|ms|%|counts)", chapter)

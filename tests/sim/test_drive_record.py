@@ -44,6 +44,27 @@ def test_a_record_is_read_as_drives_and_spreadsheets_write_it(head: str, row: st
     assert (found.torque.tolist(), found.torque_unit) == ([12.5], "%")
 
 
+@pytest.mark.parametrize(
+    ("head", "row"),
+    [
+        ("time (s),speed (rpm),torque (%)", "0.5,-60,12.5"),
+        ("Zeit (s);Drehzahl (U/min);Drehmoment (%)", "0,5;-60;12,5"),
+        ("Zeit (s);Motordrehzahl (1/min);Drehmoment (%)", "0,5;-60;12,5"),
+        ("t (s);n Ist (min-1);Moment (%)", "0,5;-60;12,5"),
+        ("time (s),speed (rad/s),torque (%)", "0.5,-6.283185307179586,12.5"),
+        ("time (s),speed (deg/s),torque (%)", "0.5,-360,12.5"),
+        ("time (s),position (deg),torque (%)", "0.5,-360,12.5"),
+    ],
+)
+def test_a_turn_of_the_motor_gives_the_way_of_a_linear_axis(head: str, row: str) -> None:
+    found = read(head, row)
+    moved = found.position if found.velocity is None else found.velocity
+    assert moved is not None
+    assert speed_factor(found, "mm", "10 mm") * moved == pytest.approx([-10.0])
+    with pytest.raises(SimulationError, match="give the travel for a turn of the motor"):
+        speed_factor(found, "mm")
+
+
 def test_units_may_have_a_line_of_their_own_and_settings_may_stand_above() -> None:
     found = drive_record_of(
         "Drive 4711;;\n# 12 March\nsep=;\nTime;Position;Current\ns;um;mA\n0,001;2000;1500\n"

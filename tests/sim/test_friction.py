@@ -215,7 +215,7 @@ def test_constant_speeds_without_ramps_are_refused(clean: dict[str, Series]) -> 
 @pytest.mark.parametrize("rows", [0, 1, 2, 99])
 def test_too_few_rows_are_refused(clean: dict[str, Series], rows: int) -> None:
     given = {name: clean[name][:rows] for name in ("time", "torque", "velocity")}
-    assert refused(**given) == f"The record has {rows} rows; at least 100 are needed"
+    assert refused(**given) == f"The record has too few rows: {rows} of at least 100"
 
 
 def test_a_standing_axis_is_refused() -> None:

@@ -30,7 +30,7 @@ WAYS = ((STANDSTILL, SLOWEST), (0.08, 0.01), (0.2, 0.03))
 """Shares of the top speed below which rows are left out, of the fit and of the search for static friction."""
 OTHER = 3.0
 """Standard errors from which a figure is another one."""
-ERROR = "_standard_error"
+ERROR, SHIFT = "_standard_error", "time_shift"
 
 
 @dataclass(frozen=True)
@@ -56,13 +56,18 @@ class MeasuredTorque:
     factor: float
     bound: AxisLaw
 
-    def analysis(self, slowest: float = STANDSTILL, slowest_static: float = SLOWEST) -> Analysis:
-        """Return what is found without the rows below a share of the top speed."""
+    def analysis(
+        self, slowest: float = STANDSTILL, slowest_static: float = SLOWEST, by: float | None = None
+    ) -> Analysis:
+        """Return what is found without the rows below a share of the top speed; ``by`` shifts the torque by
+        so many s, in place of the shift that is found.
+        """
         torque, time = self.torque, self.record.time
         fit = self._fit(torque, slowest)
         shift = time_shift(fit)
-        if is_shifted(fit, shift):
-            torque = np.interp(time - shift.value, time, torque)
+        by = by if by is not None else shift.value if is_shifted(fit, shift) else 0.0
+        if by:
+            torque = np.interp(time - by, time, torque)
             fit = self._fit(torque, slowest)
         # c+ is friction and weight, c- the weight less the friction.
         coulomb = 0.5 * float(fit.coefficients[2] - fit.coefficients[3])
@@ -124,7 +129,19 @@ def settled_analysis(
     found = _with_change(figures, figures, others)
     with suppress(SimulationError):
         found = _with_change(found, figures, figures_of(measured.every_second_row().analysis(*way)))
+    with suppress(SimulationError):
+        others = figures_of(measured.analysis(*way, by=_farther(now)))
+        found = _with_change(found, figures, {name: others[name] for name in others if name != SHIFT})
     return now, found
+
+
+def _farther(now: Analysis) -> float:
+    """Return another shift that the record allows as well. Of a sine a shift looks like viscous friction, as
+    its jerk is its speed turned round.
+    """
+    taken, error = now.shift.value if now.is_shifted else 0.0, now.shift.error
+    left = math.hypot(error, now.shift.value - taken)
+    return taken + math.copysign(min(left, now.fit.period), now.shift.value)
 
 
 def _changes(figures: Mapping[str, Figure], others: Mapping[str, Figure]) -> dict[str, float]:

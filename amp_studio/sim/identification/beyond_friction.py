@@ -30,6 +30,8 @@ LEAST_SHIFT = 0.2
 """Of a row's period: a shorter shift changes nothing."""
 SLOWEST, STRIBECK = 0.003, np.geomspace(0.004, 0.2, 30)
 """Shares of the top speed: below it an axis is at rest; Stribeck speeds that are tried."""
+SEEN = 1.2
+"""Times the speed of the slowest row, the Stribeck speed at least: half of its curve is seen."""
 LEAST_GAIN = 0.02
 """Share by which the squares have to become fewer for a static friction."""
 LEAST_STATIC = 0.05
@@ -119,11 +121,13 @@ def static_friction(fit: FrictionFit, coulomb: float, slowest: float = SLOWEST) 
     """Return the static friction by R. Stribeck's curve, coulomb + (static - coulomb) exp(-(v/v_s)²);
     None where the record shows none.
 
-    Rows of low speed that the fit left out are used, where the axis keeps its direction.
+    Rows of low speed that the fit left out are used, where the axis comes to rest: where it begins, friction
+    yields before it slides, and has not all of it yet (P. Dahl, A Solid Friction Model, 1968).
     """
-    top = float(np.abs(fit.velocity).max())
-    moves = np.abs(fit.velocity) > slowest * top
-    acceleration, speed = np.gradient(fit.velocity, fit.period)[moves], fit.velocity[moves]
+    top, speeding = float(np.abs(fit.velocity).max()), np.gradient(fit.velocity, fit.period)
+    slides = (fit.velocity * speeding < 0.0) | (np.abs(fit.velocity) > STRIBECK[-1] * top)
+    moves = slides & (np.abs(fit.velocity) > slowest * top)
+    acceleration, speed = speeding[moves], fit.velocity[moves]
     # Friction that rises with the square of the speed has its own column: a wide curve of R. Stribeck's,
     # beside less Coulomb friction, would look like it.
     table = np.column_stack([acceleration, speed, speed > 0.0, speed < 0.0, speed * np.abs(speed)])
@@ -138,15 +142,26 @@ def static_friction(fit: FrictionFit, coulomb: float, slowest: float = SLOWEST) 
         return plain - size * own, size
 
     # A Stribeck speed with hardly a row on its curve would fit the noise.
-    tried = [top * share for share in STRIBECK if (_stribeck(np.abs(speed), share * top) > 0.3).sum() >= 8]
+    # One of which the rows have the foot alone would be drawn out to any height at rest.
+    tried = [
+        top * share
+        for share in STRIBECK
+        if (_stribeck(np.abs(speed), share * top) > 0.3).sum() >= 8 and share > SEEN * slowest
+    ]
     if not tried:
         return None
     best = min(tried, key=lambda over: float(left(over)[0] @ left(over)[0]))
-    # By its logarithm, so that the speed stays above 0.
-    refined = least_squares(lambda there: left(math.exp(there[0]))[0], np.array([math.log(best)]))
-    over = math.exp(float(refined.parameters[0]))
+
+    # By its logarithm, so that the speed stays above 0; where no row has the curve, any other is as good.
+    def speed_of(there: Series) -> float:
+        return max(math.exp(float(there[0])), 0.3 * slowest * top)
+
+    refined = least_squares(lambda there: left(speed_of(there))[0], np.array([math.log(best)]))
+    over = speed_of(refined.parameters)
     rest, more = left(over)
-    if float(rest @ rest) > (1.0 - LEAST_GAIN) * float(plain @ plain) or over > 1.5 * STRIBECK[-1] * top:
+    if float(rest @ rest) > (1.0 - LEAST_GAIN) * float(plain @ plain):
+        return None
+    if not SEEN * slowest * top < over < 1.5 * STRIBECK[-1] * top:
         return None
     # The curve's own slope by its speed is a column too: how much friction there is more and over which speed
     # it falls are found together.

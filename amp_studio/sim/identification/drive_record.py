@@ -61,10 +61,11 @@ is."""
 _KINDS: dict[str, tuple[str, ...]] = {
     "time": ("time|t|zeit",),
     "velocity": (
-        "velocity|speed|vel|v|geschwindigkeit",
+        "velocity|speed|vel|v|geschwindigkeit|drehzahl",
         (
             "((actual|measured|feedback|axis|load) (velocity|speed)|velocity"
-            " (actual|feedback)|istgeschwindigkeit|v ?ist)"
+            " (actual|feedback)|istgeschwindigkeit|v ?ist"
+            "|(motor|ist)drehzahl|n ?ist)"
         ),
     ),
     "position": (
@@ -424,12 +425,15 @@ def speed_factor(record: DriveRecord, unit: str, turn: str | None = None) -> flo
     Raises SimulationError where an axis in that unit does not move so.
     """
     own = record.motion_unit
-    if own == "rpm":
+    # Of a linear axis an angle is that of its motor.
+    if own == "rpm" or (unit == "mm" and dimension(own) in ("angle", "angular velocity")):
         if turn is None:
             raise SimulationError(
-                "The record is in rpm: give the travel for a turn of the motor, as --turn '10 mm'"
+                f"The record is in {own}: give the travel for a turn of the motor, as --turn '10 mm'"
             )
-        return travel_per_turn(turn, unit) / 60.0
+        way = travel_per_turn(turn, unit)
+        turns = 1.0 if own == "rpm" else canonical(1.0, own) / 360.0
+        return way * turns / (60.0 if record.velocity is not None else 1.0)
     wanted = {
         "mm": ("length", "velocity"),
         "deg": ("angle", "angular velocity"),

@@ -85,7 +85,7 @@ def fit_friction(
     moved = velocity if velocity is not None else position
     assert moved is not None
     if len(time) < LEAST_ROWS:
-        raise SimulationError(f"The record has {len(time)} rows; at least {LEAST_ROWS} are needed")
+        raise SimulationError(f"The record has too few rows: {len(time)} of at least {LEAST_ROWS}")
     time, (moved, torque) = even_record(time, moved, torque)
     _refuse_limit(torque, moved if velocity is not None else np.gradient(moved))
     period = float(time[1] - time[0])

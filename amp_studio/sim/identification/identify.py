@@ -33,6 +33,11 @@ _LOST = (
     "The backlash is by how much the load lags behind its motor in one direction more than in the other: what"
     " the drive train yields to the friction of the load is in it."
 )
+SLOW_ROWS = 0.05
+"""s from one row to the next, from which ramps are hardly in a record."""
+_SLOW = (
+    "The record has a row each {}: is its time in ms? Inertia and friction need some hundred rows a second"
+)
 _CLOSED = (
     "The backlash cannot be seen: the weight is more than half of the dry friction, and may keep the gap"
     " closed on the same side in both directions"
@@ -79,6 +84,7 @@ def identify(
     result |= lost
     notes += [_LOST] if lost else []
     doubts = [*_doubts(result), *residual_doubts(fit, torque_unit(bound))]
+    doubts += [_SLOW.format(value_text(fit.period, "s", 3))] if fit.period > SLOW_ROWS else []
     doubts += [_CLOSED] if record.sides is not None and is_closed_by_weight(fit) else []
     return in_unit(
         Trace(

@@ -230,7 +230,9 @@ def response_of_record(period: float, torque: Series, motion: Series, difference
     Raises SimulationError for a record that is too short or not coherent.
     """
     if len(torque) < LEAST_ROWS:
-        raise SimulationError(f"The record has {len(torque)} rows; a response needs at least {LEAST_ROWS}")
+        raise SimulationError(
+            f"The record has too few rows for a response: {len(torque)} of at least {LEAST_ROWS}"
+        )
     moved, driven = np.diff(motion, differences), torque[: len(torque) - differences]
     given, answered = (np.fft.rfft(each - each.mean()) for each in (driven, moved))
     frequency = np.asarray(np.fft.rfftfreq(len(driven), period), dtype=np.float64)
