@@ -10,6 +10,8 @@ from .ticks import decades, figure_text, ticks
 
 LEFT, RIGHT, TOP, BOTTOM = 64.0, 20.0, 28.0, 34.0
 """Room for figures and texts around a drawing, in points."""
+BARE = 12.0
+"""Room above and below a diagram, whose axes are not written."""
 
 
 @dataclass(frozen=True)
@@ -27,10 +29,12 @@ class Placement:
         """Return the largest place in a sheet; with one scale for both axes in the middle of it."""
         # Rows have their units at the right end, outside the frame.
         right = RIGHT + (44.0 if any(row[2] for row in scene.y.rows) else 0.0)
-        inner = max(width - LEFT - right, 10.0), max(height - TOP - BOTTOM, 10.0)
+        # Beside axes that are not written nothing is: a diagram has the room for its own texts.
+        top, bottom = (TOP, BOTTOM) if scene.x.is_written or scene.y.is_written else (BARE, BARE)
+        inner = max(width - LEFT - right, 10.0), max(height - top - bottom, 10.0)
         if not scene.equal:
-            return cls(scene, LEFT, TOP, *inner)
-        return cls.equal_in(scene, LEFT, TOP, *inner)
+            return cls(scene, LEFT, top, *inner)
+        return cls.equal_in(scene, LEFT, top, *inner)
 
     @classmethod
     def equal_in(cls, scene: Scene, left: float, top: float, width: float, height: float) -> Placement:

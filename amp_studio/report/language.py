@@ -28,7 +28,7 @@ _NUMBER = re.compile(r"(?<![\w.$@])[-−]?\d+\.\d+(?:e[-+]\d+)?(?!\w|\.\d)")
 _SIGN = re.compile(r"(?<![\w.$@)\]-])-(?=\d)")
 """The hyphen that is the sign of a number; none of a page (``7-20``), an address or a word."""
 _REMARK = re.compile(
-    r"(?<=\()(?:inferred|figure lost|codes lost)(?=\))|(?<=: )codes lost$|^Unnamed \(figure .+\)$"
+    r"(?<=\()(?:inferred|codes lost|figure (?:lost|\d\S*))(?=\))|(?<=: )codes lost$|^Unnamed \(figure .+\)$"
 )
 """What the facts remark on a label that a manual does not print, or whose figure is lost."""
 

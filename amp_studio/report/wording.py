@@ -37,11 +37,11 @@ def delivered_text(findings: Sequence[Finding], steps: Sequence[int]) -> str:
 
 
 def joined_places(places: Iterable[str]) -> str:
-    """Return ``Axis 1 X, 2 Y``: a common first word is not repeated."""
+    """Return ``Axis 1 X, 2 Y``: a common first word is not repeated. The letter that two axes share is."""
     texts, word = [], ""
     for place in places:
         first, _, rest = place.partition(" ")
-        texts.append(rest if rest and first == word else place)
+        texts.append(rest if rest and first == word and not rest.startswith("(") else place)
         word = first
     return ", ".join(texts)
 

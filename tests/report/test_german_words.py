@@ -86,6 +86,13 @@ def test_a_report_with_all_chapters_has_no_english_word(name: str) -> None:
     assert english_words(german, english, words_of_the_control(file)) == []
 
 
+def test_axes_of_one_letter_and_figures_of_a_manual_are_german() -> None:
+    words = language_of("de", "57c422b")
+    assert words.text("X, S (axis 7), S (axis 8)") == "X, S (Achse 7), S (Achse 8)"
+    assert words.title("Ramps S (axis 12)") == "Rampen S (Achse 12)"
+    assert words.label("Gearing Mode (figure 4.28)") == "Gearing Mode (Bild 4.28)"
+
+
 def paper_texts(paper: Paper) -> str:
     return "\n".join(
         paper.cell(table, row, column)

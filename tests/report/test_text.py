@@ -169,6 +169,19 @@ def test_places_to_break_add_nothing_else(text: str) -> None:
     assert read == plain
 
 
+@pytest.mark.parametrize(
+    ("text", "lines"),
+    [
+        ("[TRAJ]MAX_LINEAR_ACCELERATION", ["[", "TRAJ]", "MAX_", "LINEAR_", "ACCELERATION"]),
+        ("0123456789abcdef01", ["01234567", "89abcdef", "01"]),
+        ("-123456.78901234567", ["-123456.", "78901234", "567"]),
+        ("zu wenig Reserve: Ms 2,37, Amplitudenreserve, 3 dB", None),
+    ],
+)
+def test_a_word_is_broken_where_a_reader_would_part_it(text: str, lines: list[str] | None) -> None:
+    assert typst_literal(text) == f'"{(chr(0x200B).join(lines) if lines else text)}"'
+
+
 def test_every_text_of_a_report_reaches_typst_as_a_literal(mill: ParameterFile) -> None:
     mill.header.name = 'Mill #evil() "quoted" \\'
     source = typst_source(build_report(mill))

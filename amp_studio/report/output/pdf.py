@@ -29,7 +29,11 @@ from .typesetter import compiled, set_pdf
 _BREAK = "\u200b"
 """Zero-width space: a possible line break."""
 _LONG_RUN = re.compile(r"[^\s\u200b]{17,}")
-_JOINT = re.compile(r"\\.|[^\w-]|_|[^\W_]{8}")
+_JOINT = re.compile(r"(?<![^\W_])[^\W\d_]{1,12}(?![^\W_])|(\\.|[^\w-]|_|[^\W_]{8})")
+"""What a break may follow, as a group: a sign, an underscore, eight signs of a figure or a long word."""
+_SENTENCE, _LONGEST_WORD = 4, 30
+"""Blanks that make a text a sentence, whose column is wide, and letters of its words that stay whole there
+(Amplitudenreserve)."""
 _FOREIGN = r"[\u0700-\u1cff\u2e80-\ua63f\ua960-\ud7ff\uf900-\ufaff\uff00-\uffef\U00010000-\U0010ffff]"
 """Scripts missing in Typst's fonts (Chinese, Japanese, Korean, Thai, …); they contain Latin,
 Greek and Cyrillic."""
@@ -82,7 +86,14 @@ def typst_literal(value: object) -> str:
 
 def _breakable(text: str) -> str:
     """Return a text with break places in long words, so that it stays in its column."""
-    return _LONG_RUN.sub(lambda run: _JOINT.sub(rf"\g<0>{_BREAK}", run.group()), text)
+    is_sentence = text.count(" ") >= _SENTENCE
+
+    def broken(run: re.Match[str]) -> str:
+        if is_sentence and len(run[0]) <= _LONGEST_WORD and run[0].strip(".,;:()").isalpha():
+            return run[0]
+        return _JOINT.sub(lambda at: at[0] + (_BREAK if at[1] else ""), run[0])
+
+    return _LONG_RUN.sub(broken, text)
 
 
 @dataclass(frozen=True, slots=True)
