@@ -27,6 +27,9 @@ from amp_studio.report.papers.sheet import PrintedSheet, text_lines
 from amp_studio.scenarios import IDENTIFY, scenario_names
 from amp_studio.schema import fact_texts
 from amp_studio.sheet import make_sheet
+from amp_studio.sim import law_of
+from amp_studio.sim.law import simulated_families
+from amp_studio.sim.scenarios import SCENARIOS
 from amp_studio.validate import Validator
 from tests.campaigns import some
 from tests.report.test_german import EXAMPLES
@@ -241,6 +244,14 @@ def test_a_sheet_keeps_the_name_of_a_parameter_that_is_a_word_of_the_program_too
     lines = [*text_lines(PrintedSheet(sheet, language="de", date=DATE))]
     assert any("Axes (" in line for line in lines), "[TRAJ]COORDINATES"
     assert not any("Achsen (" in line for line in lines)
+
+
+@pytest.mark.parametrize("family", simulated_families())
+def test_a_scenario_and_its_settings_have_german(family: str) -> None:
+    german, law = language_of("de", family), law_of(family)
+    scenarios = [*(SCENARIOS[name] for name in law.motion.scenarios), *law.own().values()]
+    english = [text for each in scenarios for text in (each.title, *each.settings.values())]
+    assert [text for text in english if german.sentence(text) == text] == []
 
 
 @pytest.mark.parametrize("name", [*scenario_names(), IDENTIFY])
