@@ -77,6 +77,8 @@ def read_assignments(
             if message:
                 notify(message)
     if slips:
+        # Only beside slips: without any, the file itself refuses what is out of range, unless it is
+        # forced.
         faults = ((a, fault(trial.evaluation, a, v)) for a, v in values.items() if v is not None)
         slips += [f"{trial.machine_schema.short(a)}: {bad}" for a, bad in faults if bad]
         raise AssignmentError("; ".join(slips))
@@ -96,6 +98,7 @@ def _assign(trial: ParameterFile, values: dict[Address, Value | None], param: st
         values[address] = trial.get(address)
         return ""
     value = _read_assigned(trial, param, address, resolved.bit, text)
+    # Several fields of one word are no contradiction.
     if resolved.bit is None and values.get(address, value) != value:
         raise ValueError("it is given two values")
     values[address] = value
@@ -156,6 +159,7 @@ def typed(value: NewValue | ParameterEntry) -> str | Value:
 
 
 def _plain(value: float | bool | str) -> str:
+    """Return a value as a user types it: yes or no, a text, or a number."""
     from amp_studio.schema import write_number
 
     if isinstance(value, bool):

@@ -82,8 +82,10 @@ def _here(make: Callable[[], Iterable[_T]]) -> Iterator[_T]:
 
 
 def _of_copy(make: Callable[[], Iterable[_T]], copy: int, answer: int) -> Iterator[_T]:
+    """Yield what a copy has made, read from its pipe; made here where the copy ended in an error."""
     import pickle
 
+    # Before it is waited for: a copy with more than fits into the pipe ends only when it is read.
     with open(answer, "rb") as file:
         content = file.read()
     _, status = os.waitpid(copy, 0)
@@ -99,6 +101,7 @@ def _answer(make: Callable[[], Iterable[_T]], out: int) -> NoReturn:
         import pickle
         import signal
 
+        # Ctrl-C comes to both: the copy ends in silence, and the program itself gives the message.
         signal.signal(signal.SIGINT, signal.SIG_DFL)
         nothing = os.open(os.devnull, os.O_RDWR)
         for stream in range(3):  # a reader of the results shall not wait for the copy
@@ -117,6 +120,7 @@ def child_command(module: str, function: str) -> list[str]:
 
     The process finds the program where this one did, and nothing else that lies in its folder (``-P``).
     """
+    # The folder is an argument, as in the text of the script it would have to be quoted.
     call = f"from {module} import {function}; {function}(sys.stdin.buffer, sys.stdout.buffer)"
     script = f"import sys; sys.path.insert(0, sys.argv.pop()); {call}"
     return [sys.executable, "-P", "-c", script, str(Path(__file__).parents[1])]

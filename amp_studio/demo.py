@@ -99,6 +99,7 @@ def _percent(stage: str, done: int, total: int) -> None:
 
 
 def _start_control(state: Path, family: str, machine: str) -> subprocess.Popen[str]:
+    """Return the process of an emulated control, at a port that the system chooses."""
     command = [
         sys.executable,
         "-m",
@@ -117,6 +118,7 @@ def _start_control(state: Path, family: str, machine: str) -> subprocess.Popen[s
 
 def _address_of(control: subprocess.Popen[str]) -> str:
     assert control.stdout is not None
+    # Which port it is, only this line gives.
     for line in control.stdout:
         if line.startswith("listening on "):
             return line.removeprefix("listening on ").strip()

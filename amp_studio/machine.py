@@ -144,6 +144,7 @@ class MachineParameters:
         return tried
 
     def _read(self, values: NewValues, notify: Notify) -> dict[Address, Value | None]:
+        """Return the values by address, each read in the light of those before it; raises AssignmentError."""
         pairs = list(
             values.items()
             if isinstance(values, Mapping)
@@ -341,6 +342,7 @@ class MachineParameters:
         if target is None:
             raise MachineError("a machine that was never saved needs a path: save('NAME.amp')")
         try:
+            # By the file and not by its name: a link to the same file is saved in place.
             if self.path is None or not same_file(target, self.path):
                 document = Document.create(self.file, target)
                 document.close()
@@ -348,6 +350,7 @@ class MachineParameters:
                 document = self.document
                 document.save(verb)
             else:
+                # By the digest a save is refused over what another program has written since.
                 with Document(self.file, self.path, self._digest) as document:
                     document.save(verb)
         except OSError as error:
@@ -362,6 +365,7 @@ class MachineParameters:
         """
         from amp_studio.files import text_of_name
 
+        # Without a path the file is created, and refused where the name is taken.
         self.path = None
         self.file.header.name = text_of_name(Path(path).stem)
         self.save(path)
@@ -494,6 +498,7 @@ def _made_again(
 ) -> MachineParameters:
     from amp_studio.files import read_content
 
+    # The name is only for messages: nothing is read from there.
     machine = MachineParameters(read_content(path or Path("machine.amp"), content), path, digest)
     machine.source, machine.account = source, account
     return machine

@@ -189,6 +189,7 @@ def _worded(table: PaperTable, words: Language) -> PaperTable:
 def _tables(
     file: ParameterFile, trace: Trace, machine: Sequence[GivenFigure], words: Language
 ) -> Iterator[PaperTable]:
+    """Yield the tables of the paper; which of the figures there are, depends on the scenario."""
     alarms = tuple((each.code, value_text(each.time_s, "s"), each.message) for each in trace.alarms)
     yield PaperTable("Alarms", ("Alarm", "Time", "Message"), alarms, (1.0, 1.0, 4.0))
     yield PaperTable(
@@ -211,6 +212,7 @@ def _tables(
 
 
 def _recommended(file: ParameterFile, trace: Trace, words: Language) -> Iterator[tuple[str, ...]]:
+    """Yield parameter, name, value in the file, recommended one, and the reason with its price."""
     for each in trace.recommendations:
         address = address_of(file, each.parameter, trace.axis)
         present = file.get(address) if address else None

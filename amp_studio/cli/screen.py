@@ -54,6 +54,7 @@ def open_streams() -> None:
 
 
 def _screen(stream: TextIO | None) -> TextIO:
+    """Return a stream to which any character can be written; without a stream it goes nowhere."""
     if stream is None:
         # As with ``2>&-``, and for a program without a console on Windows.
         return Screen(Path(os.devnull).open("wb"), encoding="utf-8")

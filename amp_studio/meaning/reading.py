@@ -152,6 +152,9 @@ class _Reader:
                     )
 
     def _addresses(self, text: str, instance: str) -> tuple[Address, ...]:
+        """Return the addresses that a fact names for an instance; none where this machine does not have
+        them.
+        """
         # With the scope, axis 1 is not taken for process 1.
         scope = "axis" if instance else None
         try:

@@ -38,6 +38,7 @@ def draw_gain(file: ParameterFile, roles: ErrorRoles, axis: str, like: Scene | N
 def _scales(
     gain: DrawnValue | None, drawn: Sequence[DrawnValue], found: Sequence[DrawnValue]
 ) -> tuple[Scale, Scale]:
+    """Return the scales of error and gain, with room around what is drawn."""
     # Three times beyond the outermost on either side: half a decade of a logarithmic scale.
     places = [each.number or 1.0 for each in drawn]
     unit = next((each.unit for each in (*drawn, *found)), "")

@@ -89,6 +89,7 @@ class WordNumbers:
         return words
 
     def _check_numbers(self, pairs: Sequence[tuple[str, str]]) -> None:
+        """Refuse numbers of blocks as the control does."""
         if sum(letter == "N" for letter, _ in pairs) > 1:
             raise BlockError("N is given twice in a block", "repeated")
         if any(letter == "N" and text[:1] == "-" for letter, text in pairs):

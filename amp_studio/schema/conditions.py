@@ -194,6 +194,7 @@ class Conditions:
         return tuple(steps), READ_ONLY if parameter.access == "read" else ACTIVE
 
     def _planned(self, address: Address) -> StatePlan:
+        """Return how the state of an address is found: one object for all that ask the same."""
         named, otherwise = self.steps(address[0])
         scope = self.scopes[address[0]]
         steps = [(self.asked(name, address[1], scope), wanted, info) for name, wanted, info in named]

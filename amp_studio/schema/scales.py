@@ -106,6 +106,7 @@ def read_real(evaluation: Evaluation, address: Address, text: str, unit: str) ->
 
 
 def _counted(parameter: Parameter, text: str, count: Fraction, size: Size, unit: str) -> Value:
+    """Return a number of counts as a value; raises InvalidValueError for one that cannot be stored."""
     whole = count.denominator == 1
     # Beyond it a double would round the count, in silence.
     if abs(count) > EXACT or (parameter.type == "integer" and not whole):

@@ -130,6 +130,7 @@ def _test_in(words: Language, test: PrintedTest) -> PrintedTest:
 
 
 def _listed(file: ParameterFile, each: StepProgress, words: Language) -> ListedStep:
+    """Return a step as the list prints it: what is open, how many values are set, and its errors."""
     # Active, not set by the file, and not open: the control has its default, which is to be checked.
     defaults = each.active - each.own - len(each.open)
     parts = {

@@ -378,7 +378,7 @@ class MovingAxis:
             k = kernel.WATCH + n * kernel.WATCH_WIDTH
             timing[k] = kernel.AT_DEVICE if watch.device else kernel.AT_LOAD
             timing[k + 1], timing[k + 2] = watch.sign, watch.at - self._origin
-            # The last digits of a command that stands still are no way towards the place.
+            # The last digits of a command at rest are no way towards the place.
             hair = ROUNDED * math.ulp(max(abs(self.position), abs(self._origin)))
             timing[k + 3] = self.position - self._origin + watch.sign * hair
         found: Seen | None = None

@@ -97,6 +97,7 @@ class EqualRows:
                 self._findings[name] = self._finding(rows[alone[0]], rows[figures.index(usual)], times, slip)
 
     def _check_table(self, name: str) -> None:
+        """Keep a finding about the one value that alone differs by a slip from the others of its table."""
         keys, addresses = self._file.evaluation.keys, self._addresses(name)
         figures = [keys[address] for address in addresses]
         counts = Counter(figures)

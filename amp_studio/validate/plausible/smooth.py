@@ -110,6 +110,7 @@ class SmoothTables:
                 yield self._finding(table, n)
 
     def _finding(self, table: _Table, n: int) -> Finding:
+        """Return the question about a value that alone jumps out of its table."""
         schema, address = self._file.schema, table.addresses[n]
         parameter, value = schema.parameters[address[0]], self._file.values[address]
         before, after = (show_value(parameter, self._file.values[table.addresses[m]]) for m in (n - 1, n + 1))
