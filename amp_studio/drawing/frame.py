@@ -12,6 +12,8 @@ LEFT, RIGHT, TOP, BOTTOM = 64.0, 20.0, 28.0, 34.0
 """Room for figures and texts around a drawing, in points."""
 BARE = 12.0
 """Room above and below a diagram, whose axes are not written."""
+EDGE = 8.0
+"""The same around a diagram of boxes."""
 
 
 @dataclass(frozen=True)
@@ -27,6 +29,8 @@ class Placement:
     @classmethod
     def within(cls, scene: Scene, width: float, height: float) -> Placement:
         """Return the largest place in a sheet; with one scale for both axes in the middle of it."""
+        if scene.rows:  # a diagram of boxes: no figures are around it
+            return cls(scene, EDGE, EDGE, max(width - 2.0 * EDGE, 10.0), max(height - 2.0 * EDGE, 10.0))
         # Rows have their units at the right end, outside the frame.
         right = RIGHT + (44.0 if any(row[2] for row in scene.y.rows) else 0.0)
         # Beside axes that are not written nothing is: a diagram has the room for its own texts.

@@ -29,6 +29,7 @@ ANCHORS: dict[str, tuple[_Align, float, float]] = {
     "middle": ("middle", 0.0, 4.0),
     "above": ("middle", 0.0, -10.0),
     "below": ("middle", 0.0, 20.0),
+    "beside": ("start", 6.0, 4.0),
 }
 """Anchor -> which end of a text is there, and how far its base line is from its point."""
 _SHARES: dict[_Align, float] = {"start": 0.0, "middle": 0.5, "end": 1.0}

@@ -131,14 +131,14 @@ class Dot:
 class Text:
     """A text beside a point; ``anchor`` is the side of the text that lies at the point (``inside``: in a box
     below its corner,
-    ``corner``: below at the left).
+    ``corner``: below at the left, ``beside``: at the right, half way up).
     """
 
     at: Point
     text: str
     value: str = ""
     """What follows in second ink."""
-    anchor: Literal["left", "right", "middle", "above", "below", "inside", "corner"] = "left"
+    anchor: Literal["left", "right", "middle", "above", "below", "inside", "corner", "beside"] = "left"
     address: Address | None = None
     """The parameter it names."""
     sort: ShapeSort = "ink"
@@ -267,6 +267,8 @@ class Scene:
     ``rings``, and a diagram of boxes, have no scales."""
     share: float = 1.0
     """Share of a panel in the height of its picture."""
+    rows: int = 0
+    """Lines of text below each other, for which it has to be high enough; 0 where texts find their places."""
     fixed: float | None = None
     """What stays the same while a handle is dragged: the length of a move."""
 

@@ -8,6 +8,7 @@ the law of the axis and from its machine, as in the scenarios.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 from amp_studio.drawing import FilledArea, Polyline, Scale, Scene, ShapeSort, Text
@@ -45,7 +46,9 @@ def draw_loop(file: ParameterFile, roles: LoopRoles, part: str, like: Scene | No
     at = f", signals at {value_text(*speed)}" if speed else ""
     figures.add_note(roles.note, is_remark=True)
     title = f"{figures.axis(axis)}{at}, page {roles.page}"
-    return diagram.shapes.scene("loop", part, "Loops", title, x, y, look="rings")
+    return diagram.shapes.scene(
+        "loop", part, "Loops", title, x, y, look="rings", rows=math.ceil(diagram.height)
+    )
 
 
 def _placed(rows: list[LoopBlock], place: str) -> list[LoopBlock]:
@@ -130,7 +133,7 @@ class LoopDiagram:
         for n, text in enumerate(texts):
             row, column = divmod(n, self._across)
             place = (NAMES + column * (10.0 - NAMES) / self._across, top - row - 0.5)
-            self.shapes.texts.append(Text(place, text.text, text.value, text.anchor, text.address, text.sort))
+            self.shapes.texts.append(Text(place, text.text, text.value, "beside", text.address, text.sort))
 
     def _join(self, rows: list[LoopBlock]) -> None:
         """Draw the lines between the boxes, in the direction of the signals."""

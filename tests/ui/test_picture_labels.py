@@ -5,11 +5,14 @@ from pathlib import Path
 
 from PySide6.QtCore import QPointF, QSizeF
 
-from amp_studio.drawing.frame import Placement
+from amp_studio.drawing import scene_in_words
+from amp_studio.drawing.frame import EDGE, Placement
 from amp_studio.files import open_file
 from amp_studio.pictures import pictures_of
 from amp_studio.ui.base.scene_painter import painted_labels
+from amp_studio.ui.base.translated import sentenced, unit_in_words
 from amp_studio.ui.pictures.canvas import PictureCanvas
+from amp_studio.ui.pictures.page import TEXT_ROW
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*/*.amp"))
 SIZES = ((240.0, 110.0), (424.0, 190.0), (880.0, 520.0))
@@ -36,3 +39,18 @@ def test_a_tip_has_the_value_of_a_handle_and_the_texts_that_have_no_room(workspa
     assert canvas._left_out
     at, text = canvas._left_out[0]
     assert text in canvas.tip(QPointF(*at))
+
+
+def test_the_texts_of_a_loop_stay_in_their_rows_at_the_least_height_of_the_picture(qapp, german):
+    """In a German window of 1366 x 768 "Lagerückführung" and the values beside it were in other boxes."""
+    for example in EXAMPLES:
+        for picture in pictures_of(open_file(example).file):
+            scene = picture.scene()
+            size = (880.0, float(scene.rows * TEXT_ROW + 2.0 * EDGE))
+            if scene.rows:
+                scene = scene_in_words(scene, sentenced, unit_in_words)
+                frame = Placement.within(scene, *size)
+                placed = {label.text: label.box for label in painted_labels(frame, QSizeF(*size)).placed}
+                for text in scene.texts:
+                    box, at = placed[text.text], frame.at(text.at)[1]
+                    assert abs(box.top + 0.5 * box.height - at) < 8.0, (example.stem, text.text)

@@ -177,3 +177,17 @@ def test_parts_without_room_are_a_list_and_a_step_is_a_plain_number(workspace, q
     tiny = card.canvas.scene.handles[0]
     footer.show_handle(replace(tiny, drags=(replace(tiny.drags[0], step=1e-05),)))
     assert "0.00001" in footer.keys.text()
+
+
+def test_a_diagram_that_needs_more_height_than_there_is_below_the_table_covers_it(window, qtbot):
+    window.resize(1366, 640)
+    window.go_to(("control.type", ""))  # no picture has a handle for it
+    action(window, "Pictures").trigger()
+    middle, pictures = window.page.middle, window.page.pictures
+    pictures.show_picture("travel")
+    qtbot.waitUntil(lambda: middle.arrangement == "below", timeout=WAIT_MS)
+    pictures.show_picture("loop")
+    qtbot.waitUntil(lambda: middle.covers, timeout=WAIT_MS)
+    assert pictures.height() >= pictures.least_height
+    pictures.show_picture("travel")
+    qtbot.waitUntil(lambda: not middle.covers, timeout=WAIT_MS)

@@ -6,13 +6,18 @@ from collections.abc import Callable
 from itertools import accumulate
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QFontMetrics
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QDockWidget
+from pytestqt.qtbot import QtBot
 
+from amp_studio.drawing import Curve, Picture, linked, panel_of
 from amp_studio.schema import Value
+from amp_studio.ui.base.places import sentenced_with_letters
+from amp_studio.ui.base.plot import LEAST_PANEL, Plot
 from amp_studio.ui.base.theme import font
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.table.cell_look import as_written
@@ -330,3 +335,35 @@ def test_the_head_of_an_axis_is_whole_where_there_is_room(
         drawn = QFontMetrics(font("text")).horizontalAdvance(letter)
         drawn += QFontMetrics(font("caption")).horizontalAdvance(what)
         assert heads.sectionSize(column) >= drawn + 8 + 6 + 6, what
+
+
+def test_panels_without_room_are_left_out_and_named_instead_of_painted_below_the_edge(
+    qtbot: QtBot, german: None
+) -> None:
+    """On a screen at 200 % the figures of the axis lay over the last curve, and a panel was cut."""
+    time = np.linspace(0.0, 1.0, 50)
+    titles = ("position", "following error", "axis minus spindle", "velocity", "torque")
+    panels = [panel_of(title, (Curve("", time, time),), ("time", "s"), "mm") for title in titles]
+    plot = Plot()
+    qtbot.addWidget(plot)
+    plot.draw(Picture("", (), linked(panels)))
+    for height, left_out in ((420, ()), (130, ("axis minus spindle", "Geschwindigkeit", "Drehmoment"))):
+        plot.resize(600, height)
+        plot.grab()
+        assert plot.left_out == left_out
+        last = plot._frames[-1]
+        assert last.height >= LEAST_PANEL
+        assert last.top + last.height < height - 16.0, "the figures along the axis"
+        assert last.scene.x.is_written
+
+
+def test_an_axis_in_a_sentence_of_the_simulation_is_called_by_its_letter(
+    window: MainWindow, german: None
+) -> None:
+    file = window.workspace.file
+    text = "The position loop of axis 1 is open: there is nothing to tune"
+    assert (
+        sentenced_with_letters(file, text)
+        == "Der Lageregler der Achse X ist offen: es gibt nichts einzustellen"
+    )
+    assert sentenced_with_letters(file, "axis 1.5 mm") == "axis 1,5 mm", "no number of an axis"

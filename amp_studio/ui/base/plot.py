@@ -5,7 +5,7 @@ plot.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -42,6 +42,8 @@ from .translated import sentenced, unit_in_words
 
 LEFT, RIGHT, GAP = 70.0, 14.0, 6.0
 """Room in logical pixels beside the panels, and above the heading of each."""
+LEAST_PANEL = 16.0
+"""Height from which a curve is seen."""
 GRIP = 6.0
 """Distance within which a cursor is taken hold of."""
 LEAST_SPAN = 1e-6
@@ -81,6 +83,8 @@ class Plot(QWidget):
         """What is visible of the panels of the picture, in the language of the window."""
         self.cursors: tuple[float, float] = (0.0, 0.0)
         """Places along the horizontal axis."""
+        self.left_out: tuple[str, ...] = ()
+        """The panels for which there is no room."""
         self._frames: list[Placement] = []
         self._map: Placement | None = None
         self._is_on_map = False  # the mouse was pressed there and is dragged
@@ -237,10 +241,15 @@ class Plot(QWidget):
 
     def _paint_scenes(self, painter: QPainter) -> None:
         """Paint the panels below each other in the height that there is, each with its heading."""
-        self._frames, self._map = [], None
+        self._frames, self._map, self.left_out = [], None, ()
         if self.picture is None:
             return
         scenes = [*filter(None, [self.picture.above]), *self.panels]
+        self._paint_below_each_other(painter, scenes)
+
+    def _paint_below_each_other(self, painter: QPainter, scenes: Sequence[Scene]) -> None:
+        """Paint scenes; the last ones are left out where all would have no room, and named below."""
+        assert self.picture is not None
         right, line = self.width() - RIGHT, QFontMetricsF(caption_fonts()[1]).height()
         headings = [panel_heading(each, LEFT, right) if each.look == "panel" else [] for each in scenes]
         heads = [
@@ -248,10 +257,22 @@ class Plot(QWidget):
         ]
         # Rings are lower than in print, where they have the whole of a page.
         shares = [min(scene.share, 2.0 * self.panels[0].share) for scene in scenes]
-        room = max(
-            self.height() - sum(heads) - (4.8 if _has_figures_below(self.picture.above) else 2.4) * line,
-            10.0 * len(scenes),
-        )
+        room = self.height() - sum(heads) - (4.8 if _has_figures_below(self.picture.above) else 2.4) * line
+        has_several = len(scenes) > 1 and scenes[-2] is not self.picture.above
+        if has_several and room < LEAST_PANEL * len(scenes):
+            fewer = scenes[:-1]
+            # The figures along the axis are under the last panel that is painted.
+            last = replace(fewer[-1], x=replace(fewer[-1].x, is_written=True))
+            self.left_out = (scenes[-1].title, *self.left_out)
+            self._paint_below_each_other(painter, [*fewer[:-1], last])
+            return
+        room = max(room, 10.0)
+        if self.left_out:
+            names = ", ".join(self.left_out)
+            painter.setFont(caption_fonts()[0])
+            painter.setPen(colour("dim"))
+            text = self.tr("without room: {names}").format(names=names)
+            painter.drawText(QPointF(LEFT, self.height() - 4.0), text)
         top = 0.0
         for scene, pieces, head, share in zip(scenes, headings, heads, shares, strict=True):
             height = room * share / sum(shares)
@@ -260,10 +281,11 @@ class Plot(QWidget):
             ScenePainter(painter, frame, QSizeF(self.width(), self.height())).paint()
             painter.restore()
             paint_heading(painter, pieces, frame.top)
-            if scene in self.panels:
-                self._frames.append(frame)
-            elif scene.cells is not None or self._is_pointed:
+            is_above = scene is self.picture.above
+            if is_above and (scene.cells is not None or self._is_pointed):
                 self._map = frame
+            elif not is_above:
+                self._frames.append(frame)
             top += (
                 head
                 + height

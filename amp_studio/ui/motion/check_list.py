@@ -30,6 +30,7 @@ from PySide6.QtWidgets import (
 from amp_studio.files import ParameterFile
 from amp_studio.sim import CheckPart, LimitUse, MotionCheck, value_text
 from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.theme import GAP, GAP2, GAP3, ROW, SMALL_ICON, Token, colour, font, icon
 from amp_studio.ui.base.translated import scenario_in_words, sentenced, tr, unit_in_words, worded
 
@@ -183,8 +184,8 @@ class CheckRows(QAbstractListModel):
         return None
 
     def _tip(self, check: MotionCheck) -> str:
-        family = self.file.schema.family.family
-        parts = [f"{name_of_check(check)}: {verdict_in_words(check.verdict)}", sentenced(check.why, family)]
+        family, why = self.file.schema.family.family, sentenced_with_letters(self.file, check.why)
+        parts = [f"{name_of_check(check)}: {verdict_in_words(check.verdict)}", why]
         if check.use is not None and math.isfinite(check.use.share):
             share = written(value_text(100.0 * check.use.share, digits=3))
             limit = sentenced(check.use.limit.replace("_", " "), family)
@@ -261,7 +262,7 @@ class CheckDelegate(QStyledItemDelegate):
         small = font("caption")
         painter.setFont(small)
         text = QFontMetrics(small).elidedText(
-            sentenced(check.why, file.schema.family.family), Qt.TextElideMode.ElideRight, room.width()
+            sentenced_with_letters(file, check.why), Qt.TextElideMode.ElideRight, room.width()
         )
         if len(text) > 2:
             painter.drawText(room, Qt.AlignmentFlag.AlignVCenter, text)

@@ -39,6 +39,7 @@ from amp_studio.sim import (
 )
 from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.loading import load
+from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.questions import show_message
 from amp_studio.ui.base.task import Task, TaskProgress, in_background
 from amp_studio.ui.base.theme import GAP, GAP2, GAP3, SMALL_ICON, colour, font, icon, scheme
@@ -84,7 +85,7 @@ class _Checking(QObject):
                     break
                 self.checked.emit(check)
         except SimulationError as error:
-            return sentenced(error.what, self._file.schema.family.family)
+            return sentenced_with_letters(self._file, error.what)
         return ""
 
 
@@ -404,7 +405,8 @@ class CheckPage(PageOfFile):
         mark, tint = MARKS[check.verdict]
         self.mark.setPixmap(icon(mark, tint).pixmap(SMALL_ICON, SMALL_ICON))
         self.mark.setAccessibleName(verdict_in_words(check.verdict))
-        self.why.setText(sentenced(check.why, self._family) or verdict_in_words(check.verdict))
+        why = sentenced_with_letters(self._workspace.file, check.why)
+        self.why.setText(why or verdict_in_words(check.verdict))
         self.why.setStyleSheet(f"color: {colour(tint).name()}")
         self.assumptions.setText(self.tr("%n assumptions", "", len(check.assumptions)))
         self.assumptions.setVisible(bool(check.assumptions))
@@ -429,7 +431,8 @@ class CheckPage(PageOfFile):
 
     def _show_assumptions(self) -> None:
         if self.check is not None:
-            text = "\n\n".join(sentenced(each, self._family) for each in self.check.assumptions)
+            file = self._workspace.file
+            text = "\n\n".join(sentenced_with_letters(file, each) for each in self.check.assumptions)
             title = self.tr("What was assumed")
             show_message(self, title, text, QMessageBox.Icon.Information)
 

@@ -38,6 +38,7 @@ from amp_studio.pictures import (
 from amp_studio.schema import InvalidValueError, read_number
 from amp_studio.sim import NEAR_GRID, MotionCheck, SimulationError, Trace, picture_of, simulate
 from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import GAP, GAP2, GAP3, HEAD, colour, font, scheme
@@ -281,7 +282,7 @@ class CheckCard(Card):
         trace, family = check.trace, file.schema.family.family
         self.length.setVisible(bool(trace and trace.course and trace.course.switch))
         if trace is None:
-            self.show_reason(sentenced(check.why, family))
+            self.show_reason(sentenced_with_letters(file, check.why))
         elif trace.course is not None:
             self.show_scene(draw_homing(file, trace))
         else:

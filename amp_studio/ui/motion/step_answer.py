@@ -12,6 +12,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import axis_name
 from amp_studio.sim import SimulationError, Trace, picture_of, simulate, simulated_axes
 from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import GAP
@@ -154,8 +155,8 @@ class StepAnswer(QWidget):
     def _failed(self, error: Exception) -> None:
         self.plot.clear_picture()
         self.trace = None
-        family = self._target.file.schema.family.family if self._target else ""
-        self.text.setText(sentenced(str(error), family))
+        file = self._target.file if self._target else None
+        self.text.setText(sentenced_with_letters(file, str(error)) if file else sentenced(str(error)))
 
     def _finished(self) -> None:
         self._task = None

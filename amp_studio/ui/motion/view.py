@@ -24,6 +24,7 @@ from amp_studio.files import ParameterFile, RangeError, axis_title
 from amp_studio.scenarios import CHARTS
 from amp_studio.schema import Address, Value, angular, axis_name
 from amp_studio.sim import Recommendation, SimulationError, Trace, address_of, picture_of, settling_span
+from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import GAP2, GAP3, scheme, severity_colour
@@ -365,7 +366,7 @@ class MotionView(PageOfFile):
 
     def _fail(self, error: Exception) -> None:
         """Show what is true, with a way to the parameter that has to be set."""
-        text = html.escape(sentenced(str(error), self._workspace.file.schema.family.family))
+        text = html.escape(sentenced_with_letters(self._workspace.file, str(error)))
         parameter = getattr(error, "parameter", "")
         schema = self._workspace.file.schema
         if parameter in schema.parameters:

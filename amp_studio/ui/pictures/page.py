@@ -29,6 +29,8 @@ LEAST_CARD = 370, 230
 """Width and height from which a picture has its place in a row or in a column."""
 AROUND = 2 * HEAD + 24
 """Height of head and footer, about."""
+TEXT_ROW, AROUND_CARD = 13, HEAD + 44
+"""Height of a line of text of a diagram, and of what is around the diagram in its frame."""
 SELECTION_MS = 200
 """Milliseconds until the other views show the parameter of a handle;
 passing by on the way to another one costs nothing."""
@@ -45,6 +47,8 @@ class PicturesPage(QWidget):
     left = Signal()
     """Esc: back to the table."""
     closed = Signal()
+    least_changed = Signal()
+    """Another picture is shown, which may need more height."""
     notified = Signal(str)
     parameter_chosen = Signal(object)
     """The address of a handle that has had the focus for a moment and is not dragged."""
@@ -130,6 +134,13 @@ class PicturesPage(QWidget):
         self._filter = name
         self.head.show_choice(name)
         self._arrange()
+        self.least_changed.emit()
+
+    @property
+    def least_height(self) -> int:
+        """The height below which the texts of the one picture that is shown overlap; 0 for any height."""
+        rows = self._seen[0].canvas.scene.rows if self._filter != ALL and self._seen else 0
+        return AROUND + AROUND_CARD + rows * TEXT_ROW if rows else 0
 
     def _shape(self) -> tuple[int, bool]:
         """Return how many pictures there is room for, and whether the first one is larger than the others."""
@@ -244,6 +255,7 @@ class PicturesPage(QWidget):
 
     def show_handle_of(self, address: Address, *, focus: bool = True) -> None:
         """Choose the handle of a value, in its picture; nothing where no picture has one."""
+        self._selected = address
         inner = sorted(self._pictures.values(), key=lambda each: each.name not in self._seen_names())
         found = drawn_in(inner, address)
         if found is None:
@@ -276,8 +288,9 @@ class PicturesPage(QWidget):
 
     def show_selected(self, address: Address | None) -> None:
         """Mark the handle of a value that was selected elsewhere, without taking the focus."""
+        is_same = address == self._selected  # the table comes and goes: what a person has chosen stays
         self._selected = address
-        if self.isVisible():
+        if self.isVisible() and not is_same:
             self._mark.start()
 
     def _mark_selected(self) -> None:

@@ -5,11 +5,14 @@ or the pictures in the place of the table.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal, get_args
+from typing import TYPE_CHECKING, Literal, get_args
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QSplitter, QWidget
+
+if TYPE_CHECKING:
+    from .page import PicturesPage
 
 Arrangement = Literal["beside", "below", "instead"]
 WIDE, TALL = 1000, 440
@@ -66,7 +69,8 @@ class PictureSplit(QSplitter):
     def __init__(self, sheet: QWidget) -> None:
         super().__init__()
         self._sheet = sheet
-        self._pictures: QWidget | None = None
+        self._pictures: PicturesPage | None = None
+        self._placed: Arrangement = "beside"
         self._chosen = PictureLayout()
         self.setChildrenCollapsible(False)
         self.addWidget(sheet)
@@ -84,12 +88,18 @@ class PictureSplit(QSplitter):
 
     @property
     def arrangement(self) -> Arrangement:
-        """Where the pictures are, or would be."""
-        return self._chosen.fitting(self.width(), self.height())
+        """Where the pictures are, or would be: in the place of the table where the height below it is not
+        enough for the one that is shown.
+        """
+        place = self._chosen.fitting(self.width(), self.height())
+        least = self._pictures.least_height if self._pictures is not None else 0
+        low = place == "below" and (100 - self._chosen.below) * self.height() < 100 * least
+        return "instead" if low else place
 
-    def take(self, pictures: QWidget) -> None:
+    def take(self, pictures: PicturesPage) -> None:
         """Take the page of pictures in, hidden."""
         self._pictures = pictures
+        pictures.least_changed.connect(self._follow_place)
         pictures.hide()
         self.addWidget(pictures)
 
@@ -105,7 +115,7 @@ class PictureSplit(QSplitter):
         self._arrange()
 
     def _arrange(self) -> None:
-        place = self.arrangement
+        place = self._placed = self.arrangement
         is_below = place == "below"
         self.setOrientation(Qt.Orientation.Vertical if is_below else Qt.Orientation.Horizontal)
         self._sheet.setVisible(not self.is_shown or place != "instead")
@@ -123,6 +133,8 @@ class PictureSplit(QSplitter):
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
-        before = self._chosen.fitting(event.oldSize().width(), event.oldSize().height())
-        if self.is_shown and before != self.arrangement:
+        self._follow_place()
+
+    def _follow_place(self) -> None:
+        if self.is_shown and self._placed != self.arrangement:
             QTimer.singleShot(0, self, self._arrange)  # not while the layout is at work

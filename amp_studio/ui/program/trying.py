@@ -21,6 +21,7 @@ from amp_studio.sim import (
     versions,
     what_if,
 )
+from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.translated import tr
 
 from .what_if_panel import WhatIfPanel
@@ -145,15 +146,16 @@ class ProgramTries:
                 notes.append(tried.why_not)
                 continue
             found = try_summary(self._page.file, self._page.outcome, tried)
-            named = map(self._page.file.machine_schema.label, tried.changes)
-            changes = [
-                f"{name}\n{one['from']} → {one['to']}"
-                for name, one in zip(named, found["changes"], strict=True)
-            ]
-            self.panel.add("\n".join(changes), each, found, is_ticked=is_ticked)
+            changes = "\n".join(self._change_in_words(*change) for change in tried.changes.items())
+            self.panel.add(changes, each, found, is_ticked=is_ticked)
             notes += tried.not_allowed
         self._page.say("; ".join(map(self._page.worded, notes)))
         self._try_together()
+
+    def _change_in_words(self, address: Address, change: tuple[Value | None, Value]) -> str:
+        parameter = self._page.file.schema.parameters[address[0]]
+        before, after = (show_value(parameter, each) for each in change)
+        return f"{self._page.file.machine_schema.label(address)}\n{before} → {after}"
 
     def _apply_ticked(self) -> None:
         if self._apply(self.panel.values()):
