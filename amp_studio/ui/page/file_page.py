@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QAction
@@ -23,7 +22,7 @@ from amp_studio.ui.findings.panel import FindingsPanel
 from amp_studio.ui.forms.front_stack import FrontStack
 from amp_studio.ui.forms.list_title import ListTitle
 from amp_studio.ui.forms.message_bar import MessageBar
-from amp_studio.ui.pictures.split import PictureSplit
+from amp_studio.ui.pictures.split import PictureSplit, SidePage
 from amp_studio.ui.table.detail_panel import DetailPanel
 from amp_studio.ui.table.filter_bar import FilterBar
 from amp_studio.ui.table.parameter_table import ParameterTable
@@ -32,9 +31,6 @@ from amp_studio.validate import Finding, addresses_not_set
 
 from .left_panel import LeftPanel
 from .page_of_file import PageOfFile
-
-if TYPE_CHECKING:
-    from amp_studio.ui.pictures.page import PicturesPage
 
 CommitValue = Callable[[Workspace, Address, str], bool]
 """Sets a value of a file from typed text; returns whether it was set."""
@@ -82,7 +78,7 @@ class FilePage(QWidget):
         self.findings.withhold(workspace.is_deferred)
         self.bar = MessageBar()
         self._title = ""
-        self.pictures: PicturesPage | None = None
+        self.pictures: SidePage | None = None
         """Beside the table or in its place, once they were asked for."""
         self.pages: dict[str, PageOfFile] = {}
         """Name -> page in the place of the values (motion, tuning, check, program), once it was asked for."""
@@ -228,7 +224,7 @@ class FilePage(QWidget):
         """Whether the pictures are shown."""
         return self.middle.is_shown
 
-    def take_pictures(self, pictures: PicturesPage) -> None:
+    def take_pictures(self, pictures: SidePage) -> None:
         """Take the page of pictures in, hidden."""
         self.pictures = pictures
         self.middle.take(pictures)

@@ -6,7 +6,7 @@ from functools import partial
 
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QFocusEvent, QResizeEvent
-from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout
 
 from amp_studio.drawing import Handle, Scene
 from amp_studio.files import RangeError
@@ -19,6 +19,7 @@ from amp_studio.ui.forms.handle_footer import HandleFooter
 
 from .card import PictureCard
 from .head import PicturesHead
+from .split import SidePage
 
 ALL = "all"
 TWO_COLUMNS = 760
@@ -40,15 +41,13 @@ SIDE = 3
 """Pictures beside the first one."""
 
 
-class PicturesPage(QWidget):
+class PicturesPage(SidePage):
     """Every picture of a file; it follows the file while it is seen."""
 
     parameter_wanted = Signal(object)
     left = Signal()
     """Esc: back to the table."""
     closed = Signal()
-    least_changed = Signal()
-    """Another picture is shown, which may need more height."""
     notified = Signal(str)
     parameter_chosen = Signal(object)
     """The address of a handle that has had the focus for a moment and is not dragged."""

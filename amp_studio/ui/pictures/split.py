@@ -5,14 +5,11 @@ or the pictures in the place of the table.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal, get_args
+from typing import Literal, get_args
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QSplitter, QWidget
-
-if TYPE_CHECKING:
-    from .page import PicturesPage
 
 Arrangement = Literal["beside", "below", "instead"]
 WIDE, TALL = 1000, 440
@@ -58,6 +55,18 @@ class PictureLayout:
         return "beside" if width >= WIDE else "below" if height >= TALL else "instead"
 
 
+class SidePage(QWidget):
+    """What is beside the table, and how high it has to be."""
+
+    least_changed = Signal()
+    """It may need more height."""
+
+    @property
+    def least_height(self) -> int:
+        """The height below which it cannot be read; 0 for any height."""
+        return 0
+
+
 class PictureSplit(QSplitter):
     """Table and pictures with a border between them that is dragged."""
 
@@ -69,7 +78,7 @@ class PictureSplit(QSplitter):
     def __init__(self, sheet: QWidget) -> None:
         super().__init__()
         self._sheet = sheet
-        self._pictures: PicturesPage | None = None
+        self._pictures: SidePage | None = None
         self._placed: Arrangement = "beside"
         self._chosen = PictureLayout()
         self.setChildrenCollapsible(False)
@@ -96,7 +105,7 @@ class PictureSplit(QSplitter):
         low = place == "below" and (100 - self._chosen.below) * self.height() < 100 * least
         return "instead" if low else place
 
-    def take(self, pictures: PicturesPage) -> None:
+    def take(self, pictures: SidePage) -> None:
         """Take the page of pictures in, hidden."""
         self._pictures = pictures
         pictures.least_changed.connect(self._follow_place)
