@@ -245,3 +245,14 @@ def test_a_typed_speed_is_shown_in_its_gear(qtbot: QtBot, qapp: object) -> None:
     result = simulate(workspace.file, "spindle", None, {"move.speed": 1200.0}).result
     assert result["output"] == (pytest.approx(6.0), "V")
     workspace.close()
+
+
+def test_many_parameters_of_a_check_do_not_fill_a_low_page(router: Workspace, qtbot: QtBot) -> None:
+    """While the machine was checked, eight of a homing were cut on a screen at 200 %."""
+    page = CheckPage(router, print)
+    qtbot.addWidget(page)
+    known = tuple(router.file.schema.parameters)[:8]
+    page._show(MotionCheck("home", "X", "X", "good", params=known))
+    assert page.detail.text().count("<a href") == 5
+    assert page.detail.text().endswith("3 more")
+    assert page.detail.toolTip().count("\n") == 7

@@ -66,6 +66,8 @@ LEFT = 280
 """Least width of the list in logical pixels."""
 AXES = 4
 """Axes that have a key."""
+MOST_LINKS = 5
+"""Parameters of a check that are links; those after them are counted, and named in the tooltip."""
 
 
 class _Checking(QObject):
@@ -415,19 +417,23 @@ class CheckPage(PageOfFile):
         )
         self.detail.setText("<br>".join(self._lines_of(check)))
         self.detail.setVisible(bool(self.detail.text()))
+        schema = self._workspace.file.schema
+        self.detail.setToolTip("\n".join(name_of(schema, each) for each in dict.fromkeys(check.params)))
 
     def _lines_of(self, check: MotionCheck) -> Iterable[str]:
         """Yield figures and parameters of a check."""
         if figures := ", ".join(figures_of(check)):
             yield html.escape(figures)
         if check.params:
-            shade = colour("sel").name()
-            links = ", ".join(
+            shade, named = colour("sel").name(), list(dict.fromkeys(check.params))
+            links = [
                 f'<a href="{each}" style="color:{shade}">'
                 f"{html.escape(name_of(self._workspace.file.schema, each))}</a>"
-                for each in dict.fromkeys(check.params)
-            )
-            yield f"{self.tr('Parameters:')} {links}"
+                for each in named[:MOST_LINKS]
+            ]
+            if len(named) > MOST_LINKS:  # a fourth line has no room on a screen at 200 %
+                links.append(self.tr("%n more", "", len(named) - MOST_LINKS))
+            yield f"{self.tr('Parameters:')} {', '.join(links)}"
 
     def _show_assumptions(self) -> None:
         if self.check is not None:
