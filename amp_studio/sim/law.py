@@ -185,6 +185,9 @@ class AxisLaw:
     "" where the law knows nothing better than lower gains."""
     ordered_by: tuple[str, str] | None = None
     """The axis whose orders move this one too, and the page; None for an axis that has its own orders."""
+    brakes: float = 0.0
+    """s for which the drive brakes at an emergency stop, before it is without torque; 0 where it has none at
+    once."""
     limits: Mapping[str, float] = field(default_factory=dict)
     """Limits of the following error in u, to draw beside the curves."""
     stops_at: str = ""

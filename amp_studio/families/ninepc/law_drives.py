@@ -41,6 +41,8 @@ OWN_DELAY, OWN_BANDWIDTH = "model.delay", "model.current_bandwidth"
 
 FILTER_OFF = 10000.0
 """Hz: as high as possible is off (7-69)."""
+BRAKES = 2.0
+"""s of regenerative braking after an E-stop (appendix A, overview)."""
 VOLTS = 10.0
 """V: the end of the analog output (7-41)."""
 DRIVE_RATIO = MOTION.value("drive_ratio")
@@ -125,6 +127,7 @@ def digital(read: AxisParameters, parts: Parts) -> AxisLaw:
         output_unit="%",
         assumptions=tuple(notes),
         assumed=assumed,
+        brakes=BRAKES,
     )
 
 

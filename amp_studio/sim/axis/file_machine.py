@@ -110,7 +110,7 @@ class FileMachine:
         """Take the drives away, as E-stop does."""
         self._targets = []
         for axis in self._machine.axes.values():
-            axis.switch_off()
+            axis.emergency_stop()
 
     def fail(self, axis: str, kind: str) -> str:
         """Have a fault of an axis, a drive that has tripped or lost feedback; returns what happens. Raises

@@ -19,7 +19,7 @@ from amp_studio.sim.rounding import page_text, rounded_up, value_text
 from .homing import NOT_IN_POSITION, Homed, home_axis
 from .moves import time_to_speed
 from .moving_axis import MovingAxis
-from .orders import GoOrder, MoveOrder, Orders, StopOrder, Watch
+from .orders import GoOrder, MoveOrder, Orders, StopOrder, Watch, one
 
 COAST = 10.0
 """s in which an axis that has lost its drive may run out."""
@@ -53,6 +53,7 @@ class SimulatedAxis:
         """How far the zero of the moving axis is from where the axis began."""
         self.is_homed = False
         self.is_enabled = True
+        self._braking = 0.0  # s that are left of the braking of an emergency stop
         self._is_tripped = False  # without torque, which the control has not noticed
         self.alarm: AlarmText | None = None
         """What stopped it, until `reset`."""
@@ -146,6 +147,17 @@ class SimulatedAxis:
             self._moving.emergency()
             self._left = COAST
 
+    def emergency_stop(self) -> None:
+        """Have the drive brake, where it does so, and then be without torque."""
+        has_lost_drive = self._is_tripped or (self.alarm is not None and not self.is_enabled)
+        if not self.law.brakes or has_lost_drive:
+            self.switch_off()
+        elif self.is_enabled:
+            self.is_enabled, self._homed = False, None
+            # ASSUMED: it brakes with its torque limit, as a command that stops at once has it do.
+            self._moving.begin(one(StopOrder(Ramp(), waits=False)))
+            self._left = self._braking = self.law.brakes
+
     def fail(self, kind: str) -> None:
         """Have a fault of the machine, one of FAULTS. A control that is informed takes the drive away and
         shows its words; another one goes on until its following error shows it. Raises SimulationError for a
@@ -162,7 +174,7 @@ class SimulatedAxis:
 
     def reset(self) -> None:
         """Give the drive back, mended; the command is where the axis is."""
-        self.alarm, self.is_enabled = None, True
+        self.alarm, self.is_enabled, self._braking = None, True, 0.0
         if self._moving.stop_number or self._moving.is_over or self._is_tripped:
             self._moving.restart()
         self._is_tripped = False
@@ -222,9 +234,19 @@ class SimulatedAxis:
                 return
             left -= step
             self._left = AWAKE if self._moving.is_busy else self._left - step
+            self._brake(step)
             self._check_stops()
             self._check_marker()
         self._settle()
+
+    def _brake(self, duration: float) -> None:
+        """Take the drive away at the end of its braking; an axis that rests by then stays there."""
+        if self._braking <= 0.0:
+            return
+        self._braking -= duration
+        self._left = max(self._left, self._braking)
+        if self._braking <= 0.0 and abs(self._moving.speed) > self.law.inposition_band:
+            self.switch_off()
 
     def _step(self, duration: float) -> None:
         """Step the axis for a time, s, and stop it at the servo sample that sees a limit passed."""
