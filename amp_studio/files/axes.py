@@ -112,6 +112,7 @@ def axis_title(file: ParameterFile, axis: str) -> str:
     if family.axes is None and letter in ("", axis):
         title = labelled(family.scopes["axis"].label, axis)
     else:
+        # raw: is a stored code for which the manual prints no letter.
         title = f"{axis} {'?' if letter.startswith('raw:') else letter or '–'}"
     return f"{title} {kind}".rstrip() + (_of_group(file, axis) if letter else "")
 

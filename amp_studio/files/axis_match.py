@@ -47,6 +47,7 @@ def matched_by_letter(file: ParameterFile, like: ParameterFile) -> MatchedAxes:
         return MatchedAxes(file, (), ())
     mine, theirs = axis_letters(file), axis_letters(like)
     wanted = dict(zip(theirs.values(), theirs, strict=True))
+    # A letter that is there twice has made the mapping the shorter one.
     if len(set(mine.values())) < len(mine) or len(wanted) < len(theirs):
         return MatchedAxes(file, (), ())
     places = {axis: wanted[letter] for axis, letter in mine.items() if letter in wanted}
@@ -108,6 +109,7 @@ def as_axis(file: ParameterFile, source: str, target: str) -> ParameterFile:
     twin = file.copy()
     for address, value in copied_values(file, source, target).items():
         twin.set(address, value)
+        # An instance may go on behind its axis.
         other = (address[0], source + address[1][len(target) :])
         if other in file.forced and address[1]:
             twin.forced[address] = file.forced[other]

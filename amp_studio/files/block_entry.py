@@ -13,6 +13,7 @@ from .parameter_file import ParameterFile, RangeError
 
 ReadText = Callable[[Address, str], Value | None]
 """Reads what is meant for an address by a text; raises InvalidValueError."""
+# As `get` and the table print it, so that what was copied there can be entered again.
 _NOT_SET = ("not set", "not-set", "—")
 
 
@@ -75,6 +76,7 @@ def _tried(
 ) -> BlockEntry:
     """Return the cells with those refused that are out of range beside the others."""
     wanted = {a: cell.new for a, cell in cells.items() if cell.changes}
+    # Each round refuses one value at least, so that it ends.
     while wanted:
         try:
             file.copy().set_checked(wanted)

@@ -130,6 +130,7 @@ def note_fault(text: str) -> str:
 
 
 def _checked(text: str) -> str:
+    # YAML reads every end of a line as \n: another one would come back as a change.
     text = text.replace("\r\n", "\n").replace("\r", "\n").strip()
     if problem := note_fault(text):
         raise NoteError(problem)

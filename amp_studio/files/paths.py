@@ -80,6 +80,7 @@ def same_file(a: Path, b: Path) -> bool:
     try:
         return a.samefile(b)
     except OSError:
+        # One of them is not there: then by their names.
         return os.path.normcase(a.absolute()) == os.path.normcase(b.absolute())
 
 
@@ -110,6 +111,7 @@ def companions(path: Path) -> list[Path]:
 def _beside(path: Path, pattern: str) -> Path:
     real = real_path(path)
     name = pattern.format(real.name)
+    # Bytes, not characters: an ä is two of them.
     if len(os.fsencode(name)) > _LONGEST_NAME:
         message = "The name is too long for the files kept beside it (backup, lock): shorten it"
         raise OSError(errno.ENAMETOOLONG, message, str(path))
