@@ -13,6 +13,7 @@ from amp_studio.ui.main_window import MainWindow
 from tests.families.grblhal.real_control import FIRMWARE, RealControl, real_control
 
 from .conftest import WAIT_MS, User
+from .test_keyboard import Hands
 
 pytestmark = pytest.mark.skipif(not FIRMWARE.exists(), reason="the firmware is not built here: make peers")
 
@@ -83,3 +84,40 @@ def test_a_value_that_was_written_alone_is_not_the_whole_file(
     assert window.settings.controls()[0].verb == "verify"
     control.kill()
     qtbot.waitUntil(lambda: not page.is_live, timeout=3 * WAIT_MS)
+
+
+def test_live_and_a_restore_take_no_mouse(
+    control: RealControl, qtbot: QtBot, window_with: Callable[..., MainWindow], user: User
+) -> None:
+    send_lines(control, "$X")
+    window, hands = window_with("grblhal-router"), Hands()
+    window.activateWindow()
+    window.control.exchanges.choose(window.workspace, control.address)
+    rate = window.workspace_in_front.file.find("$110")
+    window.go_to(rate)
+    window.table_view.setFocus()
+    hands.press("Ctrl+L")
+    page: Any = window.page_in_front.pages["live"]
+    qtbot.waitUntil(lambda: page.frame.isVisible() and page.is_live, timeout=3 * WAIT_MS)
+    assert page.rows.address == rate
+    hands.go_to("Value to be written")
+    before = page._present().get(rate)
+    user.answers("Write Now")
+    hands.press("Up", "Ctrl+Return")
+    qtbot.waitUntil(lambda: rate in page.turned and page.is_live, timeout=3 * WAIT_MS)
+    assert page._present().get(rate) != before
+    hands.go_to("Value to be written")
+    hands.press("Ctrl+Backspace")
+    qtbot.waitUntil(lambda: not page.turned and page.is_live, timeout=3 * WAIT_MS)
+    hands.press("Ctrl+L")
+    qtbot.waitUntil(lambda: not page.is_live, timeout=3 * WAIT_MS)
+    assert hands.here is window.table_view
+    (kept, *_) = sorted(window.workspace_in_front.path.parent.glob("*.before-*"))
+    user.chooses(kept)
+    hands.press("Ctrl+Shift+P")
+    hands.enter("restore")
+    hands.press("Return")
+    at = window.control.page
+    qtbot.waitUntil(lambda: at.backup is not None and not at.session.is_busy, timeout=3 * WAIT_MS)
+    assert hands.here.window() is window
+    assert at.isAncestorOf(hands.here)
