@@ -183,8 +183,11 @@ def test_the_file_in_contributing_is_all_that_a_new_verb_needs(
 def test_help_names_the_text_formats_that_there_are() -> None:
     displayed = dict(sections(VERBS["import"]))["FORMAT"]
     assert dict(sections(VERBS["export"]))["FORMAT"] == displayed
-    for line, each in zip(sorted(displayed), sorted(all_formats(), key=lambda each: each.key), strict=True):
-        assert line.split()[0] == each.key
+    formats = sorted(all_formats(), key=lambda each: each.key)
+    assert sorted(line.split()[0] for line in displayed) == [each.key for each in formats], (
+        "see families.FORMATS"
+    )
+    for line, each in zip(sorted(displayed), formats, strict=True):
         assert each.title in line
         assert line.endswith(f"({' '.join((each.ending, *each.other_endings))})")
 
