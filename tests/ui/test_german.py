@@ -13,8 +13,8 @@ from amp_studio.report import language_of
 from amp_studio.schema import Value, program_texts, unit_named, unit_text
 from amp_studio.schema.units import UNITS
 from amp_studio.ui.base.figures import sentence, written
-from amp_studio.ui.base.time_words import in_words
-from amp_studio.ui.base.translated import unit_in_words, worded
+from amp_studio.ui.base.time_words import in_words, stored_in_words
+from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.motion.tuning_page import TuningView
 from amp_studio.ui.table.value_delegate import allowed_text
 from amp_studio.validate.plausible.experience import TITLES
@@ -195,3 +195,10 @@ def test_a_line_that_is_cut_has_its_reason_in_the_same_language(german: None) ->
     text = "the line to the control is cut and could not be made again for 20 s (tcp://10.0.0.1:9600: {})"
     for why in ("nothing listens there", "no answer in time"):
         assert why not in sentence(text.format(why))
+
+
+def test_the_time_of_a_version_is_german(german: None) -> None:
+    """``Vor today 09:49`` was in the lists of versions, and ``120 in/min`` beside ``Zoll/min``."""
+    assert stored_in_words("2024-03-03T10:00:00+00:00") == "3. März 2024"
+    assert stored_in_words("no time") == "no time"
+    assert sentenced("120 in/min", "acromill") == "120 Zoll/min"

@@ -16,7 +16,6 @@ from amp_studio.files import (
     InUseError,
     Unsaved,
     backup_path,
-    day_and_time,
     examples_folder,
     open_file,
     real_path,
@@ -28,6 +27,7 @@ from amp_studio.files import (
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.task import in_background
+from amp_studio.ui.base.time_words import stored_in_words
 from amp_studio.ui.base.translated import Translated, counted, message_in_words
 from amp_studio.ui.base.workspace import Workspace, earlier_of
 from amp_studio.ui.merge.comparisons import Comparisons, parameter_files
@@ -260,7 +260,7 @@ class Files(Translated):
         text = self.tr(
             "The program ended before {count} from {day_and_time} ({who}) could be saved.{note}\n\nRecover"
             " the unsaved work? You can undo this."
-        ).format(count=count, day_and_time=day_and_time(unsaved.when), who=unsaved.who, note=note)
+        ).format(count=count, day_and_time=stored_in_words(unsaved.when), who=unsaved.who, note=note)
         answer = ask(
             self.window,
             self.tr("Unsaved work found"),

@@ -9,6 +9,15 @@ from PySide6.QtCore import QDate, QLocale
 from .translated import tr
 
 
+def stored_in_words(stamp: str) -> str:
+    """Return a stored time in words; a text that is no time is returned unchanged."""
+    try:
+        moment = datetime.fromisoformat(stamp).astimezone()
+    except (ValueError, OverflowError, OSError):
+        return stamp
+    return in_words(moment, datetime.now().astimezone())
+
+
 def in_words(moment: datetime, now: datetime) -> str:
     """Return a local time in words, seen from ``now``: ``today 14:35``, ``yesterday 17:48``,
     ``19 Nov 09:12``, ``3 Mar 2024``.

@@ -22,13 +22,13 @@ from amp_studio.files import (
     backup_path,
     before_saves,
     by_schema,
-    day_and_time,
     matched_by_letter,
     open_file,
     real_path,
     with_defaults,
 )
 from amp_studio.ui.base.task import TaskProgress
+from amp_studio.ui.base.time_words import stored_in_words
 from amp_studio.ui.base.workspace import Workspace
 
 _NEWEST = 10
@@ -122,7 +122,7 @@ class MergeSources(QObject):
         return MergeSource(self.tr("Defaults"), self.tr("as the manual prints them"), with_defaults(file))
 
     def _earlier(self, file: ParameterFile, entries: Sequence[HistoryEntry]) -> MergeSource:
-        title = self.tr("Before {time}").format(time=day_and_time(entries[-1].when))
+        title = self.tr("Before {time}").format(time=stored_in_words(entries[-1].when))
         return MergeSource(title, self._name, before_saves(file, entries))
 
     def _saves(self) -> list[list[HistoryEntry]]:
@@ -173,7 +173,7 @@ class MergeSources(QObject):
         from amp_studio.transfer.client import last_download
 
         found = last_download(file, self._workspace.path)
-        return MergeSource(self.tr("Last download"), day_and_time(found.when), found.file)
+        return MergeSource(self.tr("Last download"), stored_in_words(found.when), found.file)
 
     def kept_copy(self, file: ParameterFile, path: Path) -> MergeSource:
         """Return a copy of what a control contained; raises CopyError, ParameterFileError, ValueError."""
@@ -280,7 +280,7 @@ class MergeSources(QObject):
                 self.tr("&Earlier Saves"),
                 inner=tuple(
                     Offer(
-                        text.format(time=day_and_time(save[-1].when), who=save[-1].who),
+                        text.format(time=stored_in_words(save[-1].when), who=save[-1].who),
                         partial(self._before, save),
                     )
                     for save in saves

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Protocol
 
-from amp_studio.files import ParameterFile, SavedVersion, day_and_time
+from amp_studio.files import ParameterFile, SavedVersion
 from amp_studio.schema import Address, Value, read_address
 from amp_studio.sim import (
     JobProgress,
@@ -22,6 +22,7 @@ from amp_studio.sim import (
     what_if,
 )
 from amp_studio.ui.base.figures import show_value
+from amp_studio.ui.base.time_words import stored_in_words
 from amp_studio.ui.base.translated import tr
 
 from .what_if_panel import WhatIfPanel
@@ -109,7 +110,7 @@ class ProgramTries:
         label = self._page.file.machine_schema.label
         changed = ", ".join(label(read_address(each)) for each in version.changed[:3])
         more = ", …" if len(version.changed) > 3 else ""
-        return tr("Before {time}").format(time=day_and_time(version.when)) + f" ({changed}{more})"
+        return tr("Before {time}").format(time=stored_in_words(version.when)) + f" ({changed}{more})"
 
     def _show_versions(self, found: Sequence[ProgramVersion]) -> None:
         assert self._page.outcome is not None

@@ -7,19 +7,13 @@ from __future__ import annotations
 import html
 from collections.abc import Callable, Iterable, Iterator
 
-from amp_studio.files import (
-    axis_letter,
-    day_and_time,
-    group_note,
-    storage_text,
-    value_note,
-    with_days_and_times,
-)
+from amp_studio.files import axis_letter, group_note, storage_text, value_note, with_days_and_times
 from amp_studio.report import GRADES, facts, help_parts, severity_name, state_name, tables_of
 from amp_studio.schema import Address, Parameter, Value, labels_of_word, limits, real_value, same_value
 from amp_studio.ui.base.figures import sentence, show_value
 from amp_studio.ui.base.hazard import hazard_html
 from amp_studio.ui.base.theme import colour, icon_html, severity_html
+from amp_studio.ui.base.time_words import stored_in_words
 from amp_studio.ui.base.translated import (
     Translated,
     facts_in_words,
@@ -309,7 +303,7 @@ class DetailPage(Translated):
 
     def _history(self, address: Address) -> str:
         lines = [
-            f"<p><small>{day_and_time(entry.when)}, {html.escape(entry.who)},"
+            f"<p><small>{stored_in_words(entry.when)}, {html.escape(entry.who)},"
             f" {html.escape(entry.how)}</small><br>{html.escape(entry.old or self.tr('not set'))} →"
             f" {html.escape(entry.new or self.tr('not set'))}</p>"
             for entry in self._workspace.document.history(address)
