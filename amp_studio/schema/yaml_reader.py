@@ -115,8 +115,11 @@ def read_yaml(
 
 _WORD = r"[A-Za-z0-9_.+/%()°²³µ·^*@,;<>=$&~-]"
 _PLAIN = rf"(?:[A-Za-z0-9_.+$]|-[0-9.]){_WORD}*(?: {_WORD}+)*"
-_LINE = re.compile(rf"(  )?([A-Za-z0-9_][A-Za-z0-9_.@-]*):(?: +(?:'([^']*)'|({_PLAIN})))?(?: +#.*)? *")
-"""A line that can mean but one thing in YAML: indent, key, quoted value, plain value."""
+_LINE = re.compile(
+    rf"(  )?([A-Za-z0-9_][A-Za-z0-9_.@-]{{0,1000}}):(?: +(?:'([^']*)'|({_PLAIN})))?(?: +#.*)? *"
+)
+"""A line that can mean but one thing in YAML: indent, key, quoted value, plain value. A key of more than
+1024 characters is refused by YAML: read here alone, its file could not be amended, and lost every remark."""
 _REMEMBERED = 200
 """Characters of the longest line whose parts are remembered."""
 

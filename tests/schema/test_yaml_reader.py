@@ -68,6 +68,7 @@ def test_what_other_readers_take_for_dates_merges_and_endless_numbers_is_a_text(
         ("a: 1\nb: \ufeff\n", "the character U+FEFF has no place in it", 2),
         ("a: " + "[" * 900, "more than 50 lists and mappings in each other", 1),
         ("- " * 900, "more than 50 lists and mappings in each other", 1),
+        (f"a:\n  {'x' * 1100}: 1\n", "mapping values are not allowed in this context", 2),
         ("a: [1\nb: 2", "did not find expected ',' or ']'", 2),
     ],
 )
