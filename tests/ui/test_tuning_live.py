@@ -63,6 +63,17 @@ def test_a_live_value_goes_into_the_control_at_once_and_not_into_the_file(live, 
     assert router.undo_stack.index() == 1
 
 
+def test_what_a_control_does_not_state_is_simulated_as_in_the_file(live, router: Workspace) -> None:
+    """An ACR card does not state its servo period at its terminal: nothing could be simulated there."""
+    control, travel = live[0].control, ("axis.max_travel", "X")
+    router.file.set(ACCELERATION, Value(77.0, "mm/s2"))
+    own = control.file.get(ACCELERATION)
+    control.file.set(travel, None)
+    assert control.simulated().get(travel) == router.file.get(travel)
+    assert control.simulated().get(ACCELERATION) == own != router.file.get(ACCELERATION)
+    assert control.file.get(travel) is None
+
+
 def test_the_old_values_are_offered_when_the_control_is_left(live, router: Workspace, user: User) -> None:
     tuning, bench = live
     tuning.target.set("Tune", {ACCELERATION: Value(25.0, "mm/s2")})

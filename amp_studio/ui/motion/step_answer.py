@@ -103,7 +103,7 @@ class StepAnswer(QWidget):
         if self._task is not None:
             self._again = True
             return
-        file, axis = self._target.file.copy(), self.axis.currentData()
+        file, axis = self._target.simulated(), self.axis.currentData()
         if axis is None:
             self.text.setText(self.tr("No axis of this file can be simulated."))
             return

@@ -260,7 +260,7 @@ class TuningView(PageOfFile):
             except BaseException:
                 live.close()
                 raise
-            self.control = ControlTarget(live, self.run_exchange)
+            self.control = ControlTarget(live, self.run_exchange, self._workspace)
             self.control.notified.connect(self._exchanged)
             self.control.changed.connect(self._update)
         self._show(self.control)

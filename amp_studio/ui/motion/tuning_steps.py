@@ -277,8 +277,7 @@ class TuningSteps(QWidget):
         """Simulate the step, and seek the gains, in threads; once more where something changed meanwhile."""
         if self._target is None or not self.isVisible() or self.axis.currentData() is None:
             return
-        # A copy: the file may be edited while the threads read it.
-        file, axis = self._target.file.copy(), str(self.axis.currentData())
+        file, axis = self._target.simulated(), str(self.axis.currentData())
         shows = self.guide.steps[self.steps.currentRow()].shows
         # What is proposed has all the room beside a step without a move.
         self.plot.setVisible(shows is not None)

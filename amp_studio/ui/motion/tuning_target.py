@@ -45,6 +45,10 @@ class TuningTarget(QObject):
         """The values as they are now."""
         raise NotImplementedError
 
+    def simulated(self) -> ParameterFile:
+        """Return a copy of the values to simulate, which may be edited meanwhile."""
+        return self.file.copy()
+
     @property
     def may_edit(self) -> bool:
         """Whether values may be changed."""
@@ -116,10 +120,10 @@ class ControlTarget(TuningTarget):
     notified = Signal(str)
     """What came of an exchange, in a sentence."""
 
-    def __init__(self, live: LiveTuning, run: RunExchange) -> None:
-        """``live`` has read the control already."""
+    def __init__(self, live: LiveTuning, run: RunExchange, workspace: Workspace) -> None:
+        """``live`` has read the control already; ``workspace`` has the open file."""
         super().__init__()
-        self.live, self._run = live, run
+        self.live, self._run, self._workspace = live, run, workspace
         self._waiting: dict[Address, Value | None] = {}
         self._done: list[tuple[str, dict[Address, Value | None], dict[Address, Value | None]]] = []
         self._undone: list[tuple[str, dict[Address, Value | None], dict[Address, Value | None]]] = []
@@ -136,6 +140,16 @@ class ControlTarget(TuningTarget):
     def file(self) -> ParameterFile:
         """What the control contains as it was last read, with what is to be sent."""
         return self._present
+
+    def simulated(self) -> ParameterFile:
+        """Return the values of the control; what it does not state of itself, as the servo period of an ACR
+        card, is that of the open file.
+        """
+        copy = self.file.copy()
+        for address, value in self._workspace.file.values.items():
+            if copy.get(address) is None:
+                copy.set(address, value)
+        return copy
 
     @property
     def may_edit(self) -> bool:
