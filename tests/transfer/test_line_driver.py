@@ -9,6 +9,7 @@ import pytest
 from amp_studio.transfer.driver import ControlIdentity, Receipt
 from amp_studio.transfer.errors import (
     CancelledError,
+    Confirmed,
     ConnectionCutError,
     ImageRejectedError,
     TransferError,
@@ -97,6 +98,16 @@ def test_what_cannot_be_read_again_is_not_known() -> None:
     driver.is_gone = True
     error = error_of(driver)
     assert (error.at_control, error.what) == ("unknown", "the download broke off (register: out of handles)")
+
+
+def test_what_a_driver_has_found_out_itself_is_not_asked_again() -> None:
+    """A control that is gone after its answer leaves what it has answered known."""
+    refusal = ImageRejectedError("B is too large", "mixed", new=("A",))
+    refusal.confirmed = Confirmed(1, 3)
+    driver = Register(refusal)
+    driver.is_gone = True
+    error = error_of(driver)
+    assert (error.at_control, error.new) == ("mixed", ("A",))
 
 
 def test_who_stops_is_reported_what_the_answers_prove_and_does_not_wait() -> None:
