@@ -168,6 +168,14 @@ def test_an_error_is_one_of_the_program_and_changes_nothing(
     assert sorted(mill.parent.iterdir()) == folder
 
 
+def test_a_file_that_another_program_edits_is_not_saved(mill: Path) -> None:
+    machine, before = amp.open(mill), mill.read_bytes()
+    machine["1300@X"] = "5 mm"
+    with amp.edit(mill), pytest.raises(amp.AmpStudioError, match="open in another program"):
+        machine.save()
+    assert mill.read_bytes() == before
+
+
 def test_numbers_of_other_libraries_become_plain_ones(mill: Path) -> None:
     """One of numpy was a value, and ended what it was compared with in an error of Python."""
     machine = amp.open(mill)

@@ -26,10 +26,13 @@ from amp_studio.transfer.links import LinkError
 
 from .states import SUSPENDED, state_in, state_text
 
-ERASE = b"\x7f" * 260 + b"$AMP\n"
+ERASE = b"\x7f" * 260 + b"$AMP\n\n"
 """More DEL than a line of the firmware is long, and a command that it refuses: its error is the answer to
 this and not to what another client has asked. A Grbl 1.1 takes the DEL for too long a line,
 which it refuses as well.
+
+The empty line is answered ``ok``: until one is taken, a grblHAL that has refused a line refuses all G-code
+(protocol.c), that of a program on another line too.
 """
 
 SLICE = 0.05  # seconds a read may last between two looks at the cancel event
@@ -91,7 +94,8 @@ class GrblLine:
         self._buffer = b""
         self._lines: deque[str] = deque()
         self._suspended = ""  # the state in which it reports itself and reads no line
-        self._owed = 0  # refusals of first lines that may still come, before any other answer
+        # refusals and ``ok`` of first lines that may still come, before any other answer
+        self._owed = self._owed_oks = 0
         # Opening is bounded too: a port that opens and never answers would be waited for without an end.
         self._begin(START, lingers=False)
         try:
@@ -139,10 +143,13 @@ class GrblLine:
         size = 0
         while True:
             line = self._line(ANSWER)
+            if line == "ok" and self._owed_oks and not answer:
+                self._owed_oks -= 1
+                continue
             if line == "ok":
                 self._waiting.heard()
-                # Refusals of first lines come before any other answer: none is owed any more.
-                self._owed = 0
+                # Answers to first lines come before any other: none is owed any more.
+                self._owed = self._owed_oks = 0
                 return answer
             # error:7 answers no command: the firmware prints it at its start, when its memory could not
             # be read.
@@ -195,10 +202,10 @@ class GrblLine:
         self._is_refusal(first)
         self._notice(state_in(first))
         sent, refused = self._send_first_line()
-        refused += self._refusals_until_quiet()
+        more, oks = self._answers_until_quiet()
         self._buffer = b""
-        # Every first line is refused once; those not seen yet are still on their way.
-        self._owed = max(0, sent - refused)
+        # Every first line is refused once and answered ``ok`` once; what was not seen yet is on its way.
+        self._owed, self._owed_oks = max(0, sent - refused - more), max(0, sent - oks)
         self._waiting.heard()
 
     def _send_first_line(self) -> tuple[int, int]:
@@ -226,17 +233,20 @@ class GrblLine:
             refused += line is not None and self._is_refusal(line)
         return sent, refused
 
-    def _refusals_until_quiet(self) -> int:
-        """Read until nothing more comes; returns how many lines of it refuse a command."""
-        refused, quiet_since = 0, self._clock()
+    def _answers_until_quiet(self) -> tuple[int, int]:
+        """Read until nothing more comes; returns how many lines of it refuse a command and how many are
+        ``ok``.
+        """
+        refused, oks, quiet_since = 0, 0, self._clock()
         while self._clock() - quiet_since < QUIET:
             self.look()
             if data := self._link.read(SLICE):
                 self._split_lines(data)
                 quiet_since = self._clock()
             while self._lines:
-                refused += self._is_refusal(self._lines.popleft())
-        return refused
+                line = self._lines.popleft()
+                refused, oks = refused + self._is_refusal(line), oks + (line == "ok")
+        return refused, oks
 
     def _notice(self, state: str) -> None:
         """Notice a state without lines: what is sent would pile up until somebody goes on, and act then."""

@@ -137,7 +137,7 @@ class Player:
     bytes_per_second = None
 
     def __init__(self, wait: Callable[[float], None]) -> None:
-        self._said = dict(reversed(recorded()))
+        self._said = {"": ["ok"], **dict(reversed(recorded()))}
         self._wait = wait
         self._in, self._out = "", bytearray()
 

@@ -90,6 +90,8 @@ def test_a_move_beyond_the_travel_of_a_homed_axis_is_alarm_2_and_a_jog_is_refuse
     bench.identity_word("$H")
     bench.after(60.0)
     assert bench.identity_word("$J=G91 X-400 F1000") == "error:15"
+    assert bench.identity_word("G90 G0 X-400") == "error:15", "G-code waits until a command is taken"
+    bench.identity_word("$X")
     assert bench.identity_word("G90 G0 X-400").startswith("ALARM:2")
     assert bench.status()[0] == "Alarm"
 

@@ -67,6 +67,26 @@ def test_a_grbl_that_knows_no_delete_refuses_the_half_line_as_too_long(tmp_path:
     assert "$130=200.000" in line.ask("$$")
 
 
+def test_a_program_goes_on_after_a_question(tmp_path: Path) -> None:
+    """A grblHAL that has refused a line refuses all G-code until a command is taken."""
+    bench = Bench(tmp_path)
+    while bench.firmware.answer():
+        pass
+    bench.firmware.receive(b"$NOTHING\nG21\n")
+    assert bench.firmware.answer() == b"error:3\r\nerror:3\r\n"
+    GrblLine(bench.open, Waiting(bench.clock, bench.clock.sleep)).report()
+    while bench.firmware.answer():
+        pass
+    bench.firmware.receive(b"G21\n")
+    assert bench.firmware.answer() == b"ok\r\n"
+
+
+def test_a_late_answer_to_the_empty_line_is_none_to_the_next_command() -> None:
+    script = Script([b"error:3\r\n", b"ok\r\n[VER:1]\r\nok\r\n", b"$0=5.0\r\nok\r\n"])
+    line = script.line()
+    assert [line.ask("$I"), line.ask("$0")] == [["[VER:1]"], ["$0=5.0"]]
+
+
 def test_what_was_asked_by_another_client_is_no_answer_to_this_one() -> None:
     script = Script([b"$0=5.0\r\nok\r\n$1=25\r\nok\r\nerror:3\r\n", b"[VER:1.1f.20260817:]\r\nok\r\n"])
     assert script.line().ask("$I") == ["[VER:1.1f.20260817:]"]

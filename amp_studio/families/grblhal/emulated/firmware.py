@@ -81,6 +81,7 @@ class Firmware:
         self._line, self._overflows, self._is_deaf, self._last_end = "", False, False, ""
         self._is_critical = False
         self._unit = 21
+        self._refusal = 0
         self._distance, self._mode, self._feed = 90, 0, 0.0
         self._motion.switch_off()
         self._unread: list[str] = []
@@ -241,8 +242,10 @@ class Firmware:
         except _AnswerLater:
             pass
         except RefusedError as refused:
+            self._refusal = refused.code
             self._send(f"error:{refused.code}")
         else:
+            self._refusal = 0
             self._send("ok")
 
     def _send(self, *lines: str) -> None:
@@ -257,6 +260,9 @@ class Firmware:
         if line.startswith("$"):
             self._system(line)
         elif line:
+            # After a refusal no G-code is executed until a line is taken (protocol.c ``protocol_main_loop``).
+            if self._refusal and not self.settings.is_classic:
+                raise RefusedError(self._refusal)
             self._block(line.upper().replace(" ", ""))
 
     def _system(self, line: str) -> None:
