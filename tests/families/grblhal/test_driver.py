@@ -299,6 +299,15 @@ def test_a_break_after_the_last_answer_is_reported_as_new_and_read(bench: Bench)
     assert caught.value.at_control == "new"
 
 
+def test_a_memory_that_cannot_be_written_ends_a_download_and_nothing_is_called_new(bench: Bench) -> None:
+    """The control shows the new value, and loses it with its power."""
+    bench.driver.identify()
+    bench.spoil_out = lambda data: data.replace(b"ok\r\n", b"[MSG:Warning: EEPROM write failed]\r\nok\r\n")
+    with pytest.raises(TransferError, match="the control cannot write its memory") as caught:
+        put(bench, {110: "600.000"})
+    assert caught.value.at_control == "unknown"
+
+
 def test_a_cable_that_is_out_for_good_leaves_it_unknown(bench: Bench) -> None:
     def pull(stage: str, done: int, total: int) -> None:
         bench.is_cut = bench.is_cut or (stage, done) == ("download", 1)

@@ -13,7 +13,7 @@ from amp_studio.families.linuxcnc.control.content import Configuration, Configur
 from amp_studio.files import ParameterFile, SaveError, write_atomic
 from amp_studio.formats import import_file
 from amp_studio.schema import Value
-from amp_studio.transfer import ImageError, TransferError
+from amp_studio.transfer import ImageChangedError, ImageError, Replacement, TransferError
 from amp_studio.transfer.client import open_driver
 from amp_studio.transfer.links import parse_endpoint
 
@@ -103,6 +103,18 @@ def test_a_file_that_cannot_be_written_leaves_the_folder_as_it_was(
         sent(folder, file)
     assert broken.value.at_control == "old"
     assert (folder / "joints.inc").read_bytes() == JOINTS
+
+
+def test_a_file_that_was_changed_since_it_was_read_is_not_overwritten(folder: Path) -> None:
+    with closing(open_driver(f"folder:{folder}")) as driver:
+        current = driver.fetch()
+        files = dict(Configuration.read(current).files)
+        files["joints.inc"] = files["joints.inc"].replace(b"1.50", b"2.25")
+        (folder / "joints.inc").write_bytes(JOINTS + b"# added at the machine\n")
+        with pytest.raises(ImageChangedError) as refused:
+            driver.send(Replacement(Configuration(files).written(), current))
+    assert refused.value.at_control == "old"
+    assert (folder / "joints.inc").read_bytes() == JOINTS + b"# added at the machine\n"
 
 
 def test_files_that_cannot_be_put_back_are_named_and_the_others_go_back(
