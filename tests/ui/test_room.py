@@ -19,6 +19,7 @@ from amp_studio.schema import Value
 from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.plot import LEAST_PANEL, Plot
 from amp_studio.ui.base.theme import font
+from amp_studio.ui.base.translated import worded
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.table.cell_look import as_written
 from amp_studio.ui.table.column_widths import LEAST_NAMES, ContentWidths, column_widths
@@ -367,3 +368,8 @@ def test_an_axis_in_a_sentence_of_the_simulation_is_called_by_its_letter(
         == "Der Lageregler der Achse X ist offen: es gibt nichts einzustellen"
     )
     assert sentenced_with_letters(file, "axis 1.5 mm") == "axis 1,5 mm", "no number of an axis"
+
+
+def test_the_rated_torque_of_a_step_is_german(german: None) -> None:
+    assert worded("Rated torque") == "Nenndrehmoment"
+    assert worded("100 % where torque is in %") == "100 %, wo es in % ist"
