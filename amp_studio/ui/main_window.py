@@ -38,7 +38,7 @@ from .project.tree import ProjectTree
 from .welcome.page import WelcomePage
 from .window.disk_watch import DiskWatch
 from .window.menus import Menus
-from .window.status_line import StatusLine
+from .window.status_line import StatusBar, StatusLine
 from .window.tab_corner import TabCorner
 from .window.tool_bar import MainToolBar
 from .window.visited import VisitedPlaces
@@ -60,6 +60,7 @@ class MainWindow(PartsWindow):
         self.setAcceptDrops(True)
         room = self.screen().availableSize()
         self.resize(min(1360, room.width()), min(850, room.height() - 40))  # leave room for the window frame
+        self.setStatusBar(StatusBar())
         self.status = StatusLine(self.statusBar())
         self.status.findings_wanted.connect(lambda: self.show_panel("Findings"))
         self.status.not_set_wanted.connect(lambda: self.page.show_not_set() if self.page else None)

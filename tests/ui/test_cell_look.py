@@ -4,9 +4,10 @@ and choices that cannot be taken for one another.
 
 import pytest
 
-from amp_studio.schema import Value, family_ids, load_schema
+from amp_studio.schema import Limits, Value, family_ids, load_schema
+from amp_studio.ui.base.figures import grouped, range_in_words, with_groups
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.table.cell_look import grouped, short_labels
+from amp_studio.ui.table.cell_look import short_labels
 
 
 @pytest.mark.parametrize(
@@ -23,6 +24,34 @@ from amp_studio.ui.table.cell_look import grouped, short_labels
 )
 def test_digits_are_in_groups_from_five_on(figure: str, displayed: str) -> None:
     assert grouped(figure) == displayed
+
+
+@pytest.mark.parametrize(
+    ("allowed", "displayed"),
+    [
+        (Limits(-999999.99, 999999.99, "mm"), "−999\u202f999.99 to 999\u202f999.99 mm"),
+        (Limits(-9.999, 9.999, "deg"), "−9.999 to 9.999°"),
+        (Limits(None, 10000.0, "mm/min"), "at most 10\u202f000 mm/min"),
+        (Limits(1e-07, None, ""), "at least 1\u202f×\u202f10⁻⁷"),
+        (Limits(None, None, "mm"), "no printed range"),
+    ],
+)
+def test_a_range_is_written_as_the_values_in_it(allowed: Limits, displayed: str) -> None:
+    assert range_in_words(allowed) == displayed
+
+
+@pytest.mark.parametrize(
+    ("label", "displayed"),
+    [
+        ("X -500 mm to 8 mm, Y -400 mm to 6 mm", "X −500 mm to 8 mm, Y −400 mm to 6 mm"),
+        ("24000 mm/min", "24\u202f000 mm/min"),
+        ("694.4 mm/s²; 0.24 s", "694.4 mm/s²; 0.24 s"),
+        ("-20000 iu (-20 mm)", "−20\u202f000 iu (−20 mm)"),
+        ("P30000 and P12345.5N1", "P30000 and P12345.5N1"),
+    ],
+)
+def test_the_value_in_a_picture_is_written_as_its_scale(label: str, displayed: str) -> None:
+    assert with_groups(label) == displayed
 
 
 def test_a_minus_is_as_wide_as_a_digit_where_it_is_shown_and_plain_where_it_is_typed(

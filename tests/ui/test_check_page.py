@@ -71,6 +71,18 @@ def test_every_scenario_of_the_file_is_a_row_of_its_part(router: Workspace, qtbo
     assert {check.part for check in page.checks} == {"homing", "travel", "following", "spindle", "probing"}
 
 
+def test_the_heading_is_whole_or_not_there(router: Workspace, qtbot: QtBot) -> None:
+    page = CheckPage(router, lambda _: None)
+    qtbot.addWidget(page)
+    page.stop()
+    for width, painted in ((20, ""), (400, "Checks")):
+        page.heading.resize(width, 20)
+        assert page.heading._elided() == painted
+    page.heading.resize(20, 20)
+    page.heading.setText("Checks")
+    assert page.heading.toolTip() == "Checks"
+
+
 def test_what_is_bad_comes_first_in_its_part_and_the_counts_filter(router: Workspace, qtbot: QtBot) -> None:
     page = CheckPage(router, print)
     qtbot.addWidget(page)

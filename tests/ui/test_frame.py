@@ -185,6 +185,20 @@ def test_nothing_has_moved_after_each_panel_was_opened_and_closed_twice(
         assert places(window) == before, dock.objectName()
 
 
+def test_a_message_without_room_ends_with_dots_and_its_tooltip_has_the_whole(window: MainWindow) -> None:
+    displayed(window, 1024, 700)
+    bar, text = window.statusBar(), f"/hall/{'line/' * 40}MILL_1394.pdf written"
+    window.show_status(text)
+    QApplication.processEvents()
+    assert (bar.currentMessage(), bar.toolTip()) == (text, text)
+    assert bar.elided().endswith("…")
+    assert text.startswith(bar.elided()[:-1])
+    window.show_status("saved")
+    assert bar.elided() == "saved"
+    bar.clearMessage()
+    assert not bar.toolTip()
+
+
 def places(window: MainWindow) -> dict[str, tuple[int, int, int, int]]:
     """Return where the table and each panel that is seen are."""
     widgets = {"table": window.centralWidget()} | {d.objectName(): d for d in window.docks.docks}

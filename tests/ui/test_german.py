@@ -10,9 +10,9 @@ import pytest
 from PySide6.QtWidgets import QApplication
 
 from amp_studio.report import language_of
-from amp_studio.schema import Value, program_texts, unit_named, unit_text
+from amp_studio.schema import Limits, Value, program_texts, unit_named, unit_text
 from amp_studio.schema.units import UNITS
-from amp_studio.ui.base.figures import sentence, written
+from amp_studio.ui.base.figures import range_in_words, sentence, written
 from amp_studio.ui.base.time_words import in_words, stored_in_words
 from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.motion.tuning_page import TuningView
@@ -202,3 +202,7 @@ def test_the_time_of_a_version_is_german(german: None) -> None:
     assert stored_in_words("2024-03-03T10:00:00+00:00") == "3. März 2024"
     assert stored_in_words("no time") == "no time"
     assert sentenced("120 in/min", "acromill") == "120 Zoll/min"
+
+
+def test_a_range_has_the_comma_and_the_groups_of_its_values(german: None) -> None:
+    assert range_in_words(Limits(-999999.99, 999999.99, "mm")) == "−999\u202f999,99 bis 999\u202f999,99 mm"

@@ -99,6 +99,11 @@ def test_a_step_has_every_value_that_it_names_of_this_machine(guided: TuningStep
     assert labels == ["P63N0", "P63N1", "P63N2", "P62N0", "P62N1"]
 
 
+def test_why_nothing_is_tuned_has_the_letter_of_the_axis(guided: TuningSteps) -> None:
+    guided._failed("tune", ValueError("The position loop of axis 1 is open: there is nothing to tune"))
+    assert guided.figures.text() == "The position loop of axis X is open: there is nothing to tune"
+
+
 def test_a_choice_is_chosen_and_a_mask_is_typed(guided: TuningSteps) -> None:
     """Both had a − and a + that ended in an internal error."""
     for example, axis, page, count in (("syntec-mill", "1", 0, 3), ("num-1060-mill", "0", 0, 0)):

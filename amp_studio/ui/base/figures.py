@@ -8,15 +8,20 @@ from __future__ import annotations
 import re
 
 from amp_studio import schema
-from amp_studio.schema import Parameter, Value
+from amp_studio.schema import Limits, Parameter, Value
 
 from .translated import message_in_words, tr, unit_in_words
 
+THIN = "\u202f"
+"""A narrow space that no line breaks at, between groups of three digits on the screen."""
 _NUMBER = re.compile(r"(?<![\w.$@])(?<!figure )[-−]?\d+\.\d+(?![\w]|\.\d)")
 """A number in a sentence; no address (``P3N0.5``, ``$22.0``), version, network address, printed figure."""
 _POINT = re.compile(r"(?<=\d)\.(?=\d)")
 _MINUS = re.compile(r"^-(?=\d)")
 _POWER = re.compile(r"(?<=\d)e([+-]?)0*(\d+)")
+_WHOLE = re.compile(r"([-−]?)([0-9]{5,})(.*)")
+_FIGURE = re.compile(r"(?<![^\s(])[-−]?\d+(?:\.\d+)?(?:e[+-]?\d+)?(?![\w.]*\w)")
+"""A number in a text that has no address: a range, or the value beside the name of a parameter."""
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -30,6 +35,27 @@ def written(figure: str) -> str:
 
 def _power(match: re.Match[str]) -> str:
     return "\u202f×\u202f10" + (match[1].strip("+") + match[2]).translate(_RAISED)
+
+
+def grouped(figure: str) -> str:
+    """Return a number with its digits in groups of three from five digits on: ``2 097 152``."""
+    match = _WHOLE.fullmatch(figure)
+    if match is None:
+        return figure
+    sign, whole, rest = match.groups()
+    head = len(whole) % 3
+    groups = [whole[:head]] * bool(head) + [whole[n : n + 3] for n in range(head, len(whole), 3)]
+    return sign + THIN.join(groups) + rest
+
+
+def range_in_words(allowed: Limits) -> str:
+    """Return a range as the language writes it: ``−999 999.99 to 999 999.99 mm``."""
+    return with_groups(message_in_words(allowed.text()).replace(" °", "°"))
+
+
+def with_groups(text: str) -> str:
+    """Return a text without addresses with its numbers as the language writes them, and in groups."""
+    return _FIGURE.sub(lambda found: grouped(written(found[0])), text)
 
 
 def sentence(text: str) -> str:

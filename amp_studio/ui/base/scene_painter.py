@@ -32,7 +32,7 @@ from amp_studio.drawing import (
 )
 from amp_studio.schema import Address
 
-from .figures import with_figures
+from .figures import with_figures, with_groups
 from .theme import Token, colour, font
 
 if TYPE_CHECKING:
@@ -265,13 +265,15 @@ class ScenePainter:
         base = QPointF(box.left(), box.top() + measure.ascent())
         painter.setFont(named)
         painter.setPen(colour(TEXT_TOKENS.get(label.sort, "text")))
-        painter.drawText(base, with_figures(label.text))
+        # A name begins with the number of its parameter, which is none to be read in groups.
+        is_name = label.address is not None and not label.text.isdecimal()
+        text = (with_figures if is_name else with_groups)(label.text)
+        painter.drawText(base, text)
         painter.setFont(self._caption)
         if label.value:
             painter.setPen(colour("dim"))
             painter.drawText(
-                QPointF(base.x() + measure.horizontalAdvance(label.text), base.y()),
-                f" {with_figures(label.value)}",
+                QPointF(base.x() + measure.horizontalAdvance(text), base.y()), f" {with_groups(label.value)}"
             )
 
 

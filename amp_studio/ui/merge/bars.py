@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.report import severity_name
-from amp_studio.ui.base.theme import ICON, MESSAGE, STATUS, TOOLS, font, icon, severity_icon
+from amp_studio.ui.base.theme import ICON, MESSAGE, STATUS, TOOLS, font, icon, scheme, severity_icon
 from amp_studio.ui.base.translated import finding_in_words, worded
 from amp_studio.validate import Finding
 
@@ -173,13 +173,19 @@ class ResultBar(QFrame):
         row.addStretch()
         for button in (self.report, self.save, self.merge):
             row.addWidget(button)
+        self._left = 0
+        scheme().changed.connect(self._show_mark)  # a pixmap keeps the colours in which it was drawn
 
     def show_counts(self, left: int, changes: int) -> None:
         """Show how many conflicts are left and how many values change."""
         texts = [f"<b>{self.tr('%n conflicts left', '', left)}</b>"] if left else []
         texts.append(self.tr("%n changes so far", "", changes))
         self.summary.setText("&nbsp; ".join(texts))
-        self.mark.setPixmap((severity_icon("warning") if left else icon("check")).pixmap(ICON, ICON))
+        self._left = left
+        self._show_mark()
+
+    def _show_mark(self) -> None:
+        self.mark.setPixmap((severity_icon("warning") if self._left else icon("check")).pixmap(ICON, ICON))
 
     def show_findings(self, new: Sequence[Finding] | None) -> None:
         """Show what would be found about the result that is not found now; None while it is being checked."""

@@ -7,9 +7,8 @@ from typing import NamedTuple
 
 from amp_studio.files import Merge, Row, in_one_unit
 from amp_studio.schema import MASKED, Parameter, Value, labels_of_word, visible
-from amp_studio.ui.base.figures import show_value
+from amp_studio.ui.base.figures import grouped, show_value
 from amp_studio.ui.base.translated import tr, unit_in_words
-from amp_studio.ui.table.cell_look import grouped
 
 
 class MergeCell(NamedTuple):

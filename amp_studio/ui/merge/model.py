@@ -24,8 +24,8 @@ from amp_studio.files import (
     axis_letters,
 )
 from amp_studio.schema import Value, fault, read_address, read_real, read_value, same_value, visible, whole_of
+from amp_studio.ui.base.figures import THIN
 from amp_studio.ui.base.model_index import ModelIndex
-from amp_studio.ui.table.cell_look import THIN
 
 from .cells import MergeCell, cells_of
 from .columns import AXIS, BASE, NAME, RESULT, SIDES, A, B

@@ -96,6 +96,13 @@ def _is_run(event: QEvent) -> bool:
     return isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_F9 and not event.modifiers()
 
 
+class _WholeLabel(ElidedLabel):
+    """A heading that is there whole or not at all: a first letter alone names nothing."""
+
+    def _elided(self) -> str:
+        return self.text() if super()._elided() == self.text() else ""
+
+
 class CheckPage(PageOfFile):
     """Runs every scenario in a thread and shows each check as soon as it is done; again after edits, once the
     page is seen.
@@ -145,7 +152,7 @@ class CheckPage(PageOfFile):
     # -- how it is laid out ----------------------------------------------------------
 
     def _make_head(self) -> None:
-        self.heading = ElidedLabel()
+        self.heading = _WholeLabel()
         self.heading.setText(self.tr("Checks"))
         strong = font("text", own=True)
         strong.setWeight(strong.Weight.DemiBold)

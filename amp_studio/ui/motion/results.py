@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.schema import Schema
 from amp_studio.sim import Recommendation, Trace, value_text
-from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.figures import grouped, written
 from amp_studio.ui.base.theme import severity_colour, state_colour
 from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.forms.pages import LINK
@@ -93,7 +93,7 @@ def _is_beside(name: str, kinds: Sequence[str], result: Container[str]) -> bool:
 
 
 def _number(value: float | None) -> str:
-    return "–" if value is None else written(value_text(value, digits=5))
+    return "–" if value is None else grouped(written(value_text(value, digits=5)))
 
 
 class RecommendationsPage(QScrollArea):

@@ -38,6 +38,7 @@ from amp_studio.sim import (
     value_text,
 )
 from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import CONTROL, GAP, GAP2, SMALL_ICON, icon
@@ -418,8 +419,9 @@ class TuningSteps(QWidget):
             self.below.draw(picture_of(trace))
 
     def _failed(self, key: str, error: Exception) -> None:
-        family = self._target.file.schema.family.family if self._target else ""
-        text = sentenced(str(error), family)
+        text = (
+            sentenced_with_letters(self._target.file, str(error)) if self._target else sentenced(str(error))
+        )
         if key == "step":
             self.plot.clear_picture()
             self.detail.show_figures(self.guide.steps[self.steps.currentRow()], None, None, text)

@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 from amp_studio.calibration import CalibrationError, TuningPage, stepped, steps_of, usual_step
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value, limits, read_exact, write_number
-from amp_studio.ui.base.figures import sentence, show_value, written
+from amp_studio.ui.base.figures import range_in_words, show_value, written
 from amp_studio.ui.base.places import place_in_words
 from amp_studio.ui.base.theme import GAP2, colour, scheme
 from amp_studio.ui.base.translated import unit_in_words, worded
@@ -172,7 +172,7 @@ class ValuesPage(TuningPart):
             self._instance(address),
             file.machine_schema.label(address),
             show_value(parameter, file.get(address)),
-            sentence(allowed.text()) if allowed else "",
+            range_in_words(allowed) if allowed else "",
             effect_words(file.schema, address),
         )
         may = self.target.may_edit and state.is_active

@@ -25,19 +25,16 @@ from amp_studio.schema import (
     labels_of_word,
     write_value,
 )
-from amp_studio.ui.base.figures import show_value
+from amp_studio.ui.base.figures import grouped, show_value
 from amp_studio.ui.base.translated import Translated, finding_in_words, tr, unit_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.validate import NOT_SET
 
 CellKind = Literal["value", "not set", "absent"]
-THIN = "\u202f"
-"""A narrow space that no line breaks at, between groups of three digits on the screen."""
 _BRACKETS = re.compile(r"\s*\([^()]*\)")
 _DIGITS_OF_DEFAULT, _CONVERTED = 5, 1e-5
 """Digits of a default that a person wrote, and how far the printed conversion
 to another unit is from it at most."""
-_WHOLE = re.compile(r"([-−]?)([0-9]{5,})(.*)")
 
 
 @dataclass(slots=True)
@@ -181,17 +178,6 @@ def as_written(default: Value) -> Value:
         if is_simpler and math.isclose(simple, number, rel_tol=_CONVERTED)
         else default
     )
-
-
-def grouped(figure: str) -> str:
-    """Return a number with its digits in groups of three from five digits on: ``2 097 152``."""
-    match = _WHOLE.fullmatch(figure)
-    if match is None:
-        return figure
-    sign, whole, rest = match.groups()
-    head = len(whole) % 3
-    groups = [whole[:head]] * bool(head) + [whole[n : n + 3] for n in range(head, len(whole), 3)]
-    return sign + THIN.join(groups) + rest
 
 
 def say_unit_once(looks: Iterable[CellLook]) -> None:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator
 from amp_studio.files import axis_letter, group_note, storage_text, value_note, with_days_and_times
 from amp_studio.report import GRADES, facts, help_parts, severity_name, state_name, tables_of
 from amp_studio.schema import Address, Parameter, Value, labels_of_word, limits, real_value, same_value
-from amp_studio.ui.base.figures import sentence, show_value
+from amp_studio.ui.base.figures import range_in_words, show_value
 from amp_studio.ui.base.hazard import hazard_html
 from amp_studio.ui.base.theme import colour, icon_html, severity_html
 from amp_studio.ui.base.time_words import stored_in_words
@@ -128,7 +128,7 @@ class DetailPage(Translated):
         if found is None:
             return self.tr("no bounds printed, in {shown}").format(shown=unit_in_words(unit)) if unit else ""
         sources = [s for s in (found.low_from, found.high_from) if s]
-        text = sentence(found.text()) + "".join(
+        text = range_in_words(found) + "".join(
             self.tr(" (set by {name})").format(name=file.machine_schema.label(s)) for s in sources
         )
         return text + (

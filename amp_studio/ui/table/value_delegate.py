@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.schema import Address, InvalidValueError, Limits, Value, fault, limits, write_value
-from amp_studio.ui.base.figures import sentence, show_value
+from amp_studio.ui.base.figures import range_in_words, sentence, show_value
 from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.base.translated import unit_in_words
 from amp_studio.ui.base.workspace import Workspace
@@ -43,7 +43,7 @@ def allowed_text(workspace: Workspace, address: Address) -> str:
     if workspace.file.schema.parameters[address[0]].choices:
         return ""
     found = limits_of(workspace, address)
-    return sentence(found.text()) if found else unit_in_words(workspace.typed_unit(address))
+    return range_in_words(found) if found else unit_in_words(workspace.typed_unit(address))
 
 
 class ValueDelegate(QStyledItemDelegate):

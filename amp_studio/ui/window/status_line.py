@@ -4,8 +4,9 @@ open values and the state of the file at the right.
 
 from __future__ import annotations
 
-from PySide6.QtCore import QObject, QSize, Qt, Signal
-from PySide6.QtWidgets import QLabel, QStatusBar, QToolButton
+from PySide6.QtCore import QObject, QRect, QSize, Qt, Signal
+from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtWidgets import QLabel, QStatusBar, QToolButton, QWidget
 
 from amp_studio.files import fitted_axes
 from amp_studio.report import severity_name
@@ -14,6 +15,39 @@ from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.validate import SEVERITIES, addresses_not_set
+
+_INDENT = 6
+"""Pixels left and right of a message."""
+
+
+class StatusBar(QStatusBar):
+    """A status bar whose message ends with … where there is no room; the tooltip has the whole."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.messageChanged.connect(self.setToolTip)
+
+    @property
+    def _room(self) -> QRect:
+        # The message is in the place of what is hidden while it is there: up to what stays at the right.
+        staying = self.findChildren(QWidget, options=Qt.FindChildOption.FindDirectChildrenOnly)
+        right = min((each.x() for each in staying if each.isVisible()), default=self.width())
+        return self.rect().adjusted(_INDENT, 0, right - self.width() - _INDENT, 0)
+
+    def elided(self) -> str:
+        """Return the message as it is painted."""
+        line = self.currentMessage().replace("\n", " ")
+        return self.fontMetrics().elidedText(line, Qt.TextElideMode.ElideRight, self._room.width())
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        if not self.currentMessage():
+            super().paintEvent(event)
+            return
+        painter = QPainter(self)
+        painter.setPen(self.palette().color(self.foregroundRole()))
+        painter.drawText(
+            self._room, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter, self.elided()
+        )
 
 
 class StatusLine(QObject):

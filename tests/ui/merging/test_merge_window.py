@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QLineEdit
 
 from amp_studio.files import new_file
 from amp_studio.schema import Value
+from amp_studio.ui.base.theme import colour, scheme
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.merge.columns import AXIS, NAME, RESULT, A, B
 from amp_studio.ui.merge.sources import MergeSource
@@ -16,6 +17,8 @@ from tests.ui.conftest import WAIT_MS
 from tests.ui.test_accessible import nameless
 
 from .steps import CALIBRATION, EXCESS, RAPID, click, press, result, show
+
+OPAQUE = 255
 
 
 def test_rows_have_every_source_in_one_unit_and_the_result(three: MergeWindow) -> None:
@@ -68,6 +71,24 @@ def test_a_row_leads_to_its_value_in_the_table(three: MergeWindow, window: MainW
     show(three, EXCESS)
     press(three, Qt.Key.Key_Return)
     assert window.selected() == EXCESS
+
+
+def test_the_mark_of_the_conflicts_has_the_colours_of_a_theme_that_is_chosen_later(
+    three: MergeWindow,
+) -> None:
+    mark, chosen = three.outcome.mark, scheme().choice
+
+    def inks() -> set[str]:
+        image = mark.pixmap().toImage()
+        pixels = (image.pixelColor(x, y) for x in range(image.width()) for y in range(image.height()))
+        return {pixel.name() for pixel in pixels if pixel.alpha() == OPAQUE}
+
+    try:
+        for theme in ("light", "dark"):
+            scheme().choose(theme)
+            assert colour("warn").name() in inks(), theme
+    finally:
+        scheme().choose(chosen)
 
 
 # -- choosing
