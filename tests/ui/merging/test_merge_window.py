@@ -78,7 +78,7 @@ def test_the_mark_of_the_conflicts_has_the_colours_of_a_theme_that_is_chosen_lat
 ) -> None:
     mark, chosen = three.outcome.mark, scheme().choice
 
-    def inks() -> set[str]:
+    def colours() -> set[str]:
         image = mark.pixmap().toImage()
         pixels = (image.pixelColor(x, y) for x in range(image.width()) for y in range(image.height()))
         return {pixel.name() for pixel in pixels if pixel.alpha() == OPAQUE}
@@ -86,7 +86,7 @@ def test_the_mark_of_the_conflicts_has_the_colours_of_a_theme_that_is_chosen_lat
     try:
         for theme in ("light", "dark"):
             scheme().choose(theme)
-            assert colour("warn").name() in inks(), theme
+            assert colour("warn").name() in colours(), theme
     finally:
         scheme().choose(chosen)
 
