@@ -34,6 +34,21 @@ class HelpPrinted(Exception):  # it is no error
     """Help was asked for and has been printed."""
 
 
+class _OneFile(argparse.Action):
+    """Keeps the file that is to be written: of two, argparse would forget the first without a word."""
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: Any,
+        option_string: str | None = None,  # noqa: ARG002  # as argparse calls it
+    ) -> None:
+        if (first := getattr(namespace, self.dest)) is not None:
+            parser.error(f"{self.option_strings[0]} names one file, and was given {first} and {values}")
+        setattr(namespace, self.dest, values)
+
+
 class _Parser(argparse.ArgumentParser):
     """A parser of argparse that raises what is wrong, and prints the help of this program."""
 
@@ -59,6 +74,8 @@ class _Parser(argparse.ArgumentParser):
             how["type"] = _in_words(how["type"])
         if choices := how.pop("choices", None):
             how |= {"type": self._one_of(argument, choices), "metavar": f"{{{','.join(choices)}}}"}
+        if "-o" in argument.names:
+            how.setdefault("action", _OneFile)
         if not argument.is_option:
             how.setdefault("metavar", argument.label)
             if how.get("nargs") == "*":

@@ -28,6 +28,10 @@ import pytest
         ("validate mill.amp --jobs two", "--jobs: two is no number from 1 to 100000 (see"),
         ("validate mill.amp --jobs ²", "--jobs: ² is no number from 1 to 100000 (see"),
         (
+            "report mill.amp -o mill.txt --output=mill.csv",
+            "-o names one file, and was given mill.txt and mill.csv (see 'amp-studio report --help')",
+        ),
+        (
             "report mill.amp -o mill.txt --sort axs",
             "Unknown sort 'axs'. Known: axis, number, group, steps. Did you mean: axis",
         ),
