@@ -59,6 +59,21 @@ class ProgramCoordinates:
         self._shift = [sum(parts) for parts in zip(*self._work.values(), strict=True)]
         self.programmed = self.to_program(self.position)
 
+    def start_in(self, code: KnownCode) -> None:
+        """Take the work system of a code for the one that is active at the start, if it is one whose zero is
+        at the control alone.
+        """
+        if code.facts.does == "work-system" and not code.facts.params:
+            self._system = code.code
+
+    def is_other_system(self, code: KnownCode) -> bool:
+        """Whether a code selects a work system that is not the active one."""
+        return code.facts.does == "work-system" and not self.is_active(code)
+
+    def is_active(self, code: KnownCode) -> bool:
+        """Whether the work system of a code is the active one."""
+        return self._system == code.code
+
     def select(self, does: str, code: KnownCode) -> None:
         if does.startswith("length"):
             self._length_sign = 1.0 if does == "length-plus" else -1.0
@@ -67,10 +82,10 @@ class ProgramCoordinates:
         if does in OFF:
             self._switch_off(OFF[does])
             return
+        self._system = code.code if does == "work-system" else ""
         # The zero that was asked for stays, whatever work system the program selects.
         if self._has_zero:
             return
-        self._system = code.code if does == "work-system" else ""
         if not self._system:
             shift = [0.0] * len(self._axes)
         elif self._system in self._systems or not code.facts.params:
@@ -147,7 +162,7 @@ class ProgramCoordinates:
         for place, value in values.items():
             shift[place] = value
         self._systems[code.code] = shift
-        if self._system == code.code and not self._has_zero:
+        if self.is_active(code) and not self._has_zero:
             self.set_shift("system", shift)
 
     @property

@@ -66,6 +66,9 @@ class Interpreter:
         self._modal = ModalCodes(file, self.reader, path, self.notes)
         self._numbers = WordNumbers(self.reader, self.axes, self.parameters, self.notes, path)
         self._at = ProgramCoordinates(file, path, self.axes, self.letters, self.start, zero, self.notes)
+        for active in self._modal.now.active.values():
+            if active in codes.known:
+                self._at.start_in(codes.known[active])
         self._moves = PathMoves(file, path, self._at)
         self._cycles = CycleRuns(file, path, codes, self._moves, retract)
         self._single = SingleCodes(path, codes, self._moves)
@@ -195,6 +198,8 @@ class Interpreter:
         codes = self._modal.take(tuple([letter + number for letter, number in pairs if letter in "GM"]))
         for code in codes.selects:
             # Before the move of the same block, whose end is in the new coordinates.
+            if self._at.is_other_system(code):
+                self._moves.rest_at_shift()
             self._at.select(str(code.facts.does), code)
         words = self._numbers.read(pairs, codes)
         if codes.modal.is_inverse != was_inverse:

@@ -153,7 +153,8 @@ class ModalCodes:
                     raise BlockError(f"{each} and another code of the group {known.group.name}", fault)
                 groups.add(known.group.key)
                 after = self._switched(active.get(known.group.key, ""), known, code)
-                if known.facts.does == "wait-motion" and active.get(known.group.key) == after:
+                waits = known.facts.waits or known.facts.does == "wait-motion"
+                if waits and active.get(known.group.key) == after:
                     continue  # what already is so is not switched
                 active[known.group.key] = after
             codes.append(known)
@@ -255,6 +256,8 @@ def _effects(codes: Sequence[KnownCode]) -> dict[str, Any]:
     effects: dict[str, Any] = {"zones": does.get("zones"), "selects": selects, "pauses": pauses}
     for each in does:
         effects |= _EFFECTS.get(each, {})
+    if any(code.facts.waits for code in codes):
+        effects["waits"] = True
     return effects
 
 

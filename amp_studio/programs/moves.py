@@ -27,6 +27,11 @@ class PathMoves:
         self._feed: float | None = None
         self.speed = 0.0
         self._centers = "incremental_positive"
+        self._shift_waits = False
+        if path.shift_waits is not None:
+            param, bit = path.shift_waits
+            value = file.evaluation.canonical((param, ""))
+            self._shift_waits = isinstance(value, float | int) and bool(int(value) >> bit & 1)
         if path.centers is not None:
             self._centers = str(file.evaluation.canonical((path.centers, "")) or "absolute")
 
@@ -174,6 +179,11 @@ class PathMoves:
         # Behind a dwell, or before the first move, everything is at rest already.
         if seconds or self.rows.last_kind not in (-1, DWELL):
             self.dwell(seconds)
+
+    def rest_at_shift(self) -> None:
+        """End the moves so far before other work coordinates are active, where the control does."""
+        if self._shift_waits:
+            self.rest(())
 
     def dwell(self, seconds: float) -> None:
         if seconds < 0.0:

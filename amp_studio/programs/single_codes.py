@@ -36,6 +36,7 @@ class SingleCodes:
             case "set-position" | "local-shift" if not words.axes:
                 raise BlockError(f"{codes.codes[0].code} without an axis", "no-axes")
             case "set-position":
+                self._moves.rest_at_shift()
                 self._at.set_here(words.axes)
             case "local-shift":
                 self._at.set_local(words.axes)
@@ -87,7 +88,10 @@ class SingleCodes:
         kind, number = words.roles.get("set-kind"), int(words.roles.get("set-number", 0.0))
         if kind != 2.0 or not 1 <= number <= len(self._systems):
             raise BlockError("G10 is printed for L2 and the work coordinates alone: not simulated")
-        self._at.set_system(self._systems[number - 1], words.axes)
+        system = self._systems[number - 1]
+        if self._at.is_active(system):
+            self._moves.rest_at_shift()
+        self._at.set_system(system, words.axes)
 
     def _reference(self, does: str, words: BlockNumbers, modal: ModalState) -> None:
         """Move to a reference point over a middle point, back from it, or to check that it is reached."""

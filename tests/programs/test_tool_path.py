@@ -5,7 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from amp_studio.files import ParameterFile
+from amp_studio.assignments import read_assignments
+from amp_studio.files import ParameterFile, new_file
 from amp_studio.programs import ARC, DWELL, RAPID, ProgramBlockError, ToolPath, read_program
 from amp_studio.programs.interpreter import MOST_REPEATED, tool_path
 from amp_studio.programs.toolpath import LINE
@@ -244,6 +245,17 @@ def test_work_coordinates_local_shifts_and_floating_zeros_add_up() -> None:
     assert np.round(found.ends[:, 0] / 25.4, 6).tolist() == [-4, -3, -2, 0]
     other = path(file, "G20 F10|G54|G10 L2 P1 X-7 Y0|X1")
     assert round(other.ends[0, 0] / 25.4, 6) == -6
+
+
+def test_a_grblhal_is_in_its_first_work_system_and_waits_only_for_another_one() -> None:
+    """gcode.c: G54 is active at the start, so its G10 counts at once; C2989, C2717: the same is not switched."""
+    file = new_file("grblhal", "grblhal", ["X", "Y", "Z"])
+    found = path(file, "F600 G1 X1|G10 L2 P1 X5|X0|G54 X1|G55 X0|G10 L2 P3 X9|X2|M48 X3|M49 X4|M49 X5")
+    assert found.ends[:, 0].tolist() == [1, 1, 5, 6, 6, 0, 2, 3, 3, 4, 5]
+    assert np.flatnonzero(found.kind == DWELL).tolist() == [1, 4, 8]
+    in_motion = new_file("grblhal", "grblhal", ["X", "Y", "Z"])
+    in_motion.set_checked(read_assignments(in_motion, [("$10", "255")]))
+    assert DWELL not in path(in_motion, "F600 G1 X1|G10 L2 P1 X5|X0|G55 X0|G92 X7|X8").kind
 
 
 def test_reference_points_are_reached_by_way_of_the_point() -> None:

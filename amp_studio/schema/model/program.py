@@ -205,6 +205,8 @@ class ProgramCode(Model):
     """Whether it leaves on what another code of its group has switched on in this way."""
     turns: bool = False
     """Whether the spindle turns from it on."""
+    waits: bool = False
+    """Whether switching to it waits until the moves before it have ended."""
     zones: tuple[str, ...] = ()
     """Numbers of the zones that are on from this code of ``zones`` on; those it does not name are off."""
     pairs: dict[str, str] = {}
@@ -346,6 +348,9 @@ class ProgramPath(Model):
     speed_waits: Literal["", "always", "turning"] = ""
     """When a spindle speed waits until the moves before it have ended: with each S, or with another one
     while the spindle turns."""
+    shift_waits: tuple[ParameterId, int] | None = None
+    """The bit of a parameter while which a change of the work coordinates waits until the moves before it
+    have ended."""
     dwell_step: float = 0.0
     """s in which the control counts dwells and pauses, up to the next whole one; 0 where it has none."""
     arcs_need_words: bool = False
