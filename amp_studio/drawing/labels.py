@@ -118,6 +118,10 @@ class Labels:
     """Where there was no room, and the text: for tips."""
 
 
+LEFT_EDGE = 8.0
+"""Where a text at the left edge of a sheet begins."""
+
+
 def labels_of(frame: Placement, width: float, height: float, measure: Measure, line: float) -> Labels:
     """Return where the texts of a scene are on a sheet of a width and a height, in lines of a height."""
     placing = _Placing(frame, width, height, measure, line)
@@ -227,11 +231,12 @@ class _Placing:
         frame, scene, base = self._frame, self._frame.scene, 0.35 * self._line
         right, bottom = frame.left + frame.width, frame.top + frame.height
         upright = axis_text(scene, "y")
-        fits = self._measure(upright, False) < frame.left - 8.0
+        # A word is longer in another language (speed, Geschwindigkeit): half as long again must fit.
+        fits = 1.5 * self._measure(upright, False) < frame.left - LEFT_EDGE
         if fits:
             self._figure(frame.left - 8.0, frame.top - 12.0, upright, "end")
         else:
-            self._figure(8.0, frame.top - 12.0, upright, "start")
+            self._figure(LEFT_EDGE, frame.top - 12.0, upright, "start")
         self._figure(right, bottom + 29.0, axis_text(scene, "x"), "end")
         for level, text in frame.ticks("y") if scene.y.is_written else ():
             self._figure(frame.left - 8.0, level + base, text, "end")

@@ -9,7 +9,7 @@ from textwrap import wrap
 from typing import Any
 
 from .frame import Placement
-from .labels import SAMPLE, Heading, Label, heading_of, labels_of
+from .labels import LEFT_EDGE, SAMPLE, Heading, Label, heading_of, labels_of
 from .scene import Curve, Dot, FilledArea, HeatMap, Picture, Point, Polyline, Scene, ShapeSort
 from .ticks import figure_text
 
@@ -501,8 +501,10 @@ def _label(label: Label) -> str:
     if label.value:
         value = f' <tspan fill="{DIM}" font-weight="400">{escape(label.value)}</tspan>'
     weight = ' font-weight="600"' if label.strong else ""
-    x = box.left + 0.5 * box.width  # an estimated width is wrong by as much on both sides
+    # An estimated width is wrong by as much on both sides; at the edge there is no room but to the right.
+    at_edge = box.left <= LEFT_EDGE
+    x = box.left if at_edge else box.left + 0.5 * box.width
     return (
         f'<text x="{x:.1f}" y="{box.top + 0.8 * box.height:.1f}" fill="{COLOURS[label.sort]}"'
-        f' text-anchor="middle"{weight}>{escape(label.text)}{value}</text>'
+        f' text-anchor="{"start" if at_edge else "middle"}"{weight}>{escape(label.text)}{value}</text>'
     )

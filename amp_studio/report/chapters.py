@@ -171,7 +171,7 @@ class CheckedMotion:
         """Return scenario, figures, and what is not good with the alarms, as they are printed."""
         figures = (
             # A number is not parted from its unit at the end of a line.
-            f"{words.sentence(each.name)} {words.sentence(each.text).replace(' ', NO_BREAK)}"
+            f"{words.figure(each.name, each.unit)} {words.sentence(each.text).replace(' ', NO_BREAK)}"
             for each in self.figures
         )
         alarms = (f"{code}: {words.sentence(message)}" for code, message in self.alarms)

@@ -32,6 +32,9 @@ _REMARK = re.compile(
 )
 """What the facts remark on a label that a manual does not print, or whose figure is lost."""
 
+_PAGES = ("page", "source")
+"""What a sentence is from, by its names there: the point of section 3.2 stays."""
+
 
 @dataclass(frozen=True)
 class SentencePattern:
@@ -80,6 +83,10 @@ class Language:
         own = self._phrase(english, self.text)
         return english if own is None else own
 
+    def figure(self, name: str, unit: str) -> str:
+        """Return the name of a figure; one name may be another word in another unit (a speed in rpm)."""
+        return self.titles.get(f"{name} ({unit})") or self.sentence(name)
+
     def scenario(self, name: str) -> str:
         """Return the name of a scenario of the simulator."""
         return self.phrases.get(f"scenario {name}") or name.capitalize()
@@ -126,9 +133,8 @@ class Language:
             return known
         for sentence in self.sentences:
             if (figures := sentence.found(english)) is not None:
-                # A page is a name: its point stays.
                 given = {
-                    name: (self.title if name == "page" else part)(text) for name, text in figures.items()
+                    name: (self.title if name in _PAGES else part)(text) for name, text in figures.items()
                 }
                 return sentence.own.format_map(given)
         for pattern, own in self.title_patterns:
@@ -202,7 +208,7 @@ class Language:
         for pattern, own in self.message_patterns:
             if match := pattern.fullmatch(english):
                 return own.format(*map(self.message, match.groups()))
-        return english
+        return self.unit(english)
 
     def drawing(self, svg: str) -> str:
         """Return a drawing (SVG) with its texts in this language."""

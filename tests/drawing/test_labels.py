@@ -96,3 +96,9 @@ def test_boxes_that_touch_do_not_overlap():
     box = Box(0.0, 0.0, 10.0, 10.0)
     assert not box.overlaps(Box(10.0, 0.0, 10.0, 10.0))
     assert box.overlaps(Box(9.9, 9.9, 10.0, 10.0))
+
+
+def test_what_is_measured_upwards_has_room_for_a_longer_word():
+    """``Geschwindigkeit, Zoll/min`` was cut at the left edge: it lay around the middle of ``speed, in/min``."""
+    scene = Scene("home", "", "", "", Scale("X", "mm", 0.0, 10.0), Scale("speed", "in/min", 0.0, 10.0))
+    assert re.search(r'<text x="8.0"[^>]* text-anchor="start">speed, in/min<', scene_svg(scene, 720.0, 300.0))

@@ -15,6 +15,7 @@ from amp_studio.files import ParameterFile, compare, new_file, open_file
 from amp_studio.guide import progress
 from amp_studio.report import Contents
 from amp_studio.report.build import build_report
+from amp_studio.report.chapters import CheckedFigure, CheckedMotion
 from amp_studio.report.drawings import drawings
 from amp_studio.report.language import language_of
 from amp_studio.report.output.page import render_html
@@ -30,7 +31,7 @@ from amp_studio.sheet import make_sheet
 from amp_studio.sim import law_of
 from amp_studio.sim.law import simulated_families
 from amp_studio.sim.scenarios import SCENARIOS
-from amp_studio.validate import Validator
+from amp_studio.validate import Finding, Validator
 from tests.campaigns import some
 from tests.report.test_german import EXAMPLES
 
@@ -68,7 +69,8 @@ def printed(file: ParameterFile, name: str, language: str) -> Iterator[str]:
     )
     page = re.sub(r"<(script|style|code)\b.*?</\1>", "", render_html(report).decode(), flags=re.DOTALL)
     drawn = language_of(language, file.schema.family.family).drawing
-    drawings = [drawn(figure.svg) for figure in (*report.motion, *report.pictures, *report.program_figures)]
+    figures = (*report.motion, *report.pictures, *report.program_figures, *report.check_figures)
+    drawings = [drawn(figure.svg) for figure in figures]
     for text in (page, *drawings):
         yield from (html.unescape(" ".join(found.split())) for found in _TEXT.findall(text))
 
@@ -291,3 +293,60 @@ def test_what_is_written_into_a_picture_of_motion_is_german(words: str) -> None:
     assert not (set(re.findall(r"[a-zµ]+", words, re.IGNORECASE)) - kept) & set(
         re.findall(r"[a-zµ]+", own, re.IGNORECASE)
     )
+
+
+@pytest.mark.parametrize(
+    ("family", "english", "german"),
+    [
+        ("9pc", "speed, in/min", "Geschwindigkeit, Zoll/min"),
+        ("9pc", "position from the switch, in", "Position ab dem Schalter, Zoll"),
+        ("num", "P16N3 at 1000 deg/min", "P16N3 bei 1000 °/min"),
+        ("num", "4 % at 1000 deg/min", "4 % bei 1000 °/min"),
+    ],
+)
+def test_the_scales_and_speeds_of_a_homing_are_german(family: str, english: str, german: str) -> None:
+    """A pattern for the friction at 1000 of a unit took every speed of 1000 deg/min."""
+    assert language_of("de", family).sentence(english) == german
+
+
+def test_a_section_that_is_a_source_keeps_its_point() -> None:
+    """It was ``Seite 3,2``."""
+    alarm = (
+        "The axis has passed the 1st software stroke limit, 400.5 mm (page 3.2): the command stops at once"
+    )
+    assert language_of("de", "syntec").sentence(alarm) == (
+        "Die Achse hat die 1. Softwareendlage bei 400,5 mm überfahren (Seite 3.2): der Sollwert hält sofort"
+    )
+
+
+def test_the_speed_of_a_spindle_is_a_drehzahl() -> None:
+    figures = (
+        CheckedFigure("speed", 1000.0, "rpm", "1000 rpm"),
+        CheckedFigure("speed", 5.0, "mm/min", "5 mm/min"),
+    )
+    check = CheckedMotion("good", "spindle", "", figures, "")
+    printed = check.printed(language_of("de", "9pc"))[1].replace("\u00a0", " ")
+    assert printed == "Drehzahl 1000 1/min, Geschwindigkeit 5 mm/min"
+
+
+def test_a_masked_value_is_german_in_a_paper_of_differences() -> None:
+    mill, lathe = (open_file(EXAMPLES[name]).file for name in ("mill-1394", "lathe-ls176"))
+    comparison = compare(mill.schema, mill.values, lathe.values)
+    paper = differences_paper(mill, comparison, ("A", "B"), language="de")
+    assert "(geheim)" in paper_texts(paper)
+    assert "(secret)" not in paper_texts(paper)
+
+
+def test_units_and_joints_of_a_sheet_are_german() -> None:
+    words = language_of("de", "linuxcnc")
+    assert [words.unit(unit) for unit in ("hexadecimal", "steps/mm")] == ["hexadezimal", "Schritte/mm"]
+    assert words.text("Joint 0") == "Gelenk 0", "as the messages of its rules call it"
+
+
+def test_a_finding_that_names_a_unit_alone_has_it_in_german() -> None:
+    """``gehört hier in deg/min angegeben``: a unit was taken behind a number only."""
+    words = language_of("de", "num")
+    english = "Approach Speed 3000 mm/min should be in deg/min here."
+    found = words.finding(Finding("", "error", (), english))
+    assert "°/min" in found
+    assert "deg/min" not in found

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import ParameterFile, open_file
+from amp_studio.files import ParameterFile, new_file, open_file
 from amp_studio.files.example_files import examples_folder
 from amp_studio.files.notes import set_value_note
 from amp_studio.files.storage import save_file
@@ -18,6 +18,8 @@ from amp_studio.report.build import build_report
 from amp_studio.report.contents import Chapter, Sort
 from amp_studio.report.model import Listing, Report
 from amp_studio.report.output.pdf import render_pdf
+from amp_studio.report.papers.form import form_paper
+from amp_studio.report.papers.paper import write_paper
 from amp_studio.report.rows import rows_of
 from amp_studio.report.sections import numbers_of
 
@@ -173,4 +175,14 @@ def test_a_number_that_is_a_name_has_a_column_in_which_it_ends(tmp_path: Path) -
     print_report(mill, tmp_path / "r.pdf", Contents(without=BARE))
     text = output_of("pdftotext", "-layout", tmp_path / "r.pdf", "-")
     assert re.search(r"\[KINS\]JOINTS {2,}Joints", text)
+    assert re.search(r"\[HAL\]HALUI {2,}Pins", text), "alone in its table, and over the next column"
     assert re.search(r"\[JOINT_0\]MAX_VELOCITY {2,}Greatest Speed", text)
+
+
+@poppler
+def test_a_unit_is_not_parted_at_its_stroke(tmp_path: Path) -> None:
+    """The narrow fields of a form had ``1/`` at the end of a line and ``min`` on the next."""
+    write_paper(form_paper(new_file("num"), language="de"), tmp_path / "f.pdf")
+    text = output_of("pdftotext", "-layout", tmp_path / "f.pdf", "-")
+    assert "1/min" in text
+    assert re.findall(r"(?:1|mm|°|U|µm)/(?:\s|$)", text) == []

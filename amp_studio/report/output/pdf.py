@@ -21,7 +21,7 @@ from amp_studio.report.language import ENGLISH, Language, language_of
 from amp_studio.report.model import MARKS, Report
 from amp_studio.report.templating.templates import TEMPLATES, TemplateMistakeError, filled, line_of_source
 from amp_studio.report.wording import printable
-from amp_studio.schema import Address
+from amp_studio.schema import UNITS, Address, unit_text
 
 from .data import render_json
 from .typesetter import compiled, set_pdf
@@ -149,7 +149,15 @@ def filled_template(
     """Return a template of Typst source with its values, each as a literal. Raises TemplateMistakeError."""
     settings = {"finalize": typst_literal, "autoescape": False}  # every expression becomes a Typst literal
     filters = {"exact": Exact, "source": _Source, "drawing": _drawing, "brief": _brief, "tied": _tied}
+    values = {"whole_units": _whole_units(language), **values}
     return filled(name, values, settings, filters, own, language)
+
+
+def _whole_units(language: Language) -> str:
+    """Return a pattern for the units with a stroke, the longest first: a line would break behind it."""
+    units = {*map(unit_text, UNITS), *language.units.values()}
+    parted = sorted((unit for unit in units if "/" in unit), key=len, reverse=True)
+    return "|".join(map(re.escape, parted))
 
 
 def _brief(text: str) -> str:

@@ -16,7 +16,7 @@ from amp_studio.report.language import Language, language_of
 from amp_studio.report.model import PrintedFigure
 from amp_studio.report.output.page import filled_page
 from amp_studio.report.output.pdf import filled_template, typeset
-from amp_studio.schema import NOT_SET
+from amp_studio.schema import MASKED, NOT_SET
 from amp_studio.version import __version__
 
 from .endings import write_by_ending
@@ -83,7 +83,7 @@ class Paper:
         text = table.rows[row][column]
         if column < table.values_from:
             return text
-        if text == NOT_SET:
+        if text in (NOT_SET, MASKED):
             return self.words.text(text)
         return text if row in table.labels else self.words.quantity(text)
 
