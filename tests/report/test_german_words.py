@@ -300,6 +300,7 @@ def test_what_is_written_into_a_picture_of_motion_is_german(words: str) -> None:
     [
         ("9pc", "speed, in/min", "Geschwindigkeit, Zoll/min"),
         ("9pc", "position from the switch, in", "Position ab dem Schalter, Zoll"),
+        ("9pc", "position from the start", "Position ab dem Start"),
         ("num", "P16N3 at 1000 deg/min", "P16N3 bei 1000 °/min"),
         ("num", "4 % at 1000 deg/min", "4 % bei 1000 °/min"),
     ],
