@@ -4,8 +4,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt, QTimer
-from PySide6.QtGui import QKeySequence
+from PySide6.QtCore import QEvent, Qt, QTimer
+from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QWidget
 from pytestqt.qtbot import QtBot
@@ -39,7 +39,9 @@ class Hands:
 
     def enter(self, text: str) -> None:
         for letter in text:  # the first opens an editor, which gets the rest
-            QTest.keyClick(self.here, letter)
+            for kind in (QEvent.Type.KeyPress, QEvent.Type.KeyRelease):
+                # keyClick takes the first byte of its UTF-8 for a letter that is not ASCII.
+                QApplication.sendEvent(self.here, QKeyEvent(kind, 0, Qt.KeyboardModifier.NoModifier, letter))
 
     def go_to(self, name: str, key: str = "Tab") -> None:
         """Press Tab until the keyboard is at what a screen reader calls so."""
@@ -120,7 +122,7 @@ def test_a_commissioning_with_keys_alone(
     tmp_path: Path,
     qtbot: QtBot,
 ) -> None:
-    path = tmp_path / "machine" / "mill.amp"
+    path = tmp_path / "Büro" / "mill.amp"
     path.parent.mkdir()
     path.write_bytes(example)
     control = start_control()
