@@ -297,10 +297,12 @@ def test_a_setting_that_lacks_one_of_its_values_is_reported() -> None:
 
 def test_a_value_in_a_unit_of_something_else_is_reported() -> None:
     for value, name in ((Value(1.0, "ms"), "ms"), (Value(1.0), "a bare number")):
+        file = mill()
+        file.take_read({("servo.p_gain", "X"): value})  # set refuses it
         with pytest.raises(
             FormatError, match=rf"^servo\.p_gain@X: P Gain is stored in V/count, not in {name}$"
         ):
-            FORMAT.write(mill(servo_p_gain_X=value))
+            FORMAT.write(file)
 
 
 def test_a_script_without_settings_is_known_by_its_head() -> None:
