@@ -154,8 +154,10 @@ class RegisterDriver(RegisterContent, LineDriver):
         """Write one register until it is read back; raises ImageRejectedError."""
         found = None
         for _ in range(WRITE_TRIES):
-            found = self._line.write(register, word)
-            if found == word and self._line.read(register, 1)[0] == word:
+            self._line.write(register, word)
+            # Read, whatever the write was answered with: an answer may be what was sent and nothing more.
+            found = self._line.read(register, 1)[0]
+            if found == word:
                 return
         raise ImageRejectedError(f"register {register} contains {found} after {word} was written to it")
 

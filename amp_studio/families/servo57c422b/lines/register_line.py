@@ -75,12 +75,11 @@ class RegisterLine:
             )
         return tuple(map(int, words))
 
-    def write(self, register: int, word: int) -> int:
-        """Write a register and return what it contains then; raises TransferError."""
+    def write(self, register: int, word: int) -> None:
+        """Write a register; raises TransferError."""
         text = self._ask(f"W {register} {word}", f"W {register} ")
         if not re.fullmatch("[0-9]{1,5}", text) or int(text) > 0xFFFF:
             raise ProtocolMismatchError(f"the rack answers the writing of register {register} with no number")
-        return int(text)
 
     def _ask(self, request: str, head: str) -> str:
         """Return what follows ``head`` in the answer."""

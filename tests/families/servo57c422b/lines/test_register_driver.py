@@ -2,6 +2,7 @@
 and its state after a break.
 """
 
+import re
 import threading
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ from amp_studio.families.servo57c422b.lines.content import (
     RegisterContent,
     settings,
     words_of_content,
+    written_content,
 )
 from amp_studio.families.servo57c422b.lines.register_line import framed, unframed
 from amp_studio.files import ParameterFile, new_file
@@ -22,6 +24,7 @@ from amp_studio.transfer.client.exchange import Outcome, WantedContent, download
 from amp_studio.transfer.content import decode_content, kind_of
 from amp_studio.transfer.errors import (
     CancelledError,
+    Confirmed,
     ControlSilentError,
     ImageRejectedError,
     NotInEmergencyStopError,
@@ -32,6 +35,7 @@ from amp_studio.transfer.errors import (
 from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.image import ImageError
 from amp_studio.transfer.links.endpoint import parse_endpoint
+from amp_studio.transfer.links.link import Link
 
 from .bench import RackBench
 
@@ -141,6 +145,62 @@ def test_a_register_that_does_not_take_a_number_is_named(bench: RackBench) -> No
     ) as caught:
         loaded(bench, gains())
     assert (caught.value.at_control, caught.value.new) == ("mixed", ("R3",))
+    assert caught.value.confirmed == Confirmed(1, 2)
+
+
+@pytest.mark.parametrize("answered", [0, 17595])
+@pytest.mark.parametrize("lost", [0, 2, 3])
+def test_a_register_is_read_whatever_its_writing_was_answered_with(
+    bench: RackBench, answered: int, lost: int
+) -> None:
+    """A mutant that compared the answer alone survived: the rack may repeat what it was sent."""
+    answer, left = bench.rack._answer, [lost]
+
+    def answered_so(found: re.Match[bytes]) -> str:
+        if found[5] is None or int(found[5]) != 3:
+            return answer(found)
+        if left[0]:
+            left[0] -= 1
+        else:
+            bench.words[3] = int(found[6])
+        return f"W 3 {answered}"
+
+    bench.rack._answer = answered_so
+    if lost < 3:
+        assert loaded(bench, gains(y=0)).verified
+        return
+    with pytest.raises(ImageRejectedError, match="register 3 contains 0 after 17595 was written") as caught:
+        loaded(bench, gains(y=0))
+    assert caught.value.at_control == "old"
+
+
+def test_a_late_answer_of_an_earlier_request_is_not_taken_for_this_one(bench: RackBench) -> None:
+    class Late:
+        bytes_per_second = None
+
+        def __init__(self, link: Link) -> None:
+            self._link, self._late = link, b""
+            self.write, self.close = link.write, link.close
+
+        def read(self, timeout: float) -> bytes:
+            """Return what has come before once more, and then what is new."""
+            late, self._late = self._late, self._link.read(timeout)
+            return late + self._late
+
+    bench.wrap = Late
+    assert loaded(bench, gains()).verified
+
+
+def test_registers_that_differ_are_named_either_way(bench: RackBench) -> None:
+    content = bench.driver.fetch()
+    words = words_of_content(content)
+    names = [f"R{register}" for register in settings()]
+    assert bench.driver.difference(content, content) == ""
+    for count, more in ((5, ""), (7, " and 2 more")):
+        other = written_content(words | {register: words[register] + 1 for register in settings()[:count]})
+        for one, two in ((content, other), (other, content)):
+            assert bench.driver.difference(one, two) == f"in {', '.join(names[:5])}{more}"
+    assert bench.driver.difference(content, b"") == "so much that it cannot be read"
 
 
 def test_who_stops_in_the_handshake_leaves_no_command_behind(bench: RackBench) -> None:
