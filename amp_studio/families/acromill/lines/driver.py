@@ -172,6 +172,9 @@ class TerminalDriver(AcrContent, LineDriver):
             error.at_control, error.confirmed = "unknown", sent.confirmed
         else:
             super()._after_break(error, sent, replacement)
+        # What the card contains now is half of it: a refusal of ESAVE has the other half in its own words.
+        if isinstance(error, ConnectionCutError | ControlSilentError) and sent.when_stopped:
+            error.what += f"; {sent.when_stopped}"
 
     # -- reading ----------------------------------------------------------------------------------
 
