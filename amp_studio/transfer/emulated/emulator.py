@@ -20,7 +20,7 @@ from functools import partial
 from amp_studio.schema import quoted, visible
 from amp_studio.transfer.house import Code, Flags, RefusalError, Refused, encode_frame, pack
 from amp_studio.transfer.interruption import interrupts
-from amp_studio.transfer.links import Endpoint, Link, LinkError, Listener, listen, parse_endpoint
+from amp_studio.transfer.links import Endpoint, Link, LinkError, Listener, TcpLink, listen, parse_endpoint
 from amp_studio.transfer.status import ControlStatus
 
 from .control import Control
@@ -32,6 +32,7 @@ from .screen import open_screen
 RESTART_SECONDS = 0.5
 SLICE = 0.05  # seconds between two looks at the operator's commands
 CLIENT_SILENCE = 5.0  # seconds without a whole frame after which another client may take the control over
+UNREAD_LIMIT = 0.2  # seconds for which a client that reads no answers may keep all others waiting
 LINES = 8  # open at once; beyond them the one that was opened first and does not have the control is cut
 PIECE = 2_048  # bytes of one client that are worked on before anybody else has a turn
 COMMANDS_WAITING = 256  # operator's commands that are kept until there is time for them
@@ -152,6 +153,9 @@ class Emulator:
         link = self._listener.accept(0 if self._callers else SLICE)
         if link is None:
             return
+        # A window of answers has room in any line: one that is full is not being read.
+        if isinstance(link, TcpLink):
+            link.write_limit = UNREAD_LIMIT
         responder = Responder(self._control, window=self._window, chunk=self._chunk)
         newest = Caller(self._line.wrap(link), responder, self._clock())
         others = [caller for caller in self._callers if caller is not self._holder]

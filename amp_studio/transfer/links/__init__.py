@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from .security import Security, can_others_read, exposure, read_password
     from .serial_line import SerialLink
     from .serial_settings import Parity, SerialSettings
+    from .tcp import TcpLink
     from .usb_ports import serial_ports
 else:
     __getattr__ = front_page(__name__)

@@ -15,7 +15,7 @@ from functools import partial
 from .attempt import SLICE, in_time
 from .endpoint import Endpoint
 from .link import LinkError, keep_waiting
-from .tcp import READ_SIZE, WRITE_LIMIT, TcpLink, tcp_message
+from .tcp import READ_SIZE, TcpLink, tcp_message
 
 
 class TlsLink(TcpLink):
@@ -41,7 +41,7 @@ class TlsLink(TcpLink):
 
     def write(self, data: bytes) -> None:
         rest = memoryview(data)
-        end = time.monotonic() + WRITE_LIMIT
+        end = time.monotonic() + self.write_limit
         while rest:
             try:
                 rest = rest[self._socket.send(rest) :]

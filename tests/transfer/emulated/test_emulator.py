@@ -3,16 +3,18 @@
 import hashlib
 import json
 import os
+import socket
 import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 from amp_studio.transfer.client.exchange import WantedContent, download, upload
-from amp_studio.transfer.emulated.emulator import Emulator, serve
+from amp_studio.transfer.emulated.emulator import LINES, Emulator, serve
 from amp_studio.transfer.errors import (
     CancelledError,
     ConnectionCutError,
@@ -24,13 +26,16 @@ from amp_studio.transfer.errors import (
 )
 from amp_studio.transfer.exchange import Exchange, Replacement
 from amp_studio.transfer.house.driver import HouseDriver
-from amp_studio.transfer.house.message import Flags
+from amp_studio.transfer.house.frame import encode_frame
+from amp_studio.transfer.house.message import Flags, Hello, pack
 from amp_studio.transfer.house.retry_timer import RetryPolicy
 from amp_studio.transfer.house.session import Session
+from amp_studio.transfer.links import tcp
 from amp_studio.transfer.links.endpoint import parse_endpoint
 from amp_studio.transfer.links.link import LinkError
 from amp_studio.transfer.links.opening import connect, listen
 from tests.campaigns import CAMPAIGN, some
+from tests.transfer.null_modem import VirtualClock
 
 OLD = b"".join(b"%d\told.value.%d\t%d mm\n" % (n, n, n * 7) for n in range(400))
 NEW = b"".join(b"%d\tnew.value.%d\t%d mm\n" % (n, n, n * 9) for n in range(1_400))[:32_768]
@@ -278,6 +283,34 @@ def test_a_client_that_has_long_been_silent_loses_the_line_to_the_next(
         emulator.operate("quit")
         thread.join(60)
         listener.close()
+
+
+def test_clients_that_read_no_answers_keep_nobody_waiting(
+    new_control: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each kept all others waiting for 3 s, one after the other: eight of them for 24 s."""
+    clock, full = VirtualClock(), tcp.select.select
+
+    def select(readers: list[Any], writers: list[Any], errors: list[Any], timeout: float) -> Any:
+        if not writers:
+            return full(readers, writers, errors, timeout)
+        clock.sleep(timeout)  # there is room in no line
+        return [], [], []
+
+    listener = listen(parse_endpoint("tcp://127.0.0.1:0"))
+    clients = [socket.create_connection(("127.0.0.1", listener.endpoint.port)) for _ in range(LINES)]
+    for client in clients:
+        client.sendall(encode_frame(pack(Hello(1, b"abcd", "does not read"), 1)))
+    monkeypatch.setattr(tcp, "select", SimpleNamespace(select=select))
+    monkeypatch.setattr(tcp, "time", SimpleNamespace(monotonic=lambda: clock.now, sleep=time.sleep))
+    emulator = Emulator(new_control(), listener, say=lambda line: None)
+    for _ in range(2 * LINES):
+        emulator.turn()
+    assert not emulator._callers, "each has been cut off"
+    assert 0 < clock.now < 3, "s of waiting for eight of them"
+    for client in clients:
+        client.close()
+    listener.close()
 
 
 def test_serve_shows_where_it_listens_and_obeys(new_control: Callable[..., Any]) -> None:
