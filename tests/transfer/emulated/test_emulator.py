@@ -285,7 +285,7 @@ def test_a_client_that_has_long_been_silent_loses_the_line_to_the_next(
         listener.close()
 
 
-def test_clients_that_read_no_answers_keep_nobody_waiting(
+def test_clients_that_read_no_answers_do_not_keep_others_waiting(
     new_control: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Each kept all others waiting for 3 s, one after the other: eight of them for 24 s."""

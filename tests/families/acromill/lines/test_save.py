@@ -1,4 +1,4 @@
-"""What breaks while an ACR card saves (ESAVE): what is then told of the card, and what is set and saved again."""
+"""What breaks while an ACR card saves (ESAVE): what is then reported of the card, and what is set and saved again."""
 
 import threading
 from collections.abc import Callable
@@ -86,7 +86,7 @@ def test_a_line_that_breaks_at_each_save_leaves_it_unknown(bench: CardBench) -> 
     assert (caught.value.at_control, caught.value.confirmed) == ("unknown", Confirmed(2, 2))
 
 
-def test_a_save_that_is_not_answered_is_told_beside_what_the_card_contains(bench: CardBench) -> None:
+def test_a_save_that_is_not_answered_is_reported_beside_what_the_card_contains(bench: CardBench) -> None:
     at_line(bench, "ESAVE", lambda count, obey: bench.card._line.clear())
     with pytest.raises(ControlSilentError, match=f"does not take 'ESAVE'.*; {NOT_KNOWN}") as caught:
         send(bench, small_file(pgain="0.08", ppu="4096"), [])
@@ -116,7 +116,7 @@ def test_a_save_may_take_longer_than_a_setting(bench: CardBench) -> None:
 
 
 def test_a_line_that_breaks_under_a_command_names_the_setting_that_may_be_there(bench: CardBench) -> None:
-    """The write fails and has reached the card: whoever takes notice after it knows of nothing sent."""
+    """The write fails and has reached the card: a driver that takes notice after it knows of nothing sent."""
 
     class BreaksBehind:
         bytes_per_second = None
