@@ -6,8 +6,10 @@ import html
 import re
 from collections.abc import Iterator
 from datetime import UTC, datetime
+from io import BytesIO
 
 import pytest
+from openpyxl import load_workbook
 
 from amp_studio.dossier import checks_of, machine_tests_of, motion_figures, programs_of
 from amp_studio.drawing.svg import measured
@@ -18,6 +20,7 @@ from amp_studio.report.build import build_report
 from amp_studio.report.chapters import CheckedFigure, CheckedMotion
 from amp_studio.report.drawings import drawings
 from amp_studio.report.language import language_of
+from amp_studio.report.output.everything import render_workbook
 from amp_studio.report.output.page import render_html
 from amp_studio.report.output.text import render_text
 from amp_studio.report.papers.check_list import build_check_list, render_check_list_text
@@ -351,3 +354,16 @@ def test_a_finding_that_names_a_unit_alone_has_it_in_german() -> None:
     found = words.finding(Finding("", "error", (), english))
     assert "°/min" in found
     assert "deg/min" not in found
+
+
+def test_a_workbook_has_german_units() -> None:
+    """``deg/min`` and ``rpm`` stood beside German words; the English one has them as the file."""
+    file = open_file(EXAMPLES["mill-1394"]).file
+
+    def units(language: str) -> set[str]:
+        book = load_workbook(BytesIO(render_workbook(build_report(file, Contents(language=language)))))
+        return {str(row[7]) for row in book.worksheets[0].iter_rows(min_row=2, values_only=True)}
+
+    assert {"deg/min", "rpm", "counts"} <= units("en")
+    assert {"°/min", "1/min", "Ink"} <= units("de")
+    assert {"deg/min", "rpm", "counts"} & units("de") == set()

@@ -100,7 +100,7 @@ def _checks(report: Report, words: Language) -> Iterator[tuple[WorkbookCell, ...
         if not check.figures:
             yield *head, "", None, "", why
         for n in check.figures:
-            yield *head, words.sentence(n.name), n.value, words.unit(n.unit), why
+            yield *head, words.figure(n.name, n.unit), n.value, words.unit(n.unit), why
 
 
 def _values(report: Report, words: Language) -> WorkbookSheet:
@@ -112,7 +112,8 @@ def _values(report: Report, words: Language) -> WorkbookSheet:
         changed, printed = map(words.text, yes_no)
         place, state = words.text(row.place), words.title(state_name(row.state))
         identity = (row.number, row.id, row.instance, place, row.name, row.group)
-        values.append((*identity, value, row.unit, default, changed, state, row.forced, printed, row.note))
+        unit = words.unit(row.unit)
+        values.append((*identity, value, unit, default, changed, state, row.forced, printed, row.note))
     return WorkbookSheet("Values", _VALUE_HEADS, values)
 
 
