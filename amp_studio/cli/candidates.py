@@ -77,6 +77,11 @@ def steps(named: str, current: str) -> Sequence[str]:  # noqa: ARG001  # every c
     return [step.id for file in _files(named) for step in steps_of(file.schema)]
 
 
+def ways(named: str, current: str) -> Sequence[str]:  # noqa: ARG001  # every completion takes both
+    """Return the printed ways of tuning and fitting."""
+    return [way.id for file in _files(named) for way in file.schema.guides]
+
+
 def rules(named: str, current: str) -> Sequence[str]:  # noqa: ARG001  # every completion takes both
     """Return the rules."""
     return [rule.id for file in _files(named) for rule in file.schema.rules]

@@ -1,11 +1,13 @@
 """``guide`` and ``get --not-set``: the steps of commissioning without a display."""
 
+import shlex
 from pathlib import Path
 
 import pytest
 
 from amp_studio import cli
 from amp_studio.files import open_file
+from tests.campaigns import CAMPAIGN
 
 
 @pytest.fixture(scope="module")
@@ -202,3 +204,48 @@ def test_what_cannot_be_alike_is_refused_and_nothing_is_written(amp, tmp_path: P
         assert message.code == 2
         assert why in message.err
         assert not path.exists()
+
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+WAYS = [
+    ("57c422b-label-press/LABEL_PRESS.amp", ["self-tuning", "manual-tuning"]),
+    *(
+        [
+            ("acromill-router/ROUTER.amp", ["axis", "homing", "tuning"]),
+            ("mill-1394/MILL_1394.amp", ["tuning"]),
+            ("num-1060-mill/MILL_1060.amp", ["procedures"]),
+            ("syntec-mill/SYNTEC_MILL.amp", ["new-axis"]),
+        ]
+        if CAMPAIGN
+        else []
+    ),
+]
+
+
+@pytest.mark.parametrize(("example", "ways"), WAYS)
+def test_each_step_of_a_printed_way_has_a_command_that_shows_its_figures(
+    example: str, ways: list[str], amp
+) -> None:
+    """They were in the window alone: ``guide`` knew no such name."""
+    path = EXAMPLES / example
+    assert {way["id"] for way in amp("guide", path, "--json").json["ways"]} >= set(ways)
+    commands = dict[str, str]()
+    for way in ways:
+        assert f"\n--way {way}: " in amp("guide", path).out
+        lines = amp("guide", path, "--way", way).out.splitlines()
+        found = [n for n, line in enumerate(lines) if line.startswith("     Shown by: amp-studio ")]
+        commands |= {lines[n].partition("amp-studio ")[2]: lines[n + 1] for n in found}
+    for command, figures in commands.items():
+        result = amp(*shlex.split(command), "--json").json["result"]
+        assert set(figures.strip().split(", ")) <= result.keys(), command
+    assert commands
+
+
+def test_a_printed_way_has_the_values_of_the_file_and_of_a_family_its_parameters(amp) -> None:
+    path = EXAMPLES / WAYS[0][0]
+    lines = amp("guide", path, "--way", "manual-tuning").out.splitlines()
+    assert lines[:2] == ["Tuning by hand (page 5-3)", "  1  Starting values (page 5-3)"]
+    assert ["R5", "Velocity", "Gain", "78"] in [line.split() for line in lines]
+    assert "     Look for: No error at rest. Too much of it is not stable." in lines
+    assert "     P Gain Axis X" in amp("guide", "acromill", "--way", "tuning").out.splitlines()
+    assert "Unknown way 'x'. Known: axis, homing, tuning" in amp("guide", "acromill", "--way", "x").err

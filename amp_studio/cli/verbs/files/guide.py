@@ -11,6 +11,7 @@ from amp_studio.cli import candidates
 from amp_studio.cli.arguments import JSON, LANGUAGE, OUTPUT, TEXT, path_of
 from amp_studio.cli.console import family, is_family, print_json, print_remark
 from amp_studio.cli.errors import UsageError
+from amp_studio.cli.files.ways import way_lines, way_names, ways_json
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_replaced, print_remarks
 from amp_studio.cli.verb import Options, Verb, VerbArgument
@@ -37,6 +38,12 @@ VERB = Verb(
         completes=candidates.steps,
     ),
     VerbArgument("--step", dest="at", metavar="STEP", help="the same", completes=candidates.steps),
+    VerbArgument(
+        "--way",
+        metavar="WAY",
+        help="a printed way of tuning or fitting, step by step, with what shows each on the simulated axis",
+        completes=candidates.ways,
+    ),
     VerbArgument("--next", action="store_true", help="the next value that is not set, with its help"),
     VerbArgument(
         "--after",
@@ -70,6 +77,7 @@ VERB = Verb(
         "amp-studio guide 9pc",
         "amp-studio guide MILL_1394.amp",
         "amp-studio guide MILL_1394.amp home",
+        "amp-studio guide MILL_1394.amp --way tuning",
         "amp-studio guide MILL_1394.amp --next --json",
         "amp-studio guide MILL_1394.amp --done dual",
         "amp-studio guide MILL_1394.amp -o list.pdf",
@@ -100,6 +108,9 @@ def run(options: Options) -> int:
     is_changing = any(getattr(options, key) for key in _CHANGING)
     machine = _changed(options) if is_changing else opened(path, options)
     file = machine.file
+    if options.way and not options.json:
+        print("\n".join(way_lines(file.schema, options.way, str(path), file)))
+        return 0
     step = _step(file.schema, asked_for) if asked_for else None
     validator = machine.validator()
     come = progress(validator, validator.run())
@@ -151,7 +162,11 @@ def _family(options: Options, schema: Schema, asked_for: str | None) -> int:
         raise UsageError(f"{options.path} is a family: only the guide of a file has ticks and open values")
     steps = (_step(schema, asked_for),) if asked_for else steps_of(schema)
     if options.json:
-        print_json({"family": schema.family.family, **_order(schema), "steps": [_facts(s) for s in steps]})
+        facts = {"steps": [_facts(s) for s in steps], "ways": ways_json(schema)}
+        print_json({"family": schema.family.family, **_order(schema), **facts})
+        return 0
+    if options.way:
+        print("\n".join(way_lines(schema, options.way, str(options.path), None)))
         return 0
     order = _order(schema)
     if not asked_for and order["order"]:
@@ -160,6 +175,9 @@ def _family(options: Options, schema: Schema, asked_for: str | None) -> int:
         print(f"{step.number:>3}  {step.title}{_cited(step.page)}")
         if asked_for:
             print("\n".join(f"     {label}" for label in _parameter_labels(schema, step)))
+    if not asked_for:
+        for line in way_names(schema):
+            print(line)
     return 0
 
 
@@ -275,6 +293,7 @@ def _overview(file: ParameterFile, come: GuideProgress, path: Path) -> Iterator[
     for name, who in file.header.done.items():
         if name not in known:
             yield f"[x] at the machine: {name.replace('@', ', axis ')}, ticked {with_local_times(who)}"
+    yield from way_names(file.schema)
     if come.deferred:
         yield f"{delivered_text(come.deferred, come.deferred_to)}; validate --json lists them"
 
@@ -365,6 +384,7 @@ def _as_json(file: ParameterFile, come: GuideProgress, path: Path, only: SetupSt
             for each in come.steps
             if only in (None, each.step)
         ],
+        "ways": ways_json(file.schema),
     }
 
 
