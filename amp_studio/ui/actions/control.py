@@ -19,7 +19,7 @@ from amp_studio.ui.base.modal import is_alive
 from amp_studio.ui.base.questions import show_message
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import icon
-from amp_studio.ui.base.translated import Translated, tr
+from amp_studio.ui.base.translated import Translated, message_in_words, tr
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.control.exchange import ControlExchange
 from amp_studio.ui.forms.out_of_range import AskInDialogs
@@ -37,6 +37,8 @@ if TYPE_CHECKING:
     from amp_studio.ui.control.session import ControlSession
     from amp_studio.ui.live.page import LiveView
 
+_REFUSED = "refused: "
+"""Begins the line of an emulated control that took no word."""
 STATE_ROOM = 152
 """Of the button in the tool bar for the name of a control and its state, in logical pixels."""
 COPIES = "Backups of a control (*.img *.before-*.amp);;All files (*)"
@@ -137,8 +139,11 @@ class ControlDesk(Translated):
         """Show a line of the emulated control's screen; one that stays in E-stop stays so in the menu too."""
         if line.startswith(("kept in E-stop: ", "refused: the control stays in E-stop: ")):
             self.window.menus["control.estop"].setChecked(True)
-        if not line.startswith("estop "):
-            self.window.show_status(self.tr("Emulated control: {line}").format(line=line))
+        if line.startswith("estop "):
+            return
+        if line.startswith(_REFUSED):
+            line = f"{self.tr('refused')}: {message_in_words(line.removeprefix(_REFUSED))}"
+        self.window.show_status(self.tr("Emulated control: {line}").format(line=line))
 
     def switch_estop(self) -> None:
         """Put the emulated control into E-stop or out of it, as its action is."""

@@ -78,7 +78,11 @@ class MergeDelegate(QStyledItemDelegate):
             start = head.sectionViewportPosition(NAME) + self._view.indentation() + 2
             room = QRect(start, place.top(), max(end - start, 0), place.height())
             title, _, counts = self._model.group_text(group).rpartition("  ")
-            used = self._write(painter, room, title, self._head, "text")
+            # The counts differ from group to group: a title without room loses the area before its own name.
+            wide = QFontMetrics(self._small).horizontalAdvance(counts) + 8
+            if QFontMetrics(self._head).horizontalAdvance(title) + wide > room.width():
+                title = title.rpartition(": ")[2]
+            used = self._write(painter, room.adjusted(0, 0, -wide, 0), title, self._head, "text")
             self._write(painter, room.adjusted(used + 8, 0, 0, 0), counts, self._small, "dim")
         elif column in (A, B) and any(row.kind != "same" for row in group.rows):
             self._write(painter, place.adjusted(_LEFT, 0, -4, 0), self.tr("Take all"), self._small, "sel")

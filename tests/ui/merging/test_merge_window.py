@@ -2,7 +2,7 @@
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QAccessible, QGuiApplication
+from PySide6.QtGui import QAccessible, QFont, QGuiApplication
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLineEdit
 
@@ -11,6 +11,7 @@ from amp_studio.schema import Value
 from amp_studio.ui.base.theme import colour, scheme
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.merge.columns import AXIS, NAME, RESULT, A, B
+from amp_studio.ui.merge.delegate import MergeDelegate
 from amp_studio.ui.merge.sources import MergeSource
 from amp_studio.ui.merge.window import MergeWindow
 from tests.ui.conftest import WAIT_MS
@@ -89,6 +90,24 @@ def test_the_mark_of_the_conflicts_has_the_colours_of_a_theme_that_is_chosen_lat
             assert colour("warn").name() in colours(), theme
     finally:
         scheme().choose(chosen)
+
+
+def test_the_head_of_a_group_has_its_counts_where_there_is_little_room(three: MergeWindow) -> None:
+    three.resize(1024, 700)
+    painted: list[str] = []
+    write = MergeDelegate._elided
+
+    def noted(face: QFont, text: str, width: int) -> str:
+        painted.append(write(face, text, width))
+        return painted[-1]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(MergeDelegate, "_elided", staticmethod(noted))
+        for column in range(three.tree.header().count()):
+            three.tree.header().resizeSection(column, 110)
+        three.tree.viewport().grab()
+    assert "1 differs, 1 conflict" in painted
+    assert "Position Loop Parameters" in painted
 
 
 # -- choosing
