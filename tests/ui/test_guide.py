@@ -281,3 +281,10 @@ def test_a_fresh_file_is_calm_wherever_one_looks(window_with: Callable[[bytes], 
     window.workspace.edit("begin", {("home.position", "1"): Value(1.0, "mm")})
     assert window.workspace.count("error") == 6
     assert window.table.values.worst[hardware] == "error"
+
+
+def test_the_tip_of_a_step_has_its_findings(window: MainWindow) -> None:
+    window.workspace.edit("loops", {("servo.position_loop_type", a): Value("open") for a in "123"})
+    steps = window.page.left.steps
+    tips = [item.toolTip(0) for item in steps._items.values()]
+    assert any("warnings" in tip.splitlines()[-1] for tip in tips)

@@ -20,6 +20,7 @@ from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.plot import LEAST_PANEL, Plot
 from amp_studio.ui.base.theme import font
 from amp_studio.ui.base.translated import worded
+from amp_studio.ui.forms.place_tree import counts_with_room
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.table.cell_look import as_written
 from amp_studio.ui.table.column_widths import LEAST_NAMES, ContentWidths, column_widths
@@ -373,3 +374,25 @@ def test_an_axis_in_a_sentence_of_the_simulation_is_called_by_its_letter(
 def test_the_rated_torque_of_a_step_is_german(german: None) -> None:
     assert worded("Rated torque") == "Nenndrehmoment"
     assert worded("100 % where torque is in %") == "100 %, wo es in % ist"
+
+
+@pytest.mark.parametrize(
+    ("room", "displayed"),
+    [
+        (300, (("error", 6), ("warning", 14), ("recommendation", 121))),
+        (170, (("error", 6), ("warning", 14))),
+        (60, (("error", 6),)),
+    ],
+)
+def test_the_title_of_a_step_is_read_beside_hundreds_of_findings_and_the_worst_stay(
+    room: int, displayed: tuple[tuple[str, int], ...]
+) -> None:
+    """At 1024 pixels a step was called R…."""
+    counts = (("error", 6), ("warning", 14), ("recommendation", 121))
+    kept, is_cut = counts_with_room(counts, 120, room, lambda text: 7 * len(text))
+    assert (kept, is_cut) == (displayed, displayed != counts)
+
+
+def test_a_short_title_costs_no_findings() -> None:
+    counts = (("error", 6), ("warning", 14))
+    assert counts_with_room(counts, 20, 90, lambda text: 7 * len(text)) == (counts, False)

@@ -4,6 +4,8 @@ its findings and how many values it has open.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from PySide6.QtCore import QRect, QSize, Qt, Signal
 from PySide6.QtGui import QFontMetrics, QKeyEvent, QPainter, QPalette
 from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem, QTreeWidget, QWidget
@@ -21,12 +23,18 @@ from amp_studio.ui.base.theme import (
     severity_mark,
 )
 
+Counts = tuple[tuple[str, int], ...]
+"""Findings by severity, the worst first."""
 _USER = Qt.ItemDataRole.UserRole
 KEY, PICTURE, COUNTS, RIGHT, TOKEN = (Qt.ItemDataRole(_USER + n) for n in range(5))
 """What an item is; its icon (name and ink); its findings (severity, how many); the text at its right;
 its ink."""
 _BAR = 2
 """Width of the bar at the left of the selected place."""
+_LEAST_TITLE = 80
+"""Width in pixels that a title keeps, or its own: beside hundreds of findings one letter was left."""
+_MORE = "…"
+"""Instead of the findings that have no room; the tip of a step has all."""
 
 
 class PlaceTree(QTreeWidget):
@@ -74,6 +82,23 @@ def _background(tree: QTreeWidget, index: ModelIndex, is_hovered: bool) -> Token
     return "hover" if is_hovered else "panel"
 
 
+def counts_with_room(
+    counts: Counts, title: int, room: int, width_of: Callable[[str], int]
+) -> tuple[Counts, bool]:
+    """Return the findings that are shown in ``room`` pixels beside a title of ``title`` pixels, the worst
+    first, and whether some are left out.
+    """
+    least = min(title, _LEAST_TITLE)
+    kept = counts
+    while len(kept) > 1:
+        used = sum(width_of(str(count)) + 3 + SMALL_ICON + GAP for _, count in kept)
+        used += width_of(_MORE) + GAP if kept != counts else 0
+        if room - used >= least:
+            break
+        kept = kept[:-1]
+    return kept, kept != counts
+
+
 class _PlaceDelegate(QStyledItemDelegate):
     """Paints a place: icon, title, findings, count."""
 
@@ -95,23 +120,30 @@ class _PlaceDelegate(QStyledItemDelegate):
             _icon_at(painter, left, place, *picture)
             left += SMALL_ICON + GAP2
         right = self._right_text(painter, place, right, index.data(RIGHT))
-        right = self._counts(painter, place, right, index.data(COUNTS) or ())
         colour_name: Token = index.data(TOKEN) or "text"
-        painter.setFont(
-            font("small") if colour_name == "dim" and not picture and index.data(KEY) is None else font()
+        is_small = colour_name == "dim" and not picture and index.data(KEY) is None
+        face, small = font("small") if is_small else font(), QFontMetrics(font("small"))
+        title = QFontMetrics(face).horizontalAdvance(index.data() or "")
+        counts, is_cut = counts_with_room(
+            index.data(COUNTS) or (), title, right - left - GAP, small.horizontalAdvance
         )
+        right = self._right_text(painter, place, right, _MORE if is_cut else None, least=0)
+        right = self._counts(painter, place, right, counts)
+        painter.setFont(face)
         painter.setPen(colour(colour_name))
         room = QRect(left, place.top(), max(0, right - left - GAP), place.height())
         text = painter.fontMetrics().elidedText(index.data() or "", Qt.TextElideMode.ElideRight, room.width())
         painter.drawText(room, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
         painter.restore()
 
-    def _right_text(self, painter: QPainter, place: QRect, right: int, text: str | None) -> int:
+    def _right_text(
+        self, painter: QPainter, place: QRect, right: int, text: str | None, least: int = 22
+    ) -> int:
         if not text:
             return right
         painter.setFont(font("small"))
         painter.setPen(colour("dim"))
-        width = max(QFontMetrics(font("small")).horizontalAdvance(text), 22)
+        width = max(QFontMetrics(font("small")).horizontalAdvance(text), least)
         painter.drawText(
             QRect(right - width, place.top(), width, place.height()),
             Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight,
@@ -119,9 +151,7 @@ class _PlaceDelegate(QStyledItemDelegate):
         )
         return right - width - GAP
 
-    def _counts(
-        self, painter: QPainter, place: QRect, right: int, counts: tuple[tuple[str, int], ...]
-    ) -> int:
+    def _counts(self, painter: QPainter, place: QRect, right: int, counts: Counts) -> int:
         painter.setFont(font("small"))
         for severity, count in reversed(counts):
             name, colour_name = severity_mark(severity)

@@ -224,10 +224,11 @@ class StepsPanel(QWidget):
         item.setData(0, RIGHT, str(len(each.open)) if each.open else "")
         item.setData(0, TOKEN, _token(each, now))
         parts = [item.text(0), self._state_name(each.state)]
-        parts += [counted(n, severity) for severity, n in counts]
+        found = [counted(n, severity) for severity, n in counts]
+        parts += found
         parts += [self.tr("%n values not set", "", len(each.open))] if each.open else []
         item.setData(0, Qt.ItemDataRole.AccessibleTextRole, ", ".join(parts))
-        item.setToolTip(0, "\n".join([_tip(each.step, self._family), ", ".join(self._figures(each))]))
+        item.setToolTip(0, "\n".join([_tip(each.step, self._family), ", ".join(self._figures(each) + found)]))
         if each.step in (self._here, now.current.step if now.current else None):
             self._show_open(item, each.open)
         elif item.childCount():
