@@ -357,7 +357,7 @@ def test_a_finding_that_names_a_unit_alone_has_it_in_german() -> None:
 
 
 def test_a_workbook_has_german_units() -> None:
-    """``deg/min`` and ``rpm`` stood beside German words; the English one has them as the file."""
+    """``deg/min`` and ``rpm`` were beside German words; the English one has them as the file."""
     file = open_file(EXAMPLES["mill-1394"]).file
 
     def units(language: str) -> set[str]:
