@@ -181,7 +181,7 @@ def test_a_second_click_of_the_tool_bar_sends_nothing(
 
 
 @pytest.mark.parametrize("name", ["At the Control", "Motion"])
-def test_no_command_changes_values_that_are_not_seen(window: MainWindow, name: str) -> None:
+def test_no_command_changes_values_that_are_not_seen(window: MainWindow, name: str, qtbot: QtBot) -> None:
     """F8 and Clear were taken by the hidden table while another page was in front."""
     window.go_to(EXCESS)
     window.edits.commit(EXCESS, "0.5 mm")
@@ -190,6 +190,8 @@ def test_no_command_changes_values_that_are_not_seen(window: MainWindow, name: s
     for each in ("edit.clear", "edit.fix", "edit.default", "edit.all_axes", "guide.done"):
         assert not window.menus[each].isEnabled(), each
         window.menus[each].trigger()
+    window.activateWindow()  # as above: the first page Motion of a process has a progress dialog
+    qtbot.waitUntil(lambda: QApplication.focusWidget() is not None, timeout=WAIT_MS)
     Hands().press("F8")
     assert window.workspace.undo_stack.index() == steps
     window.menus["view.findings"].trigger()
