@@ -108,8 +108,8 @@ def test_the_third_stroke_limit_of_a_syntec_has_its_own_messages() -> None:
     """3.2: MOT-041 and 042 out of it, 045 into it; C83 of the PLC switches it on."""
     file = example("syntec-mill")
     for axis, (low, high) in {"1": (10_000, 25_000), "2": (15_000, 30_000)}.items():
-        file.set(("limit.third_negative", axis), Value(low))
-        file.set(("limit.third_positive", axis), Value(high))
+        file.set(("limit.third_negative", axis), Value(low, "BLU"))
+        file.set(("limit.third_positive", axis), Value(high, "BLU"))
     move = {"move.start": "0,20", "move.to": "20,20", "move.feedrate": 3000.0, "move.zone": "3"}
     codes = {}
     for scope, start in (("inside", "0,20"), ("outside", "20,20")):
@@ -142,8 +142,8 @@ def test_a_num_homes_at_its_jog_speed(speed: int) -> None:
 def test_each_side_of_the_limits_of_a_syntec_has_its_message(tier: str, to: int, code: str) -> None:
     """3.2: beyond the positive and the negative side."""
     file = example("syntec-mill")
-    file.set((f"limit.{tier}_negative", "1"), Value(10_000))
-    file.set((f"limit.{tier}_positive", "1"), Value(25_000))
+    file.set((f"limit.{tier}_negative", "1"), Value(10_000, "BLU"))
+    file.set((f"limit.{tier}_positive", "1"), Value(25_000, "BLU"))
     file.set((f"limit.{tier}_scope", ""), Value("outside"))
     move = {"move.start": "20,20", "move.to": f"{to},20", "move.feedrate": 3000.0}
     zone = {"second": "2", "third": "3"}[tier]

@@ -126,8 +126,8 @@ def test_g31_of_acromill_returns_to_where_the_signal_came() -> None:
 def syntec(sides: dict[str, tuple[float, float]], scope: str = "inside") -> ParameterFile:
     file = example(SYNTEC)
     for axis, (low, high) in sides.items():
-        file.set(("limit.second_negative", axis), Value(round(low * 1000)))
-        file.set(("limit.second_positive", axis), Value(round(high * 1000)))
+        file.set(("limit.second_negative", axis), Value(round(low * 1000), "BLU"))
+        file.set(("limit.second_positive", axis), Value(round(high * 1000), "BLU"))
     file.set(("limit.second_scope", ""), Value(scope))
     file.set(("limit.second_at_start", ""), Value("yes"))
     return file

@@ -36,7 +36,7 @@ def example(family: str, part: float | None, gain: float | None = None) -> AxisL
     name, instance = FAMILIES[family]
     file = open_file(EXAMPLES / name).file
     if gain is not None:
-        file.set(("servo.p_gain", instance), Value(gain))
+        file.set(("servo.p_gain", instance), Value(gain, "V/count"))
     axis = bind_axis(file, law_of(family), instance)
     samples, substeps = steps(axis)
     ideal: dict[str, float] = dict.fromkeys(

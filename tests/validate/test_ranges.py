@@ -3,7 +3,7 @@
 import pytest
 from findings import found, the
 
-from amp_studio.schema import Address, Value
+from amp_studio.schema import Address, InvalidValueError, Value
 from amp_studio.validate import AddressedValue, Finding, Validator
 
 RAPID = ("feedrate.rapid", "1")
@@ -98,13 +98,6 @@ def test_a_number_that_just_misses_its_range_goes_to_the_bound_and_one_far_beyon
             "Excess Error 20 mm should be in ° here.",
             Value(20.0, "deg"),
         ),
-        (EXCESS, Value(20.0), "Excess Error 20 should be in mm here.", Value(20.0, "mm")),
-        (
-            ("servo.initial_gain", "1"),
-            Value(1.0, "mm"),
-            "Initial Gain of Position Loop 1 mm should be in a bare number here.",
-            Value(1.0),
-        ),
     ],
 )
 def test_a_value_in_a_unit_that_measures_something_else_is_an_error(
@@ -114,6 +107,27 @@ def test_a_value_in_a_unit_that_measures_something_else_is_an_error(
     finding = the(mill, "schema.range")
     assert finding.message == sentence
     assert finding.fix == (AddressedValue(address, mended),), "the control knows the figure only"
+
+
+@pytest.mark.parametrize(
+    ("address", "value", "sentence"),
+    [
+        (EXCESS, Value(20.0), "Excess Error is given in mm, not in a bare number"),
+        (EXCESS, Value(20.0, "rpm"), "Excess Error is given in mm, not in rpm"),
+        (
+            ("servo.initial_gain", "1"),
+            Value(1.0, "mm"),
+            "Initial Gain of Position Loop is given in a bare number, not in mm",
+        ),
+    ],
+)
+def test_a_value_that_no_file_can_contain_is_refused_at_once(
+    mill, address: Address, value: Value, sentence: str
+) -> None:
+    before = mill.get(address)
+    with pytest.raises(InvalidValueError, match=f"^{sentence}$"):
+        mill.set(address, value)
+    assert mill.get(address) == before
 
 
 def test_an_axis_that_turns_needs_degrees(mill) -> None:

@@ -19,7 +19,7 @@ def mill() -> ParameterFile:
     values = {
         ("spindle.gear_count", "1"): Value(2),
         ("spindle.dac_ramping", "1"): Value(True),
-        ("spindle.deviation_tolerance", "1"): Value(20),
+        ("spindle.deviation_tolerance", "1"): Value(20, "%"),
         ("spindle.deviation_filter_time", "1"): Value(200, "ms"),
     }
     for gear, low, high, volts in (("1.1", 0.0, 1500.0, 10.0), ("1.2", 1000.0, 6000.0, 8.0)):

@@ -39,7 +39,7 @@ def module(**changes: Value | None) -> ParameterFile:
     for parameter, value in (REGISTERS | {n.replace("__", "."): v for n, v in changes.items()}).items():
         file.set((parameter, "X"), value)
     for point, travel in enumerate(CAM):
-        file.set(("cam.time_points", f"X.{point}"), Value(travel, ""))
+        file.set(("cam.time_points", f"X.{point}"), Value(travel, "counts"))
     return file
 
 
@@ -211,7 +211,7 @@ def test_the_velocity_error_of_a_cam_is_what_register_9_has_to_be_above() -> Non
 def test_a_position_cam_follows_its_master() -> None:
     file = module(cam__mode=Value(256, ""), cam__points=Value(3, ""))
     for point, position in enumerate((0, 250, 100)):
-        file.set(("cam.position_points", f"X.{point}"), Value(position, ""))
+        file.set(("cam.position_points", f"X.{point}"), Value(position, "counts"))
     trace = run(file, "cam", cam__speed=10_000.0)
     assert values(trace)["time"] == pytest.approx(0.2, abs=0.002)  # 2 increments of 1000 counts
     assert float(trace.columns["command_position"].max()) == pytest.approx(250.0, abs=5.0)

@@ -93,7 +93,7 @@ FAST = 3000.0
         ({"move.marker": "none"}, {}, "MOT-029"),
         ({"move.dog": "stuck"}, {}, "MOT-036"),
         ({"move.homings": 5.0, "move.scatter": 2.0}, {}, "MOT-022"),
-        ({}, {"home__zero_speed_window": Value(1, "BLU")}, "MOT-030"),
+        ({}, {"home__zero_speed_window": Value(1)}, "MOT-030"),
     ],
 )
 def test_a_homing_fails_as_the_slides_print_it(
