@@ -135,8 +135,12 @@ def _fixes(full: Path, times: int) -> Measure:
     """Return what it takes to make every fix in a file with hundreds of wrong values."""
     base, random = open_file(full).file, Random(10)
     for address in random.sample(list(base.values), DAMAGED):
-        kind = type(base.values[address].value)
-        alike = [a for a, v in base.values.items() if a[1] == address[1] and type(v.value) is kind]
+        kind, unit = type(base.values[address].value), base.values[address].unit
+        alike = [
+            a
+            for a, v in base.values.items()
+            if a[1] == address[1] and type(v.value) is kind and v.unit == unit
+        ]
         with contextlib.suppress(InvalidValueError):  # another parameter's choice
             base.set(address, base.values[random.choice(alike)])
     validators = []

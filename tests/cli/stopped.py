@@ -10,6 +10,8 @@ import time
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from amp_studio.files import EditLock
+
 LONGEST = 0.8
 """Seconds after the start within which it is stopped; a verb takes about as long."""
 
@@ -62,6 +64,10 @@ def set_while_stopped(path: Path, *, seed: int, rounds: int) -> list[str]:
             or (code == 3) != ("has been changed" in message)
         ):
             faults.append(f"seed {seed}, round {number}, after {delay:.3f} s: {code}, {changed}, {message!r}")
+        # A signal between the system's call and what remembers its result leaves a lock file that is free,
+        # as a killed program does: the next one takes it and removes it.
+        with EditLock(path):
+            pass
         if left := [p.name for p in path.parent.iterdir() if p.suffix in (".tmp", ".lock", ".holder")]:
             faults.append(f"seed {seed}, round {number}, after {delay:.3f} s: left {left}")
     return faults

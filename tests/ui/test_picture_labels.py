@@ -50,7 +50,9 @@ def test_the_texts_of_a_loop_stay_in_their_rows_at_the_least_height_of_the_pictu
             if scene.rows:
                 scene = scene_in_words(scene, sentenced, unit_in_words)
                 frame = Placement.within(scene, *size)
-                placed = {label.text: label.box for label in painted_labels(frame, QSizeF(*size)).placed}
+                placed = painted_labels(frame, QSizeF(*size)).placed
                 for text in scene.texts:
-                    box, at = placed[text.text], frame.at(text.at)[1]
-                    assert abs(box.top + 0.5 * box.height - at) < 8.0, (example.stem, text.text)
+                    at = frame.at(text.at)[1]
+                    # A box and a signal may have one name in German: "Output" and "output".
+                    away = [abs(p.box.top + 0.5 * p.box.height - at) for p in placed if p.text == text.text]
+                    assert min(away) < 8.0, (example.stem, text.text)
