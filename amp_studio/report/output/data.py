@@ -31,28 +31,11 @@ _FACTS = {
 }
 """Fact of the cover -> its key; what else the cover has is in other places of the document."""
 _NOTHING = "–"
-_text = json.JSONEncoder(ensure_ascii=False).encode
 
 
 def render_json(report: Report) -> bytes:
     """Return the report as one JSON document."""
-    return (_indented(report_data(report)) + "\n").encode("utf-8")
-
-
-def _indented(value: Any, gap: str = "\n") -> str:
-    """Return what json writes with an indent of 1; the columns of curves, most of a document, at once: json
-    would go through each of their figures in Python.
-    """
-    inner, brackets = f"{gap} ", "[]"
-    if isinstance(value, dict):
-        members, brackets = [f"{_text(key)}: {_indented(each, inner)}" for key, each in value.items()], "{}"
-    elif not isinstance(value, (list, tuple)):
-        return _text(value)
-    elif {*map(type, value)} == {float}:
-        members = [json.dumps(value, separators=(f",{inner}", ""))[1:-1]]
-    else:
-        members = [_indented(each, inner) for each in value]
-    return f"{brackets[0]}{inner}{f',{inner}'.join(members)}{gap}{brackets[1]}" if members else brackets
+    return (json.dumps(report_data(report), ensure_ascii=False, indent=1) + "\n").encode("utf-8")
 
 
 def report_data(report: Report) -> dict[str, Any]:

@@ -5,20 +5,19 @@ writes a single value, and at the right what the control states of itself, asked
 from __future__ import annotations
 
 import time
-from collections import deque
 from collections.abc import Callable, Sequence
 from datetime import UTC, datetime
 from functools import partial
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeyEvent, QKeySequence, QShortcut
 
 from amp_studio.files import Difference, ParameterFile, RangeError, axis_instances, axis_letter
 from amp_studio.pictures import LiveLimits, axis_limits
 from amp_studio.report import dangers_of_change
 from amp_studio.schema import Address, Group, Parameter, Value, same_value
-from amp_studio.ui.base.figures import sentence, show_value, written
+from amp_studio.ui.base.figures import sentence, show_value
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.translated import facts_in_words, message_in_words
 from amp_studio.ui.base.workspace import Workspace
@@ -26,6 +25,7 @@ from amp_studio.ui.control.readings import Happened, StatusReadings
 from amp_studio.ui.control.session import ControlSession
 from amp_studio.ui.forms.form import fill_choices
 
+from .answer_times import AnswerTimes
 from .page_parts import LivePageParts
 from .rows import TurnedValue
 from .write_frame import ShownValue
@@ -33,11 +33,6 @@ from .write_frame import ShownValue
 if TYPE_CHECKING:
     from amp_studio.transfer import AxisStatus, ControlStatus
     from amp_studio.ui.base.emulated_control import EmulatedControl
-
-SILENT_MS = 2000
-"""Milliseconds without an answer after which the figures are grey."""
-RATED = 10
-"""Readings from which the rate is counted."""
 
 
 class LiveView(LivePageParts):
@@ -68,8 +63,7 @@ class LiveView(LivePageParts):
         self._limits: dict[tuple[str, str], LiveLimits] = {}
         """Axis and unit -> its limits in the file as it is."""
         self._begun = time.monotonic()
-        self._times: deque[float] = deque(maxlen=RATED)
-        self._answered: datetime | None = None
+        self._answers = AnswerTimes(self)
         self._why = ""
         self._then: Callable[[], object] | None = None
         """What takes the line once the readings have left it."""
@@ -80,18 +74,13 @@ class LiveView(LivePageParts):
         self._queue: list[tuple[Address, Value]] = []
         """Values that are still to be put back."""
         self._refused_in: object = None
-        self._silence = QTimer(self)
-        self._silence.setInterval(SILENT_MS)
-        self._silence.setSingleShot(True)
-        self._silence.timeout.connect(self._silent)
-        self._clock = QTimer(self)
-        self._clock.setInterval(1000)
-        self._clock.timeout.connect(self._show_age)
         self._connect()
         workspace.changed.connect(self._follow_values)
         workspace.closed.connect(self._close)
 
     def _connect(self) -> None:
+        self._answers.silent.connect(self._silent)
+        self._answers.aged.connect(self.panel.age.setText)
         self.read.clicked.connect(self._read_values)
         self.axes.chosen.connect(lambda _: self._choose_axis())
         self.groups.currentIndexChanged.connect(lambda _: self._choose_group())
@@ -132,7 +121,7 @@ class LiveView(LivePageParts):
             self.turned.clear()
             self._asked.clear()
             self.happened = Happened()
-            self._status = self._answered = None
+            self._status = self._answers.last = None
             self.panel.show_nothing("")
         self.session, self.name = session, name
         if self.readings is None or seen != self._seen:
@@ -247,8 +236,7 @@ class LiveView(LivePageParts):
     def _ask(self) -> None:
         if self.readings is not None and not self._is_away:
             self.readings.start()
-            self._silence.start()
-            self._clock.start()
+            self._answers.begin()
             self.changed.emit()
 
     def stop(self, why: str) -> None:
@@ -264,11 +252,9 @@ class LiveView(LivePageParts):
         self.stop(self.tr("Live was left."))
 
     def _over(self, error: object) -> None:
-        self._silence.stop()
-        self._clock.stop()
         self._is_silent = False
         self.panel.grey(True)
-        self._show_age()
+        self._answers.end()
         if isinstance(error, Exception) and self.session is not None:
             self.session.lose(error)
         self.changed.emit()
@@ -290,7 +276,7 @@ class LiveView(LivePageParts):
     def _silent(self) -> None:
         """Show that the figures are old."""
         if self.is_live:
-            since = f"{self._answered:%H:%M:%S}" if self._answered else "–"
+            since = f"{self._answers.last:%H:%M:%S}" if self._answers.last else "–"
             self.bar.say(
                 self.tr("No answer since {time}: the figures are the last ones.").format(time=since),
                 "warning",
@@ -299,20 +285,6 @@ class LiveView(LivePageParts):
             self._is_silent = True
             self.changed.emit()
 
-    def _show_age(self) -> None:
-        """Show how often the control answers, and how old its last answer is."""
-        if self._answered is None:
-            self.panel.age.setText(self.tr("no readings yet"))
-            return
-        age = max((datetime.now(UTC).astimezone() - self._answered).total_seconds(), 0.0)
-        last = self.tr("{age} s old").format(age=written(f"{age:.1f}" if age < 10.0 else f"{age:.0f}"))
-        if self.is_live and age < 0.001 * SILENT_MS and len(self._times) > 1:
-            rate = (len(self._times) - 1) / max(self._times[-1] - self._times[0], 1e-3)
-            last = self.tr("{rate} readings a second").format(
-                rate=written(f"{rate:.0f}" if rate >= 1.0 else f"{rate:.1f}")
-            )
-        self.panel.age.setText(last)
-
     # -- a reading -------------------------------------------------------------------
 
     def show_status(self, status: ControlStatus, at: float | None = None) -> None:
@@ -320,10 +292,9 @@ class LiveView(LivePageParts):
         if not self.is_live:
             return
         at = time.monotonic() if at is None else at
-        self._silence.start()
-        self._times.append(at)
+        self._answers.take(at)
         is_first = self._status is None
-        self._answered, self._status = datetime.now(UTC).astimezone(), status
+        self._status = status
         if self.bar.isVisible() and self.panel.readings.isEnabled() is False:
             self.bar.hide()
         if self.session is not None:
@@ -340,7 +311,7 @@ class LiveView(LivePageParts):
         if (axis := self._axis_of(status)) is not None:
             self.recorder.take(at - self._begun, axis, is_fault=is_new, reasons=status.not_known)
         self.panel.show_happened(self.happened)
-        self._show_age()
+        self._answers.show_age()
         states = (status.state, tuple(axis.states for axis in status.axes), tuple(status.faults))
         if states != self._refused_in:
             self._refused_in = states
