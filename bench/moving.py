@@ -18,7 +18,7 @@ from amp_studio.transfer import ControlStatus, Exchange
 from amp_studio.transfer.client import StatusReader, download_file, fetch_image
 
 TCP = "tcp://127.0.0.1:0"
-SHARE, MOST = 1.1, 0.005
+SHARE, MAX_EXTRA_S = 1.1, 0.005
 """What an answer may take of its time at rest, and s more: it waits for the slice of the machine that is
 under way."""
 
@@ -97,7 +97,7 @@ def _of_control(control: Moving, process: EmulatedProcess, state: Path, times: i
             with closing(StatusReader(seen_at, control.family)) as reader:
                 _assert_moved(before, reader.read())
         for what, seconds in figures.items():
-            target = SHARE * resting[what] + MOST if what in resting else None
+            target = SHARE * resting[what] + MAX_EXTRA_S if what in resting else None
             yield Measure(f"{control.name}: {what} {moment}", seconds, target)
             resting[what] = median(seconds)
 

@@ -37,7 +37,7 @@ CALLS = (
     "readlink",
 )
 FAILURES = ("ENOSPC", "EIO", "EACCES", "interrupt")
-MOST = 2_000
+MAX_CALLS = 2_000
 """Calls an act may make before something must be wrong."""
 
 
@@ -114,7 +114,7 @@ def each_failure(
     act()
     for failure in failures:
         for for_ever in lasting if failure != "interrupt" else (False,):
-            for at in filter(which, range(1, MOST)):
+            for at in filter(which, range(1, MAX_CALLS)):
                 prepare()
                 calls, error = _Calls(at, failure, for_ever=for_ever), None
                 try:
@@ -127,4 +127,4 @@ def each_failure(
                 if not failed:
                     break
             else:
-                raise AssertionError(f"more than {MOST} calls: it never passed")
+                raise AssertionError(f"more than {MAX_CALLS} calls: it never passed")

@@ -27,7 +27,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "amp_studio"
 FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
-MOST_BRANCHES = 10
+MAX_BRANCHES = 10
 """The cyclomatic complexity up to which a function is easy to read."""
 STARTS = 7
 """Processes of each kind, one after the other in turn; the least processor time counts,
@@ -194,7 +194,7 @@ def code_figures() -> Iterator[tuple[str, str]]:
     trees = [tree_of(path) for path in sources]
     nodes = [node for tree in trees for node in ast.walk(tree)]
     functions = [branches(node) for node in nodes if isinstance(node, FUNCTIONS)]
-    hard = sum(count > MOST_BRANCHES for count in functions)
+    hard = sum(count > MAX_BRANCHES for count in functions)
     tests = sum(map(line_count, (ROOT / "tests").rglob("*.py")))
     yield "lines of the program", f"{sum(map(line_count, sources)):,}"
     yield "of them in bodies of functions", f"{sum(map(body_lines, trees)):,}"
@@ -206,7 +206,7 @@ def code_figures() -> Iterator[tuple[str, str]]:
     yield "public names of modules", f"{sum(len(public_names(tree)) for tree in trees):,}"
     yield ("names on the front pages of the rooms", f"{sum(len(names_given(page)) for page in pages()):,}")
     yield "functions", f"{len(functions):,}"
-    yield f"functions over complexity {MOST_BRANCHES}", f"{hard:,} ({hard / len(functions):.1%})"
+    yield f"functions over complexity {MAX_BRANCHES}", f"{hard:,} ({hard / len(functions):.1%})"
     taken = list(imported_names())
     past = sum(name.is_past for name in taken)
     yield "names imported between rooms", f"{len(taken):,}"
@@ -245,7 +245,7 @@ def complex_functions(package: Path = PACKAGE) -> list[tuple[int, str, str]]:
         for node in ast.walk(tree_of(path))
         if isinstance(node, FUNCTIONS)
     ]
-    return sorted((row for row in rows if row[0] > MOST_BRANCHES), key=lambda row: (-row[0], row[1]))
+    return sorted((row for row in rows if row[0] > MAX_BRANCHES), key=lambda row: (-row[0], row[1]))
 
 
 def own_nodes(function: ast.AST) -> Iterator[ast.AST]:
@@ -350,7 +350,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=str(__doc__).partition("\n")[0])
     parser.add_argument("--past", metavar="ROOM", help="list the names that a room imports past a front page")
     parser.add_argument(
-        "--complex", action="store_true", help=f"list the functions over complexity {MOST_BRANCHES}"
+        "--complex", action="store_true", help=f"list the functions over complexity {MAX_BRANCHES}"
     )
     parser.add_argument("--no-starts", action="store_true", help="leave out the starts of the program")
     parser.add_argument("--glossary", type=Path, help="count the concepts of this table of words too")

@@ -21,7 +21,7 @@ TURNS = {"first": (0.0, 180.0), "second": (90.0, 270.0)}
 """Which axis of a circle -> the angles at which it turns round, in degrees."""
 NEAR, FAR = 2.0, 12.0
 """Degrees on each side of a turn between which the lines are fitted."""
-_FEWEST = 3
+_MIN_POINTS = 3
 
 
 def lost_motions(measurement: Measurement, which: str) -> list[Fraction]:
@@ -62,6 +62,6 @@ def _step(run: MeasuredRun, turn: float) -> float | None:
 
 def _at_zero(points: Sequence[tuple[float, float]]) -> float | None:
     """Return where the line through points meets the turn; None with too few of them."""
-    if len({x for x, _ in points}) < _FEWEST:
+    if len({x for x, _ in points}) < _MIN_POINTS:
         return None
     return statistics.linear_regression([x for x, _ in points], [y for _, y in points]).intercept

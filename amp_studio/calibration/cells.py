@@ -11,7 +11,7 @@ from fractions import Fraction
 
 from .errors import MeasurementError
 
-MOST_LINES = 100_000
+MAX_LINES = 100_000
 LONGEST_LINE = 10_000
 _COMMENT = re.compile(r"\s*(#|//|!|%|;|'|\*)")
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,2})?")
@@ -30,8 +30,8 @@ def lines_of(text: str) -> list[tuple[int, str]]:
     raises MeasurementError for what is too long.
     """
     lines = text.removeprefix("\ufeff").splitlines()
-    if len(lines) > MOST_LINES:
-        raise MeasurementError(f"{len(lines)} lines are too many: {MOST_LINES} at most")
+    if len(lines) > MAX_LINES:
+        raise MeasurementError(f"{len(lines)} lines are too many: {MAX_LINES} at most")
     kept = []
     for n, line in enumerate(lines, 1):
         if len(line) > LONGEST_LINE:

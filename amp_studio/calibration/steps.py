@@ -18,7 +18,7 @@ from .errors import CalibrationError
 
 _USUAL_DECIMALS = {"length": 5, "angle": 5, "time": 3}
 """Where neither the parameter nor the control's memory names any."""
-_LEAST_DECIMALS = 6
+_MIN_DECIMALS = 6
 """Of another quantity that is 0: AcroMill begins with a gain of 0.000001 (page 115)."""
 _PART = 100
 """The step that is offered first is at most this part of the value."""
@@ -56,7 +56,7 @@ def usual_step(file: ParameterFile, address: Address) -> Fraction:
 def _decimals_of(value: Value | None, quantity: str) -> int:
     """Return decimals for which a step is no multiple of the value: a gain may be a millionth."""
     if value is None or isinstance(value.value, (str, bool)) or not value.value:
-        return _USUAL_DECIMALS.get(quantity, _LEAST_DECIMALS)
+        return _USUAL_DECIMALS.get(quantity, _MIN_DECIMALS)
     return max(_USUAL_DECIMALS.get(quantity, 3), 3 - math.floor(math.log10(abs(value.value))))
 
 

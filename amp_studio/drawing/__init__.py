@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from .panels import linked, map_scene, on_divisions, panel_of, ring_scene, round_divisions, zoomed
     from .record import scene_json
     from .scene import (
-        LEAST,
-        MOST,
+        MAX_DRAWN,
+        MIN_DRAWN,
         Curve,
         Dot,
         Drag,

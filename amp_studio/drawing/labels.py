@@ -39,7 +39,7 @@ _NEAR, _FAR = 3, 9
 """Lines that a name goes away from its point: if possible, and at most."""
 _LED = 16.0
 """Distance in points from which a line leads from a point to its text."""
-_LEAST_ROW = 30.0
+_MIN_ROW = 30.0
 """Height of a row that has room for figures at its points; in lower ones only the first has them."""
 SAMPLE = 22.0
 """Length of the sample of a curve before its name."""
@@ -293,7 +293,7 @@ class _Placing:
         """Place the texts at points, names before figures."""
         scene = self._frame.scene
         rows = scene.y.rows
-        is_dense = len(rows) > 1 and self._frame.height / len(rows) < _LEAST_ROW
+        is_dense = len(rows) > 1 and self._frame.height / len(rows) < _MIN_ROW
         # A text with a value names a parameter; a bare figure can be read off the scale where it has no room.
         for text in sorted(scene.texts, key=lambda each: not each.value):
             point = self._frame.at(text.at)

@@ -42,7 +42,7 @@ DotKind = Literal["point", "home", "switch", "marker", "left", "right", "up", "d
 """``left`` to ``down`` are arrows, ``end`` is a short bar across."""
 
 
-LEAST, MOST = 1e-9, 1e12
+MIN_DRAWN, MAX_DRAWN = 1e-9, 1e12
 """Figures between which something is drawn; 0 is drawn too."""
 
 
@@ -224,10 +224,10 @@ class Scale:
         low, high = sorted((self.low, self.high))
         # From a file any number may come, 0 and negative ones too.
         if self.log:
-            low = max(low, LEAST)
+            low = max(low, MIN_DRAWN)
         # Relative: next to a large number a shorter scale has no room for two floats, and its ticks would
         # never end.
-        least = LEAST * max(abs(low), abs(high), 1.0)
+        least = MIN_DRAWN * max(abs(low), abs(high), 1.0)
         if high - low < least and not (self.log and high > low):
             high = low * 10.0 if self.log else low + least
         object.__setattr__(self, "low", low)

@@ -15,7 +15,7 @@ from amp_studio.schema import Address, Parameter, Schema, Value, same_value, who
 from .axes import AxisError, are_alike, axis_kind, known_axis
 from .parameter_file import Change, ParameterFile
 
-_FEWEST_LABELS = 3
+_MIN_LABELS = 3
 """A word of which so many bits are named after axes, and none otherwise, has a bit for each axis."""
 
 
@@ -59,7 +59,7 @@ def words_of_axes(schema: Schema) -> dict[str, dict[str, int]]:
     if info is None:
         return {}
     names = {name: a for a in info.instances for name in (a, info.label.format(i=a, j=""))}
-    fewest = min(_FEWEST_LABELS, len(info.instances))
+    fewest = min(_MIN_LABELS, len(info.instances))
     found = {}
     for p in schema.parameters.values():
         bits = _bits_by_label(p)

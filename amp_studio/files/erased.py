@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .parameter_file import ParameterFile
 
-_LEAST = 12
+_MIN_VALUES = 12
 """Values with a printed default from which it is no chance that all are at it."""
 
 
@@ -13,6 +13,6 @@ def erased_question(file: ParameterFile) -> str:
     "" for any other.
     """
     known = [address for address in file.values if file.default(address) is not None]
-    if len(known) < _LEAST or not all(map(file.is_default, known)):
+    if len(known) < _MIN_VALUES or not all(map(file.is_default, known)):
         return ""
     return f"all {len(known)} values with a printed default are at it: was the memory of the control erased?"

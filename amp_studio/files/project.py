@@ -34,7 +34,7 @@ from .yaml_text import amended, new_text, without_stray_tabs
 
 PROJECT_FORMAT = 1
 _VERSION = "amp_studio_project"
-_MOST_BYTES = 2**20
+_MAX_BYTES = 2**20
 
 
 class InvalidNameError(AmpStudioError, ValueError):
@@ -100,7 +100,7 @@ class Project:
         """Read a project; raises ParameterFileError."""
         path = folder / "project.yaml"
         try:
-            content = read_file(path, _MOST_BYTES)
+            content = read_file(path, _MAX_BYTES)
         except OSError as error:
             raise ParameterFileError(path, None, f"cannot be read: {error.strerror or error}") from None
         return cls(folder, _read(path, content))

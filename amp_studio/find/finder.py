@@ -36,7 +36,7 @@ _TAIL = 0.2
 """Part of the best score below which a hit only buries the others."""
 _SURE = 4.0
 """Score from which another family is worth naming: the words are in a name, not in the help alone."""
-_MOST_VALUES = 40
+_MAX_VALUES = 40
 """Parameters with the same value that are worth showing."""
 _LONGEST = 200
 """Letters of a question; more is a text that was pasted by mistake."""
@@ -175,7 +175,7 @@ class Finder:
         for address in self._values.having(number) if number is not None else ():
             if file.evaluation.state(address).state != "hidden":
                 found.setdefault(address[0], []).append(address)
-            if len(found) > _MOST_VALUES:
+            if len(found) > _MAX_VALUES:
                 break
         return [self._value_hit(addresses, "value") for addresses in found.values()]
 

@@ -49,9 +49,9 @@ from .text_format import (
 
 GENERAL: tuple[TextFormat, ...] = (values_csv.FORMAT,)
 """Formats of every family."""
-_MOST_BYTES = 4 * 2**20
+_MAX_BYTES = 4 * 2**20
 """Some ten times what the largest family would fill in its longest format."""
-_MOST_PDF = 64 * 2**20
+_MAX_PDF = 64 * 2**20
 """Some ten times the longest report."""
 
 
@@ -92,7 +92,7 @@ def import_file(
     path = Path(path)
     if family:
         load_schema(family)  # of an unknown one nothing is a format
-    content = read_file(path, _MOST_PDF if path.suffix.casefold() == ".pdf" else _MOST_BYTES)
+    content = read_file(path, _MAX_PDF if path.suffix.casefold() == ".pdf" else _MAX_BYTES)
     if is_pdf(content):
         return _machine_of_report(path, content, family, notify, take_account)
     content = plain_content(content)
@@ -145,7 +145,7 @@ def offer_of(path: Path) -> TextOffer | None:
     """
     if path.suffix.casefold() == ".pdf":
         return None
-    content = plain_content(read_file(path, _MOST_BYTES))
+    content = plain_content(read_file(path, _MAX_BYTES))
     try:
         chosen = _format_for_reading(content, None, None)
         if chosen.offer is None:
@@ -163,7 +163,7 @@ def text_lines(path: Path, file: ParameterFile) -> dict[Address, int]:
     family = file.schema.family.family
     options = ReadOptions(machine=file.machine, beside=_beside(path))
     try:
-        content = plain_content(read_file(path, _MOST_BYTES))
+        content = plain_content(read_file(path, _MAX_BYTES))
         chosen = _format_for_reading(content, family, None)
         return chosen.read(_decoded(content, chosen), file.schema, options).value_lines
     except (FormatError, OSError):
@@ -179,7 +179,7 @@ def _beside(path: Path) -> Callable[[str], str | None]:
             # Resolved, so that neither ".." nor a link leads out of the folder.
             place = (folder / name).resolve()
             # Latin-1 keeps every byte: which encoding the file has is a matter of its format.
-            return read_file(place, _MOST_BYTES).decode("latin-1") if place.is_relative_to(folder) else None
+            return read_file(place, _MAX_BYTES).decode("latin-1") if place.is_relative_to(folder) else None
         except (OSError, ValueError):
             return None
 

@@ -13,9 +13,9 @@ from collections.abc import Iterator
 HEAD = re.compile(rb"(?m)^(?:\xef\xbb\xbf)?amp_studio[ \t]*:")
 """The line by which a parameter file is known, under whatever name."""
 _EMBEDDED = re.compile(rb"/EmbeddedFile\b[^\0]{0,1000}?\bstream\r?\n", re.DOTALL)
-_MOST_FILES = 16
+_MAX_FILES = 16
 """Files attached to a PDF that are read."""
-_MOST_BYTES = 4 * 2**20
+_MAX_BYTES = 4 * 2**20
 """Of one of them, unpacked: as much as a text that is imported."""
 
 
@@ -32,13 +32,13 @@ def attached_machine(content: bytes) -> bytes | None:
 def _attached(content: bytes) -> Iterator[bytes]:
     """Yield the contents of the files that are attached, unpacked up to a bound."""
     for number, found in enumerate(_EMBEDDED.finditer(content)):
-        if number == _MOST_FILES:
+        if number == _MAX_FILES:
             return
         packed = content[found.end() : content.find(b"endstream", found.end())]
         try:
             # Bounded while it unpacks: a few kilobytes can become gigabytes.
-            unpacked = zlib.decompressobj().decompress(packed, _MOST_BYTES)
+            unpacked = zlib.decompressobj().decompress(packed, _MAX_BYTES)
         except zlib.error:
             # A PDF may have it unpacked.
-            unpacked = packed[:_MOST_BYTES]
+            unpacked = packed[:_MAX_BYTES]
         yield unpacked

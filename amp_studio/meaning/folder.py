@@ -14,7 +14,7 @@ from amp_studio.schema import read_file
 
 from .migration import Migration, migration_json
 
-_MOST = 200_000
+_MAX_BYTES = 200_000
 """Bytes of a file of answers."""
 _LINE = re.compile(r"\s*([A-Za-z][A-Za-z0-9_.]*)\s*:\s*(.*?)\s*")
 
@@ -60,7 +60,7 @@ def write_migration(migration: Migration, folder: Path, lines: Iterable[str]) ->
 def read_answers(path: Path) -> dict[str, str]:
     """Return the answers of a file, ``id: answer`` in each line; raises OSError, ValueError with the line."""
     answers: dict[str, str] = {}
-    for number, line in enumerate(read_file(path, _MOST).decode("utf-8", "replace").splitlines(), 1):
+    for number, line in enumerate(read_file(path, _MAX_BYTES).decode("utf-8", "replace").splitlines(), 1):
         if not line.strip() or line.lstrip().startswith(("#", "---", "...")):
             continue
         found = _LINE.fullmatch(line)

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Literal, TypeGuard
 
-from amp_studio.drawing import LEAST, MOST, Drag, Handle, PictureNote, Point, multiple, round_step
+from amp_studio.drawing import MAX_DRAWN, MIN_DRAWN, Drag, Handle, PictureNote, Point, multiple, round_step
 from amp_studio.files import ParameterFile
 from amp_studio.schema import (
     Address,
@@ -140,7 +140,7 @@ class ValueReader:
             return None
         number = convert(float(real.value), real.unit, unit)
         # Beyond these a picture has no scale.
-        return number if number == 0.0 or LEAST <= abs(number) <= MOST else None
+        return number if number == 0.0 or MIN_DRAWN <= abs(number) <= MAX_DRAWN else None
 
     def _in_file(self, address: Address, value: Value | None) -> Value | None:
         """Return a value in the unit system of the file, as the table shows it."""

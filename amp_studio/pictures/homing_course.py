@@ -26,7 +26,7 @@ STAGES = {
 }
 MARGIN = 0.06
 """Share of the picture that is left free at each side."""
-MOST_POINTS, MOST_MARKERS = 120, 60
+MAX_POINTS, MAX_MARKERS = 120, 60
 """Points of a stage, and markers, that a picture has room for."""
 FREE = 0.3
 """How far a switch that stays on is drawn, in lengths of the way."""
@@ -72,7 +72,7 @@ class _Way:
         # One row earlier and one later: the lines of two stages meet.
         first, last = (int(np.searchsorted(time, begins[k])) for k in (n, n + 1))
         found = self.points[max(first - 1, 0) : last + 1]
-        step = max(1, len(found) // MOST_POINTS)
+        step = max(1, len(found) // MAX_POINTS)
         # The mean of some rows: one of them would show the counts of its position device as a ripple.
         means = [
             (fmean(place for place, _ in some), fmean(speed for _, speed in some))
@@ -168,8 +168,8 @@ class _Shapes:
             math.floor((self.x.high - first) / course.turn),
         )
         # A short turn has thousands of markers in a long picture; number 0 is the one of the homing.
-        if high - low >= MOST_MARKERS:
-            low, high = max(low, -MOST_MARKERS // 2), min(high, MOST_MARKERS // 2)
+        if high - low >= MAX_MARKERS:
+            low, high = max(low, -MAX_MARKERS // 2), min(high, MAX_MARKERS // 2)
         return [first + n * course.turn for n in range(low, high + 1)]
 
     def dots(self) -> Iterator[Dot]:

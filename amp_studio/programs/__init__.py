@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from .formats import NumberFormat, digits_of, number_of
     from .interpreter import path_letters, path_parts
     from .source import read_program
-    from .toolpath import ARC, DWELL, EXACT, KEPT, LINE, MOST_ROWS, PLANES, RAPID, ROUNDED, SLOW, ToolPath
+    from .toolpath import ARC, DWELL, EXACT, KEPT, LINE, MAX_ROWS, PLANES, RAPID, ROUNDED, SLOW, ToolPath
     from .words import ProgramBlockError
 else:
     __getattr__ = front_page(__name__)

@@ -12,12 +12,12 @@ from amp_studio.schema import ProgramPath
 from .codes import ControlCodes
 from .modal import ModalState
 from .moves import PathMoves
-from .toolpath import LINE, MOST_ROWS, PLANES, RAPID
+from .toolpath import LINE, MAX_ROWS, PLANES, RAPID
 from .word_numbers import BlockNumbers
 from .words import ProgramBlockError, TypedWord
 
-MOST_PECKS = 10_000
-MOST_REPEATS = 10_000
+MAX_PECKS = 10_000
+MAX_REPEATS = 10_000
 
 
 @dataclass
@@ -91,8 +91,8 @@ class CycleHole:
         peck = self.words.peck
         if peck is None or peck <= 0.0:
             raise ProgramBlockError("The cycle needs Q, the depth of a peck, above 0", "no-number")
-        if (self.level - self.depth) / peck > MOST_PECKS:
-            raise ProgramBlockError(f"The cycle needs more than {MOST_PECKS} pecks")
+        if (self.level - self.depth) / peck > MAX_PECKS:
+            raise ProgramBlockError(f"The cycle needs more than {MAX_PECKS} pecks")
         between = [*takewhile(lambda step: step != "again to the depth", steps)]
         at = self.level
         while True:
@@ -149,8 +149,8 @@ class CycleRuns:
         known = self._codes.known[TypedWord(modal.cycle[0], modal.cycle[1:], "").code]
         *_, third = (self._moves.at.axis("XYZ"[n]) for n in PLANES[modal.plane])
         repeats = int(words.roles.get("repeats", 1.0))
-        if not 1 <= repeats <= MOST_REPEATS:
-            raise ProgramBlockError(f"L{repeats}: a cycle is repeated 1 to {MOST_REPEATS} times")
+        if not 1 <= repeats <= MAX_REPEATS:
+            raise ProgramBlockError(f"L{repeats}: a cycle is repeated 1 to {MAX_REPEATS} times")
         hole = self._hole(words, modal, known.facts.steps, third, begins=begins)
         # Once for all repeats, and before the first: a word that is missing is refused before anything
         # moves.
@@ -165,8 +165,8 @@ class CycleRuns:
             for move in moves:
                 self._do(move, third, modal)
             # Repeats of pecks make many rows of one block, and the interpreter counts only between blocks.
-            if self._moves.rows.count > MOST_ROWS:
-                raise ProgramBlockError(f"The program has more than {MOST_ROWS} moves")
+            if self._moves.rows.count > MAX_ROWS:
+                raise ProgramBlockError(f"The program has more than {MAX_ROWS} moves")
 
     def _hole(
         self, words: BlockNumbers, modal: ModalState, steps: Sequence[str], third: int, *, begins: bool

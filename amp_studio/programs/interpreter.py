@@ -21,12 +21,12 @@ from .flow import TAKES_IN, ProgramFlow
 from .modal import BlockCodes, ModalCodes
 from .moves import PathMoves
 from .single_codes import SingleCodes
-from .toolpath import DWELL, EXACT, LINE, MOST_ROWS, RAPID, ProgramFault, ToolPath
+from .toolpath import DWELL, EXACT, LINE, MAX_ROWS, RAPID, ProgramFault, ToolPath
 from .word_numbers import BlockNumbers, WordNumbers
 from .words import ProgramBlockError as BlockError
 from .words import in_capitals, without_blanks, without_open_remark, words_of
 
-MOST_REPEATED = 150_000
+MAX_REPEATED = 150_000
 """Blocks that are executed more often than once; a program that needs more counts as one without an end."""
 EVERY = 4096
 """Blocks from one report of progress to the next."""
@@ -102,7 +102,7 @@ class Interpreter:
     # -- the program ---------------------------------------------------------------
 
     def run(
-        self, lines: Sequence[str], progress: BlockProgress | None = None, most: int = MOST_ROWS
+        self, lines: Sequence[str], progress: BlockProgress | None = None, most: int = MAX_ROWS
     ) -> Iterator[ToolPath]:
         """Yield the path of a program, as far as the control can go, whenever there are ``most`` rows of it;
         the last part may have none, and has how the program ended.
@@ -170,7 +170,7 @@ class Interpreter:
             if self.blocks % EVERY == 0 and progress is not None:
                 progress(self.blocks)
             # Only what is repeated counts: a long program without a loop is as long as it is.
-            if max(self.blocks - count - MOST_REPEATED, rows.count - MOST_ROWS) > 0:
+            if max(self.blocks - count - MAX_REPEATED, rows.count - MAX_ROWS) > 0:
                 raise BlockError(f"The program has no end within {self.blocks - 1} blocks")
             if not flow.take(line):
                 before = rows.count
@@ -327,7 +327,7 @@ def tool_path(
     prints one.
     """
     # More than there are rows: one part.
-    (path,) = Interpreter(file, start, zero, retract).run(lines, most=2 * MOST_ROWS)
+    (path,) = Interpreter(file, start, zero, retract).run(lines, most=2 * MAX_ROWS)
     return path
 
 

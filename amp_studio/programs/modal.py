@@ -17,7 +17,7 @@ from .words import ProgramBlockError as BlockError
 from .words import TypedWord, sentence
 
 _T = TypeVar("_T")
-MOST_SHAPES = 1000
+MAX_SHAPES = 1000
 """Combinations of codes and states whose meaning is kept."""
 MOTIONS = ("rapid", "line", "arc-cw", "arc-ccw")
 OFF = {"no-scale": "scale", "no-turn": "turn", "no-length": "length"}
@@ -127,7 +127,7 @@ class ModalCodes:
         # A program has few shapes of blocks: what codes do in a state is worked out once for each.
         codes = self._known_blocks.get((written, self.now.key))
         if codes is None:
-            if len(self._known_blocks) > MOST_SHAPES:
+            if len(self._known_blocks) > MAX_SHAPES:
                 self._known_blocks.clear()
             codes = self._known_blocks[written, self.now.key] = self._codes_of(written)
         self.now = codes.modal

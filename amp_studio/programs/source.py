@@ -16,9 +16,9 @@ from amp_studio.schema import quoted
 
 from .words import LONGEST, ProgramBlockError
 
-MOST_BYTES = 100_000_000
+MAX_BYTES = 100_000_000
 """Of a file, counted in characters; a million blocks have about 30 million."""
-MOST_LINES = 2_000_000
+MAX_LINES = 2_000_000
 IN_MEMORY = 1 << 18
 """Bytes of a program that need no temporary file."""
 TOGETHER = 512
@@ -97,9 +97,9 @@ def _lines(path: Path, *, is_plain: bool) -> Iterator[str]:
                 )
             if "\0" in part:
                 raise ProgramBlockError(f"{name} is no text: there is a zero byte in line {count + 1}")
-            if gone > MOST_BYTES or count >= MOST_LINES:
+            if gone > MAX_BYTES or count >= MAX_LINES:
                 raise ProgramBlockError(
-                    f"{name} is longer than {MOST_LINES} lines or {MOST_BYTES // 1_000_000} MB"
+                    f"{name} is longer than {MAX_LINES} lines or {MAX_BYTES // 1_000_000} MB"
                 )
             yield part.strip(" \t\r\n").replace("\r", " ")
             count += 1

@@ -19,8 +19,8 @@ CUTTING, SLOW, EXACT, KEPT, ROUNDED = range(5)
 path, or rounds its corner."""
 PLANES = ((0, 1, 2), (2, 0, 1), (1, 2, 0))
 """Plane XY, ZX, YZ: places of its two axes and of the third one among X, Y, Z."""
-MOST_ROWS = 4_000_000
-MOST_ROUNDINGS = 200
+MAX_ROWS = 4_000_000
+MAX_ROUNDINGS = 200
 """Different ones in a program; a row has a byte for its own."""
 COLUMNS = (
     "ends",
@@ -193,8 +193,8 @@ class RowsWriter:
     def round_by(self, rounding: Rounding) -> None:
         """Round the corners of the next rows by this."""
         if rounding not in self.roundings:
-            if len(self.roundings) > MOST_ROUNDINGS:
-                raise ProgramBlockError(f"More than {MOST_ROUNDINGS} kinds of G64 in one program")
+            if len(self.roundings) > MAX_ROUNDINGS:
+                raise ProgramBlockError(f"More than {MAX_ROUNDINGS} kinds of G64 in one program")
             self.roundings.append(rounding)
         self.active = self.roundings.index(rounding)
 

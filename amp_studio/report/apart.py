@@ -21,7 +21,7 @@ from .templating.templates import TemplateMistakeError
 
 _PATIENCE_S = 40.0
 """Of both: jinja2 has half of it (``templating``)."""
-_MOST_MEMORY = 3 * 2**30
+_MAX_MEMORY = 3 * 2**30
 """Bytes of address space, where the system can bound it."""
 What = Literal["pdf", "html", "pages"]
 
@@ -42,7 +42,7 @@ def made_apart(what: What, report: Report, own: Path | None, ppi: int = 0) -> li
         # long.
         # Only the way to the process is pickled. The answer comes from a process in which a template ran,
         # and is JSON and bytes: unpickling it could run code.
-        question = pickle.dumps((_MOST_MEMORY if own else None, what, report, own, ppi))
+        question = pickle.dumps((_MAX_MEMORY if own else None, what, report, own, ppi))
         answered = run_apart(__name__, question, _PATIENCE_S if own else None)
     except ReportNotMadeError as error:
         raise failed(str(error)) from None

@@ -20,7 +20,7 @@ _ROW = 29.0
 rows are on a page."""
 CUTTING = 10
 """%: share of the rapid feedrate near that of cutting, at which signals are printed too."""
-_MOST_PARTS = 8
+_MAX_PARTS = 8
 """Most parts of a picture that are all printed; of more (pairs of axes), each axis once."""
 
 
@@ -65,7 +65,7 @@ def _parts(picture: FilePicture) -> Iterator[str]:
     drawn: set[str] = set()
     for part, _ in picture.parts:
         axes = set(part.split("+"))
-        if len(picture.parts) <= _MOST_PARTS or not axes & drawn:
+        if len(picture.parts) <= _MAX_PARTS or not axes & drawn:
             drawn |= axes
             yield part
             if picture.has_speed:

@@ -16,7 +16,7 @@ from .quoting import quoted
 from .value import LONGEST_NUMBER, InvalidValueError, plain
 
 _LONGEST = 4096
-_MOST = 256
+_MAX_LABELS = 256
 """Labels in one text; a word has at most 64 bits."""
 _SHOWN = 6
 
@@ -29,7 +29,7 @@ def word_of_labels(parameter: Parameter, text: str) -> int | None:
     if plain(text) == "none":
         return 0
     # Bounded, as what follows takes the square of their number.
-    pieces = text.split(",", _MOST) if len(text) <= _LONGEST else []
+    pieces = text.split(",", _MAX_LABELS) if len(text) <= _LONGEST else []
     word, at, unknown = 0, 0, []
     while at < len(pieces):
         for end in range(len(pieces), at, -1):  # a label may contain commas itself

@@ -20,13 +20,13 @@ from .folder import cache_folder
 from .regular_file import read_file
 
 _log = logging.getLogger(__name__)
-_MOST_BYTES = 64 * 2**20
+_MAX_BYTES = 64 * 2**20
 
 
 def read_cached(path: Path) -> bytes | None:
     """Return what was kept at a path; None where there is nothing, or nothing that can be used."""
     try:
-        content = read_file(path, _MOST_BYTES)
+        content = read_file(path, _MAX_BYTES)
     except FileNotFoundError:
         return None
     except OSError as error:

@@ -87,7 +87,7 @@ class Answers:
     """Groups of addresses that were asked for, by their identity, and those of them that are active."""
 
 
-_MOST_ANSWERS = 100
+_MAX_ANSWERS = 100
 """Kept before all are forgotten: some hundred kilobytes each."""
 
 
@@ -217,7 +217,7 @@ class Conditions:
         found = self._answers.get(keys)
         if found is None:
             # All at once, as `expression.Remembered` does.
-            if len(self._answers) >= _MOST_ANSWERS:
+            if len(self._answers) >= _MAX_ANSWERS:
                 self._answers.clear()
             found = self._answers[keys] = Answers() if before is None else self._after(before, changed)
         return found

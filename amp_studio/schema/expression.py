@@ -41,7 +41,7 @@ _PARTS = "_parts"
 NO_RESULT = object()
 """What an expression comes to that makes no sense of its values."""
 
-MOST_REMEMBERED = 5_000
+MAX_REMEMBERED = 5_000
 """Results of one expression before all are forgotten: those of 700 machines with seven axes and no value in
 common. Such machines take 0.2 MB each."""
 
@@ -102,7 +102,7 @@ class Remembered(dict[Hashable, Any]):
 
     def __setitem__(self, key: Hashable, result: Any) -> None:
         # All at once: to choose what goes would cost more at each look than to work it out again.
-        if len(self) >= MOST_REMEMBERED:
+        if len(self) >= MAX_REMEMBERED:
             self.clear()
         super().__setitem__(key, result)
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from amp_studio.errors import AmpStudioError
 
-from .regular_file import MOST_BYTES, read_file
+from .regular_file import MAX_BYTES, read_file
 from .yaml_reader import KeyPath, YamlDocument, YamlError, read_yaml
 
 Slip = tuple[KeyPath, str]
@@ -39,7 +39,7 @@ def text_of(path: Path, content: bytes, error: type[FileError] = FileError) -> s
 
 
 def read_yaml_file(
-    path: Path, error: type[FileError], *, most: int = MOST_BYTES, references: bool = False
+    path: Path, error: type[FileError], *, most: int = MAX_BYTES, references: bool = False
 ) -> YamlDocument:
     """Return the YAML document of a file, with the places of its entries; raises ``error``."""
     try:

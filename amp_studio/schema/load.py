@@ -50,9 +50,9 @@ from .yaml_reader import KeyPath, YamlDocument
 
 T = TypeVar("T", bound=Model)
 D = TypeVar("D", bound=Model | None)
-_MOST_RULES = 2**20
+_MAX_RULES = 2**20
 """Bytes of a file of rules; the largest of our own has 37,000."""
-_MOST_SLIPS = 9
+_MAX_FAULTS_LISTED = 9
 """Of one entry, in a message."""
 _LANGUAGE = 2
 """Letters of the code of a language."""
@@ -235,7 +235,7 @@ class FactEntry(NamedTuple):
 def read_entries(path: Path, kinds: Collection[str]) -> tuple[list[FactEntry], list[DatabaseError]]:
     """Read a file of named lists: every item of one, and what is wrong with the lists."""
     try:
-        document = read_yaml_file(path, DatabaseError, most=_MOST_RULES)
+        document = read_yaml_file(path, DatabaseError, most=_MAX_RULES)
     except DatabaseError as fault:
         return [], [fault]
     data = document.data
@@ -298,8 +298,8 @@ def _error_of(path: Path, document: YamlDocument, slips: list[Slip]) -> Database
             line = document.line(place)
             keys = [short(key) for key in place[len(entry) :] if isinstance(key, str)]
             messages.append(": ".join([*keys, what]) + (f" (line {line})" if line != first else ""))
-    more = f"; and {len(messages) - _MOST_SLIPS} more" if len(messages) > _MOST_SLIPS else ""
-    return DatabaseError(path, first, f"{name}{'; '.join(messages[:_MOST_SLIPS])}{more}")
+    more = f"; and {len(messages) - _MAX_FAULTS_LISTED} more" if len(messages) > _MAX_FAULTS_LISTED else ""
+    return DatabaseError(path, first, f"{name}{'; '.join(messages[:_MAX_FAULTS_LISTED])}{more}")
 
 
 def _entry(data: Any, place: KeyPath) -> tuple[KeyPath, str]:

@@ -13,7 +13,7 @@ import os
 import stat
 from pathlib import Path
 
-MOST_BYTES = 16 * 2**20
+MAX_BYTES = 16 * 2**20
 """Some hundred times the largest parameter file of a machine."""
 _AT_ONCE = 2**20
 _KINDS = {
@@ -30,7 +30,7 @@ HARMLESS = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0) | getattr(o
 NO_LINK = getattr(os, "O_NOFOLLOW", 0)
 
 
-def read_file(path: Path, limit: int = MOST_BYTES, *, follow: bool = True, tail: bool = False) -> bytes:
+def read_file(path: Path, limit: int = MAX_BYTES, *, follow: bool = True, tail: bool = False) -> bytes:
     """Return the content of a file.
 
     With ``follow=False`` the path itself must not be a link; with ``tail`` the end of a file longer than

@@ -28,7 +28,7 @@ STATES: dict[ReadBackState, str] = {
 }
 
 _NUMBER_HEAD, _SHOWN_HEAD = "number", "read back"
-_MOST = 1 << 20  # characters
+_MAX_CHARACTERS = 1 << 20  # characters
 _LINE = re.compile(r"([^\s=;:,]+)(?:,\s*|\s*[=;:]\s*|\s+)(.*)")
 
 
@@ -64,8 +64,8 @@ def read_screen_readings(text: str) -> list[ScreenReading]:
     Number and value are parted by blanks, a tab, or one of ``= ; : ,``; what begins with ``#`` is for the
     reader. The sheet's own CSV is taken too, with its column ``read back`` filled in.
     """
-    if len(text) > _MOST:
-        raise ReadBackError(f"the text has more than {_MOST} characters", 1)
+    if len(text) > _MAX_CHARACTERS:
+        raise ReadBackError(f"the text has more than {_MAX_CHARACTERS} characters", 1)
     lines = text.removeprefix("\ufeff").splitlines()
     first = next((line for line in lines if line.strip() and not line.startswith("#")), "")
     heads = next(csv.reader([first], delimiter=_delimiter(first)), [])

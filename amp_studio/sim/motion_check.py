@@ -30,7 +30,7 @@ NEAR_GRID = (20.0, 80.0)
 """% of a turn between switch and marker that is sure (Syntec 2.2)."""
 WORSE = ("not possible", "good", "doubtful", "bad")
 ONE_END = "Only one end of the travel has a limit"
-MOST_OF_TRAVEL = 0.5
+AHEAD_SHARE = 0.5
 """Share of its travel from which an axis has its switch ahead; near an end it is almost all or nothing."""
 ASKED = {"home": "homing", "jog": "jogging", "travel": "travel"}
 """Scenario -> the part of an axis that reads its parameters."""
@@ -320,7 +320,7 @@ def _of_direction(axis: AxisLaw, trace: Trace) -> tuple[Verdict, str]:
         return "good", ""
     switch = home - gone + trace.course.switch[0]
     share = (switch - begin if sign > 0.0 else end - switch) / (end - begin)
-    if share >= MOST_OF_TRAVEL:
+    if share >= AHEAD_SHARE:
         return "good", ""
     place, first, last = (value_text(each, axis.unit) for each in (switch, begin, end))
     return "doubtful", (

@@ -62,8 +62,8 @@ class MainWindow(PartsWindow):
         self.resize(min(1360, room.width()), min(850, room.height() - 40))  # leave room for the window frame
         self.setStatusBar(StatusBar())
         self.status = StatusLine(self.statusBar())
-        self.status.findings_wanted.connect(lambda: self.show_panel("Findings"))
-        self.status.not_set_wanted.connect(lambda: self.page.show_not_set() if self.page else None)
+        self.status.findings_requested.connect(lambda: self.show_panel("Findings"))
+        self.status.not_set_requested.connect(lambda: self.page.show_not_set() if self.page else None)
         self.setDockOptions(QMainWindow.DockOption.AnimatedDocks | QMainWindow.DockOption.AllowNestedDocks)
         self.files = Files(self, self.show_workspace)
         self.open_path = self.files.open_path
@@ -91,7 +91,7 @@ class MainWindow(PartsWindow):
         self.centre.addWidget(self.tabs)
         self.setCentralWidget(self.centre)
         self.tabs.current_changed.connect(self._show_page)
-        self.tabs.close_wanted.connect(self.files.close)
+        self.tabs.close_requested.connect(self.files.close)
         self.project_changed.connect(self.enable)
         self.settings.place(self)
         if opening:
@@ -120,12 +120,12 @@ class MainWindow(PartsWindow):
             self.tabs.place_of(instead),
             self.docks.places,
         )
-        page.front_wanted.connect(self.leave_control)
-        page.front_wanted.connect(self.tabs.bring)
+        page.front_requested.connect(self.leave_control)
+        page.front_requested.connect(self.tabs.bring)
         page.selected.connect(self._show_value)
         page.noted.connect(self.show_status)
         page.detail.take_others(lambda: [p.workspace for p in self.tabs.pages() if p is not page])
-        page.detail.calculator_wanted.connect(
+        page.detail.calculator_requested.connect(
             lambda: self.guarded(self.edits.calculator, self.tr("Calculator"))
         )
         page.findings.fix_requested.connect(self._fix)
@@ -140,7 +140,7 @@ class MainWindow(PartsWindow):
             page.left.show_side(side)
         page.left.turned.connect(self.settings.keep_left_side)
         DiskWatch(page, self.files.comparing.with_disk, self.files.reload)
-        page.table_view.fill_wanted.connect(self._fill_cells)
+        page.table_view.fill_requested.connect(self._fill_cells)
         self.docks.add(page)
         self.finder.add(page)
         self.visited.add(page)

@@ -11,7 +11,7 @@ from amp_studio.schema import Address
 from .finding import Finding
 from .validator import Validator
 
-_MOST = 100_000
+_MAX_FIXES = 100_000
 """Fixes at once. Each leaves fewer or lesser findings, so they end by themselves long before."""
 
 
@@ -34,7 +34,7 @@ def apply_fixes(
     not made together with all others. The findings are up to date before and after.
     """
     done: list[Fixed] = []
-    for _ in range(_MOST):
+    for _ in range(_MAX_FIXES):
         finding = validator.first_fix(wanted, even_doubtful=even_doubtful)
         if finding is None:
             break

@@ -32,7 +32,7 @@ FindingPlace = Address | int
 """Where a finding is filed: under the value that is wrong,
 or under the place of the rule's check in the plan."""
 
-_MOST_SOUND = 200
+_MAX_SOUND_VALUES = 200
 """Values of a group of checks before all are forgotten: of so many machines without a value in common."""
 
 
@@ -152,7 +152,7 @@ class Sound(set[Hashable]):
     """Values that were met; few enough that the groups of all plans take some megabytes."""
 
     def add(self, values: Hashable) -> None:
-        if len(self) >= _MOST_SOUND:
+        if len(self) >= _MAX_SOUND_VALUES:
             self.clear()
         super().add(values)
 

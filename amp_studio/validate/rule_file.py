@@ -42,16 +42,16 @@ from .finding import OWN_FAULT, Finding
 from .plan import checks_of
 from .plausible import TITLES
 from .rule_entry import entry_model
-from .rule_review import MOST_STEPS, review
+from .rule_review import MAX_STEPS, review
 
 _SUPPRESSIONS = "suppressions"
 GENERAL_RULES = ("schema.range", "schema.choice", "schema.unset", "schema.unknown", *TITLES)
 """Findings of every family that are of no separate rule."""
-MOST_RULES = 2000
-MOST_SUPPRESSIONS = 10_000
-MOST_FAULTS = 200
+MAX_RULES = 2000
+MAX_SUPPRESSIONS = 10_000
+MAX_FAULTS = 200
 """Of a file: the rest is reported in one finding."""
-MOST_STEPS_OF_A_FILE = 4 * MOST_STEPS
+MAX_STEPS_OF_FILE = 4 * MAX_STEPS
 """Of all its rules together."""
 
 
@@ -92,7 +92,7 @@ class _RuleFileReader:
     def read(self) -> BuilderRules:
         entries, self._faults = read_entries(self._path, ("rules", _SUPPRESSIONS))
         used: dict[str, list[FactEntry]] = {}
-        for kind, most in (("rules", MOST_RULES), (_SUPPRESSIONS, MOST_SUPPRESSIONS)):
+        for kind, most in (("rules", MAX_RULES), (_SUPPRESSIONS, MAX_SUPPRESSIONS)):
             of_kind = [entry for entry in entries if entry.kind == kind]
             for entry in of_kind[most : most + 1]:
                 self._fault(
@@ -115,7 +115,7 @@ class _RuleFileReader:
         self._faults.append(DatabaseError(self._path, entry.line(place), ": ".join([*words, what])))
 
     def _findings(self) -> Iterator[Finding]:
-        shown_faults = sorted(self._faults, key=lambda fault: fault.line or 0)[:MOST_FAULTS]
+        shown_faults = sorted(self._faults, key=lambda fault: fault.line or 0)[:MAX_FAULTS]
         for fault in shown_faults:
             yield _finding(self._path, fault)
         if more := len(self._faults) - len(shown_faults):
@@ -182,7 +182,7 @@ class _RuleFileReader:
 
     def _try(self, rule: BuilderRule, cost: int) -> list[Slip]:
         """See whether a rule can be used on every machine type, and is not one too many."""
-        if self._cost + cost > MOST_STEPS_OF_A_FILE:
+        if self._cost + cost > MAX_STEPS_OF_FILE:
             return [
                 ((), "with those before it the rules can take too many steps: let them go over fewer lists")
             ]

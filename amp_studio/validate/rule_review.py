@@ -39,7 +39,7 @@ from .expression_worth import (
 from .expressions import TYPES
 from .functions import rule_functions
 
-MOST_STEPS = 5_000_000
+MAX_STEPS = 5_000_000
 """Of one rule over a whole file: about a quarter of a second."""
 _SHOWN = 100
 """Cost of a value in a message."""
@@ -82,10 +82,10 @@ def review(rule: Rule, schema: Schema, *, any_family: bool) -> Review:
     found.slips += _message_slips(rule)
     found.once = _expressions(rule, schema, found)
     found.cost = found.once * _runs(rule, schema)
-    if found.cost > MOST_STEPS:
+    if found.cost > MAX_STEPS:
         steps = f"{found.cost:,}" if found.cost < 10**12 else "far too many"
         message = (
-            f"the rule can take {steps} steps in a file, and {MOST_STEPS:,} are the most: let it go over"
+            f"the rule can take {steps} steps in a file, and {MAX_STEPS:,} are the most: let it go over"
             " fewer lists"
         )
         found.slips.append((("check",), message))

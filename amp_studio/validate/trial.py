@@ -25,7 +25,7 @@ from .checks import Checks
 from .finding import SEVERITIES, AddressedValue, Finding
 from .plan import FindingPlace, Plan, RuleCheck, make_plan
 
-MOST_STEPS = 20_000_000
+MAX_STEPS = 20_000_000
 """That a builder's rules may take in all trials of a file: about a second."""
 _LEAP, _CUT = 0.03, 0.3
 """The least part of a speed or ramp that a fix leaves, and that one leaves which was not asked for."""
@@ -132,9 +132,9 @@ class Trials:
         wanting = [place for place, (_, finding) in filed.items() if finding.fix]
         # Values by themselves first; checks of rules have numbers, the manual's lower than a builder's.
         for place in sorted(wanting, key=lambda place: (isinstance(place, int), place)):
-            if steps <= MOST_STEPS:
+            if steps <= MAX_STEPS:
                 steps += sum(map(self._steps, self._plan.asked_by(r.address for r in filed[place][1].fix)))
-            if steps > MOST_STEPS:
+            if steps > MAX_STEPS:
                 beyond.add(place)
         return frozenset(beyond)
 

@@ -286,7 +286,7 @@ def test_a_cache_that_has_become_large_keeps_the_files_of_this_run(
 ) -> None:
     amp("validate", machines)
     amp("set", machines / "2.amp", "$1=80000", "--force")
-    monkeypatch.setattr(check_cache, "_MOST_BYTES", 0)
+    monkeypatch.setattr(check_cache, "_MAX_BYTES", 0)
     amp("validate", machines)
     (kept,) = cache.glob("checks-*")
     with sqlite3.connect(kept) as database:

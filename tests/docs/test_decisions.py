@@ -9,7 +9,7 @@ ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "docs/decisions"
 PAGES = sorted(FOLDER.glob("[0-9]*.md"))
 HEADINGS = ["Context", "Decision", "Consequence", "Rejected"]
-MOST_LINES = 40
+MAX_LINES = 40
 
 
 def faults(text: str) -> list[str]:
@@ -18,7 +18,7 @@ def faults(text: str) -> list[str]:
     found = [] if [section.partition("\n")[0] for section in sections] == HEADINGS else ["headings"]
     if any(not section.partition("\n")[2].strip() for section in sections):
         found.append("empty section")
-    if text.count("\n") > MOST_LINES:
+    if text.count("\n") > MAX_LINES:
         found.append("too long")
     return found
 

@@ -13,7 +13,7 @@ from PySide6.QtGui import QColor, QImage
 
 ROOT = Path(__file__).parents[2]
 IMAGES = ROOT / "docs/images"
-MOST_BYTES = 120_000
+MAX_BYTES = 120_000
 PALETTE = 3
 """Type of colours in the head of a PNG."""
 
@@ -44,7 +44,7 @@ def test_a_picture_is_a_small_png_with_a_palette(name: str) -> None:
     width, height, _depth, colours = struct.unpack(">IIBB", content[16:26])
     assert colours == PALETTE
     assert (width, height) <= page_pictures.SIZE
-    assert len(content) < MOST_BYTES
+    assert len(content) < MAX_BYTES
 
 
 def test_the_most_frequent_colours_stay_and_the_others_become_the_nearest_of_them() -> None:

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 DOCS = Path(__file__).parents[2] / "docs"
-MOST_WORDS = 1500
+MAX_WORDS = 1500
 
 
 def words_of(page: str) -> int:
@@ -16,4 +16,4 @@ def words_of(page: str) -> int:
 def test_a_page_has_at_most_as_many_words_as_one_reads() -> None:
     pages = {path.relative_to(DOCS).as_posix(): path for path in DOCS.rglob("*.md")}
     words = {name: words_of(path.read_text(encoding="utf-8")) for name, path in pages.items()}
-    assert {name: count for name, count in words.items() if count > MOST_WORDS} == {}
+    assert {name: count for name, count in words.items() if count > MAX_WORDS} == {}

@@ -19,7 +19,7 @@ from tests.cli.stopped_exchanges import emulated
 from .verbs import ERRORS, EXAMPLES, LOCKS, compiler, contents, library
 
 VERBS = ("download", "restore", "upload as image", "upload as file")
-MOST = 200
+MAX_EXCHANGES = 200
 """Calls of one verb; the longest has some 70."""
 NAMES = ("one", "other")
 
@@ -78,7 +78,7 @@ def _fail_each(
     and what was not true of them.
     """
     found, active = list[str](), folder / "control" / "active.img"
-    for at in range(1, MOST):
+    for at in range(1, MAX_EXCHANGES):
         chance = random.Random(f"{seed} {verb} {at}")
         work, log = folder / "work", folder / "log"
         work.mkdir()
@@ -107,7 +107,7 @@ def _fail_each(
         log.unlink(missing_ok=True)
         if not failed:
             return at, found
-    return MOST, [*found, f"{verb} makes no end of calls"]
+    return MAX_EXCHANGES, [*found, f"{verb} makes no end of calls"]
 
 
 def _violations(

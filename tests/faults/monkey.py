@@ -40,7 +40,7 @@ FAMILIES = ("9pc", "num", "syntec", "57c422b", "acromill", "grblhal", "linuxcnc"
 ALL = "all"
 """In the place of a family: the files of each."""
 RUNS = (*FAMILIES, ALL)
-MOST_MEMORY = 700
+MAX_MEMORY = 700
 """MB that the window may take."""
 LONGEST_S = 60
 """Seconds after which an action that is not over is an error."""
@@ -137,11 +137,11 @@ class Monkey:
             print(error)
         self.window.control.emulated.stop(wait=True)
         memory = _memory()
-        if memory > MOST_MEMORY:
+        if memory > MAX_MEMORY:
             print(f"the window takes {memory} MB")
         print(f"{self.done} actions, {len(self.errors)} errors, {self.at_start} MB, then {memory} MB")
         sys.stdout.flush()
-        os._exit(bool(self.errors) or memory > MOST_MEMORY)  # windows are left as they are
+        os._exit(bool(self.errors) or memory > MAX_MEMORY)  # windows are left as they are
 
     def _failed(self, kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
         if kind.__name__ == "AskerGoneError":

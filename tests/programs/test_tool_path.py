@@ -8,7 +8,7 @@ import pytest
 from amp_studio.assignments import read_assignments
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.programs import ARC, DWELL, RAPID, ProgramBlockError, ToolPath, read_program
-from amp_studio.programs.interpreter import MOST_REPEATED, tool_path
+from amp_studio.programs.interpreter import MAX_REPEATED, tool_path
 from amp_studio.programs.toolpath import LINE
 from amp_studio.programs.words import LONGEST
 
@@ -226,11 +226,11 @@ def test_what_no_page_prints_of_a_code_is_assumed_where_a_program_has_it(router:
 
 
 def test_a_program_without_an_end_is_bounded(router: ParameterFile, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("amp_studio.programs.interpreter.MOST_REPEATED", 498)
+    monkeypatch.setattr("amp_studio.programs.interpreter.MAX_REPEATED", 498)
     found = path(router, "N1 F1|GOTO 1")
     assert found.fault is not None
     assert "no end within 500" in found.fault.message
-    assert MOST_REPEATED >= 100_000
+    assert MAX_REPEATED >= 100_000
 
 
 def test_expressions_are_calculated_as_printed(router: ParameterFile) -> None:

@@ -346,7 +346,7 @@ def test_apart_a_template_that_takes_all_memory_ends_alone(
     machine: Path, mill: ParameterFile, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pytest.importorskip("resource")
-    monkeypatch.setattr("amp_studio.report.apart._MOST_MEMORY", 800 * 2**20)
+    monkeypatch.setattr("amp_studio.report.apart._MAX_MEMORY", 800 * 2**20)
     content, (note,) = printed(
         machine, mill, "pdf", EXTENDS_PDF + "{% block chapters %}#range(10000000000).len(){% endblock %}"
     )

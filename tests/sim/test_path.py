@@ -31,7 +31,7 @@ from amp_studio.sim.law import law_of
 from amp_studio.sim.path.contour import distances
 from amp_studio.sim.path.moment import moment_in
 from amp_studio.sim.path.passes import lowest_sums
-from amp_studio.sim.path.picture import MOST_POINTS, PathChoice, path_picture
+from amp_studio.sim.path.picture import MAX_POINTS, PathChoice, path_picture
 from amp_studio.sim.path.planned import PlannedProgram
 from amp_studio.sim.path.planner import ProgramPlan
 from amp_studio.sim.path.profiles import axis_profiles
@@ -440,7 +440,7 @@ def test_a_picture_has_a_bounded_number_of_points_and_every_limit_of_a_long_prog
         picture = path_picture(router, run, None, PathChoice(colours))
         for scene in (picture.above, picture.close):
             assert scene is not None
-            assert sum(len(line.points) for line in scene.lines) < 2 * MOST_POINTS
+            assert sum(len(line.points) for line in scene.lines) < 2 * MAX_POINTS
             assert {line.dashed for line in scene.lines} == {False, True}
     letters, times = line_columns(run, 4)
     assert letters.tolist() == line_columns(run, len(lines))[0].tolist()[:5]

@@ -42,7 +42,7 @@ STEPS = {1: 40, 2: 12, 3: 7}
 """Values of each gain in the grid, by the number of gains."""
 COARSE_STEPS = {1: 30, 2: 10, 3: 5}
 """The same for each of several settings of the filters."""
-LEAST_OF_GRID, MOST_OF_GRID = 1e-7, 1e5
+MIN_OF_GRID, MAX_OF_GRID = 1e-7, 1e5
 SOFTER = 1.05
 """The grid may be stiffer by this factor: it and the solver both stop somewhere."""
 
@@ -166,7 +166,7 @@ def grid(plant: Plant, filters: FilterSetting | None = None, steps: Mapping[int,
 
 
 def _values(gain: Gain, count: int) -> list[float]:
-    low, high = max(gain.low, LEAST_OF_GRID), min(gain.high, MOST_OF_GRID)
+    low, high = max(gain.low, MIN_OF_GRID), min(gain.high, MAX_OF_GRID)
     found = [gain.nearest(low * (high / low) ** (n / (count - 1))) for n in range(count)]
     return ([0.0] if gain.may_be_none else []) + found
 

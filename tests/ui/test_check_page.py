@@ -148,7 +148,7 @@ def test_an_edit_checks_again_once_the_page_is_seen_and_a_row_is_wanted_as_a_mot
     page.show()
     qtbot.waitUntil(lambda: page.check is not None and not Task.running, timeout=WAIT_MS)
     assert runs == ["999.0"]
-    with qtbot.waitSignal(page.motion_wanted) as wanted:
+    with qtbot.waitSignal(page.motion_requested) as wanted:
         page.motion.click()
     assert wanted.args == ["jog", "X"]
     key = QKeyEvent(QEvent.Type.ShortcutOverride, Qt.Key.Key_F9, Qt.KeyboardModifier.NoModifier)

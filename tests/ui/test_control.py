@@ -24,7 +24,7 @@ from amp_studio.ui.actions.control import STATE_ROOM
 from amp_studio.ui.base.theme import colour, scheme
 from amp_studio.ui.base.translated import speak
 from amp_studio.ui.control.conditions import conditions_of
-from amp_studio.ui.control.differences import CONTROL, MIND
+from amp_studio.ui.control.differences import CONTROL, REMARK
 from amp_studio.ui.control.heading import ControlHeading
 from amp_studio.ui.control.next_step import PageState, bar_message
 from amp_studio.ui.control.session import ControlSession
@@ -601,7 +601,7 @@ def test_values_sent_from_another_page_are_sent_alone_and_what_to_mind_has_a_few
     assert {row.difference.address for row in page.table.rows_taking(file=True)} == {EXCESS}
     assert page.primary.text() == "Send 1 Value to the Control"
     page.table.select(EXCESS)
-    assert page.table.currentItem().text(MIND) == "later stop when it fails"
+    assert page.table.currentItem().text(REMARK) == "later stop when it fails"
     assert "This limit guards against damage" in page.detail.text()
     page.table.select(("servo.excess_error", "2"))
     page.table.take([("servo.excess_error", "2")], file=True)

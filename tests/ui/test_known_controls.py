@@ -9,7 +9,7 @@ from PySide6.QtTest import QTest
 
 from amp_studio.transfer.errors import TransferError
 from amp_studio.ui.base.known_controls import (
-    MOST,
+    MAX_CONTROLS,
     KnownControl,
     read_controls,
     stored_controls,
@@ -40,9 +40,9 @@ def test_the_last_exchange_comes_first_and_what_a_control_did_not_say_stays() ->
 
 def test_only_so_many_are_remembered() -> None:
     known: list[KnownControl] = []
-    for n in range(MOST + 3):
+    for n in range(MAX_CONTROLS + 3):
         known = with_exchange(known, f"tcp://10.0.0.{n}:9600", "connect", reached=True, now=NOW)
-    assert (len(known), known[0].address) == (MOST, f"tcp://10.0.0.{MOST + 2}:9600")
+    assert (len(known), known[0].address) == (MAX_CONTROLS, f"tcp://10.0.0.{MAX_CONTROLS + 2}:9600")
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ from amp_studio.ui.control import readings as live
 from amp_studio.ui.control.readings import StatusReadings
 from amp_studio.ui.control.session import ControlSession
 from amp_studio.ui.live.page import LiveView
-from amp_studio.ui.live.rows import CONTROL, MIND, NAME, TurnedValue
+from amp_studio.ui.live.rows import CONTROL, NAME, REMARK, TurnedValue
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import WAIT_MS, User
@@ -200,10 +200,10 @@ def test_a_reading_is_drawn_at_the_time_of_its_answer_however_late_the_window_ta
 
 
 def test_rows_show_the_file_beside_the_control_and_what_differs(page: LiveView) -> None:
-    assert (cell(page, 0, NAME), cell(page, 0, MIND)) == ("Velocity Gain", "")
+    assert (cell(page, 0, NAME), cell(page, 0, REMARK)) == ("Velocity Gain", "")
     session_of(page).content.set(GAIN, Value(104, ""))
     session_of(page).changed.emit()
-    assert (cell(page, 0, CONTROL), cell(page, 0, MIND)) == ("104", "differs from the file")
+    assert (cell(page, 0, CONTROL), cell(page, 0, REMARK)) == ("104", "differs from the file")
 
 
 def test_a_value_is_turned_by_keys_written_after_one_question_and_put_back(
@@ -221,7 +221,7 @@ def test_a_value_is_turned_by_keys_written_after_one_question_and_put_back(
     user.answers("Write Now")
     QTest.keyClick(field, Qt.Key.Key_Return, Qt.KeyboardModifier.ControlModifier)
     assert user.asked[-1].startswith("Write R5 Velocity Gain, X axis = 89 into bench now?")
-    assert cell(page, 0, MIND).startswith("turned, was 78 until ")
+    assert cell(page, 0, REMARK).startswith("turned, was 78 until ")
     assert page._workspace.file.get(GAIN).value == 78
     QTest.keyClick(field, Qt.Key.Key_Up)
     page.frame.write.click()  # asked once

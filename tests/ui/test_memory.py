@@ -9,7 +9,7 @@ import pytest
 
 from tests.campaigns import CAMPAIGN
 
-MOST_MB = 450 if CAMPAIGN else 250
+MAX_MB = 450 if CAMPAIGN else 250
 FAMILIES = () if CAMPAIGN else ("grblhal",)
 """Whose files are opened; all where none is named."""
 EDITED = ("servo.loop_gain", "1") if CAMPAIGN else ("axis.max_rate", "X")
@@ -78,4 +78,4 @@ def test_files_and_the_preview_stay_small(tmp_path) -> None:
         cwd=tmp_path,
     )
     assert done.returncode == 0, done.stderr
-    assert int(done.stdout.split()[0]) < MOST_MB
+    assert int(done.stdout.split()[0]) < MAX_MB

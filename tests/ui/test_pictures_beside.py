@@ -101,7 +101,7 @@ def test_esc_in_a_picture_goes_to_the_table_and_both_stay(beside):
 
 
 def test_a_name_in_a_picture_selects_its_parameter_and_both_stay(beside):
-    beside.page.pictures.parameter_wanted.emit(BREAK)
+    beside.page.pictures.parameter_requested.emit(BREAK)
     assert beside.table_view.address() == BREAK
     assert beside.page.pictures.isVisible()
 

@@ -17,13 +17,13 @@ from pytestqt.qtbot import QtBot
 from amp_studio.drawing import Curve, Picture, linked, panel_of
 from amp_studio.schema import Value
 from amp_studio.ui.base.places import sentenced_with_letters
-from amp_studio.ui.base.plot import LEAST_PANEL, Plot
+from amp_studio.ui.base.plot import MIN_PANEL, Plot
 from amp_studio.ui.base.theme import font
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.forms.place_tree import counts_with_room
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.table.cell_look import as_written
-from amp_studio.ui.table.column_widths import LEAST_NAMES, ContentWidths, column_widths
+from amp_studio.ui.table.column_widths import MIN_NAMES, ContentWidths, column_widths
 from amp_studio.ui.table.more_columns import STRIP
 from amp_studio.ui.table.parameter_table import CONTROL
 from tests.campaigns import CAMPAIGN
@@ -301,7 +301,7 @@ def test_names_have_what_the_columns_leave_free_that_are_seen_whole(room: int) -
     wanted, left = min(42 + 260, room // 3), room - widths.frozen
     whole = [end for end in accumulate(axes) if end <= left - STRIP]
     assert widths.frozen == wanted or sum(axes) >= left or not whole or whole[-1] == left - STRIP
-    least = min(wanted, max(42 + LEAST_NAMES, room - sum(axes)))
+    least = min(wanted, max(42 + MIN_NAMES, room - sum(axes)))
     assert whole == [end for end in accumulate(axes) if end <= room - least - STRIP], (
         "no column leaves for it"
     )
@@ -354,7 +354,7 @@ def test_panels_without_room_are_left_out_and_named_instead_of_painted_below_the
         plot.grab()
         assert plot.left_out == left_out
         last = plot._frames[-1]
-        assert last.height >= LEAST_PANEL
+        assert last.height >= MIN_PANEL
         assert last.top + last.height < height - 16.0, "the figures along the axis"
         assert last.scene.x.is_written
 

@@ -107,7 +107,7 @@ PAGES: dict[str, Callable[[MainWindow], object]] = {
     "machine": lambda window: window.menus["view.check"].trigger(),
     "live": show_live,
 }
-MOST_ROWS = 60
+MAX_ROWS = 60
 """Rows of a table that are checked."""
 CHECKS = (
     MotionCheck("home", "1", "X", "bad", {"home_grid": (6.0, "%")}, part="homing", headline="home_grid"),
@@ -225,7 +225,7 @@ def cells(window: MainWindow) -> Iterator[tuple[str, str]]:
         model = view.model()
         if not view.isVisible() or model is None or isinstance(view, QHeaderView):
             continue
-        for row in range(min(model.rowCount(), MOST_ROWS)):
+        for row in range(min(model.rowCount(), MAX_ROWS)):
             for column in range(1 if isinstance(view, QListView) else model.columnCount()):
                 index = model.index(row, column)
                 text, box = str(index.data() or ""), view.visualRect(index)

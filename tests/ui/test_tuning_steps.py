@@ -268,7 +268,7 @@ def test_what_is_proposed_is_taken_into_the_file_and_sent_alone(
 ) -> None:
     guided._propose((Recommendation(GAIN[0], 2100.0, "", "calm"),), "")
     assert guided.send.isVisible()
-    with qtbot.waitSignal(guided.send_wanted) as wanted:
+    with qtbot.waitSignal(guided.send_requested) as wanted:
         guided.send.click()
     assert wanted.args == [[GAIN]]
     assert workspace.file.get(GAIN).value == 2100

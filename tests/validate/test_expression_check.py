@@ -12,7 +12,7 @@ from amp_studio.validate.expression_check import ExpressionCheck
 from amp_studio.validate.expression_tree import Node, read_expression
 from amp_studio.validate.expression_worth import DECIMAL, YES_NO, list_worth, text_worth
 from amp_studio.validate.functions import rule_functions
-from amp_studio.validate.rule_review import MOST_STEPS, _functions, review
+from amp_studio.validate.rule_review import MAX_STEPS, _functions, review
 from tests.campaigns import some
 from tests.work import calls_of
 
@@ -101,7 +101,7 @@ def test_what_can_be_understood_is_left_alone(text: str) -> None:
     ids=range(7),
 )
 def test_what_would_take_all_memory_or_time_is_beyond_the_budget(text: str) -> None:
-    assert checked(text).cost > MOST_STEPS
+    assert checked(text).cost > MAX_STEPS
 
 
 # ------------------------------------------------------------------------------------- the rules we deliver

@@ -9,7 +9,7 @@ from rule_machines import FAMILIES, cases
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value, conditions
-from amp_studio.schema.expression import MOST_REMEMBERED, Circumstances, Decision, Remembered, key_of, program
+from amp_studio.schema.expression import MAX_REMEMBERED, Circumstances, Decision, Remembered, key_of, program
 from amp_studio.schema.model import BuilderRule
 from amp_studio.validate import BuilderRules, Validator, plan, ranges
 from tests.campaigns import CAMPAIGN, some
@@ -44,9 +44,9 @@ def test_a_number_and_a_yes_are_two_values_whichever_came_first() -> None:
 
 def test_results_of_one_expression_are_bounded() -> None:
     remembered = Remembered()
-    for n in range(3 * MOST_REMEMBERED):
+    for n in range(3 * MAX_REMEMBERED):
         remembered[n] = True
-        assert len(remembered) <= MOST_REMEMBERED
+        assert len(remembered) <= MAX_REMEMBERED
 
 
 def test_machine_model_and_instance_are_distinguished() -> None:

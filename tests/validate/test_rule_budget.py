@@ -14,7 +14,7 @@ from amp_studio.schema import Value, load_schema
 from amp_studio.validate import Finding, Validator, explain, read_builder_rules, rule_file, trial
 from amp_studio.validate.functions import GENERAL
 from amp_studio.validate.plan import make_plan
-from amp_studio.validate.rule_file import MOST_FAULTS
+from amp_studio.validate.rule_file import MAX_FAULTS
 from tests.campaigns import some
 
 
@@ -103,7 +103,7 @@ def test_of_very_many_fixes_the_first_are_tried_and_the_others_when_these_are_ma
     """Each trial asks all rules that read the value,
     so trying them all would take the square of their number.
     """
-    monkeypatch.setattr(trial, "MOST_STEPS", 300_000)
+    monkeypatch.setattr(trial, "MAX_STEPS", 300_000)
     path.write_text("rules:\n" + "".join(rule(n) for n in range(10)), encoding="utf-8")
     validator = Validator(mill, read_builder_rules(path, mill.schema))
     found = [f for f in validator.run() if f.rule.startswith("works.")]
@@ -143,13 +143,13 @@ def test_names_by_the_thousand_are_refused(mill, path: Path) -> None:
 
 
 def test_of_slips_without_end_the_first_are_reported(mill, path: Path) -> None:
-    found = findings(path, "".join(rule(n, "rapid <") for n in range(MOST_FAULTS + 50)), mill)
-    assert len(found) == MOST_FAULTS + 1
+    found = findings(path, "".join(rule(n, "rapid <") for n in range(MAX_FAULTS + 50)), mill)
+    assert len(found) == MAX_FAULTS + 1
     assert found[-1].message == "rules.yaml: 50 more entries cannot be used."
 
 
 def test_rules_without_end_are_reported(mill, path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(rule_file, "MOST_RULES", 5)
+    monkeypatch.setattr(rule_file, "MAX_RULES", 5)
     found = findings(path, "".join(rule(n, "rapid > 0.0") for n in range(9)), mill)
     assert [f.message for f in found] == [
         "rules.yaml, line 43: works.rule5: there are 9 rules, and 5 are the most; the rest is not used."

@@ -31,7 +31,7 @@ from .formats import CHECK_FORMATS, CheckResult
 
 _OWN_OPTIONS = ("paths", "jobs", "no_cache")
 """Options that change no result of a file."""
-_MOST_BYTES = 256 * 2**20
+_MAX_BYTES = 256 * 2**20
 """Of a database, after which only the results of the present run stay in it."""
 _AT_ONCE = 500
 """Results that are asked for in one query."""
@@ -150,7 +150,7 @@ class CheckCache:
         with contextlib.suppress(sqlite3.Error, OSError), self._database() as database:
             with database:
                 database.executemany("INSERT OR REPLACE INTO result VALUES (?, ?, ?)", rows)
-            if self._path.stat().st_size > _MOST_BYTES:
+            if self._path.stat().st_size > _MAX_BYTES:
                 _shrink(database, {*results, *used})
         self._remove_older()
 

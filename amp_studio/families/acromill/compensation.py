@@ -19,7 +19,7 @@ from .formulas.ballscrew import is_ballscrew_table
 
 _INCH = Fraction("25.4")
 _WORD = re.compile(r"[A-Z][0-9]+E(-?\.[0-9]{5})")
-_MOST_WORDS = 10_000
+_MAX_WORDS = 10_000
 """Ten thousand whole positions are far more than any travel; the guide prints no limit."""
 
 
@@ -54,7 +54,7 @@ class BallscrewTable:
     def write(self, file: ParameterFile, axis: str, table: CalibrationTable) -> str:
         """Return the text; raises CalibrationError for what has no form."""
         letter, size, home = _letter(file, axis), _unit(file), _home(file, axis)
-        if len(table.points) > _MOST_WORDS:
+        if len(table.points) > _MAX_WORDS:
             raise CalibrationError(f"{len(table.points)} positions are too many for a ballscrew table")
         count = len(table.points)
         words = {}
@@ -138,7 +138,7 @@ class BallscrewTable:
             found.append(Fraction(repr(value)) / _unit(file))
         # Towards home on both sides: a word beyond a soft limit is never used.
         low, high = -int(max(-found[0], Fraction(0))), int(max(found[1], Fraction(0)))
-        if high - low >= _MOST_WORDS:
+        if high - low >= _MAX_WORDS:
             raise CalibrationError(f"{high - low + 1} positions are too many for a ballscrew table")
         return low, high
 

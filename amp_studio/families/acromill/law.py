@@ -53,7 +53,7 @@ _GAINS = {
     loop.FBVEL: ids.tuning_fbvel,
 }
 _MILLISECONDS = 1e-3
-MOST_LOPASS, MOST_NOTCH = 0.1, 0.45
+MAX_LOPASS, MAX_NOTCH = 0.1, 0.45
 """Share of the servo update frequency: up to a tenth of it LOPASS is of use (page 128); a notch must be below
 the half."""
 _SMALLEST_GAIN, _LARGEST_GAIN = 1e-9, 1e6
@@ -135,8 +135,8 @@ def bind(read: AxisParameters) -> AxisLaw:
         stops_at="excess_error",
         gains=("derivative_gain", "position_gain", "integral_gain"),
         filters=(
-            LoopFilter("lopass", MOST_LOPASS / period),
-            LoopFilter("notch", MOST_NOTCH / period, width="notch_width"),
+            LoopFilter("lopass", MAX_LOPASS / period),
+            LoopFilter("notch", MAX_NOTCH / period, width="notch_width"),
         ),
         follow=follow,
         sources=_sources(pulses, ids.speeds_rapid if rapid else ids.max_machine),

@@ -27,16 +27,16 @@ from typing import TypeVar
 from amp_studio.schema import DescriptionError, short
 
 T = TypeVar("T")
-MOST_BYTES = 2**20
-_MOST_SETTINGS, _MOST_GROUPS, _MOST_CODES = 2000, 500, 1000
+MAX_BYTES = 2**20
+_MAX_SETTINGS, _MAX_GROUPS, _MAX_CODES = 2000, 500, 1000
 _LONGEST = 4000
 """Signs of a text that is kept; the longest help there is has some 800."""
 _HELP_ROW = 10
 """Columns of ``$ESH``."""
-_MOST_NUMBER = 65535
-_MOST_LABELS = 32
+_MAX_NUMBER = 65535
+_MAX_LABELS = 32
 """Of a mask: the control keeps it in 32 bits."""
-_MOST_CHOICES = 256
+_MAX_CHOICES = 256
 
 BOOLEAN, MASK, SWITCHED_MASK, CHOICE, AXES, INTEGER, DECIMAL, TEXT, PASSWORD, IPV4 = range(10)
 """The types of settings, as ``$ES`` counts them. In a switched mask bit 0 switches all others."""
@@ -112,8 +112,8 @@ class Description:
 
 def description_lines(content: bytes) -> list[str]:
     """Return the lines of a content that describe the control, in their order; raises DescriptionError."""
-    if len(content) > MOST_BYTES:
-        raise DescriptionError(f"the description of a control has at most {MOST_BYTES:,} bytes")
+    if len(content) > MAX_BYTES:
+        raise DescriptionError(f"the description of a control has at most {MAX_BYTES:,} bytes")
     found: list[str] = []
     begun = ""
     for came in content.decode("utf-8", "replace").split("\n"):
@@ -181,7 +181,7 @@ def _read_axes(description: Description, _tag: str, rest: str) -> None:
 def _read_group(description: Description, _tag: str, rest: str) -> None:
     number, parent, name = _parts(rest, 3, "a group of settings")
     group = SettingGroup(_number(number, rest), _number(parent, rest), _text(name) or f"Group {number}")
-    _keep(description.groups, group.number, group, _MOST_GROUPS, "group")
+    _keep(description.groups, group.number, group, _MAX_GROUPS, "group")
 
 
 def _read_setting(description: Description, _tag: str, rest: str) -> None:
@@ -204,22 +204,22 @@ def _read_setting(description: Description, _tag: str, rest: str) -> None:
         zero == "1",
     )
     count = len(setting.labels)
-    if setting.type in (MASK, SWITCHED_MASK) and count > _MOST_LABELS:
-        raise DescriptionError(f"${number} has {count} bits, and {_MOST_LABELS} are the most")
-    if setting.type == CHOICE and count > _MOST_CHOICES:
-        raise DescriptionError(f"${number} has {count} choices, and {_MOST_CHOICES} are the most")
-    _keep(description.settings, setting.number, setting, _MOST_SETTINGS, "setting")
+    if setting.type in (MASK, SWITCHED_MASK) and count > _MAX_LABELS:
+        raise DescriptionError(f"${number} has {count} bits, and {_MAX_LABELS} are the most")
+    if setting.type == CHOICE and count > _MAX_CHOICES:
+        raise DescriptionError(f"${number} has {count} choices, and {_MAX_CHOICES} are the most")
+    _keep(description.settings, setting.number, setting, _MAX_SETTINGS, "setting")
 
 
 def _read_help(description: Description, _tag: str, rest: str) -> None:
     number, _, text = rest.partition("|")
-    _keep(description.helps, _number(number, rest), _lines(text), _MOST_SETTINGS, "help of setting")
+    _keep(description.helps, _number(number, rest), _lines(text), _MAX_SETTINGS, "help of setting")
 
 
 def _read_code(description: Description, tag: str, rest: str) -> None:
     number, _, text = _parts(rest, 3, "a code")
     codes = description.alarms if tag == "ALARMCODE" else description.errors
-    _keep(codes, _number(number, rest), _text(text), _MOST_CODES, "code")
+    _keep(codes, _number(number, rest), _text(text), _MAX_CODES, "code")
 
 
 _READERS = {
@@ -253,8 +253,8 @@ def _parts(rest: str, count: int, what: str) -> list[str]:
 
 
 def _number(text: str, rest: str) -> int:
-    if not re.fullmatch("[0-9]{1,5}", text) or int(text) > _MOST_NUMBER:
-        raise DescriptionError(f"'{short(rest)}' begins with no number of 0 to {_MOST_NUMBER}")
+    if not re.fullmatch("[0-9]{1,5}", text) or int(text) > _MAX_NUMBER:
+        raise DescriptionError(f"'{short(rest)}' begins with no number of 0 to {_MAX_NUMBER}")
     return int(text)
 
 

@@ -15,7 +15,7 @@ from amp_studio.meaning import (
     not_above,
 )
 
-LETTERS, _TURNING, _LEAST = "XYZABCUV", "ABC", 3
+LETTERS, _TURNING, _FIRST_TURNING = "XYZABCUV", "ABC", 3
 _HOMING = 1 | 4 | 8 | 512
 """$22: on, needed at the start, home is zero, rates of each axis."""
 _WITHOUT_SWITCH = {
@@ -116,7 +116,7 @@ class _SettingsWriter:
             "neither",
         )
         if axis.turns:
-            self.values[376] = str(int(self.values.get(376, "0")) | 1 << n - _LEAST)
+            self.values[376] = str(int(self.values.get(376, "0")) | 1 << n - _FIRST_TURNING)
         question = MigrationQuestion(
             f"steps.{axis.name}",
             f"How many steps make 1 {'degree' if axis.turns else 'mm'} of {axis.name} at the new motor"

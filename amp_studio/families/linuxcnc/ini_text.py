@@ -18,8 +18,8 @@ _SECTION = re.compile(r"[ \t\r]*\[([^\]]*)\]")
 _KEY = re.compile(r"[ \t\r]*([^\s=;#\[][^\s=]*)[ \t\r]*=[ \t\r]*")
 _CONTENT = re.compile(r"\s*[^\s#;]")
 _INCLUDE = re.compile(r"#INCLUDE[ \t]+(\S.*?)[ \t\r]*$")
-_MOST_INCLUDES = 50
-_MOST_LINES = 20
+_MAX_INCLUDES = 50
+_MAX_LINES = 20
 """Lines that one value may go on over (F27)."""
 
 
@@ -100,7 +100,7 @@ class _Reader:
             while (
                 rows[at + count - 1].rstrip("\r").endswith("\\")
                 and at + count < len(rows)
-                and count <= _MOST_LINES
+                and count <= _MAX_LINES
             ):
                 count += 1
             self._line(file, rows, at, count)
@@ -123,7 +123,7 @@ class _Reader:
 
     def _include(self, name: str) -> None:
         # A file that includes itself, directly or through others, would go on for ever.
-        text = self.beside(name) if len(self.lines) <= _MOST_INCLUDES and name not in self.lines else None
+        text = self.beside(name) if len(self.lines) <= _MAX_INCLUDES and name not in self.lines else None
         if text is None:
             self.missing.append(name)
         else:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from amp_studio.programs import ARC, DWELL, EXACT, KEPT, LINE, MOST_ROWS, PLANES, RAPID, ToolPath
+from amp_studio.programs import ARC, DWELL, EXACT, KEPT, LINE, MAX_ROWS, PLANES, RAPID, ToolPath
 from amp_studio.sim import Geometry, PathLimit, PathRows, RowBounds, ShapedPath, SimulationError
 
 from .law_segments import NORMAL, AxisLimits, Booleans, Integers, segments
@@ -26,7 +26,7 @@ OF_MOVE = 0.5
 """Share of a move that a corner may take."""
 SMALLEST_ANGLE, SHORTEST = 1e-6, 1e-6
 """rad, u: of a rounded corner."""
-LEAST_CYCLES = 1.02
+MIN_CYCLES = 1.02
 """Servo cycles of a move."""
 GAP_CYCLES = 4.0
 """Servo cycles below which what is left before a corner goes at its speed."""
@@ -272,8 +272,8 @@ class _Shaping:
         # A move that its two corners take whole leaves no row.
         is_row = ~between.is_round | (left > SHORTEST)
         total = int(is_row.sum() + parts.sum())
-        if total > MOST_ROWS:
-            raise SimulationError(f"The rounded corners of the program become more than {MOST_ROWS} moves")
+        if total > MAX_ROWS:
+            raise SimulationError(f"The rounded corners of the program become more than {MAX_ROWS} moves")
         start = np.cumsum(is_row + parts) - is_row - parts
         out = _Rows(total, len(path.axes))
         # The moves themselves.
@@ -312,7 +312,7 @@ class _Shaping:
         top[slower], top_by[slower] = between.top[slower], between.top_by[slower]
         acceleration[short] = np.minimum(acceleration[short], between.acceleration[short])
         rest = rounds & ~short & (left > 0.0)
-        top[rest] = np.minimum(top[rest], left[rest] / (period * LEAST_CYCLES))
+        top[rest] = np.minimum(top[rest], left[rest] / (period * MIN_CYCLES))
         return left, top, top_by, acceleration
 
     def _is_last(self) -> Booleans:

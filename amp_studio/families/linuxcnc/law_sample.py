@@ -15,7 +15,7 @@ from amp_studio.sim import (
     Vector,
 )
 
-GAIN, FORWARD, FERROR, LEAST, TOP = range(5)  # 1/s, a ratio, u, u, u/s
+GAIN, FORWARD, FERROR, MIN_ERROR, TOP = range(5)  # 1/s, a ratio, u, u, u/s
 PARAMETERS = 5
 TRIPPED = 1.0
 
@@ -30,7 +30,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:  # noqa: ARG001 -
         return
     error = io[COMMAND] - io[POSITION]
     limit = p[FERROR] * abs(io[COMMAND_VELOCITY]) / p[TOP]
-    limit = max(limit, p[LEAST])
+    limit = max(limit, p[MIN_ERROR])
     io[MONITOR] = limit
     if abs(error) > limit:
         io[STOP] = TRIPPED

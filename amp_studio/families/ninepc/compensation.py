@@ -19,7 +19,7 @@ from .formulas.calibration import (
     DECIMALS,
     INPUTS,
     LONGEST_INTERVAL,
-    MOST_POINTS,
+    MAX_POINTS,
     STARTS,
     STEEPEST,
     CalibrationText,
@@ -61,7 +61,7 @@ class NinePcTable:
         left = self._left(file, axis)
         if len(table.points) > left:
             raise CalibrationError(
-                f"MEASUREMENT POINT OVERFLOW: {len(table.points)} points are too many; of {MOST_POINTS} for"
+                f"MEASUREMENT POINT OVERFLOW: {len(table.points)} points are too many; of {MAX_POINTS} for"
                 f" all axes {left} are left for this one (page 36-10)"
             )
         points = tuple((_rounded(at), _rounded(by)) for at, by in table.points)
@@ -143,7 +143,7 @@ class NinePcTable:
         unit = "deg" if turns else "mm"
         rollover = _rollover(file, axis)
         lines = [
-            f"At most {MOST_POINTS} points for all axes; {self._left(file, axis)} for this one (page 36-10).",
+            f"At most {MAX_POINTS} points for all axes; {self._left(file, axis)} for this one (page 36-10).",
             f"At most {float(LONGEST_INTERVAL[unit]):g} {unit} from point to point (page 36-7).",
             (
                 "No deviation above 2 % of the way from the point entered before; the first one is 0 (page"
@@ -162,7 +162,7 @@ class NinePcTable:
         others = [
             str(value.value) for a, value in file.values.items() if a[0] == self.parameter and a[1] != axis
         ]
-        return max(MOST_POINTS - int(calibration_points(others)), 0)
+        return max(MAX_POINTS - int(calibration_points(others)), 0)
 
 
 def _closed(

@@ -48,7 +48,7 @@ SWING = 0.5
 """Share of the torque limit through which the torque swings in an oscillation."""
 STEP = 1.1
 """Factor from one gain to the next one tried."""
-MOST_GAIN = 65535.0
+MAX_GAIN = 65535.0
 """Both gains end there (7-54, 7-57)."""
 FIRST_INTEGRAL = 50.0
 """The first integral gain is the proportional one divided by this."""
@@ -144,10 +144,10 @@ def highest(axis: AxisLaw, feedrate: float) -> float:
     gain = TUNING_START
     while not chart(axis, feedrate, gain, 0.0).clean:  # underdamped at the start: too light or too heavy
         gain *= STEP
-        if gain > MOST_GAIN:
+        if gain > MAX_GAIN:
             gain = _below(axis, feedrate, TUNING_START, 0.0)
             break
-    while gain * STEP <= MOST_GAIN and chart(axis, feedrate, gain * STEP, 0.0).clean:
+    while gain * STEP <= MAX_GAIN and chart(axis, feedrate, gain * STEP, 0.0).clean:
         gain *= STEP
     return gain
 
@@ -177,7 +177,7 @@ def procedure(axis: AxisLaw, feedrate: float) -> Tuned:
     """
     first = proportional = highest(axis, feedrate)
     integral, last = proportional / FIRST_INTEGRAL, 0.0
-    while (found := lowered(axis, feedrate, proportional, integral)) is not None and integral <= MOST_GAIN:
+    while (found := lowered(axis, feedrate, proportional, integral)) is not None and integral <= MAX_GAIN:
         proportional, last, integral = found, integral, integral * STEP
     return Tuned(first, proportional, last, integral)
 

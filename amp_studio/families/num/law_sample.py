@@ -33,7 +33,7 @@ FULL_POINTS = float(DAC_POINTS_AT_10_V)
 """Points of the converter at its full 10 V (6-14)."""
 SLOWEST, FASTEST = GAIN_BAND
 """Shares of the theoretical speed between which the axis must move (6-24)."""
-MOST_TERMS = 13
+MAX_TERMS = 13
 """Most references that the filter averages: E32005 takes less than 14 (6-26)."""
 
 # Parameters
@@ -44,7 +44,7 @@ PARAMETERS = 16
 # State
 REFERENCE, MEASURED, AMPLITUDE, FRICTION_NOW, SAMPLE, THEORETICAL, ADDED, STEP = range(8)
 RING = 8
-STATES = RING + MOST_TERMS
+STATES = RING + MAX_TERMS
 
 # Monitors
 POINTS, THEORETICAL_SPEED, REAL_SPEED, SYNC_ERROR = range(4)

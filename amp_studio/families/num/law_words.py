@@ -196,7 +196,7 @@ def _anticipation(read: AxisParameters, group: str | None, notes: list[str]) -> 
         raise SimulationError(f"{FILTER} is {works:g}; it is 0 or 1", FILTER)
     if not terms or works == 0.0:
         return 1, effective_anticipation(percent or 0.0) / 100.0
-    if terms % 2.0 != 1.0 or terms > sample.MOST_TERMS:
+    if terms % 2.0 != 1.0 or terms > sample.MAX_TERMS:
         raise SimulationError(
             f"The filter (P55) averages {terms:g} references; it takes an odd number, 2j+1 (6-26), below 14"
             " (6-26)",

@@ -19,7 +19,7 @@ POSITIONS, BYTES = 956, 3830
 """Positions and bytes that a table has room for (page 4-57)."""
 LARGEST = 32767
 """Counts in one step of a table of words (page 4-50)."""
-MOST_INCREMENT = 32767
+MAX_INCREMENT = 32767
 """Counts of register 125 (page 4-53)."""
 WORDS_BIT, CONTINUOUS_BIT, POSITION_BIT = 0, 3, 8
 """Of register 130 (4-54)."""
@@ -110,10 +110,10 @@ def _position_cam(file: ParameterFile, axis: str, points: CamPoints) -> CamProfi
     span = round(float(points.x[-1]))
     least = max(math.ceil(span / (POSITIONS - 1)), 1)
     # The least that fits whole into the cycle: the most points that the table has room for.
-    increment = next((n for n in range(least, MOST_INCREMENT + 1) if span % n == 0), None)
+    increment = next((n for n in range(least, MAX_INCREMENT + 1) if span % n == 0), None)
     if increment is None or increment > span:
         raise SimulationError(
-            f"No increment of {least} to {MOST_INCREMENT} counts divides {span} counts of the master"
+            f"No increment of {least} to {MAX_INCREMENT} counts divides {span} counts of the master"
             " (page 4-53)",
             ids.position_increment,
         )

@@ -119,7 +119,7 @@ def bind(read: AxisParameters) -> AxisLaw:
     linear = list(parameters)
     linear[sample.WHOLE] = 0.0
     # The linear model has no steps and never stops: limits would bend it.
-    linear[sample.MOST_PULSES] = linear[sample.LIMIT] = linear[sample.FATAL_LIMIT] = math.inf
+    linear[sample.MAX_PULSES] = linear[sample.LIMIT] = linear[sample.FATAL_LIMIT] = math.inf
     limits = {"MOT-019": axis.limits[0], "MOT-023": axis.limits[1]}
     return AxisLaw(
         axis=read.axis,
@@ -295,7 +295,7 @@ def _acceleration(read: AxisParameters, axis: _Axis, notes: list[str]) -> float:
 def _parameters(axis: _Axis) -> list[float]:
     """Return what the sample function takes."""
     p = [0.0] * sample.PARAMETERS
-    p[sample.PULSE], p[sample.GAIN], p[sample.MOST_PULSES] = axis.pulse, axis.gain, axis.most_pulses
+    p[sample.PULSE], p[sample.GAIN], p[sample.MAX_PULSES] = axis.pulse, axis.gain, axis.most_pulses
     p[sample.LIMIT], p[sample.FATAL_LIMIT] = axis.limits
     p[sample.WHOLE] = 1.0
     return p

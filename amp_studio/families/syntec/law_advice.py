@@ -12,7 +12,7 @@ from amp_studio.sim import AxisLaw, Recommendation, Trace, value_text
 from . import law_sample as sample
 from .law_facts import ids
 
-LEAST_GRID, MOST_GRID = 20.0, 80.0
+MIN_GRID, MAX_GRID = 20.0, 80.0
 """% of a turn between dog and index (2.2)."""
 RECOMMENDED = 2000.0
 """Pr3203 should not be below (1.5.1)."""
@@ -32,13 +32,13 @@ def _grid(trace: Trace) -> Iterator[Recommendation]:
     that it may be missed (2.2).
     """
     grid = trace.result.get("home_grid", (None, "%"))[0]
-    if grid is None or LEAST_GRID <= grid <= MOST_GRID:
+    if grid is None or MIN_GRID <= grid <= MAX_GRID:
         return
     yield Recommendation(
         ids.home_grid,
         1.0,
         "",
-        f"The home grid is {value_text(grid, '%', 3)}: below {LEAST_GRID:g} or above {MOST_GRID:g} % "
+        f"The home grid is {value_text(grid, '%', 3)}: below {MIN_GRID:g} or above {MAX_GRID:g} % "
         "the index"
         " lies so near to the dog that it may be missed once and found the next time (page 2.2).",
         "An index within half a turn of the dog is passed, and home moves by a turn.",
@@ -49,7 +49,7 @@ def _pulses(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
     """Yield a shorter interpolation time, else a lower rapid feedrate,
     where a move needs more than 2047 pulses (1.5.1).
     """
-    most = axis.parameters[sample.MOST_PULSES]
+    most = axis.parameters[sample.MAX_PULSES]
     asked = (trace.result["feedrate"][0] or 0.0) / 60.0
     period = axis.servo_period * sample.PARTS
     pulses = asked * period / axis.parameters[sample.PULSE]

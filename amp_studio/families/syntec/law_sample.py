@@ -31,7 +31,7 @@ PARTS = 8
 """Samples of the drive in one interpolation time; an assumption."""
 
 # Parameters: u, 1/s, pulses, u, u, 0 for pulses without steps (the linear model)
-PULSE, GAIN, MOST_PULSES, LIMIT, FATAL_LIMIT, WHOLE = range(6)
+PULSE, GAIN, MAX_PULSES, LIMIT, FATAL_LIMIT, WHOLE = range(6)
 PARAMETERS = 6
 
 # State: pulses sent up to this interpolation time and up to its end, samples since it began; then the last
@@ -50,7 +50,7 @@ DDA_OVERFLOW, EXCESS_ERROR, FATAL_ERROR = 1.0, 2.0, 3.0
 def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     """Close the position loop over the pulses that have left the card by now.
 
-    p: length of a PULSE in u, GAIN in 1/s, MOST_PULSES in one interpolation time, LIMIT and FATAL_LIMIT of
+    p: length of a PULSE in u, GAIN in 1/s, MAX_PULSES in one interpolation time, LIMIT and FATAL_LIMIT of
     the following error in u, WHOLE.
     """
     if io[MODE] == VELOCITY_LOOP:
@@ -77,7 +77,7 @@ def sent(p: Vector, s: Vector, io: Vector) -> float:
         s[FROM] = s[TO]
         s[TO] = 1.0 * math.floor(io[COMMAND] / p[PULSE] + 0.5)
         io[MONITOR + PULSES] = s[TO] - s[FROM]
-        if abs(s[TO] - s[FROM]) > p[MOST_PULSES]:
+        if abs(s[TO] - s[FROM]) > p[MAX_PULSES]:
             io[STOP] = DDA_OVERFLOW
     # Evenly spread, and whole: int cuts towards the start, so that no pulse leaves before its time.
     pulses = s[FROM] + 1.0 * int((s[TO] - s[FROM]) * s[PART] / PARTS)

@@ -18,20 +18,20 @@ WorkbookCell = str | float | int | None
 
 _FORBIDDEN = re.compile(r"[\[\]:*?/\\]")
 # Bounds of Excel, which calls a file damaged that exceeds one.
-_MOST_NAME = 31
+_MAX_NAME = 31
 _WIDEST, _ACROSS = 30, 140
 """Characters of a column, and of a page, which is as wide as all columns; long texts have several lines,
 and what the others leave of the page.
 """
 _ROOM = 2
 """Characters of a column that stay blank."""
-_LINE, _MOST_LINES = 13.0, 30
+_LINE, _MAX_LINES = 13.0, 30
 """Height of a line in points; no row is higher than a page."""
-_MOST_DECIMALS = 6
+_MAX_DECIMALS = 6
 """Digits behind the decimal sign up to which a column is aligned at it."""
 _TIME = re.compile(rb"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ")
-_MOST_TEXT = 32_767
-_MOST_FOOT = 100
+_MAX_TEXT = 32_767
+_MAX_FOOTER = 100
 """Characters of the title at the foot of a page; all of a foot are 255 at most."""
 _PAPERS: dict[PaperSize, int] = {"a4": 9, "letter": 1}
 """Paper -> its number in a workbook."""
@@ -114,7 +114,7 @@ def _lines(content: WorkbookCell, width: int) -> int:
     """Return the lines of a cell: a spreadsheet keeps the height that a row is given."""
     if not isinstance(content, str) or len(content) <= width - _ROOM:
         return 1
-    return min(len(textwrap.wrap(content, width - _ROOM)), _MOST_LINES)
+    return min(len(textwrap.wrap(content, width - _ROOM)), _MAX_LINES)
 
 
 def _decimals(content: WorkbookCell) -> int:
@@ -123,7 +123,7 @@ def _decimals(content: WorkbookCell) -> int:
         return -1
     fraction = repr(float(content)).partition(".")[2]
     digits = 0 if fraction == "0" else len(fraction)
-    return digits if fraction.isdigit() and digits <= _MOST_DECIMALS else -1
+    return digits if fraction.isdigit() and digits <= _MAX_DECIMALS else -1
 
 
 def _aligned(own: int, most: int) -> str:
@@ -142,7 +142,7 @@ def _set_up_print(page: Any, title: str, paper: PaperSize, *, has_heads: bool) -
     if has_heads:
         page.print_title_rows = "1:1"
     # & begins a code in a foot.
-    page.oddFooter.left.text = _text(title).replace("&", "&&")[:_MOST_FOOT]
+    page.oddFooter.left.text = _text(title).replace("&", "&&")[:_MAX_FOOTER]
     page.oddFooter.right.text = "&A   &P / &N"  # in the middle it would lie under a long title
 
 
@@ -164,12 +164,12 @@ def _without_times(content: io.BytesIO) -> bytes:
 
 def _name(title: str, names: set[str]) -> str:
     """Return a name that a workbook allows and does not have yet."""
-    name = _FORBIDDEN.sub(" ", title).strip("' ")[:_MOST_NAME] or "Sheet"
+    name = _FORBIDDEN.sub(" ", title).strip("' ")[:_MAX_NAME] or "Sheet"
     chosen, n = name, 1
     # Excel takes "Axes" and "AXES" for one name, and refuses the file.
     while chosen.casefold() in names:
         n += 1
-        chosen = f"{name[: _MOST_NAME - len(str(n)) - 1]} {n}"
+        chosen = f"{name[: _MAX_NAME - len(str(n)) - 1]} {n}"
     names.add(chosen.casefold())
     return chosen
 
@@ -178,7 +178,7 @@ def _text(text: str) -> str:
     """Return a text without the control characters that a workbook cannot contain."""
     from openpyxl.cell.cell import ILLEGAL_CHARACTERS_RE
 
-    return str(ILLEGAL_CHARACTERS_RE.sub(" ", text))[:_MOST_TEXT]
+    return str(ILLEGAL_CHARACTERS_RE.sub(" ", text))[:_MAX_TEXT]
 
 
 def _widths(sheet: WorkbookSheet) -> list[int]:

@@ -25,7 +25,7 @@ from .endings import write_by_ending
 
 WIDTH = 100
 AT_MACHINE = "Tests at the machine"
-_MOST_CHOICES = 6
+_MAX_CHOICES = 6
 """Choices that a line of the list still has room for."""
 
 
@@ -157,9 +157,7 @@ def open_value(file: ParameterFile, address: Address, words: Language = ENGLISH)
     if parameter.choices:
         labels = [choice.label for choice in parameter.choices]
         allowed = (
-            " / ".join(labels)
-            if len(labels) <= _MOST_CHOICES
-            else words.text(f"one of {len(labels)} choices")
+            " / ".join(labels) if len(labels) <= _MAX_CHOICES else words.text(f"one of {len(labels)} choices")
         )
     elif parameter.type in ("integer", "real"):
         found = limits(file.evaluation, address, unit)

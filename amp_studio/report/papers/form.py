@@ -18,9 +18,9 @@ _SHARES = (1.6, 4.0, 6.0, 3.0)
 _HEADS = ("Number", "Parameter", "Allowed", "Value")
 _ACROSS = 8
 """Most places beside each other."""
-_MOST_PLACES = 32
+_MAX_PLACES = 32
 """Of more places each has its number or name at its blank, and none has a head."""
-_MOST_CHOICES = 6
+_MAX_CHOICES = 6
 _SHORT = 24
 
 
@@ -93,7 +93,7 @@ def _matrix(
     rows: list[tuple[str, ...]] = []
     strong: set[tuple[int, int]] = set()
     parts = [places[at : at + _ACROSS] for at in range(0, len(places), _ACROSS)]
-    is_ladder = len(places) > _MOST_PLACES
+    is_ladder = len(places) > _MAX_PLACES
     width = len(parts[0])
     heads = [_filled(_labels(file, parameters[0], part, language), width) for part in parts]
     columns = [""] * width if is_ladder else heads[0]
@@ -153,8 +153,8 @@ def _allowed(file: ParameterFile, parameter: Parameter, language: Language, in_f
         return ""
     if parameter.choices:
         labels = [language.label(choice.label) for choice in parameter.choices]
-        more = f" … ({len(labels)})" if len(labels) > _MOST_CHOICES else ""
-        return " / ".join(labels[:_MOST_CHOICES]) + more
+        more = f" … ({len(labels)})" if len(labels) > _MAX_CHOICES else ""
+        return " / ".join(labels[:_MAX_CHOICES]) + more
     if parameter.bits:
         return "   ".join(_bit(bit, language) for bit in parameter.bits)
     return "; ".join(range_text(parameter.ranges, file.schema, language))

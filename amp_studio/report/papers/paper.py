@@ -24,7 +24,7 @@ from .endings import write_by_ending
 _OWN_FACTS = frozenset({"Differ", "The same"})
 """Facts in words of the paper."""
 _MANY_COLUMNS = 6
-_MOST_COLUMNS = 14
+_MAX_COLUMNS = 14
 """Columns that a page takes; a wider table is for a screen or a spreadsheet."""
 
 
@@ -39,7 +39,7 @@ class PaperTable:
     """Widths of the columns on paper, in relation to each other; equal where there are none."""
     strong: frozenset[tuple[int, int]] = frozenset()
     """Cells (row, column) in bold."""
-    values_from: int = _MOST_COLUMNS
+    values_from: int = _MAX_COLUMNS
     """First column that has values with units and not names."""
     labels: frozenset[int] = frozenset()
     """Rows whose values are words of the control, which stay as it shows them."""
@@ -99,9 +99,9 @@ class Paper:
 
 
 def _pdf(paper: Paper) -> bytes:
-    if any(len(table.heads) > _MOST_COLUMNS for table in paper.tables):
+    if any(len(table.heads) > _MAX_COLUMNS for table in paper.tables):
         raise ValueError(
-            f"more than {_MOST_COLUMNS} columns are too many for paper: write it as .html, .xlsx or .csv"
+            f"more than {_MAX_COLUMNS} columns are too many for paper: write it as .html, .xlsx or .csv"
         )
     return typeset(filled_template("paper.typ.j2", language=paper.words, paper=paper), paper.date)
 

@@ -21,7 +21,7 @@ from jinja2.utils import missing
 
 from amp_studio.schema import did_you_mean
 
-_MOST_MADE = 2**24
+_MAX_SIZE_MADE = 2**24
 """Characters, elements or bits that one operation may make."""
 _WIDE = re.compile(r"%[^a-zA-Z%]*(?:\d{6}|\*)")
 _TICK = "_within_time"
@@ -100,7 +100,7 @@ class BoundedEnvironment(ImmutableSandboxedEnvironment):
 
     def call_binop(self, context: Context, operator: str, left: Any, right: Any) -> Any:
         """Calculate what is not too large; raises SecurityError."""
-        if _made(operator, left, right) > _MOST_MADE:
+        if _made(operator, left, right) > _MAX_SIZE_MADE:
             raise SecurityError(f"'{operator}' makes too much")
         return super().call_binop(context, operator, left, right)
 
@@ -119,7 +119,7 @@ class BoundedEnvironment(ImmutableSandboxedEnvironment):
 def _made(operator: str, left: Any, right: Any) -> int:
     """Return about how much an operation makes: elements, characters or bits."""
     if operator == "%":
-        return _MOST_MADE + 1 if isinstance(left, str) and _WIDE.search(left) else 0
+        return _MAX_SIZE_MADE + 1 if isinstance(left, str) and _WIDE.search(left) else 0
     if isinstance(right, int) and isinstance(left, int):
         bits = left.bit_length()
         # In bits: 2 ** 10 ** 9 would take all memory before the clock is read again.
@@ -134,7 +134,7 @@ def _narrow(made: Any) -> Any:
     """Return a filter that takes no huge number for what it makes."""
 
     def narrow(value: Any, *args: Any, **kwargs: Any) -> Any:
-        if any(isinstance(each, int) and each > _MOST_MADE for each in (*args, *kwargs.values())):
+        if any(isinstance(each, int) and each > _MAX_SIZE_MADE for each in (*args, *kwargs.values())):
             raise SecurityError("a filter makes too much")
         return made(value, *args, **kwargs)
 

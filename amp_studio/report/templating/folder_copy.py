@@ -13,9 +13,9 @@ from amp_studio.schema import read_file
 
 from .templates import TemplateMistakeError
 
-_MOST_BYTES = 64 * 2**20
+_MAX_BYTES = 64 * 2**20
 """Of all files beside a template: logos and pictures."""
-_MOST_FILES = 1_000
+_MAX_FILES = 1_000
 
 
 @contextlib.contextmanager
@@ -63,11 +63,9 @@ def _copy(source: Path, target: Path) -> list[Path]:
                 folders.append((path, there / path.name))
             elif stat.S_ISREG(mode):
                 # A file may have become a link since it was listed.
-                content = read_file(path, _MOST_BYTES, follow=False)
+                content = read_file(path, _MAX_BYTES, follow=False)
                 files, size = files + 1, size + len(content)
-                if files > _MOST_FILES or size > _MOST_BYTES:
-                    raise OSError(
-                        0, f"its folder has more than {_MOST_FILES} files or {_MOST_BYTES >> 20} MB"
-                    )
+                if files > _MAX_FILES or size > _MAX_BYTES:
+                    raise OSError(0, f"its folder has more than {_MAX_FILES} files or {_MAX_BYTES >> 20} MB")
                 (there / path.name).write_bytes(content)
     return links

@@ -23,15 +23,15 @@ if TYPE_CHECKING:
 TEMPLATES = Path(__file__).parents[1] / "templates"
 OWN = "templates"
 """The folder of a project with its templates."""
-_MOST_TEMPLATE = 256 * 1024
-_MOST_OUTPUT = 64 * 2**20
+_MAX_TEMPLATE = 256 * 1024
+_MAX_OUTPUT = 64 * 2**20
 _PATIENCE_S = 20.0
 _LONGEST_MISTAKE = 500
 _HALF = re.compile("[\ud800-\udfff]")
 _COMPLAINT = re.compile(r"\.typ:(\d+):\d+")
 """The line in a complaint of Typst, which is one of the source that a template has written."""
 _EXPRESSION = re.compile(r"\{\{.*?\}\}|\{%.*?%\}|\{#.*?#\}")
-_LEAST_SHAPE = 4
+_MIN_SHAPE = 4
 """Characters beside expressions that make a line known."""
 _MISTAKES = (
     ArithmeticError,
@@ -122,8 +122,8 @@ def filled(
     if own is None:
         return environment.get_template(name).render(values)
     # Before it is parsed, which no clock interrupts.
-    if own.stat().st_size > _MOST_TEMPLATE:
-        raise TemplateMistakeError(own, f"is larger than {_MOST_TEMPLATE // 1024} KB")
+    if own.stat().st_size > _MAX_TEMPLATE:
+        raise TemplateMistakeError(own, f"is larger than {_MAX_TEMPLATE // 1024} KB")
     try:
         return _bounded(environment, own, values)
     except TemplateMistakeError:  # has its file and its line already
@@ -178,7 +178,7 @@ def _bounded(environment: Environment, own: Path, values: Mapping[str, object]) 
     for part in environment.get_template(own.name).generate(values):
         parts.append(part)
         size += len(part)
-        if size > _MOST_OUTPUT:
+        if size > _MAX_OUTPUT:
             raise TemplateMistakeError(own, "writes without end")
     text = "".join(parts)
     # A report without a word would replace the standard one in silence.
@@ -228,7 +228,7 @@ def _can_write(parts: list[str], text: str) -> bool:
     """Return whether a line of a template, given as what is between its expressions, can have written a
     text.
     """
-    if len("".join(parts).replace(" ", "")) < _LEAST_SHAPE:
+    if len("".join(parts).replace(" ", "")) < _MIN_SHAPE:
         return False
     first, last = parts[0], parts[-1]
     if len(parts) == 1:

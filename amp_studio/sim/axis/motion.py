@@ -29,10 +29,10 @@ LONGEST_STEP = 0.4e-3
 # Leapfrog is stable up to 2; at 0.25 a resonance is off by 0.25²/24, 0.3 % of its frequency.
 STIFFEST_STEP = 0.25
 """Physics step times the fastest rate of the machine."""
-MOST_SUBSTEPS = 10_000
-MOST_STEPS = 40_000_000
+MAX_SUBSTEPS = 10_000
+MAX_STEPS = 40_000_000
 """Most physics steps of a run, almost three hours at the longest one."""
-MOST_ROWS = 2_000_000
+MAX_ROWS = 2_000_000
 
 
 @dataclass(frozen=True)
@@ -158,8 +158,8 @@ def prepared(
     samples, substeps = steps(axis, refine)
     step = axis.servo_period / samples / substeps
     # Written with "not", so that a duration that is no number is refused too.
-    if not (until.duration / step <= MOST_STEPS and until.duration / step / stride <= MOST_ROWS):
-        longest = min(MOST_STEPS, MOST_ROWS * stride) * step
+    if not (until.duration / step <= MAX_STEPS and until.duration / step / stride <= MAX_ROWS):
+        longest = min(MAX_STEPS, MAX_ROWS * stride) * step
         raise SimulationError(
             f"The move takes about {until.duration:.6g} s, more than can be simulated ({longest:.6g} s)."
             " Give a shorter distance or a higher feedrate"
@@ -218,7 +218,7 @@ def steps(axis: AxisLaw, refine: int = 1) -> tuple[int, int]:
     sample = axis.servo_period / samples
     # A servo period of whole longest steps gets no step more by rounding.
     wanted = max(sample / LONGEST_STEP - 1e-9, sample * axis.machine.fastest / STIFFEST_STEP)
-    if not wanted <= MOST_SUBSTEPS:
+    if not wanted <= MAX_SUBSTEPS:
         raise SimulationError(
             f"The machine of axis {axis.axis} is too stiff to simulate ({axis.machine.fastest:.6g} 1/s)"
         )

@@ -35,7 +35,7 @@ from .motion import (
     AFTER,
     BEFORE,
     IO,
-    MOST_ROWS,
+    MAX_ROWS,
     STATE,
     TIMING,
     Engine,
@@ -269,7 +269,7 @@ class MovingAxis:
 
     def _refuse_longer(self, lasts: float) -> None:
         """Raise SimulationError for a command of more s than are simulated, or than there is room for."""
-        room = MOST_ROWS * self.axis.servo_period / self._samples if self._keep else math.inf
+        room = MAX_ROWS * self.axis.servo_period / self._samples if self._keep else math.inf
         longest = min(LONGEST, room)
         if not lasts < longest:
             raise SimulationError(

@@ -92,9 +92,9 @@ WATCHES = 17
 WATCH = 18
 """The first place: signal (`AT_LOAD` or `AT_DEVICE`), direction (1 or -1), place (u), and the command (u)
 beyond which it counts."""
-WATCH_WIDTH, MOST_WATCHES = 4, 4
+WATCH_WIDTH, MAX_WATCHES = 4, 4
 """Figures of a watch, and how many there is room for."""
-TIMING_SIZE = WATCH + MOST_WATCHES * WATCH_WIDTH
+TIMING_SIZE = WATCH + MAX_WATCHES * WATCH_WIDTH
 
 AT_LOAD, AT_DEVICE = 0.0, 1.0
 """What a watch reads: where the load is (a switch), what the position device measures (a marker,

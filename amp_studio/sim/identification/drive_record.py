@@ -20,7 +20,7 @@ from amp_studio.schema import UnitError, canonical, dimension, read_number, read
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.series import Series
 
-MOST_ROWS = 500_000
+MAX_ROWS = 500_000
 LARGEST = 1e12
 _LONGEST_LINE = 10_000
 _HEAD_WITHIN = 60
@@ -146,8 +146,8 @@ def drive_record_of(text: str) -> DriveRecord:
     raises SimulationError naming the line.
     """
     lines = _lines_of(text)
-    if len(lines) > MOST_ROWS + _HEAD_WITHIN:
-        raise SimulationError(f"{len(lines)} lines are too many: {MOST_ROWS} at most")
+    if len(lines) > MAX_ROWS + _HEAD_WITHIN:
+        raise SimulationError(f"{len(lines)} lines are too many: {MAX_ROWS} at most")
     heads, names, separator, rest = _heads(lines)
     sides, sides_unit = _both_sides(names, rest, separator)
     # A velocity is differenced once for the acceleration, a position twice: it has less noise.
@@ -332,8 +332,8 @@ def read_number_table(text: str, used: Sequence[int]) -> list[Series]:
     raises SimulationError naming the line.
     """
     lines = _lines_of(text)
-    if len(lines) > MOST_ROWS:
-        raise SimulationError(f"{len(lines)} lines are too many: {MOST_ROWS} at most")
+    if len(lines) > MAX_ROWS:
+        raise SimulationError(f"{len(lines)} lines are too many: {MAX_ROWS} at most")
     for place, (n, line) in enumerate(lines):
         separator = _separator_of(line)
         cells = _cells(line, separator, n)

@@ -20,28 +20,28 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.series import Series
 from amp_studio.sim.tuning.sampled import Matrix
 
-LEAST_ROWS = 100
-WANTED_NOISE, MOST_NOISE = 1e-3, 2e-2
+MIN_ROWS = 100
+WANTED_NOISE, MAX_NOISE = 1e-3, 2e-2
 """Share of noise in the variance of the filtered acceleration: J is too small by it."""
 STANDSTILL = 0.02
 """Share of the top speed below which the axis counts as standing:
 there the friction has any value up to the static one."""
-LEAST_SPREAD, LEAST_CRUISE_SPREAD = 0.15, 0.05
+MIN_SPREAD, MIN_CRUISE_SPREAD = 0.15, 0.05
 """Standard deviation of the speed over the top speed, of all rows and of those without acceleration,
 where there are many."""
 CRUISING, MANY = 0.1, 0.3
 """Share of the largest acceleration below which a row has none; share of rows that are many."""
-MOST_CONDITION = 200.0
+MAX_CONDITION = 200.0
 """Of the normalised columns of the equation."""
 FLAT_RUN, FLAT_SHARE = 10, 0.02
 """Rows of exactly the largest (or smallest) torque one after the other, and their share of the record:
 a limit."""
-MUCH_LONGER, SETTLED, LEAST_KEPT = 3.0, 0.01, 0.7
+MUCH_LONGER, SETTLED, MIN_KEPT = 3.0, 0.01, 0.7
 """Times as long a filter is, the share by which J may change with it, and of the rows that it has to
 leave."""
-LEAST_FIT = 0.5
+MIN_FIT = 0.5
 """r² below which the record does not show this axis."""
-MOST_ERROR = 0.2
+MAX_ERROR = 0.2
 """Standard error of J over J."""
 
 SWINGS, SWINGING = 50.0, 0.5
@@ -84,8 +84,8 @@ def fit_friction(
     """
     moved = velocity if velocity is not None else position
     assert moved is not None
-    if len(time) < LEAST_ROWS:
-        raise SimulationError(f"The record has too few rows: {len(time)} of at least {LEAST_ROWS}")
+    if len(time) < MIN_ROWS:
+        raise SimulationError(f"The record has too few rows: {len(time)} of at least {MIN_ROWS}")
     time, (moved, torque) = even_record(time, moved, torque)
     _refuse_limit(torque, moved if velocity is not None else np.gradient(moved))
     period = float(time[1] - time[0])
@@ -105,7 +105,7 @@ def fit_friction(
         width = wider.pop(0)
         found = _filtered(width, inner, speed, acceleration, torque)
         used = _one_direction(speed, width, slowest)
-        if used.sum() < LEAST_ROWS // 2:
+        if used.sum() < MIN_ROWS // 2:
             break
         left = noise * _gain(taps, width)
         share = left / (float(np.var(found[2][used])) or 1.0)
@@ -119,7 +119,7 @@ def fit_friction(
         )
     share, left, width, found, used = best
     _refuse_motion(found[1][used], found[2][used])
-    if share > MOST_NOISE:
+    if share > MAX_NOISE:
         raise SimulationError(
             "The record shows no acceleration above its noise: record moves with longer or steeper ramps, "
             "or more samples a second"
@@ -128,7 +128,7 @@ def fit_friction(
 
     def with_filter(longer: int) -> FrictionFit | None:
         used = _one_direction(speed, longer, slowest)
-        if used.sum() < LEAST_KEPT * fit.used:
+        if used.sum() < MIN_KEPT * fit.used:
             return None
         found = _filtered(longer, inner, speed, acceleration, torque)
         return _solved(period, longer, found, used, noise * _gain(taps, longer), rows=len(time))
@@ -192,14 +192,14 @@ def _refuse_motion(velocity: Series, acceleration: Series) -> None:
             "The axis moves in one direction only: dry friction and weight look the same. Record moves in"
             " both directions"
         )
-    if min((velocity > 0.0).sum(), (velocity < 0.0).sum()) < LEAST_ROWS // 5:
+    if min((velocity > 0.0).sum(), (velocity < 0.0).sum()) < MIN_ROWS // 5:
         raise SimulationError(
             "The axis moves too little in one of both directions: record longer moves in both"
         )
     speed = np.abs(velocity)
     cruise = speed[np.abs(acceleration) < CRUISING * float(np.abs(acceleration).max())]
-    is_one = len(cruise) > MANY * len(speed) and float(cruise.std()) < LEAST_CRUISE_SPREAD * top
-    if is_one or float(speed.std()) < LEAST_SPREAD * top:
+    is_one = len(cruise) > MANY * len(speed) and float(cruise.std()) < MIN_CRUISE_SPREAD * top
+    if is_one or float(speed.std()) < MIN_SPREAD * top:
         raise SimulationError(
             "The axis moves at one speed only: friction that rises with the speed looks like dry friction. "
             "Record moves at several speeds"
@@ -305,7 +305,7 @@ def _solved(
     known, given = table[used], torque[used]
     sizes = np.sqrt((known**2).sum(axis=0))
     # Columns of one length, so that the condition is one of the motion and not of its units.
-    if (sizes == 0.0).any() or np.linalg.cond(known / sizes) > MOST_CONDITION:
+    if (sizes == 0.0).any() or np.linalg.cond(known / sizes) > MAX_CONDITION:
         raise SimulationError(
             "Acceleration, speed and direction change together in this record: record moves at several speeds"
             " and accelerations"
@@ -329,12 +329,12 @@ def _solved(
         )
     covariance = _covariance(table, torque - table @ coefficients, used, width, sizes)
     covariance[0, 0] += (_swung(acceleration, used, period) * coefficients[0]) ** 2
-    if r_squared < LEAST_FIT:
+    if r_squared < MIN_FIT:
         raise SimulationError(
             f"Inertia and friction explain only {max(0.0, 100.0 * r_squared):.0f} % of the torque: "
             "the columns do not belong together, or something else loads the axis"
         )
-    if np.sqrt(covariance[0, 0]) > MOST_ERROR * coefficients[0]:
+    if np.sqrt(covariance[0, 0]) > MAX_ERROR * coefficients[0]:
         raise SimulationError(
             "The record shows too little acceleration for the inertia: record moves with steeper ramps"
         )

@@ -13,7 +13,7 @@ from .friction import FrictionFit
 
 CRUISING = 0.2
 """Share of the largest acceleration below which friction decides on which side of its backlash an axis is."""
-LEAST_ROWS = 40
+MIN_ROWS = 40
 WEIGHT = 0.5
 """Share of the dry friction, of which the load may have that much only, from which a weight may be more."""
 
@@ -38,7 +38,7 @@ def backlash(fit: FrictionFit, time: Series, motor: Series, load: Series) -> Est
     acceleration = np.abs(np.gradient(fit.velocity, fit.period))
     steady = fit.is_used & (acceleration < CRUISING * float(acceleration.max()))
     forward = fit.velocity > 0.0
-    if min((steady & forward).sum(), (steady & ~forward).sum()) < LEAST_ROWS:
+    if min((steady & forward).sum(), (steady & ~forward).sum()) < MIN_ROWS:
         return None
     # Around its mean: a scale error then takes nothing of the offset of a direction.
     away = way - way[steady].mean()

@@ -29,7 +29,7 @@ from amp_studio.sim.trace import Trace
 from .identify import figure_text, machine_settings
 
 _KEYS = ("family", "axis", "torque", "model", "identified")
-_MOST_BYTES = 2**18
+_MAX_BYTES = 2**18
 _LONGEST = 60
 """Characters of a value."""
 
@@ -51,7 +51,7 @@ def read_machine(path: Path) -> MachineFile:
     OSError where it cannot be read.
     """
     try:
-        data = read_yaml_file(path, FileError, most=_MOST_BYTES).data
+        data = read_yaml_file(path, FileError, most=_MAX_BYTES).data
     except FileError as error:
         raise SimulationError(str(error)) from None
     name = text_of_name(path.name)

@@ -19,9 +19,9 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Figure, Trace
 
-from .recording import LEAST_ROWS, SIGNALS, SignalRecord, Trigger, read_recording
+from .recording import MIN_ROWS, SIGNALS, SignalRecord, Trigger, read_recording
 
-MOST_ROWS = 20_000
+MAX_ROWS = 20_000
 """Rows in which the lag is sought; longer traces are thinned for it."""
 COARSE = 8.0
 """Rows of the simulation from one of the record to the next, from which it is compared at its readings
@@ -77,8 +77,8 @@ def laid_over(trace: Trace, record: Path | SignalRecord, trigger: Trigger | None
     """
     recording = record if isinstance(record, SignalRecord) else read_recording(record)
     name, time, signals = recording.name, recording.time, channels_of(recording, trace)
-    if len(time) < LEAST_ROWS:
-        raise SimulationError(f"{name}: {len(time)} rows are too few: at least {LEAST_ROWS}")
+    if len(time) < MIN_ROWS:
+        raise SimulationError(f"{name}: {len(time)} rows are too few: at least {MIN_ROWS}")
     here = trace.columns["time_s"]
     first = next(iter(each for each in SIGNALS if each in signals))
     is_coarse = float(np.median(np.diff(time))) > COARSE * float(np.median(np.diff(here)))
@@ -129,7 +129,7 @@ def _readings(here: Series, simulated: Series, time: Series, values: Series) -> 
 
 def _lag(here: Series, simulated: Series, time: Series, recorded: Series) -> float:
     """Return the time of the record at which the simulation begins."""
-    step = max(float(np.median(np.diff(time))), float(here[-1] + time[-1]) / MOST_ROWS)
+    step = max(float(np.median(np.diff(time))), float(here[-1] + time[-1]) / MAX_ROWS)
     one = np.interp(np.arange(0.0, here[-1] + step, step), here, simulated)
     two = np.interp(np.arange(0.0, time[-1] + step, step), time, recorded)
     one, two = np.diff(one), np.diff(two)  # changes: a different zero of the position is none

@@ -28,8 +28,8 @@ SIGNALS = {
 }
 """Signal of a trace -> names of its column in a record."""
 _TIME = "time|t|zeit"
-LEAST_ROWS = 20
-MOST_READINGS = 100_000
+MIN_ROWS = 20
+MAX_READINGS = 100_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,8 +68,8 @@ def read_recording(path: Path) -> SignalRecord:
             f"{name}: it needs a column of time and one of {', '.join(SIGNALS)}, with their units"
         )
     columns = read_number_table(text, [places[each][0] for each in ("time", *known)])
-    if len(columns[0]) < LEAST_ROWS:
-        raise SimulationError(f"{name}: {len(columns[0])} rows are too few: at least {LEAST_ROWS}")
+    if len(columns[0]) < MIN_ROWS:
+        raise SimulationError(f"{name}: {len(columns[0])} rows are too few: at least {MIN_ROWS}")
     time = columns[0] * seconds_of(name, places["time"][1])
     if not (np.diff(time) > 0.0).all():
         raise SimulationError(f"{name}: its time does not rise from row to row")
@@ -181,7 +181,7 @@ class LiveRecorder:
             self._wait(time)
         if self.has_fired:
             passed = self.span is not None and time - self._fired >= self.span
-            self.is_done = passed or len(self._rows) >= MOST_READINGS
+            self.is_done = passed or len(self._rows) >= MAX_READINGS
 
     def _wait(self, time: float) -> None:
         """Fire, or leave out what is longer ago than is kept ahead of the trigger."""

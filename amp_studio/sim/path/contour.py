@@ -23,7 +23,7 @@ LONGEST = 120.0
 """s of a program that the servo loops are run on."""
 ON_ARC = 1e-5
 """u between an arc and the straight pieces that the distance is measured to."""
-MOST_NEAR = 2000
+MAX_NEAR_PIECES = 2000
 """Pieces of the path that are compared with a place."""
 NEAR = 1e-3
 """u along the path by which arcs and the straight pieces of them may differ."""
@@ -142,7 +142,7 @@ def distances(place: PathRows, commanded: PathRows, gone: PathRows, points: Path
     low, high = np.clip(low, 0, len(way) - 1), np.clip(high, 0, len(way) - 1)
     least = np.full(len(place), math.inf)
     # All samples at once, one piece of each window a turn: windows are short, and samples are many.
-    for step in range(min(int((high - low).max(initial=0)) + 1, MOST_NEAR)):
+    for step in range(min(int((high - low).max(initial=0)) + 1, MAX_NEAR_PIECES)):
         at = low + step
         active = np.flatnonzero(at <= high)
         chosen = at[active]

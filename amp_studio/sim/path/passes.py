@@ -19,7 +19,7 @@ from amp_studio.sim.path_rules import PathRows, PathRules
 
 from .planner import CauseTable, StretchBounds, lowered
 
-MOST_SQUARE = 1e300
+MAX_SPEED_SQUARED = 1e300
 """u²/s² that no speed has; of an infinite one the root would be no number."""
 
 
@@ -94,7 +94,7 @@ def lowered_forward(rises: Rises, rules: PathRules, reach: float) -> tuple[PathR
         speeds = np.where(square < bound, np.sqrt(square), entry)
         way, slope = float(length[-1]), float(rises.acceleration[-1])
         more = 2.0 * slope * way if way or math.isfinite(slope) else math.inf
-        return speeds, math.sqrt(min(float(square[-1]) + more, MOST_SQUARE))
+        return speeds, math.sqrt(min(float(square[-1]) + more, MAX_SPEED_SQUARED))
     found, ways, faster = entry.tolist(), length.tolist(), rises.acceleration.tolist()
     for n in range(len(found)):
         found[n] = min(found[n], reach)

@@ -40,13 +40,13 @@ from .program import ProgramRun
 from .result import limit_letters, limit_name
 from .summing import LAST_BIT, SAMPLE, causes_of, main_cause
 
-MOST_POINTS = 4000
+MAX_POINTS = 4000
 """Of the rows that are drawn; of more, so many are chosen by chance."""
 SEEN = 1e-3
 """Share of the width of a path that is a step of its picture."""
-MOST_ON_ARCS = 40_000
+MAX_ARC_POINTS = 40_000
 WITHIN = 0.01
-"""u between an arc and what is drawn of it; more where arcs would have above ``MOST_ON_ARCS`` points."""
+"""u between an arc and what is drawn of it; more where arcs would have above ``MAX_ARC_POINTS`` points."""
 SORTS: tuple[ShapeSort, ...] = ("now", "outside", "output", "second", "error", "limit")
 """Colours of the limits beside the programmed feed, the longest first."""
 THIN = 0.2
@@ -55,7 +55,7 @@ TILT = ((0.866, 0.5), (-0.5, 0.433), (0.0, 0.75))
 """What a unit of X, Y, Z is in the tilted picture: right, up."""
 
 
-MOST_LETTERS, MOST_OF_ONE, APART = 14, 3, 0.06
+MAX_LETTERS, MAX_LETTERS_OF_ONE, APART = 14, 3, 0.06
 """Letters on a path, those of one limit, and the share of the width of the path that they are apart at
 least."""
 STRIP = 600
@@ -250,7 +250,7 @@ def _within(plan: ProgramPlan, rows: Indices) -> float:
     arcs = rows[plan.geometry.is_arc[rows]]
     # A chord for each w of the arcs takes their angles times the root of r/(8 w).
     turns = np.abs(plan.path.sweep[plan.geometry.row[arcs]]) * np.sqrt(plan.geometry.radius[arcs])
-    return max(WITHIN, (float(turns.sum()) / MOST_ON_ARCS) ** 2 / 8.0)
+    return max(WITHIN, (float(turns.sum()) / MAX_ARC_POINTS) ** 2 / 8.0)
 
 
 def path_scene(
@@ -318,7 +318,7 @@ def _letters(pieces: Sequence[tuple[str, PathRows]], width: float) -> tuple[Text
         own = placed.setdefault(letter, [])
         at = _middle(points)
         is_near = any(float(np.hypot(*(at - each))) < APART * width for each in own)
-        if len(texts) >= MOST_LETTERS or len(own) >= MOST_OF_ONE or (own and is_near):
+        if len(texts) >= MAX_LETTERS or len(own) >= MAX_LETTERS_OF_ONE or (own and is_near):
             continue
         own.append(at)
         texts.append(
@@ -409,15 +409,15 @@ def limit_sort(letter: str) -> ShapeSort:
 
 def _thinned(flat: PathRows, kinds: Indices) -> Indices:
     """Return the points (n,) of a path that are drawn: where its picture goes on or its colour changes,
-    at most `MOST_POINTS` of them.
+    at most `MAX_POINTS` of them.
     """
-    if len(flat) <= MOST_POINTS:
+    if len(flat) <= MAX_POINTS:
         return np.arange(len(flat))
     steps = np.floor(flat / (SEEN * float(np.ptp(flat, axis=0).max()) or 1.0))
     changes = (steps[1:] != steps[:-1]).any(axis=1)
     changes[:-1] |= kinds[1:-1] != kinds[2:]
     kept = np.unique(np.concatenate([[0], np.flatnonzero(changes) + 1, [len(flat) - 1]]))
-    chosen: Indices = kept[_chosen(len(kept), MOST_POINTS)]
+    chosen: Indices = kept[_chosen(len(kept), MAX_POINTS)]
     return chosen
 
 

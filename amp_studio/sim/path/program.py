@@ -26,7 +26,7 @@ from .limits_met import GuardedBox, LimitsWatch, PathAlarm, ZonesWatch, guarded_
 from .planned import PlannedProgram
 from .planner import ProgramPlan
 
-MOST_ROWS = 50_000
+MAX_ROWS = 50_000
 """Rows of a path that the servo loops are run on."""
 LONGEST_WAIT = 5.0
 """s that an exact stop is waited for in position."""
@@ -189,8 +189,8 @@ def _wait(axis: AxisLaw, way: float, speed: float, ramp: Ramp) -> float:
 
 def _contour(program: PlannedProgram, axes: list[AxisLaw]) -> tuple[ContourError | None, str]:
     """Return the contour error, or why there is none."""
-    if program.rows > MOST_ROWS:
-        return None, f"The path has more than {MOST_ROWS} moves"
+    if program.rows > MAX_ROWS:
+        return None, f"The path has more than {MAX_ROWS} moves"
     plan = program.whole
     if not len(plan.entry):
         return None, "the program moves nothing"

@@ -23,7 +23,7 @@ from .planner import ProgramPlan
 from .program import ProgramRun
 from .summing import LAST_BIT
 
-TRIED_SHARE, MOST_TRIES = 1.2, 5
+TRIED_SHARE, MAX_TRIES = 1.2, 5
 """By what a parameter that limits is multiplied to see what that brings, and how many are tried at most."""
 SMALL = 0.0005
 """Share of the time below which a limit is not listed."""
@@ -118,7 +118,7 @@ def limit_tries(file: ParameterFile, run: ProgramRun) -> Iterator[Mapping[Addres
     """
     times = run.plan.time_by_cause
     # One more than tried: the programmed feed is among the limits and has no parameter.
-    for n in sorted(range(len(times)), key=lambda n: -times[n])[: MOST_TRIES + 1]:
+    for n in sorted(range(len(times)), key=lambda n: -times[n])[: MAX_TRIES + 1]:
         limit = run.plan.causes[n]
         if limit.param is not None and times[n] > 0.0:
             with suppress(SimulationError):

@@ -14,7 +14,7 @@ from amp_studio.programs import ToolPath
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.path_rules import PathLimit, PathRules, ShapedPath
 
-from .geometry import MOST_PIECES, geometry_of, pieces_of
+from .geometry import MAX_PIECES, geometry_of, pieces_of
 
 STRETCH = 16_384
 """Rows that are in memory at once."""
@@ -40,7 +40,7 @@ def stretches_of(parts: Iterable[ToolPath], rules: PathRules) -> Iterator[Stretc
     for each in made:
         count = pieces_of(each.path, rules.chord.value if rules.chord else None)
         pieces += int(count.sum())
-        if pieces > MOST_PIECES:
+        if pieces > MAX_PIECES:
             raise SimulationError("The arcs of the program become more straight pieces than can be planned")
         for first, last in _cuts(count):
             own = _rows(each, first, last)

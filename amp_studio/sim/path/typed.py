@@ -17,7 +17,7 @@ _PLACE = re.compile(r"([A-Z])([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))")
 _STEPS = re.compile(
     r"([+-]?[0-9]+(?:\.[0-9]+)?)(%)? ?: ?([+-]?[0-9]+(?:\.[0-9]+)?)(%)?(?: ?: ?([0-9]{1,4}))?"
 )
-MOST_STEPS = 100
+MAX_STEPS = 100
 _ERROR = re.compile(r"([0-9]+\.?[0-9]*|\.[0-9]+) ?(um|mm|in)?")
 _SHARE = re.compile(r"([+-][0-9]+(?:\.[0-9]+)?) ?%")
 
@@ -80,8 +80,8 @@ def typed_steps(file: ParameterFile, text: str) -> list[dict[Address, Value]]:
             f"{quoted(text)} is not PARAM=FROM:TO:STEPS, as 1210=200:800:4 or 1210=-20%:+20%"
         )
     first, last, count = float(match[1]), float(match[3]), int(match[5] or 5)
-    if not 2 <= count <= MOST_STEPS:
-        raise SimulationError(f"{quoted(text)} has {count} steps; it takes 2 to {MOST_STEPS}")
+    if not 2 <= count <= MAX_STEPS:
+        raise SimulationError(f"{quoted(text)} has {count} steps; it takes 2 to {MAX_STEPS}")
     steps = [first + (last - first) * n / (count - 1) for n in range(count)]
     # `_SHARE` knows a share by its sign.
     sign = "+" if match[2] else ""

@@ -37,7 +37,7 @@ SETTINGS = {
 }
 RADIUS, FEEDRATE = 20.0, 50.0
 """u, u/s: 20 mm at 3 m/min."""
-MOST_TURNS = 200
+MAX_TURNS = 200
 PATH = 720
 """Points of the predicted path."""
 RISE = math.pi
@@ -129,10 +129,10 @@ def _circle(
     dies = DIES * axis.servo_period / -math.log(slowest) if 0.0 < slowest < 1.0 else 0.0
     # Whole turns, so that the measured one begins at the same place whatever the start left.
     turns = max(1, math.ceil(dies * rate / (2.0 * math.pi) + 0.5))
-    if turns > MOST_TURNS:
+    if turns > MAX_TURNS:
         raise SimulationError(
             f"A circle of {radius:.4g} {axis.unit} at {feedrate * 60.0:.4g} {axis.unit}/min needs more than"
-            f" {MOST_TURNS} turns until the axes follow evenly. Give a larger radius or a lower feedrate",
+            f" {MAX_TURNS} turns until the axes follow evenly. Give a larger radius or a lower feedrate",
             "move.radius",
         )
     # The rate rises evenly from 0, so that half a turn takes twice the time it has at the full rate.

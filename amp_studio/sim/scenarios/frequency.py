@@ -33,10 +33,10 @@ SETTINGS = {
     "move.points": "frequencies of the sweep; default: 24",
 }
 
-POINTS, MOST_POINTS = 24, 400
+POINTS, MAX_POINTS = 24, 400
 CURVE = 400
 """Points of the drawn linear model."""
-LEAST_PEAK = 0.01
+MIN_PEAK = 0.01
 """dB: below it an axis has no resonance peak; one that only falls has its largest answer, 0 dB, at rest."""
 
 
@@ -72,7 +72,7 @@ _LINEAR = (
 )
 
 
-_LEAST_DIFFERENCE = 0.02
+_MIN_DIFFERENCE = 0.02
 """Share of the model's bandwidth from which the sweep's is another figure."""
 
 
@@ -140,9 +140,9 @@ def _span(loop: _Loop, settings: ScenarioSettings) -> tuple[float, float, int]:
 def _points(settings: ScenarioSettings) -> int:
     """Return the number of frequencies; raises SimulationError."""
     points = above_zero(settings, "move.points") or float(POINTS)
-    if not (points.is_integer() and 2 <= points <= MOST_POINTS):
+    if not (points.is_integer() and 2 <= points <= MAX_POINTS):
         raise SimulationError(
-            f"move.points is {value_text(points)}; it must be a whole number from 2 to {MOST_POINTS}",
+            f"move.points is {value_text(points)}; it must be a whole number from 2 to {MAX_POINTS}",
             "move.points",
         )
     return int(points)
@@ -265,7 +265,7 @@ def _figures(loop: _Loop, curve: Series, swept: _Swept) -> dict[str, Figure]:
         "swept_gain_margin": (_swept_gain(swept.opened), "dB"),
         "Ms": (loop.cut.sensitivity()[0] if loop.stable else None, ""),
         "Ms_frequency": (loop.cut.sensitivity()[1] if loop.stable else None, "Hz"),
-        "resonance_peak": (peak if loop.stable and peak > LEAST_PEAK else None, "dB"),
+        "resonance_peak": (peak if loop.stable and peak > MIN_PEAK else None, "dB"),
         "damping_ratio": (loop.damping, ""),
         "least_damping_ratio": (loop.model.least_damping(), ""),
         "least_stable_inertia": (inertias[0] if inertias else None, ""),
@@ -282,7 +282,7 @@ def _difference(axis: AxisLaw, result: Mapping[str, Figure]) -> str:
     one.
     """
     swept, model, machine = result["swept_bandwidth"][0], result["bandwidth"][0], axis.machine
-    if swept is None or model is None or abs(swept / model - 1.0) < _LEAST_DIFFERENCE:
+    if swept is None or model is None or abs(swept / model - 1.0) < _MIN_DIFFERENCE:
         return ""
     parts = {
         "dry friction": machine.coulomb_friction or machine.static_friction,

@@ -24,7 +24,7 @@ SETTINGS = {
     "move.wheel": "which wheel, by its number; default: the first",
 }
 MARKS = 100.0
-MOST_TURNS, FASTEST = 1000.0, 100.0
+MAX_TURNS, FASTEST = 1000.0, 100.0
 KEPT = (
     "ASSUMED: marks that come faster than the axis may go are kept, so that it goes on after the wheel"
     " has stopped; no page prints whether they are lost."
@@ -44,9 +44,9 @@ def run_handwheel(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
     marks = above_zero(settings, "move.marks", 1e6)
     turns, rate = number(settings, "move.turns"), above_zero(settings, "move.rate", FASTEST) or 1.0
     turns = 1.0 if turns is None else turns
-    if not 0.0 < abs(turns) <= MOST_TURNS:
+    if not 0.0 < abs(turns) <= MAX_TURNS:
         raise SimulationError(
-            f"move.turns is {turns:g}; it must not be 0, and {MOST_TURNS:g} at most", "move.turns"
+            f"move.turns is {turns:g}; it must not be 0, and {MAX_TURNS:g} at most", "move.turns"
         )
     counted = marks or wheel.marks or MARKS
     distance = turns * counted * wheel.step

@@ -55,9 +55,9 @@ QUARTER = 0.25
 DOUBTFUL = 0.45
 """Share of a turn between switch and nearest marker from which a sample more or less may take another
 marker."""
-MOST_TURNS = 100.0
+MAX_TURNS = 100.0
 """Turns from the switch to the marker that is given."""
-MOST_HOMINGS = 100
+MAX_HOMINGS = 100
 ON_SCALE = 5.3
 """Periods of a coded scale from its zero to the start."""
 HALVINGS = 7
@@ -237,7 +237,7 @@ def _marker(axis: AxisLaw, homing: Homing, settings: ScenarioSettings) -> tuple[
     if settings.get("move.marker") == "none":
         return None, False
     given = number(settings, "move.marker")
-    if given is not None and abs(given) > MOST_TURNS * homing.turn:
+    if given is not None and abs(given) > MAX_TURNS * homing.turn:
         raise SimulationError(
             f"move.marker is {given:g}; give the distance to a marker near the switch, a turn is"
             f" {value_text(homing.turn, axis.unit)}",
@@ -260,9 +260,9 @@ def _scattered(around: Around, homing: Homing, settings: ScenarioSettings) -> li
     scatter.
     """
     times, scatter = number(settings, "move.homings") or 1.0, number(settings, "move.scatter") or 0.0
-    if not (times == int(times) and 1 <= times <= MOST_HOMINGS):
+    if not (times == int(times) and 1 <= times <= MAX_HOMINGS):
         raise SimulationError(
-            f"move.homings is {times:g}; it must be a whole number from 1 to {MOST_HOMINGS}", "move.homings"
+            f"move.homings is {times:g}; it must be a whole number from 1 to {MAX_HOMINGS}", "move.homings"
         )
     if not (0.0 <= scatter < math.inf) or (scatter and not homing.approach):
         raise SimulationError(

@@ -31,7 +31,7 @@ SETTINGS = {
     "move.mode": "jog or program; default: jog",
 }
 AxisPoint = dict[str, float]
-MOST_PERIODS = 50
+MAX_PERIODS = 50
 """Servo samples between two looks at the zones, far from their edges."""
 BY_LINE = (
     "ASSUMED: the axes go in a straight line, each with its share of speed and ramp, and are checked once in"
@@ -358,7 +358,7 @@ def _periods_to_next_look(zones: Sequence[Zone], here: AxisPoint, step: float) -
     the nearest edge, so that no zone is passed in between; ``step`` is the way in one sample.
     """
     room = min((zone.room(here) for zone in zones), default=math.inf)
-    return max(1, min(MOST_PERIODS, int(0.5 * room / step))) if math.isfinite(room) else MOST_PERIODS
+    return max(1, min(MAX_PERIODS, int(0.5 * room / step))) if math.isfinite(room) else MAX_PERIODS
 
 
 def _begun(axes: Mapping[str, AxisLaw], line: _Line) -> dict[str, MovingAxis]:

@@ -31,7 +31,7 @@ SHARE = 0.25
 """Share of feedrate, torque and limits of the following error that the sine uses."""
 COUNTS = 50.0
 """Counts of the answer, where the limits allow it."""
-LEAST = 0.5
+MIN_COUNTS = 0.5
 """Counts of an answer below which it is none."""
 FINEST = 1e-4
 """u: a count of an ideal device, for the choice of an amplitude."""
@@ -125,7 +125,7 @@ def sweep(axis: AxisLaw, tones: Sequence[Tone], *, feed_forward: bool = True) ->
         inside = slice(*np.searchsorted(time, (tone.begin - 1e-9, tone.end - 1e-9)))  # time only grows
         for row, name in enumerate(("position", "measured_position")):
             answer = _fitted(time[inside] - tone.start, columns[name][inside], tone)
-            if abs(answer) * tone.amplitude >= LEAST * axis.machine.position_count:
+            if abs(answer) * tone.amplitude >= MIN_COUNTS * axis.machine.position_count:
                 found[row, n] = answer
     return Sweep(found[0], found[1], motion)
 

@@ -41,7 +41,7 @@ FIGURES = (
 """Columns of the result: number of the alarm, u, u, s, s, torque, torque, output, u."""
 TARGET, BAND, COUNT = 0, 1, 2
 """Of the wanted motion: its end, the band in which it is there, a count of the position device; u."""
-NOISE_COUNTS, GROWN, LEAST_SWING, EDGE = 3.0, 1.0 + 1e-6, 1e-9, 1.0 + 1e-9
+NOISE_COUNTS, GROWN, MIN_SWING, EDGE = 3.0, 1.0 + 1e-6, 1e-9, 1.0 + 1e-9
 """As in scenarios/figures.py."""
 
 
@@ -94,7 +94,7 @@ def measure(
     if half >= 4:
         before = span(rows, first, first + half, every, wanted[TARGET])
         after = span(rows, first + half, samples, every, wanted[TARGET])
-        if after > max(before, NOISE_COUNTS * wanted[COUNT]) * GROWN and after > LEAST_SWING:
+        if after > max(before, NOISE_COUNTS * wanted[COUNT]) * GROWN and after > MIN_SWING:
             return
     out[4] = rows[first * every, 0]
     out[3] = max(0.0, out[4] - end)

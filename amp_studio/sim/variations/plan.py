@@ -24,7 +24,7 @@ from amp_studio.schema import Address, UnknownParameterError, Value, read_number
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.tuning.sampled import Matrix
 
-MOST = 1_000_000
+MAX_VARIATIONS = 1_000_000
 """Variations of one sweep at most."""
 SETTINGS = ("model", "move")
 """First words of what is varied and is no parameter."""
@@ -108,7 +108,7 @@ def _number(name: str, text: str) -> float:
 
 def _steps(name: str, text: str) -> int:
     steps = _number(name, text)
-    if not (steps.is_integer() and 2 <= steps <= MOST):
+    if not (steps.is_integer() and 2 <= steps <= MAX_VARIATIONS):
         raise SimulationError(
             f"{name} has '{text.strip()[:40]}' steps; it must be a whole number from 2 on", name
         )
@@ -154,10 +154,10 @@ def swept_address(file: ParameterFile, name: str, axis: str) -> Address:
 
 def _sampled(varied: Sequence[Varied], samples: int, seed: int) -> Matrix:
     """Return a Latin hypercube: each of ``samples`` equal parts of the range of each figure has one point
-    (McKay, Beckman and Conover, Technometrics 21, 1979). Raises SimulationError for more than MOST.
+    (McKay, Beckman and Conover, Technometrics 21, 1979). Raises SimulationError for more than MAX_VARIATIONS.
     """
-    if not 1 <= samples <= MOST:
-        raise SimulationError(f"{samples} samples: it must be 1 to {MOST}")
+    if not 1 <= samples <= MAX_VARIATIONS:
+        raise SimulationError(f"{samples} samples: it must be 1 to {MAX_VARIATIONS}")
     dice = np.random.default_rng(seed)
     shares = [(dice.permutation(samples) + dice.random(samples)) / samples for _ in varied]
     columns = [[each.at(float(share)) for share in own] for each, own in zip(varied, shares, strict=True)]
@@ -167,7 +167,7 @@ def _sampled(varied: Sequence[Varied], samples: int, seed: int) -> Matrix:
 def points_of(varied: Sequence[Varied], samples: int | None, seed: int) -> Matrix:
     """Return the points (variations, what is varied), a grid in the order of an odometer or ``samples``.
 
-    Raises SimulationError for more than MOST, or a distribution without ``samples``.
+    Raises SimulationError for more than MAX_VARIATIONS, or a distribution without ``samples``.
     """
     if samples is not None:
         return _sampled(varied, samples, seed)
@@ -175,8 +175,8 @@ def points_of(varied: Sequence[Varied], samples: int | None, seed: int) -> Matri
         if each.normal:
             raise SimulationError(f"{each.name} has a distribution: say how many --samples", each.name)
     grids = [each.grid() for each in varied]
-    if math.prod(len(grid) for grid in grids) > MOST:
-        raise SimulationError(f"The steps make more than {MOST} variations: give fewer of them")
+    if math.prod(len(grid) for grid in grids) > MAX_VARIATIONS:
+        raise SimulationError(f"The steps make more than {MAX_VARIATIONS} variations: give fewer of them")
     return np.stack(np.meshgrid(*grids, indexing="ij"), axis=-1).reshape(-1, len(varied))
 
 

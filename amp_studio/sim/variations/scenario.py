@@ -53,7 +53,7 @@ SIDE, ALONE = 15, 41
 """Steps of each of two gains, and of one, by default."""
 FURTHEST = 4.0
 """Times the present gain, and its part, between which is swept then."""
-MOST_LOOPS = 2500
+MAX_LOOPS = 2500
 """Variations of which the loops are computed too, where they are not asked for: each takes some
 milliseconds."""
 PERCENTILES = (5, 25, 50, 75, 95)
@@ -81,7 +81,7 @@ def run_sweep(
     varied = _varied(trial, str(settings[OVER]))
     points = points_of(varied, samples, 1 if seed is None else seed)
     motion = figure not in LOOP_FIGURES
-    loops = not motion or (figure is None and len(points) <= MOST_LOOPS)
+    loops = not motion or (figure is None and len(points) <= MAX_LOOPS)
     job = _job(trial, varied, move, motion=motion, loops=loops)
     refuse_if_none(job, points)
     found = _run(job, points, way)

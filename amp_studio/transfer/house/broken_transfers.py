@@ -10,7 +10,7 @@ from pathlib import Path
 
 SUFFIX = ".transfer"
 LASTING = 7 * 24 * 3600.0  # seconds after which nobody takes a download up again
-MOST = 32  # kept at most, the newest
+MAX_KEPT = 32  # kept at most, the newest
 
 
 class BrokenTransfers:
@@ -43,7 +43,7 @@ class BrokenTransfers:
             self._folder.mkdir(parents=True, exist_ok=True)
             self._path(what).write_text(transfer.hex(), encoding="ascii")
             newest = sorted(self._folder.glob(f"*{SUFFIX}"), key=lambda path: -path.stat().st_mtime)
-            for path in newest[MOST:]:
+            for path in newest[MAX_KEPT:]:
                 path.unlink()
 
     def forget(self, what: bytes) -> None:

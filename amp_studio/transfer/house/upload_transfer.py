@@ -21,7 +21,7 @@ ATTEMPTS = 3  # how often reading may be broken off by the control, start again,
 
 SLOW = 5.0  # seconds that a line of known rate may take for an image until only some of it is read back
 ONE_OF = 16  # pieces of which one is read back then
-FEWEST = 6  # pieces that are read back at least
+MIN_PIECES = 6  # pieces that are read back at least
 
 
 class UploadTransfer:
@@ -108,7 +108,7 @@ class UploadTransfer:
         and some at random.
         """
         offsets = range(0, len(image), chunk)
-        count = min(len(offsets), max(FEWEST, len(offsets) // ONE_OF))
+        count = min(len(offsets), max(MIN_PIECES, len(offsets) // ONE_OF))
         chance = random.Random(self._line.random(16))  # noqa: S311  # seeded by what the control cannot know
         inner = chance.sample(offsets[1:-1], max(0, count - 2))
         chosen = {*offsets[:1], *inner, *offsets[-1:]}

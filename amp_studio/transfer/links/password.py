@@ -23,7 +23,7 @@ WRONG = b"WRONG\n"
 LONGEST = 256  # bytes of a line; the longest has 137
 
 BEGINNING = 0.5  # seconds after which what only begins like a challenge is none
-MOST_KEPT = 65_536  # bytes that are written before anything has come from the other end
+MAX_BYTES_KEPT = 65_536  # bytes that are written before anything has come from the other end
 ROUNDS = 200_000  # of PBKDF2: a tenth of a second for each guess of who has recorded a proof
 NO_TLS = bytes(32)
 """Takes in a proof the place of the digest of the server's certificate where there is no TLS."""
@@ -134,7 +134,7 @@ class GuardedLink:
 
     def write(self, data: bytes) -> None:
         """Write; until something has come from the other end, what was written is kept."""
-        if not self._is_settled and len(self._written) < MOST_KEPT:
+        if not self._is_settled and len(self._written) < MAX_BYTES_KEPT:
             self._written += data
         self._link.write(data)
 

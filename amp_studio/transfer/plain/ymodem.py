@@ -11,7 +11,7 @@ from .line import ByteLine, PlainFileError
 from .receiver import BlockReceiver
 from .sender import BlockSender
 
-MOST_FILES = 100  # of one batch
+MAX_FILES = 100  # of one batch
 LONGEST_NAME = 100  # bytes: name, size and their ends fit into one short block
 _UNSUITABLE = re.compile(r'[<>:"|?*\x00-\x1f\x7f]')
 
@@ -45,8 +45,8 @@ def receive_batch(line: ByteLine) -> list[PlainFile]:
         if not name:
             receiver.finish()
             return files
-        if len(files) == MOST_FILES:
-            raise PlainFileError(f"the other end sends more than {MOST_FILES} files")
+        if len(files) == MAX_FILES:
+            raise PlainFileError(f"the other end sends more than {MAX_FILES} files")
         content = receiver.receive(size)
         if size is None:
             files.append(without_padding(name, content))

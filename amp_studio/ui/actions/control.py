@@ -171,14 +171,14 @@ class ControlDesk(Translated):
             page.chosen.connect(self.use)
             page.state_changed.connect(self._follow)
             page.several.changed.connect(self._end_live)
-            page.read_wanted.connect(
+            page.read_requested.connect(
                 lambda file: self.window.guarded(partial(self._save_upload, file), self.tr("Read"))
             )
-            page.restore_wanted.connect(
+            page.restore_requested.connect(
                 lambda path: self.window.guarded(partial(self._offer_backup, path), self.tr("Restore"))
             )
-            page.hand.control_wanted.connect(partial(sheet_of_control, page))
-            page.hand.file_wanted.connect(
+            page.hand.control_requested.connect(partial(sheet_of_control, page))
+            page.hand.file_requested.connect(
                 lambda: self.window.guarded(partial(sheet_of_file, page), self.tr("Enter Values by Hand"))
             )
             self._centre.addWidget(page)

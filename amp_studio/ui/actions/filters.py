@@ -29,7 +29,7 @@ _LETTERS: dict[FilterName, str] = {
 def add(window: StudioWindow, page: FilePage) -> None:
     """Know the bookmarks of a file, and read its last download when that is asked for."""
     page.filters.set_bookmarks(window.settings.bookmarks(page.workspace.path))
-    page.filters.download_wanted.connect(lambda: window.guarded(partial(_read_download, window, page)))
+    page.filters.download_requested.connect(lambda: window.guarded(partial(_read_download, window, page)))
 
 
 def toggle(window: StudioWindow, mark: FilterName) -> None:

@@ -30,7 +30,7 @@ _SOON_MS = 1_000
 """Milliseconds after a file was opened until its family is indexed, so that it is painted first."""
 _VALUE_LENGTH = 40
 """Characters of a value beside its parameter."""
-_MOST = 30
+_MAX_HITS = 30
 """Hits in the file that are worth showing."""
 _COMMAND = 0.8
 """What a command is worth among parameters whose words match as well."""
@@ -70,7 +70,7 @@ class FindSearch(Translated):
         self._finders[page] = Finder(file.schema, file.machine, file)
         page.workspace.changed.connect(lambda *_: self._changed(page))
         page.destroyed.connect(lambda: self._finders.pop(page, None))
-        page.detail.message_wanted.connect(
+        page.detail.message_requested.connect(
             lambda message: self._show_message(page.workspace.file.schema, message, page)
         )
         self._soon.start()
@@ -123,7 +123,7 @@ class FindSearch(Translated):
         finder = self._finder()
         if finder is None:
             return [FindRow(self.box.tr("Preparing the search …"), waits=True)]
-        hits = finder.find(own, _MOST)
+        hits = finder.find(own, _MAX_HITS)
         found = [self._with_value(hit, self.window.page) for hit in hits]
         found = sorted(found + self._among(own), key=lambda hit: -hit.score)
         if found:
@@ -162,7 +162,7 @@ class FindSearch(Translated):
         messages = []
         for finder in self._every_finder():
             family = finder.schema.family
-            for hit in finder.find(query, _MOST):
+            for hit in finder.find(query, _MAX_HITS):
                 if hit.kind == "message":
                     detail = f"{family.name}, {hit.detail}"
                     messages.append(replace(hit, key=f"{family.family}:{hit.key}", detail=detail))

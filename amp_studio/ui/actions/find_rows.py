@@ -23,7 +23,7 @@ _ICONS: dict[HitKind, str] = {
     "command": "terminal-window",
     "note": "note-pencil",
 }
-_MOST: dict[HitKind, int] = {
+_MAX_HITS: dict[HitKind, int] = {
     "parameter": 8,
     "value": 6,
     "choice": 5,
@@ -84,7 +84,7 @@ def rows_of(hits: Sequence[Hit], actions: dict[str, QAction], family: str = "") 
     rows = []
     for kind, found in kinds.items():
         rows.append(FindRow(_head(kind)))
-        listed = found[: _MOST[kind]] if len(kinds) > 1 else found
+        listed = found[: _MAX_HITS[kind]] if len(kinds) > 1 else found
         rows += [_row(hit, actions.get(hit.key) if kind == "command" else None, family) for hit in listed]
     return rows
 

@@ -14,10 +14,10 @@ from amp_studio.ui.window.studio_window import StudioWindow
 
 def connect_page(window: StudioWindow, page: FilePage) -> None:
     """Follow the buttons of a page."""
-    page.left.next_wanted.connect(lambda: window.guarded(partial(go_on, window)))
-    page.left.tick_wanted.connect(lambda step: window.guarded(lambda: tick_step(window, step)))
-    page.left.defaults_wanted.connect(lambda step: window.guarded(lambda: keep_defaults(window, step)))
-    page.left.print_wanted.connect(lambda: window.guarded(partial(save_check_list, window)))
+    page.left.next_requested.connect(lambda: window.guarded(partial(go_on, window)))
+    page.left.tick_requested.connect(lambda step: window.guarded(lambda: tick_step(window, step)))
+    page.left.defaults_requested.connect(lambda step: window.guarded(lambda: keep_defaults(window, step)))
+    page.left.print_requested.connect(lambda: window.guarded(partial(save_check_list, window)))
 
 
 def go_on(window: StudioWindow) -> None:

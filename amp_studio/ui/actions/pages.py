@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 MOTION, TUNING, CHECK, TESTS, PROGRAM, LIVE = "motion", "tuning", "check", "tests", "program", "live"
 """The names of the pages."""
-MOST_VERSIONS = 5
+MAX_VERSIONS = 5
 """Earlier versions of a file under which a program is run."""
 
 
@@ -129,7 +129,7 @@ def open_check(window: PartsWindow) -> None:
 
     def make(page: FilePage) -> CheckPage:
         made = CheckPage(page.workspace, page.follow)
-        made.motion_wanted.connect(partial(_show_scenario, window))
+        made.motion_requested.connect(partial(_show_scenario, window))
         return made
 
     _turn(window, CHECK, make)
@@ -183,7 +183,7 @@ def open_tuning(window: PartsWindow) -> None:
 
     def make(page: FilePage) -> TuningView:
         made = TuningView(page.workspace, partial(_connect, page.workspace, window.control.exchanges))
-        made.send_wanted.connect(lambda addresses: window.control.show("send", only=addresses))
+        made.send_requested.connect(lambda addresses: window.control.show("send", only=addresses))
         return made
 
     _turn(window, TUNING, make)
@@ -222,7 +222,7 @@ def open_live(window: PartsWindow) -> None:
         made.linked.connect(page.follow)
         made.noted.connect(page.bar.say)
         made.changed.connect(window.enable)
-        made.control_wanted.connect(window.control.open)
+        made.control_requested.connect(window.control.open)
         return made
 
     made = _turn(window, LIVE, make)
@@ -263,7 +263,7 @@ def open_program(window: PartsWindow) -> None:
 
         def earlier() -> list[SavedVersion]:
             document = workspace.document
-            return list(saved_versions(document.as_saved(), document.history(), MOST_VERSIONS))
+            return list(saved_versions(document.as_saved(), document.history(), MAX_VERSIONS))
 
         return ProgramPage(workspace.file.copy, apply, earlier=earlier)
 

@@ -77,12 +77,12 @@ class Pictures(QObject):
             from amp_studio.ui.pictures.page import PicturesPage
 
             pictures = PicturesPage(page.workspace)
-            pictures.parameter_wanted.connect(lambda address: self._to_parameter(page, address))
+            pictures.parameter_requested.connect(lambda address: self._to_parameter(page, address))
             pictures.left.connect(lambda: self._focus_table(page))
             pictures.closed.connect(lambda: self._close(page))
             pictures.notified.connect(page.noted)
             pictures.parameter_chosen.connect(lambda address: _select(page, address))
-            pictures.head.place_wanted.connect(lambda place: self._place(page, place))
+            pictures.head.place_requested.connect(lambda place: self._place(page, place))
             page.table_view.selected.connect(pictures.show_selected)
             page.take_pictures(pictures)
             page.middle.arranged.connect(self._keep)

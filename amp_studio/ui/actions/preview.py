@@ -93,7 +93,7 @@ class ReportPreview(QObject):
         head.add_button("export", self.tr("Export…"), self._guarded(self.export, self.tr("Export")))
         head.add_button("printer", self.tr("Print…"), self._guarded(self.print, self.tr("Print")))
         head.add_button("x", self.tr("Close (Ctrl+5)"), self.toggle)
-        panel.value_wanted.connect(self.window.go_to)
+        panel.value_requested.connect(self.window.go_to)
         self.window.docks.take_preview(panel, head)
         return panel
 

@@ -11,7 +11,7 @@ from datetime import UTC, datetime
 from typing import Literal, get_args
 
 ControlVerb = Literal["connect", "download", "verify", "upload", "restore"]
-MOST = 12
+MAX_CONTROLS = 12
 """Controls that are remembered."""
 _LONGEST = 500
 """Most characters of a part that is remembered."""
@@ -43,7 +43,7 @@ class KnownControl:
 def read_controls(kept: object) -> list[KnownControl]:
     """Return what was stored, the latest first; an entry that cannot be used is left out."""
     texts = kept if isinstance(kept, list) else [kept]
-    found = (_read(text) for text in texts[:MOST] if isinstance(text, str))
+    found = (_read(text) for text in texts[:MAX_CONTROLS] if isinstance(text, str))
     return [control for control in found if control is not None]
 
 
@@ -90,4 +90,4 @@ def with_exchange(
         family=family or before.family,
         name=name or before.name,
     )
-    return [after, *(each for each in known if each.address != address)][:MOST]
+    return [after, *(each for each in known if each.address != address)][:MAX_CONTROLS]

@@ -42,11 +42,11 @@ from .translated import sentenced, unit_in_words
 
 LEFT, RIGHT, GAP = 70.0, 14.0, 6.0
 """Room in logical pixels beside the panels, and above the heading of each."""
-LEAST_PANEL = 16.0
+MIN_PANEL = 16.0
 """Height from which a curve is seen."""
 GRIP = 6.0
 """Distance within which a cursor is taken hold of."""
-LEAST_SPAN = 1e-6
+MIN_SPAN = 1e-6
 """Of the whole axis what is shown at least: the numbers beside it would be equal."""
 WHEEL = 0.8
 """What is visible after a step of the wheel, of what was."""
@@ -259,7 +259,7 @@ class Plot(QWidget):
         shares = [min(scene.share, 2.0 * self.panels[0].share) for scene in scenes]
         room = self.height() - sum(heads) - (4.8 if _has_figures_below(self.picture.above) else 2.4) * line
         has_several = len(scenes) > 1 and scenes[-2] is not self.picture.above
-        if has_several and room < LEAST_PANEL * len(scenes):
+        if has_several and room < MIN_PANEL * len(scenes):
             fewer = scenes[:-1]
             # The figures along the axis are under the last panel that is painted.
             last = replace(fewer[-1], x=replace(fewer[-1].x, is_written=True))
@@ -390,7 +390,7 @@ class Plot(QWidget):
         whole = self.picture.panels[0].x
         if low <= whole.low and high >= whole.high:
             return None
-        least = LEAST_SPAN * (whole.high - whole.low) if not whole.log else LEAST_SPAN * low
+        least = MIN_SPAN * (whole.high - whole.low) if not whole.log else MIN_SPAN * low
         low, high = max(low, whole.low), min(high, whole.high)
         return (low, high) if high - low > least else self.span
 

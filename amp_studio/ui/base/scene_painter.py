@@ -66,10 +66,10 @@ TEXT_TOKENS: dict[ShapeSort, Token] = {
 
 RING, RING_LINE, SMALL = 6.6, 1.4, 3.2
 """px: how wide a single value is, its line, and how wide one of many is."""
-MOST_WIDE, MOST_RIPPLE = 1000, 30.0
+MAX_WIDE_POINTS, MAX_RIPPLE = 1000, 30.0
 """Points of lines, and heights of its frame that a curve goes up and down, that are painted wider than a
 point: that takes ten times as long."""
-MOST_RINGS = 60
+MAX_RINGS = 60
 """Values of a curve that are rings; more of them would lie on each other."""
 
 
@@ -81,7 +81,7 @@ class ScenePainter:
         self._painter, self._place, self._scene = painter, place, place.scene
         self._caption, self._strong = caption_fonts()
         self.labels = painted_labels(place, size)
-        self._is_fine = sum(len(line.points) for line in place.scene.lines if not line.wide) > MOST_WIDE
+        self._is_fine = sum(len(line.points) for line in place.scene.lines if not line.wide) > MAX_WIDE_POINTS
         self.named: list[tuple[QRectF, Address]] = []
         """Where a name is that leads to its parameter."""
 
@@ -165,7 +165,7 @@ class ScenePainter:
                 painter.setBrush(light)
                 painter.drawPolygon(_polygon(band))
             pen = curve_pen(curve)
-            if float(abs(line[1:, 1] - line[:-1, 1]).sum()) > MOST_RIPPLE * self._place.height:
+            if float(abs(line[1:, 1] - line[:-1, 1]).sum()) > MAX_RIPPLE * self._place.height:
                 pen.setWidthF(1.0)
             painter.setPen(pen)
             painter.drawPolyline(_polygon(line))
@@ -312,7 +312,7 @@ def paint_values(painter: QPainter, at: QPolygonF, shade: QColor) -> None:
     for a page that follows a control is painted five times a second.
     """
     strokes = ((RING, shade), (RING - 2.0 * RING_LINE, colour("base")))
-    for size, fill in strokes if at.size() <= MOST_RINGS else ((SMALL, shade),):
+    for size, fill in strokes if at.size() <= MAX_RINGS else ((SMALL, shade),):
         pen = QPen(fill, size)
         pen.setCapStyle(Qt.PenCapStyle.RoundCap)
         painter.setPen(pen)

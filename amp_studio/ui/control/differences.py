@@ -22,9 +22,9 @@ from amp_studio.ui.base.translated import facts_in_words, worded
 
 from .session import BackupReturn
 
-NUMBER, NAME, AXIS, CONTROL, FILE, MIND = range(6)
-_NAME, _LEAST_NAME, _SIDE, _LEAST_SIDE = 260, 130, 150, 96
-_MOST_NUMBER, _MOST_MIND = 84, 200
+NUMBER, NAME, AXIS, CONTROL, FILE, REMARK = range(6)
+_NAME, _MIN_NAME, _SIDE, _MIN_SIDE = 260, 130, 150, 96
+_MAX_NUMBER, _MAX_REMARK = 84, 200
 """Widths in pixels of the names and of a side, where there is room and where there is not; and of a number
 and of what is to be minded at most. A side whose name needs more has more where there is room."""
 _ADDRESS = Qt.ItemDataRole.UserRole + 1
@@ -163,16 +163,16 @@ class DifferenceTable(QTreeWidget):
         for column, least in ((NUMBER, 2 * self.indentation() + 2 * GAP2), (AXIS, 2 * GAP3)):
             texts = [self.headerItem().text(column), *(item.text(column) for item in self._items.values())]
             self.setColumnWidth(
-                column, min(_MOST_NUMBER, max(map(metrics.horizontalAdvance, set(texts))) + least)
+                column, min(_MAX_NUMBER, max(map(metrics.horizontalAdvance, set(texts))) + least)
             )
         room = self.viewport().width() - self.columnWidth(NUMBER) - self.columnWidth(AXIS)
         names = [self.header().sectionSizeHint(column) for column in (CONTROL, FILE)]
-        side = min(max(_SIDE, *names), max(_LEAST_SIDE, room // 4))
-        words = {item.text(MIND) for item in self._items.values()}
+        side = min(max(_SIDE, *names), max(_MIN_SIDE, room // 4))
+        words = {item.text(REMARK) for item in self._items.values()}
         needed = SMALL_ICON + 2 * GAP2 + max(map(metrics.horizontalAdvance, words), default=0)
-        mind = max(_LEAST_SIDE, self.header().sectionSizeHint(MIND), min(needed, _MOST_MIND, room // 3))
+        remark = max(_MIN_SIDE, self.header().sectionSizeHint(REMARK), min(needed, _MAX_REMARK, room // 3))
         for column, width in (
-            (NAME, max(_LEAST_NAME, min(_NAME, room - 2 * side - mind))),
+            (NAME, max(_MIN_NAME, min(_NAME, room - 2 * side - remark))),
             (CONTROL, side),
             (FILE, side),
         ):
@@ -236,17 +236,17 @@ class DifferenceTable(QTreeWidget):
             item.setFont(column, font("text", own=is_taken))
             item.setForeground(column, colour("text" if is_taken else "dim"))
         if row.stays:
-            item.setText(MIND, self._by_width(self.tr("stays"), self.tr("stays as it is")))
+            item.setText(REMARK, self._by_width(self.tr("stays"), self.tr("stays as it is")))
         elif not row.takes_file:
-            item.setText(MIND, self._by_width(self.tr("kept"), self.tr("the control's value stays")))
-            item.setIcon(MIND, icon("circle", "panel"))
+            item.setText(REMARK, self._by_width(self.tr("kept"), self.tr("the control's value stays")))
+            item.setIcon(REMARK, icon("circle", "panel"))
         elif row.dangers:
             danger = row.dangers[0]
-            item.setText(MIND, danger.brief or self.tr("danger, page {page}").format(page=danger.page))
-            item.setToolTip(MIND, "\n".join(each.says for each in row.dangers))
-            item.setIcon(MIND, severity_icon("error"))
+            item.setText(REMARK, danger.brief or self.tr("danger, page {page}").format(page=danger.page))
+            item.setToolTip(REMARK, "\n".join(each.says for each in row.dangers))
+            item.setIcon(REMARK, severity_icon("error"))
         else:
-            item.setText(MIND, "")
+            item.setText(REMARK, "")
         spoken = self.tr("the file's value") if row.takes_file else self.tr("the control's value")
         item.setData(
             0, Qt.ItemDataRole.AccessibleTextRole, f"{item.text(NUMBER)} {item.text(NAME)}, {spoken}"
@@ -328,7 +328,7 @@ class DifferenceTable(QTreeWidget):
         for n in range(self.topLevelItemCount()):
             head = self.topLevelItem(n)
             texts = [
-                (c, " ".join(c.text(k) for k in range(MIND)).casefold())
+                (c, " ".join(c.text(k) for k in range(REMARK)).casefold())
                 for c in map(head.child, range(head.childCount()))
             ]
             for child, text in texts:

@@ -67,9 +67,9 @@ SheetSource = Callable[[], tuple[Sheet, Ticks]]
 class HandSheet(QWidget):
     """One sheet with its ticks, which are on the disk as soon as they are made."""
 
-    control_wanted = Signal()
+    control_requested = Signal()
     """The sheet is to be made against what the chosen control contains."""
-    file_wanted = Signal()
+    file_requested = Signal()
     """The sheet is to be made against a file or a backup."""
 
     def __init__(self) -> None:
@@ -101,8 +101,8 @@ class HandSheet(QWidget):
         self.update_button = QPushButton(self.tr("&Update"))
         self.save_button = QPushButton(self.tr("&Save or Print…"))
         for button, act in (
-            (self.control_button, self.control_wanted.emit),
-            (self.file_button, self.file_wanted.emit),
+            (self.control_button, self.control_requested.emit),
+            (self.file_button, self.file_requested.emit),
             (self.update_button, self.refresh),
             (self.save_button, self.save),
         ):

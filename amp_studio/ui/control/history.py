@@ -33,7 +33,7 @@ _KEPT = Qt.ItemDataRole.UserRole
 class ExchangeHistory(QWidget):
     """Lists the exchanges, the newest first; under each the parameters that it changed."""
 
-    restore_wanted = Signal(Path)
+    restore_requested = Signal(Path)
     """The backup that an exchange made is to be put back."""
 
     def __init__(self) -> None:
@@ -116,7 +116,7 @@ class ExchangeHistory(QWidget):
 
     def _restore(self) -> None:
         if kept := self._backup():
-            self.restore_wanted.emit(Path(kept))
+            self.restore_requested.emit(Path(kept))
 
 
 def _when(stamp: str) -> str:

@@ -42,9 +42,9 @@ class ControlPage(ControlPageParts):
     chosen = Signal(str)
     """Another control was chosen, by its address."""
     state_changed = Signal()
-    read_wanted = Signal(object)
+    read_requested = Signal(object)
     """The content of the control is to become a new file."""
-    restore_wanted = Signal(Path)
+    restore_requested = Signal(Path)
     """A backup is to be put back."""
 
     def __init__(self, save: Callable[[], bool]) -> None:
@@ -69,7 +69,7 @@ class ControlPage(ControlPageParts):
         self.known.chosen.connect(self.chosen)
         self.known.several_chosen.connect(self.show_several)
         self.several.changed.connect(self.state_changed)
-        self.history.restore_wanted.connect(self.restore_wanted)
+        self.history.restore_requested.connect(self.restore_requested)
         self.directions.chosen.connect(self.turn)
         self.password.returnPressed.connect(self._enter_password)
         self.filter.textChanged.connect(self.table.show_only)
@@ -140,7 +140,7 @@ class ControlPage(ControlPageParts):
             # A sheet against a file stays: it was asked for, and its ticks go with it.
             is_of_control = self.hand.sheet is None or self.hand.seen is not None
             if seen is not None and is_of_control and self.hand.seen is not seen:
-                self.hand.control_wanted.emit()
+                self.hand.control_requested.emit()
         else:
             self.states.setCurrentWidget(self.one_control)
 
@@ -227,7 +227,7 @@ class ControlPage(ControlPageParts):
     def _sheet_after_reading(self, session: ControlSession) -> None:
         self._needs_sheet = False
         if session.phase == "ready":
-            self.hand.control_wanted.emit()
+            self.hand.control_requested.emit()
         elif session.needs_password:
             self.turn("compare")  # which has the field for it
         else:
@@ -452,7 +452,7 @@ class ControlPage(ControlPageParts):
         assert session is not None
         rows = self.table.kept() if workspace is not None else []
         if workspace is None or session.present(workspace.file) is None or not rows:
-            self.read_wanted.emit(session.seen.file.copy() if session.seen and session.seen.file else None)
+            self.read_requested.emit(session.seen.file.copy() if session.seen and session.seen.file else None)
             return
         values: dict[tuple[str, str], Value | None] = {
             row.difference.address: row.difference.b for row in rows

@@ -31,8 +31,8 @@ class ExchangeSteps(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.setMinimumWidth(220)
-        self._title, self._mind = QLabel(self.tr("What will happen")), QLabel(self.tr("Mind"))
-        for label in (self._title, self._mind):
+        self._title, self._remark = QLabel(self.tr("What will happen")), QLabel(self.tr("Mind"))
+        for label in (self._title, self._remark):
             label.setFont(font("small"))
             label.setForegroundRole(label.palette().ColorRole.PlaceholderText)
         self._lines = [(QLabel(), QLabel()) for _ in range(5)]
@@ -47,7 +47,7 @@ class ExchangeSteps(QWidget):
             second.setWordWrap(True)
             column.addWidget(first)
             column.addWidget(second)
-        column.addWidget(self._mind)
+        column.addWidget(self._remark)
         self.list = QListWidget()
         self.list.setAccessibleName(self.tr("Dangers of the values that change"))
         self.list.setFrameShape(QListWidget.Shape.NoFrame)
@@ -91,7 +91,7 @@ class ExchangeSteps(QWidget):
 
     def _show_dangers(self, dangers: Sequence[Danger], *, is_over: bool) -> None:
         """Show each value that changes with all that is dangerous about it; nothing once it is over."""
-        self._mind.setVisible(bool(dangers) and not is_over)
+        self._remark.setVisible(bool(dangers) and not is_over)
         self.list.setVisible(bool(dangers) and not is_over)
         self.list.clear()
         about: dict[tuple[str, str], list[str]] = {}

@@ -41,7 +41,7 @@ class _View(QTreeView):
     """The list: Enter shows the finding, and the row height fits the text."""
 
     entered_on = Signal()
-    menu_wanted = Signal(QPoint)
+    menu_requested = Signal(QPoint)
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
@@ -73,7 +73,7 @@ class _View(QTreeView):
         self.scheduleDelayedItemsLayout()
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
-        self.menu_wanted.emit(event.globalPos())
+        self.menu_requested.emit(event.globalPos())
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
@@ -97,7 +97,7 @@ class FindingsPanel(QWidget):
     """A finding is to be suppressed."""
     not_set_requested = Signal()
     """The values that are not set are to be shown."""
-    fold_wanted = Signal(bool)
+    fold_requested = Signal(bool)
     """The head was clicked: True to show it alone, False to open the list."""
     current_changed = Signal(object)
     """The selected finding, or None."""
@@ -122,7 +122,7 @@ class FindingsPanel(QWidget):
         self.view.setItemDelegate(self._delegate)
         self.view.doubleClicked.connect(self._activate)
         self.view.entered_on.connect(self._activate)
-        self.view.menu_wanted.connect(self._menu)
+        self.view.menu_requested.connect(self._menu)
         self.view.selectionModel().currentChanged.connect(
             lambda *_: self.current_changed.emit(self.current())
         )
@@ -146,7 +146,7 @@ class FindingsPanel(QWidget):
         head = QWidget()
         self.fold = QToolButton()
         self.fold.setAutoRaise(True)
-        self.fold.clicked.connect(lambda: self.fold_wanted.emit(not self.is_folded))
+        self.fold.clicked.connect(lambda: self.fold_requested.emit(not self.is_folded))
         title = QLabel(self.tr("Findings"))
         title.setObjectName("title")
         title.setFont(font("text", own=True))

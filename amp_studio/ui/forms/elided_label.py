@@ -6,7 +6,7 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QFontMetrics, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QLabel
 
-_LEAST = 20
+_MIN_WIDTH = 20
 
 
 class ElidedLabel(QLabel):
@@ -16,7 +16,7 @@ class ElidedLabel(QLabel):
     """Where it is cut: in the middle what is at its end is read too."""
 
     def minimumSizeHint(self) -> QSize:
-        return QSize(_LEAST, super().minimumSizeHint().height())
+        return QSize(_MIN_WIDTH, super().minimumSizeHint().height())
 
     def setText(self, text: str) -> None:
         """Show a text."""

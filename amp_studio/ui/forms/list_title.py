@@ -10,9 +10,9 @@ from PySide6.QtWidgets import QLabel, QSizePolicy
 
 from amp_studio.ui.base.theme import GAP2, colour, font
 
-_LEAST_REST = 40
+_MIN_REST = 40
 """Width from which the rest is shown."""
-_LEAST, _MOST = 120, 300
+_MIN_WIDTH, _MAX_WIDTH = 120, 300
 
 
 class ListTitle(QLabel):
@@ -38,10 +38,10 @@ class ListTitle(QLabel):
     def needed(self) -> int:
         """The width that the name needs; a very long one is elided before the filters go."""
         wide = QFontMetrics(self._strong).horizontalAdvance(self._name) + 2 * GAP2
-        return min(max(wide, _LEAST), _MOST)
+        return min(max(wide, _MIN_WIDTH), _MAX_WIDTH)
 
     def minimumSizeHint(self) -> QSize:
-        return QSize(_LEAST, super().minimumSizeHint().height())
+        return QSize(_MIN_WIDTH, super().minimumSizeHint().height())
 
     def _parts(self) -> tuple[str, int, str]:
         """Return the name as it is shown, its width, and the rest as it is shown."""
@@ -54,7 +54,7 @@ class ListTitle(QLabel):
         wide = strong.horizontalAdvance(name)
         left = room - wide
         rest = plain.elidedText(f" — {self._remark}", Qt.TextElideMode.ElideRight, left)
-        return name, wide, rest if left >= _LEAST_REST else ""
+        return name, wide, rest if left >= _MIN_REST else ""
 
     def _show_tip(self) -> None:
         name, _, rest = self._parts()

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QListWidget, QListWid
 from amp_studio.schema import Bit, Parameter, field_value
 from amp_studio.ui.base.theme import GAP, GAP2, ROW, colour, font, scheme
 
-_MOST_ROWS = 12
+_MAX_ROWS = 12
 _NARROWEST, _WIDEST = 240, 420
 _FIELD = Qt.ItemDataRole.UserRole
 
@@ -53,7 +53,7 @@ class MaskList(QFrame):
             + 8 * GAP2
         )
         self.setFixedWidth(max(_NARROWEST, min(_WIDEST, wanted)))
-        self.list.setFixedHeight(min(_MOST_ROWS, max(1, self.list.count())) * ROW + 2)
+        self.list.setFixedHeight(min(_MAX_ROWS, max(1, self.list.count())) * ROW + 2)
         self.list.itemClicked.connect(self._toggle)
         self._apply_colours()
         scheme().changed.connect(self._apply_colours)

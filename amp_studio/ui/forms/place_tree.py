@@ -31,7 +31,7 @@ KEY, PICTURE, COUNTS, RIGHT, TOKEN = (Qt.ItemDataRole(_USER + n) for n in range(
 its ink."""
 _BAR = 2
 """Width of the bar at the left of the selected place."""
-_LEAST_TITLE = 80
+_MIN_TITLE = 80
 """Width in pixels that a title keeps, or its own: beside hundreds of findings one letter was left."""
 _MORE = "…"
 """Instead of the findings that have no room; the tip of a step has all."""
@@ -88,7 +88,7 @@ def counts_with_room(
     """Return the findings that are shown in ``room`` pixels beside a title of ``title`` pixels, the worst
     first, and whether some are left out.
     """
-    least = min(title, _LEAST_TITLE)
+    least = min(title, _MIN_TITLE)
     kept = counts
     while len(kept) > 1:
         used = sum(width_of(str(count)) + 3 + SMALL_ICON + GAP for _, count in kept)

@@ -40,7 +40,7 @@ class LiveView(LivePageParts):
 
     changed = Signal()
     """The control is asked, or not any more."""
-    control_wanted = Signal()
+    control_requested = Signal()
     """The page at the control is wanted: a password, another one."""
     linked = Signal(str)
     """A parameter is wanted by its id."""
@@ -85,9 +85,9 @@ class LiveView(LivePageParts):
         self.axes.chosen.connect(lambda _: self._choose_axis())
         self.groups.currentIndexChanged.connect(lambda _: self._choose_group())
         self.rows.chosen.connect(lambda _: self._show_frame())
-        self.frame.write_wanted.connect(self.write)
-        self.frame.back_wanted.connect(self.put_back)
-        self.frame.take_wanted.connect(self.take)
+        self.frame.write_requested.connect(self.write)
+        self.frame.back_requested.connect(self.put_back)
+        self.frame.take_requested.connect(self.take)
         self.panel.linked.connect(self.linked)
         self.panel.keys_pressed.connect(self._press)
         self.panel.end.clicked.connect(self.escape)
@@ -271,7 +271,7 @@ class LiveView(LivePageParts):
             self.bar.say(self._why, "advice", (self.tr("Go On"), self.start))
 
     def _to_control(self) -> tuple[str, Callable[[], object]]:
-        return self.tr("At the Control"), self.control_wanted.emit
+        return self.tr("At the Control"), self.control_requested.emit
 
     def _silent(self) -> None:
         """Show that the figures are old."""
@@ -388,7 +388,7 @@ class LiveView(LivePageParts):
         if self.session is None or self.session.is_busy:
             return
         if self._is_keyed():
-            self.control_wanted.emit()
+            self.control_requested.emit()
         else:
             self._with_line(self.session.read)
 

@@ -24,7 +24,7 @@ from .write_frame import WriteFrame
 
 ROOMY = 1200
 """Width of a window with room for all words."""
-FEW_ROWS, LEAST_ROWS, MOST_ROWS, LOW = 4, 5, 8, 680
+FEW_ROWS, MIN_ROWS, MAX_ROWS, LOW = 4, 5, 8, 680
 """Rows that have room at least, at most in a page below so many pixels, and in a higher one."""
 
 
@@ -83,7 +83,7 @@ class LivePageParts(PageOfFile):
         """Leave the rows the room of the words in a small window."""
         super().resizeEvent(event)
         is_narrow = self.window().width() < ROOMY
-        rows = MOST_ROWS if self.height() > LOW else LEAST_ROWS
+        rows = MAX_ROWS if self.height() > LOW else MIN_ROWS
         self.rows.setMaximumHeight(COLUMN_HEAD + rows * ROW + 2)
         self.rows.setMinimumHeight(COLUMN_HEAD + FEW_ROWS * ROW)
         self.panel.setFixedWidth(NARROW if is_narrow else WIDE)

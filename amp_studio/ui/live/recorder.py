@@ -51,7 +51,7 @@ AFTER_FAULT = 0.5
 DRAWN_EVERY = 2
 """Readings from one picture to the next while nothing is recorded: to paint one costs more than to read."""
 _FIELD, _TABLE = 52, 300
-_LEAST_PLOT = 80
+_MIN_PLOT = 80
 
 
 class LiveRecording(QWidget):
@@ -123,7 +123,7 @@ class LiveRecording(QWidget):
         self.toggle.setToolTip(self.tr("Space starts and stops the record"))
         self.plot = Plot()
         self.plot.setAccessibleName(self.tr("Readings over time, a dot for each"))
-        self.plot.setMinimumHeight(_LEAST_PLOT)
+        self.plot.setMinimumHeight(_MIN_PLOT)
         self.foot = QLabel()
         self.foot.setFont(font("small"))
         self.foot.setWordWrap(True)

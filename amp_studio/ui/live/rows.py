@@ -17,9 +17,9 @@ from amp_studio.ui.base.theme import ROW, colour, font, scheme, severity_icon
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.table_items import item_at
 
-NUMBER, NAME, FILE, CONTROL, MIND = range(5)
+NUMBER, NAME, FILE, CONTROL, REMARK = range(5)
 _FIGURE = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-_MOST_MIND, _LEAST_MIND = 232, 168
+_MAX_REMARK, _MIN_REMARK = 232, 168
 """Pixels for what differs, where there is room and where there is not."""
 
 
@@ -64,7 +64,7 @@ class LiveRows(QTableWidget):
         head.setHighlightSections(False)
         head.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         head.setSectionResizeMode(NAME, QHeaderView.ResizeMode.Stretch)
-        head.setSectionResizeMode(MIND, QHeaderView.ResizeMode.Fixed)
+        head.setSectionResizeMode(REMARK, QHeaderView.ResizeMode.Fixed)
         head.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         for column in (FILE, CONTROL):
             self.horizontalHeaderItem(column).setTextAlignment(_FIGURE)
@@ -107,7 +107,7 @@ class LiveRows(QTableWidget):
     def show_short_words(self, is_narrow: bool) -> None:
         """Say in few words what differs, where there is little room."""
         self._is_narrow = is_narrow
-        self.setColumnWidth(MIND, _LEAST_MIND if is_narrow else _MOST_MIND)
+        self.setColumnWidth(REMARK, _MIN_REMARK if is_narrow else _MAX_REMARK)
         head = self.tr("In the control") if is_narrow else self.tr("In the control, live")
         self.horizontalHeaderItem(CONTROL).setText(head)
         self.refresh()
@@ -136,14 +136,14 @@ class LiveRows(QTableWidget):
             item_at(self, row, NUMBER).setForeground(colour("dim"))
             item_at(self, row, CONTROL).setForeground(colour("text" if differs else "dim"))
             item_at(self, row, CONTROL).setFont(font("text", own=differs))
-            self._show_mind(item_at(self, row, MIND), address, differs)
+            self._show_remark(item_at(self, row, REMARK), address, differs)
 
     def _text_of_control(self, parameter: Parameter, value: Value | None) -> str:
         if self._present is None:
             return "–"
         return show_value(parameter, value, secrets=self._workspace.secrets) if value else self.tr("not set")
 
-    def _show_mind(self, item: QTableWidgetItem, address: Address, differs: bool) -> None:
+    def _show_remark(self, item: QTableWidgetItem, address: Address, differs: bool) -> None:
         """Show what is to be minded: a value that was turned here, or one that is another in the file."""
         turned = self._turned.get(address)
         item.setIcon(severity_icon("warning") if differs and turned is None else QIcon())

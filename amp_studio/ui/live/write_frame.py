@@ -49,8 +49,8 @@ class ValueField(QLineEdit):
     """A value to be written: arrows turn it, Ctrl+Enter writes it, Ctrl+Backspace puts it back."""
 
     stepped = Signal(int)
-    write_wanted = Signal()
-    back_wanted = Signal()
+    write_requested = Signal()
+    back_requested = Signal()
 
     def event(self, event: QEvent) -> bool:
         """Keep Ctrl+Backspace, which would delete a word."""
@@ -66,11 +66,11 @@ class ValueField(QLineEdit):
         if way is not None:
             self.stepped.emit(way * (COARSE if modifiers & Qt.KeyboardModifier.ShiftModifier else 1))
         elif _is_back(event):
-            self.back_wanted.emit()
+            self.back_requested.emit()
         elif event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and (
             modifiers & Qt.KeyboardModifier.ControlModifier
         ):
-            self.write_wanted.emit()
+            self.write_requested.emit()
         else:
             super().keyPressEvent(event)
 
@@ -83,11 +83,11 @@ def _is_back(event: QKeyEvent) -> bool:
 class WriteFrame(QFrame):
     """Off with its reason while the control does not take the value."""
 
-    write_wanted = Signal(object, object)
+    write_requested = Signal(object, object)
     """Address and value that are to be written now."""
-    back_wanted = Signal(object)
+    back_requested = Signal(object)
     """The address whose value is to be as it was."""
-    take_wanted = Signal(object)
+    take_requested = Signal(object)
     """The address whose value in the control is to go into the file."""
 
     def __init__(self, workspace: Workspace, *, is_emulated: bool = False) -> None:
@@ -128,8 +128,8 @@ class WriteFrame(QFrame):
         self.use(is_emulated=is_emulated)
         self.field.stepped.connect(self.step)
         self.field.textEdited.connect(lambda _: self._read())
-        self.field.write_wanted.connect(self.press)
-        self.field.back_wanted.connect(self.put_back)
+        self.field.write_requested.connect(self.press)
+        self.field.back_requested.connect(self.put_back)
         self.write.clicked.connect(self.press)
         self.back.clicked.connect(self.put_back)
         self.take.clicked.connect(self._ask_file)
@@ -321,16 +321,16 @@ class WriteFrame(QFrame):
     def press(self) -> None:
         """Want the value of the field in the control, where it can be written."""
         if self._about is not None and self._wanted is not None and self.write.isEnabled():
-            self.write_wanted.emit(self._about.address, self._wanted)
+            self.write_requested.emit(self._about.address, self._wanted)
 
     def _ask_file(self) -> None:
         if self._about is not None:
-            self.take_wanted.emit(self._about.address)
+            self.take_requested.emit(self._about.address)
 
     def put_back(self) -> None:
         """Want the value that was in the control before it was turned."""
         if self._about is not None and self._about.is_turned and self.back.isEnabled():
-            self.back_wanted.emit(self._about.address)
+            self.back_requested.emit(self._about.address)
 
 
 def _is_number(value: Value | None) -> bool:

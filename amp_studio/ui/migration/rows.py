@@ -12,7 +12,7 @@ from amp_studio.meaning import MigratedParameter, Migration
 from amp_studio.ui.base.theme import Token, font, icon
 from amp_studio.ui.base.translated import tr
 
-_MOST_OLD, _MOST_MEANING, _LEAST = 460, 280, 120
+_MAX_OLD, _MAX_MEANING, _MIN_COLUMN = 460, 280, 120
 """Widths of the columns as the window opens: at most, and at least."""
 _AS_WRITTEN = ("key", "value", "raw", "id", "page", "answer")
 """Facts of an entry that are no words: they stay as file and control have them."""
@@ -140,9 +140,9 @@ class MigrationTree(QTreeWidget):
                 self._add(outcome, f"{title} ({len(own)})", mark, shade, own)
         if not self._is_sized and rows:
             self._is_sized = True  # once: what a person has made of the columns stays
-            for column, most in ((0, _MOST_OLD), (1, _MOST_MEANING)):
+            for column, most in ((0, _MAX_OLD), (1, _MAX_MEANING)):
                 self.resizeColumnToContents(column)
-                self.setColumnWidth(column, min(most, max(_LEAST, self.columnWidth(column))))
+                self.setColumnWidth(column, min(most, max(_MIN_COLUMN, self.columnWidth(column))))
         self.verticalScrollBar().setValue(place)
 
     def _heads(self) -> Iterator[QTreeWidgetItem]:

@@ -66,7 +66,7 @@ LEFT = 280
 """Least width of the list in logical pixels."""
 AXES = 4
 """Axes that have a key."""
-MOST_LINKS = 5
+MAX_LINKS = 5
 """Parameters of a check that are links; those after them are counted, and named in the tooltip."""
 
 
@@ -108,7 +108,7 @@ class CheckPage(PageOfFile):
     page is seen.
     """
 
-    motion_wanted = Signal(str, str)
+    motion_requested = Signal(str, str)
     """The scenario and axis of a check are wanted as a motion."""
 
     def __init__(self, workspace: Workspace, show_parameter: Callable[[str], object]) -> None:
@@ -240,11 +240,11 @@ class CheckPage(PageOfFile):
         self.motion.clicked.connect(self._show_motion)
         self.again.clicked.connect(self.start)
         self.assumptions.clicked.connect(self._show_assumptions)
-        self.card.axis_wanted.connect(self._show_axis)
+        self.card.axis_requested.connect(self._show_axis)
         self.card.length_given.connect(self._home_with)
-        self.card.fix_wanted.connect(self._apply_fix)
+        self.card.fix_requested.connect(self._apply_fix)
         for view in (self.card.scene, self.travel.scene, self.spindle.scene):
-            view.parameter_wanted.connect(lambda address: self._show_parameter(address[0]))
+            view.parameter_requested.connect(lambda address: self._show_parameter(address[0]))
         self._again.done.connect(self._take_again)
         scheme().changed.connect(self._repaint)
         for n in range(AXES):
@@ -388,7 +388,7 @@ class CheckPage(PageOfFile):
 
     def _show_motion(self) -> None:
         if self.check is not None and self.check.verdict != "not possible":
-            self.motion_wanted.emit(self.check.scenario, self.check.axis)
+            self.motion_requested.emit(self.check.scenario, self.check.axis)
 
     # -- the chosen check ------------------------------------------------------------------
 
@@ -436,10 +436,10 @@ class CheckPage(PageOfFile):
             links = [
                 f'<a href="{each}" style="color:{shade}">'
                 f"{html.escape(name_of(self._workspace.file.schema, each))}</a>"
-                for each in named[:MOST_LINKS]
+                for each in named[:MAX_LINKS]
             ]
-            if len(named) > MOST_LINKS:  # a fourth line has no room on a screen at 200 %
-                links.append(self.tr("%n more", "", len(named) - MOST_LINKS))
+            if len(named) > MAX_LINKS:  # a fourth line has no room on a screen at 200 %
+                links.append(self.tr("%n more", "", len(named) - MAX_LINKS))
             yield f"{self.tr('Parameters:')} {', '.join(links)}"
 
     def _show_assumptions(self) -> None:

@@ -16,7 +16,7 @@ from amp_studio.ui.base.plot import Plot
 
 MICRO = 1000
 """Errors are drawn in µm where positions are in mm."""
-MOST_DOTS = 60
+MAX_DOTS = 60
 """Points that are drawn one by one; of more only the line."""
 
 
@@ -53,5 +53,5 @@ def _curves(trace: ErrorTrace, times: float) -> Iterator[Curve]:
     x, y = (np.array([float(each[n]) for each in trace.curve.points]) for n in (0, 1))
     curve = Curve(trace.name, x, y * times, trace.sort, trace.dashed)
     yield curve
-    if len(x) <= MOST_DOTS:
+    if len(x) <= MAX_DOTS:
         yield replace(curve, name="", dots=True)

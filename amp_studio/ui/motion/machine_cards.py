@@ -49,7 +49,7 @@ from amp_studio.ui.forms.segment import Segment
 from .scene_view import SceneView
 
 HIGHEST = "highest"
-LEAST = 56
+MIN_FIELD = 56
 """Least width of a field in logical pixels."""
 
 
@@ -181,7 +181,7 @@ def _field(name: str, tip: str) -> QLineEdit:
     field.setAccessibleName(name)
     field.setPlaceholderText(name)
     field.setToolTip(tip)
-    field.setFixedWidth(max(field.fontMetrics().horizontalAdvance(name) + 2 * GAP3, LEAST))
+    field.setFixedWidth(max(field.fontMetrics().horizontalAdvance(name) + 2 * GAP3, MIN_FIELD))
     return field
 
 
@@ -231,15 +231,15 @@ class GridBar(QWidget):
 class CheckCard(Card):
     """The chosen check: its picture, its axes, the grid of a homing, the control's message and a fix."""
 
-    axis_wanted = Signal(str)
+    axis_requested = Signal(str)
     length_given = Signal(object)
     """The length of the switch, as it is given to the scenario; None for none."""
-    fix_wanted = Signal()
+    fix_requested = Signal()
 
     def __init__(self) -> None:
         super().__init__("")
         self.axes = Segment(self.tr("Axis"))
-        self.axes.chosen.connect(self.axis_wanted)
+        self.axes.chosen.connect(self.axis_requested)
         self.length = _field(
             self.tr("switch length"),
             self.tr("How long the switch stays on, which is in no file; Enter homes with it"),
@@ -252,7 +252,7 @@ class CheckCard(Card):
         self.fix = QPushButton()
         self.fix.setProperty("primary", "true")
         self.fix.setAutoDefault(False)
-        self.fix.clicked.connect(self.fix_wanted)
+        self.fix.clicked.connect(self.fix_requested)
         foot = QHBoxLayout()
         foot.setContentsMargins(GAP3, GAP, GAP2, GAP)
         foot.setSpacing(GAP2)

@@ -26,7 +26,7 @@ class SceneView(QWidget):
 
     moved = Signal(str, object)
     """Name of a grip, and its place in the units of the scene."""
-    parameter_wanted = Signal(object)
+    parameter_requested = Signal(object)
     """The address of a name that was clicked."""
 
     def __init__(self) -> None:
@@ -139,7 +139,7 @@ class SceneView(QWidget):
             self._spots[self._dragged].setFocus(Qt.FocusReason.MouseFocusReason)
             self.update()
         elif (address := self._name_at(event.position())) is not None:
-            self.parameter_wanted.emit(address)
+            self.parameter_requested.emit(address)
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         place = self.place

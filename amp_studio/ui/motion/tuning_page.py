@@ -56,7 +56,7 @@ _LIST_WIDTH = 190
 class TuningView(PageOfFile):
     """Steps at the left; above them what is tuned, and what the control contains."""
 
-    send_wanted = Signal(list)
+    send_requested = Signal(list)
     """Addresses of values of the file that are to be sent to the control, and no others."""
 
     def __init__(self, workspace: Workspace, connect: Connect, parent: QWidget | None = None) -> None:
@@ -154,7 +154,7 @@ class TuningView(PageOfFile):
         from .tuning_steps import TuningSteps
 
         steps = TuningSteps(guide, self._workspace, self.guarded)
-        steps.send_wanted.connect(self.send_wanted)
+        steps.send_requested.connect(self.send_requested)
         self.guided.append(steps)
         # Its three parts side by side need more than a small screen has beside a panel.
         area = QScrollArea()

@@ -69,7 +69,7 @@ _DONE, _OPEN = "check-circle-fill", "circle"
 class TuningSteps(QWidget):
     """One guide of tuning, at the file or at a control."""
 
-    send_wanted = Signal(list)
+    send_requested = Signal(list)
     """Addresses of proposed values, in the file by now, that are to be sent to the control, and no others."""
 
     def __init__(
@@ -471,7 +471,7 @@ class TuningSteps(QWidget):
         values, found = self._values_of(self._found), self._found
         self._apply(found)
         if self._target is not None and all(self._target.file.get(a) == v for a, v in values.items()):
-            self.send_wanted.emit(list(values))
+            self.send_requested.emit(list(values))
 
     def _set_and_record(self, target: TuningTarget, values: Mapping[Address, Value | None]) -> None:
         """Set values; all that are proposed go into the tuning record, with what the loop had and has. Raises

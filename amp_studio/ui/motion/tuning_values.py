@@ -36,7 +36,7 @@ _SIGNS: dict[object, int] = {"+": 1, "-": -1, Qt.Key.Key_Plus: 1, Qt.Key.Key_Min
 _ADDRESS = Qt.ItemDataRole.UserRole
 
 
-_LEAST_COLUMN = 80
+_MIN_COLUMN = 80
 """Width in pixels of a column of the table at least."""
 
 
@@ -77,7 +77,7 @@ class ValuesPage(TuningPart):
         head.setSectionResizeMode(_EFFECT, QHeaderView.ResizeMode.Stretch)
         for column in (_INSTANCE, _NAME, _VALUE, _ALLOWED):
             head.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
-        head.setMinimumSectionSize(_LEAST_COLUMN)
+        head.setMinimumSectionSize(_MIN_COLUMN)
         self.table.itemChanged.connect(self._typed)
         self.table.currentCellChanged.connect(lambda *_: self._moved())
         self.table.installEventFilter(self)

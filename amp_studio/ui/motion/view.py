@@ -41,7 +41,7 @@ from .run import AskedMotion, SimulatedMotion, run_motion, simulated_by
 from .saving import ask_where, write_motion
 from .settings import SettingsForm, scrolled
 
-_LEAST_FIGURES = 280
+_MIN_FIGURES = 280
 """Height in pixels of the figures below the form, which is there whole; a low window scrolls both."""
 _ASSUMED = re.compile(r"ASSUMED: (model\.\w+) = (.+?)\. ")
 
@@ -163,7 +163,7 @@ class MotionView(PageOfFile):
         right.addWidget(form)
         right.addLayout(below)
         right.addWidget(self.settings)
-        self.tabs.setMinimumHeight(_LEAST_FIGURES)
+        self.tabs.setMinimumHeight(_MIN_FIGURES)
         right.addWidget(self.tabs, 1)
         left = QWidget()
         picture = QVBoxLayout(left)

@@ -39,7 +39,7 @@ CommitValue = Callable[[Workspace, Address, str], bool]
 class FilePage(QWidget):
     """The views of one workspace. Values go to that workspace alone, whichever page is in front."""
 
-    front_wanted = Signal(object)
+    front_requested = Signal(object)
     """Something in this page was asked for: bring it to the front."""
     changed = Signal(object)
     """Values, findings or the state on disk of this page's file are new."""
@@ -101,13 +101,13 @@ class FilePage(QWidget):
         layout.addWidget(self._stack, 1)
         self.setFocusProxy(self.table_view)
         self.left.chosen.connect(self._show_parameters)
-        self.left.wanted.connect(self.go_to)
+        self.left.value_requested.connect(self.go_to)
         self.table_view.selected.connect(self.detail.show_address)
         self.table_view.selected.connect(self.selected)
         self.table_view.range_changed.connect(lambda: self.selected.emit(self.table_view.address()))
         self.table.modelReset.connect(self._update_title)
         self.detail.linked.connect(self.follow)
-        self.detail.axis_wanted.connect(self.go_to)
+        self.detail.axis_requested.connect(self.go_to)
         self.findings.activated.connect(self._show_finding)
         self.findings.current_changed.connect(self._outline)
         self.findings.model.modelReset.connect(
@@ -177,14 +177,14 @@ class FilePage(QWidget):
 
     def show_not_set(self) -> None:
         """Show the active parameters that are not set."""
-        self.front_wanted.emit(self)
+        self.front_requested.emit(self)
         self.uncover()
         ids = dict.fromkeys(address[0] for address in addresses_not_set(self.workspace.findings))
         self._show_parameters(self.tr("Not set"), [self.workspace.file.schema.parameters[i] for i in ids])
 
     def show_found(self, words: str, ids: Iterable[str]) -> None:
         """Show the parameters that were found for some words."""
-        self.front_wanted.emit(self)
+        self.front_requested.emit(self)
         self.uncover()
         self.groups.show_none()
         title = self.tr("Found: {words}").format(words=words)
@@ -310,7 +310,7 @@ class FilePage(QWidget):
         """Select an address and come to the front; shows its group when the table does not contain it."""
         if not is_alive(self):  # asked by an explanation that is still open
             return
-        self.front_wanted.emit(self)
+        self.front_requested.emit(self)
         self.uncover()
         self.select(address)
 

@@ -35,8 +35,8 @@ class LeftPanel(QWidget):
     """Title and parameters."""
     turned = Signal(str)
     """The person chose one of the sides."""
-    wanted, next_wanted, tick_wanted = Signal(object), Signal(), Signal(object)
-    defaults_wanted, print_wanted = Signal(object), Signal()
+    value_requested, next_requested, tick_requested = Signal(object), Signal(), Signal(object)
+    defaults_requested, print_requested = Signal(object), Signal()
     """Those of the steps."""
 
     def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
@@ -65,11 +65,11 @@ class LeftPanel(QWidget):
         steps = StepsPanel(self._workspace, self._stack)
         self._stack.addWidget(steps)
         steps.chosen.connect(self.chosen)
-        steps.wanted.connect(self.wanted)
-        steps.next_wanted.connect(self.next_wanted)
-        steps.tick_wanted.connect(self.tick_wanted)
-        steps.defaults_wanted.connect(self.defaults_wanted)
-        steps.print_wanted.connect(self.print_wanted)
+        steps.value_requested.connect(self.value_requested)
+        steps.next_requested.connect(self.next_requested)
+        steps.tick_requested.connect(self.tick_requested)
+        steps.defaults_requested.connect(self.defaults_requested)
+        steps.print_requested.connect(self.print_requested)
         return steps
 
     @cached_property

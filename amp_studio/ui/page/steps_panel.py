@@ -61,14 +61,14 @@ class StepsPanel(QWidget):
 
     chosen = Signal(str, list)
     """Title and parameters."""
-    wanted = Signal(object)
+    value_requested = Signal(object)
     """An address to go to."""
-    next_wanted = Signal()
-    tick_wanted = Signal(object)
+    next_requested = Signal()
+    tick_requested = Signal(object)
     """A step is to be ticked as done, or its tick taken away."""
-    defaults_wanted = Signal(object)
+    defaults_requested = Signal(object)
     """What is not set in a step is to be set to the defaults."""
-    print_wanted = Signal()
+    print_requested = Signal()
 
     def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -133,13 +133,13 @@ class StepsPanel(QWidget):
         self.show_later.clicked.connect(lambda: self._workspace.show_later(not self._workspace.shows_later))
         self.next = QPushButton(self.tr("Next Not Set  (Ctrl+.)"))
         self.next.setToolTip(self.tr("Go to the next value that is not set"))
-        self.next.clicked.connect(self.next_wanted)
+        self.next.clicked.connect(self.next_requested)
         self.print = QToolButton()
         self.print.setIcon(icon("printer"))
         self.print.setToolTip(self.tr("Print the check list"))
         self.print.setAccessibleName(self.tr("Print the check list"))
         self.print.setFixedSize(QSize(28, 26))
-        self.print.clicked.connect(self.print_wanted)
+        self.print.clicked.connect(self.print_requested)
         self.next.setMinimumHeight(SMALL_CONTROL)
         above, below, foot = QHBoxLayout(), QHBoxLayout(), QVBoxLayout()
         above.addWidget(self.later, 1)
@@ -313,7 +313,7 @@ class StepsPanel(QWidget):
         if isinstance(place, tuple):  # an open value: its step is shown, and the cursor goes there
             assert item is not None
             self._show(item.parent().data(0, KEY))
-            self.wanted.emit(place)
+            self.value_requested.emit(place)
         elif isinstance(place, SetupStep):
             self._show(place)
         elif place is not None:
@@ -323,7 +323,7 @@ class StepsPanel(QWidget):
         """Tick the step of a place, or take its tick away."""
         step = item.data(0, KEY)
         if isinstance(step, SetupStep) and self._workspace.may_edit:
-            self.tick_wanted.emit(step)
+            self.tick_requested.emit(step)
 
     def _menu(self, item: QTreeWidgetItem | None) -> None:
         """Show what can be done with a step."""
@@ -333,8 +333,8 @@ class StepsPanel(QWidget):
         each, menu = self._workspace.progress.of(step), QMenu(self)
         done = self.tr("Mark as Not &Done") if each.ticked else self.tr("Mark as &Done")
         for text, signal in (
-            (done, self.tick_wanted),
-            (self.tr("Keep De&faults of This Step"), self.defaults_wanted),
+            (done, self.tick_requested),
+            (self.tr("Keep De&faults of This Step"), self.defaults_requested),
         ):
             action = menu.addAction(text)
             action.setEnabled(self._workspace.may_edit)

@@ -26,7 +26,7 @@ from amp_studio.ui.base.theme import GAP, GAP3, colour, font
 
 POINTS = 72
 """Points to the inch."""
-ZOOM_STEP, LEAST_ZOOM, MOST_ZOOM = 1.2, 0.25, 4.0
+ZOOM_STEP, MIN_ZOOM, MAX_ZOOM = 1.2, 0.25, 4.0
 """Zoom is in pixels to the point; 96 / 72 is the size of the paper."""
 _LINE_ABOVE, _LINE_BELOW = 2.0, 9.5
 """Points of a line of a table above and below the place of its value."""
@@ -34,7 +34,7 @@ _REACH = 24.0
 """Points up to which a click belongs to the line above it."""
 _AHEAD = 1
 """Pages beside those that are seen whose pictures are kept."""
-_MOST_PIXELS = 64_000_000
+_MAX_PIXELS = 64_000_000
 """Of a page that is scaled beforehand: a template makes pages of any size."""
 _PAPER = QColor(255, 255, 255)
 _MARK = QColor(29, 91, 203)
@@ -141,7 +141,7 @@ class PageView(QAbstractScrollArea):
 
     def set_zoom(self, zoom: float | None) -> None:
         """Show the pages in a scale, or each as wide as there is room (None)."""
-        wanted = None if zoom is None else min(max(zoom, LEAST_ZOOM), MOST_ZOOM)
+        wanted = None if zoom is None else min(max(zoom, MIN_ZOOM), MAX_ZOOM)
         if wanted != self.zoom:
             spot = self.spot()
             self.zoom = wanted
@@ -162,7 +162,7 @@ class PageView(QAbstractScrollArea):
         if self.zoom is not None:
             return self.zoom
         wanted = (self.viewport().width() - 2 * GAP3) / max(self._sizes[page][0], 1.0)
-        return min(max(wanted, LEAST_ZOOM), MOST_ZOOM)
+        return min(max(wanted, MIN_ZOOM), MAX_ZOOM)
 
     def _of(self, page: int) -> QSize:
         """Return the size of a page in pixels."""
@@ -290,7 +290,7 @@ class PageView(QAbstractScrollArea):
         size, ratio = self._of(missing), self.devicePixelRatioF()
         smooth = Qt.TransformationMode.SmoothTransformation
         image, wanted = QImage.fromData(self.pages[missing]), size * ratio
-        if not image.isNull() and wanted.width() * wanted.height() <= _MOST_PIXELS:
+        if not image.isNull() and wanted.width() * wanted.height() <= _MAX_PIXELS:
             image = image.scaled(wanted, Qt.AspectRatioMode.IgnoreAspectRatio, smooth)
             image.setDevicePixelRatio(ratio)
         self._drawn[missing] = self.pages[missing], size.width(), QPixmap.fromImage(image)

@@ -26,8 +26,8 @@ from amp_studio.ui.window.report_options import contents_of, report_fields
 class PreviewHead(QWidget):
     """Buttons in a row of the height of every panel's head."""
 
-    page_wanted = Signal(int)
-    contents_wanted = Signal(object)
+    page_requested = Signal(int)
+    contents_requested = Signal(object)
     """What the report shall contain."""
 
     def __init__(self, contents: Contents) -> None:
@@ -44,7 +44,7 @@ class PreviewHead(QWidget):
         self.page.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.page.setFixedWidth(44)
         self.page.setValidator(QIntValidator(1, 99_999, self.page))
-        self.page.returnPressed.connect(lambda: self.page_wanted.emit(int(self.page.text())))
+        self.page.returnPressed.connect(lambda: self.page_requested.emit(int(self.page.text())))
         self._of = QLabel()
         self._of.setFont(font("small"))
         self._row.addWidget(title)
@@ -53,7 +53,9 @@ class PreviewHead(QWidget):
         self._row.addWidget(self._of)
         self._row.addStretch(1)
         self.options = FieldForm(report_fields(contents))
-        self.options.entered.connect(lambda _: self.contents_wanted.emit(contents_of(self.options.answers())))
+        self.options.entered.connect(
+            lambda _: self.contents_requested.emit(contents_of(self.options.answers()))
+        )
         self.show_count(0)
 
     def add_button(

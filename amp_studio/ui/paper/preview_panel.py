@@ -60,7 +60,7 @@ class PreviewPanel(QWidget):
 
     _set = Signal(object, object, tuple, tuple)
     """From the thread: which file, its pages, the drawings in them, notes."""
-    value_wanted = Signal(object)
+    value_requested = Signal(object)
     """The address of a value that was clicked."""
 
     def __init__(self, choice: ReportOptions) -> None:
@@ -99,10 +99,10 @@ class PreviewPanel(QWidget):
         self._watch.changed.connect(self.set_again)
         self._set.connect(self._show_pages)
         self.view.turned.connect(self.head.show_page)
-        self.view.value_clicked.connect(self.value_wanted)
+        self.view.value_clicked.connect(self.value_requested)
         self.view.zoomed.connect(self._look_from_near)
-        self.head.page_wanted.connect(self.view.go_to_page)
-        self.head.contents_wanted.connect(self._choose)
+        self.head.page_requested.connect(self.view.go_to_page)
+        self.head.contents_requested.connect(self._choose)
         choice.changed.connect(self._chosen)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:

@@ -15,7 +15,7 @@ SETTLE_MS = 150
 """Milliseconds to wait, as an editor may write a file in several steps."""
 
 
-_MOST = 200
+_MAX_FILES = 200
 """Files of a folder that are watched."""
 
 
@@ -60,7 +60,7 @@ class TemplateWatch(QObject):
         found: list[tuple[str, int, int]] = []
         with contextlib.suppress(OSError):  # there is no folder, or a file goes away just now
             self._add([self._folder, own])
-            files = [path for path in sorted(islice(own.iterdir(), _MOST)) if path.is_file()]
+            files = [path for path in sorted(islice(own.iterdir(), _MAX_FILES)) if path.is_file()]
             self._add(files)  # before their state is read: what is saved after that is noticed
             for path in files:
                 known = path.stat()

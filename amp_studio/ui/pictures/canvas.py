@@ -34,7 +34,7 @@ DrawScene = Callable[[Scene | None], Scene]
 class PictureCanvas(QWidget):
     """Shows one scene and edits the file through its handles."""
 
-    parameter_wanted = Signal(object)
+    parameter_requested = Signal(object)
     """The address of a name that was clicked."""
     handle_chosen = Signal(object)
     """The handle that has the focus, or None."""
@@ -298,7 +298,7 @@ class PictureCanvas(QWidget):
             self.choose(None)
             self.setFocus()
             if address is not None:
-                self.parameter_wanted.emit(address)
+                self.parameter_requested.emit(address)
             return
         self._again = index == self._active
         self._moved = False

@@ -27,9 +27,9 @@ from amp_studio.ui.forms.segment import Segment
 
 from .canvas import PictureCanvas
 
-MOST_PARTS = 6
+MAX_PARTS = 6
 """Parts that are buttons; more of them are a list."""
-MOST_NOTES = {True: 1, False: 4}
+MAX_NOTES = {True: 1, False: 4}
 """Notes under a picture: beside others, alone."""
 
 _MORE = 110
@@ -43,7 +43,7 @@ _LOW = 330
 class PictureCard(QFrame):
     """One picture with its head, the choice of its part, and its notes."""
 
-    parameter_wanted = Signal(object)
+    parameter_requested = Signal(object)
     enlarged = Signal(str)
     """The name of the picture: it is to be shown alone."""
 
@@ -104,7 +104,7 @@ class PictureCard(QFrame):
         layout.addWidget(bar)
         layout.addWidget(self.canvas, 1)
         layout.addWidget(self.notes)
-        self.canvas.parameter_wanted.connect(self.parameter_wanted)
+        self.canvas.parameter_requested.connect(self.parameter_requested)
         scheme().changed.connect(self.show_notes)
         self.setFrameShape(QFrame.Shape.StyledPanel)
         self._offer_parts()
@@ -137,7 +137,7 @@ class PictureCard(QFrame):
 
     def _offer_parts(self) -> None:
         options = [(key, name or key, "") for key, name in self.picture.parts]
-        few = len(options) <= MOST_PARTS and not self._is_crowded(len(options))
+        few = len(options) <= MAX_PARTS and not self._is_crowded(len(options))
         self.parts.setVisible(len(options) > 1 and few)
         self.more_parts.setVisible(not few)
         if few:
@@ -173,7 +173,7 @@ class PictureCard(QFrame):
         is_brief = self._is_brief
         self.notes.setWordWrap(not is_brief)
         notes = sorted(self.canvas.scene.notes, key=lambda note: note.order)
-        most = MOST_NOTES[is_brief]
+        most = MAX_NOTES[is_brief]
         lines = []
         for note in notes[:most]:
             shade = colour("error" if note.wrong else "dim").name()
@@ -209,4 +209,4 @@ class PictureCard(QFrame):
 
     def _follow(self, link: str) -> None:
         parameter, _, instance = link.partition("@")
-        self.parameter_wanted.emit((parameter, instance))
+        self.parameter_requested.emit((parameter, instance))

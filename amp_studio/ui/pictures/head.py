@@ -16,7 +16,7 @@ class PicturesHead(QWidget):
     """Names of the pictures as buttons, in a narrow page as a list."""
 
     chosen = Signal(str)
-    place_wanted = Signal(str)
+    place_requested = Signal(str)
     """Where the pictures shall be: an arrangement."""
     closed = Signal()
 
@@ -38,7 +38,7 @@ class PicturesHead(QWidget):
         ):
             self.places.buttons[key].setToolTip(tip)
             self.places.buttons[key].setAccessibleName(tip)
-        self.places.chosen.connect(self.place_wanted)
+        self.places.chosen.connect(self.place_requested)
         self.close_button = QToolButton()
         self.close_button.setIcon(icon("x"))
         self.close_button.setToolTip(self.tr("Close the pictures (F12)"))

@@ -26,7 +26,7 @@ TWO_COLUMNS = 760
 """Width from which pictures are side by side."""
 LOW = 420
 """Height below which they are in one row."""
-LEAST_CARD = 370, 230
+MIN_CARD = 370, 230
 """Width and height from which a picture has its place in a row or in a column."""
 AROUND = 2 * HEAD + 24
 """Height of head and footer, about."""
@@ -44,7 +44,7 @@ SIDE = 3
 class PicturesPage(SidePage):
     """Every picture of a file; it follows the file while it is seen."""
 
-    parameter_wanted = Signal(object)
+    parameter_requested = Signal(object)
     left = Signal()
     """Esc: back to the table."""
     closed = Signal()
@@ -110,7 +110,7 @@ class PicturesPage(SidePage):
         """Return the card of a picture, made when it is first seen."""
         if name not in self.cards:
             card = self.cards[name] = PictureCard(self.workspace, self._pictures[name])
-            card.parameter_wanted.connect(self.parameter_wanted)
+            card.parameter_requested.connect(self.parameter_requested)
             card.enlarged.connect(self.show_picture)
             card.canvas.handle_chosen.connect(partial(self._choose, card))
             card.canvas.typed.connect(self.footer.type)
@@ -147,7 +147,7 @@ class PicturesPage(SidePage):
             return 1, False
         if self.width() >= TWO_COLUMNS and self.height() >= LOW:
             return 1 + SIDE, True
-        across, down = self.width() // LEAST_CARD[0], (self.height() - AROUND) // LEAST_CARD[1]
+        across, down = self.width() // MIN_CARD[0], (self.height() - AROUND) // MIN_CARD[1]
         return min(max(across if self.height() < LOW else down, 1), 1 + SIDE), False
 
     def _names_for(self, count: int) -> list[str]:

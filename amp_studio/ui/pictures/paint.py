@@ -13,7 +13,7 @@ from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 from amp_studio.drawing import Handle, Placement, Scene
 from amp_studio.ui.base.theme import GAP, GAP2, RADIUS, colour, font, severity_colour
 
-MOST_REASON = 380.0
+MAX_REASON = 380.0
 """Width of a reason in a tag, in logical pixels; the findings have the whole of it."""
 HANDLE = 9.0
 """Side of a handle in logical pixels."""
@@ -57,7 +57,7 @@ def paint_tag(painter: QPainter, place: Placement, at: tuple[float, float], tag:
     caption, strong = font("caption"), font("small")
     strong.setWeight(strong.Weight.DemiBold)
     small, large = QFontMetricsF(caption), QFontMetricsF(strong)
-    reason = small.elidedText(tag.reason, Qt.TextElideMode.ElideRight, MOST_REASON)
+    reason = small.elidedText(tag.reason, Qt.TextElideMode.ElideRight, MAX_REASON)
     beside = large.horizontalAdvance(tag.value) + (
         GAP2 + small.horizontalAdvance(tag.old) if tag.old else 0.0
     )

@@ -15,7 +15,7 @@ Arrangement = Literal["beside", "below", "instead"]
 WIDE, TALL = 1000, 440
 """Width from which pictures are beside the table, height from which they are below it,
 while the user has not chosen."""
-LEAST_WIDE, LEAST_TALL = 720, 380
+MIN_WIDTH, MIN_HEIGHT = 720, 380
 """Least width and height for what a person has chosen; in a smaller room the pictures cover the table."""
 
 
@@ -46,9 +46,9 @@ class PictureLayout:
 
     def fitting(self, width: int, height: int) -> Arrangement:
         """Return the arrangement for a room."""
-        if self.choice == "beside" and width >= LEAST_WIDE:
+        if self.choice == "beside" and width >= MIN_WIDTH:
             return "beside"
-        if self.choice == "below" and height >= LEAST_TALL:
+        if self.choice == "below" and height >= MIN_HEIGHT:
             return "below"
         if self.choice is not None:
             return "instead"

@@ -20,9 +20,9 @@ from amp_studio.ui.base.translated import tr
 
 from .tables import ROW, LimitRowDelegate, TableLook
 
-SHOWN, LEAST = 6, 3
+SHOWN, MIN_FOLDED = 6, 3
 """Of blocks that are alike so many are listed; so many are worth a fold at least."""
-MOST_LISTED = 200_000
+MAX_LISTED = 200_000
 """Blocks that are listed; the rest is computed too."""
 _SHAPE = re.compile(r"N\s*[0-9.]+|[^A-Z]+", re.ASCII)
 AnyIndex = QModelIndex | QPersistentModelIndex
@@ -49,7 +49,7 @@ class BlockTable:
 def kinds_of(lines: Iterable[str], letters: npt.NDArray[np.str_]) -> LineKinds:
     """Return a number for each of some lines: equal for blocks of the same words that one thing limits."""
     known: dict[str, int] = {}
-    pairs = zip(islice(lines, MOST_LISTED), letters[1:].tolist(), strict=False)
+    pairs = zip(islice(lines, MAX_LISTED), letters[1:].tolist(), strict=False)
     found = [
         known.setdefault(letter + _SHAPE.sub("", line.upper()), len(known)) if letter else -1
         for line, letter in pairs
@@ -95,7 +95,7 @@ class BlockModel(QAbstractTableModel):
         alike = self.rows.alike
         edges = np.flatnonzero(np.diff(alike, prepend=-2)) if len(alike) else np.zeros(0, np.int64)
         ends = np.append(edges[1:], len(alike))
-        long = (ends - edges >= SHOWN + LEAST) & (alike[edges] >= 0) if len(edges) else np.zeros(0, bool)
+        long = (ends - edges >= SHOWN + MIN_FOLDED) & (alike[edges] >= 0) if len(edges) else np.zeros(0, bool)
         is_seen = np.ones(len(alike), bool)
         heads: list[tuple[int, int]] = []
         for first, end in zip((edges[long] + SHOWN).tolist(), ends[long].tolist(), strict=True):

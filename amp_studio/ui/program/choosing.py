@@ -55,7 +55,7 @@ class LimitFilter(QComboBox):
 class GoToField(QLineEdit):
     """A line for the number of a block, which is there while it is asked for."""
 
-    wanted = Signal(str)
+    text_requested = Signal(str)
 
     def __init__(self) -> None:
         super().__init__()
@@ -73,4 +73,4 @@ class GoToField(QLineEdit):
 
     def _give(self) -> None:
         self.hide()
-        self.wanted.emit(self.text())
+        self.text_requested.emit(self.text())

@@ -58,7 +58,7 @@ from amp_studio.ui.forms.form import Field, FieldForm
 from amp_studio.ui.page.page_of_file import PageOfFile
 
 from .block import block_fields, block_in_words, found_line
-from .block_list import MOST_LISTED, BlockTable, BlockView, kinds_of
+from .block_list import MAX_LISTED, BlockTable, BlockView, kinds_of
 from .choosing import GoToField
 from .path_view import PathView
 from .play import PlayBar, TimePart
@@ -109,7 +109,7 @@ class ProgramPage(PageOfFile):
         self.lines = BlockView(self.tr("Blocks of the program"))
         self.lines.picked.connect(self._go_to_line)
         self.go_to_field = GoToField()
-        self.go_to_field.wanted.connect(self._go_to)
+        self.go_to_field.text_requested.connect(self._go_to)
         self.play = PlayBar()
         self.limits = read_table(
             self.tr("What limits the feed"),
@@ -172,7 +172,7 @@ class ProgramPage(PageOfFile):
         """Return the lines that a limit has a part of, or that are not good."""
         if letter == NOT_GOOD:
             return not_good_lines(run, self.path.own_limit)
-        return cast("Collection[int]", lines_limited_by(run, letter, MOST_LISTED).tolist())
+        return cast("Collection[int]", lines_limited_by(run, letter, MAX_LISTED).tolist())
 
     def _show_only(self, letter: str) -> None:
         """Show one limit, or what is not good, alone, in the list and on the path; all of them for ""."""
@@ -212,7 +212,7 @@ class ProgramPage(PageOfFile):
         if not self.lines.show_line(line):
             self.path.filter.choose(0)
             if not self.lines.show_line(line):
-                self.say(self.tr("Only the first {count} blocks are listed.").format(count=MOST_LISTED))
+                self.say(self.tr("Only the first {count} blocks are listed.").format(count=MAX_LISTED))
         begin = None if self.outcome is None else self.outcome.plan.listed.begin(line)
         if begin is not None:
             self.play.go_to(begin)
@@ -355,7 +355,7 @@ class ProgramPage(PageOfFile):
 
         def run(show: JobProgress) -> tuple[ProgramRun, BlockTable]:
             found = job.run(self.file, show)
-            letters, times = line_columns(found, min(len(job.lines), MOST_LISTED))
+            letters, times = line_columns(found, min(len(job.lines), MAX_LISTED))
             return found, BlockTable(job.lines, letters, times, kinds_of(job.lines, letters), {})
 
         self.begin(run, self._show)

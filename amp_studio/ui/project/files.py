@@ -32,7 +32,7 @@ from amp_studio.ui.window.studio_window import StudioWindow
 
 from .check import ProjectCheckDialog, check_files
 
-_MOST = 12
+_MAX_PROJECTS = 12
 """Projects that are remembered."""
 
 
@@ -57,7 +57,7 @@ class ProjectFiles(QObject):
         if self.window.project is not None:
             here = self.window.project.folder.absolute()
             others = [folder for folder in self.window.settings.projects() if folder != here]
-            self.window.settings.keep_projects([here, *others][:_MOST])
+            self.window.settings.keep_projects([here, *others][:_MAX_PROJECTS])
 
     def project_of(self, folder: Path) -> Project | None:
         """Return the project of a folder; None where it is none, or cannot be read."""

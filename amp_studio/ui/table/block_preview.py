@@ -20,7 +20,7 @@ from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.theme import GAP2, GAP3, colour, font, icon, severity_icon
 from amp_studio.ui.base.workspace import Workspace
 
-_MOST_LISTED = 1_000
+_MAX_LISTED = 1_000
 
 
 class BlockPreview(QDialog):
@@ -47,7 +47,7 @@ class BlockPreview(QDialog):
         self.list.setUniformRowHeights(True)
         self.list.setAccessibleName(self.tr("Changes"))
         # Refusals first: they must not be beyond the end of a list that is cut.
-        for cell in [*entry.refused, *(c for c in entry.cells if c.changes)][:_MOST_LISTED]:
+        for cell in [*entry.refused, *(c for c in entry.cells if c.changes)][:_MAX_LISTED]:
             self._add(cell)
         head = self.list.header()
         head.setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)

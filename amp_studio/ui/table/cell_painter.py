@@ -46,7 +46,7 @@ _RIGHT, _LEFT = (
 )
 _NAMES = 44
 """Room that the names of a mask have at least, or its number is left out."""
-_MOST_REMEMBERED = 20_000
+_MAX_REMEMBERED = 20_000
 
 
 class CellPainter:
@@ -110,7 +110,7 @@ class CellPainter:
         key = (id(letters), text)
         found = self._widths.get(key)
         if found is None:
-            if len(self._widths) > _MOST_REMEMBERED:
+            if len(self._widths) > _MAX_REMEMBERED:
                 # Rather all at once than one after the other: it refills in a frame.
                 self._widths.clear()
             found = self._widths[key] = self._metrics[id(letters)].horizontalAdvance(text)

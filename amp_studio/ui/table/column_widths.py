@@ -20,14 +20,14 @@ from .cell_painter import CellPainter
 from .more_columns import STRIP
 from .parameter_table import ParameterTable
 
-LEAST_COLUMN = 84
-LEAST_NAMES = 150
+MIN_COLUMN = 84
+MIN_NAMES = 150
 """Width of the names in a table that is too narrow for its axes."""
-MOST_FROZEN = 1 / 3
+MAX_FROZEN = 1 / 3
 """Share of the table that numbers and names have at most: what stays while the axes scroll."""
-_MOST_TEXT, _LEAST_TEXT = 300, 120
+_MAX_TEXT, _MIN_TEXT = 300, 120
 """Width of a column of texts that anybody may have typed, which may be a page long."""
-_MOST_FACT = 300
+_MAX_FACT = 300
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,8 +77,8 @@ def content_widths(table: ParameterTable, painter: CellPainter) -> ContentWidths
         full[0] = short[0] = _head_of_block(table)  # its cells lie across all columns
     for column in table.fact_columns:
         fact = _widest_text([column.title(), *(table.fact(n, column) for n in every)]) + 2 * GAP3
-        full.append(min(fact, _MOST_FACT))
-        short.append(min(fact, _LEAST_TEXT))
+        full.append(min(fact, _MAX_FACT))
+        short.append(min(fact, _MIN_TEXT))
     return ContentWidths(_number_width(table), _names_width(table, every), full, short, slots, block)
 
 
@@ -113,9 +113,9 @@ def column_widths(content: ContentWidths, room: int) -> ColumnWidths:
     """Return the widths for a table that is ``room`` wide; a room that is hardly there at all has none."""
     room = max(room, 0)
     number, short = content.number, content.short
-    wanted = min(number + content.names, int(room * MOST_FROZEN))
+    wanted = min(number + content.names, int(room * MAX_FROZEN))
     # The columns have their short widths first, but names keep a width at which they can be read.
-    frozen = max(min(wanted, room - sum(short)), min(wanted, number + LEAST_NAMES))
+    frozen = max(min(wanted, room - sum(short)), min(wanted, number + MIN_NAMES))
     columns = _shared(content.full, short, room - frozen)
     # What the columns leave free that are seen whole beside the strip belongs to the names.
     frozen += min(_free_beside(columns, room - frozen), wanted - frozen)
@@ -162,12 +162,12 @@ def _head_of_block(table: ParameterTable) -> int:
 
 
 def _widest(painter: CellPainter, looks: list[CellLook], slot: int, *, is_short: bool = False) -> int:
-    most = LEAST_COLUMN
+    most = MIN_COLUMN
     for look in looks:
         needed = painter.needed(look, slot, is_short=is_short)
         is_printed = bool(look.short) and (is_short or not look.unit)  # a choice; of a mask the shorter names
         if not look.is_number and look.kind == "value" and not is_printed:
-            needed = min(needed, _LEAST_TEXT if is_short else _MOST_TEXT)
+            needed = min(needed, _MIN_TEXT if is_short else _MAX_TEXT)
         most = max(most, needed)
     return most
 

@@ -25,7 +25,7 @@ from .detail_page import CALCULATE, DOWNLOAD, FOLD, MESSAGE, USE, DetailPage, he
 from .range_bar import RangeBar, ValueInRange
 from .word_panel import WordPanel
 
-_MOST_AXES = 8
+_MAX_AXES = 8
 """Axes that the segment has room for; the others are chosen in the table."""
 _TWO_COLUMNS, _SIDE_WIDTH = 600, 340
 """Width from which the value is beside its page, below the table of a narrow window, and its width there."""
@@ -38,11 +38,11 @@ class DetailPanel(QWidget):
 
     linked = Signal(str)
     """A parameter id that was clicked."""
-    axis_wanted = Signal(object)
+    axis_requested = Signal(object)
     """The same parameter of another axis is to be selected."""
-    message_wanted = Signal(str)
+    message_requested = Signal(str)
     """The id of a message of the control that was clicked."""
-    calculator_wanted = Signal()
+    calculator_requested = Signal()
     """The formulas of the parameter are to be opened."""
 
     def __init__(
@@ -193,14 +193,14 @@ class DetailPanel(QWidget):
     def _show_axes(self, address: Address) -> None:
         file = self._workspace.file
         axes = shown_axes(file) if file.evaluation.scope(address) == "axis" else ()
-        self.axes.setVisible(1 < len(axes) <= _MOST_AXES)
-        if 1 < len(axes) <= _MOST_AXES:
+        self.axes.setVisible(1 < len(axes) <= _MAX_AXES)
+        if 1 < len(axes) <= _MAX_AXES:
             self.axes.offer([(axis, axis_letter(file, axis) or axis, "") for axis in axes])
             self.axes.show_choice(address[1])
 
     def _choose_axis(self, axis: str) -> None:
         if self._address is not None:
-            self.axis_wanted.emit((self._address[0], axis))
+            self.axis_requested.emit((self._address[0], axis))
 
     # -- the bar -----------------------------------------------------------------
 
@@ -257,9 +257,9 @@ class DetailPanel(QWidget):
             self._writer.opened ^= {text.removeprefix(FOLD)}
             self._show()
         elif text.startswith(CALCULATE):
-            self.calculator_wanted.emit()
+            self.calculator_requested.emit()
         elif text.startswith(MESSAGE):
-            self.message_wanted.emit(text.removeprefix(MESSAGE))
+            self.message_requested.emit(text.removeprefix(MESSAGE))
         elif text.startswith(USE) and address is not None:
             self._use(address, int(text.removeprefix(USE)))
         elif text.startswith(DOWNLOAD) and address is not None:

@@ -55,7 +55,7 @@ class FilterBar(QWidget):
 
     changed = Signal()
     """Other filters are on."""
-    download_wanted = Signal()
+    download_requested = Signal()
     """The filter for what changed since the last download is asked for; ``take_download`` answers."""
 
     def __init__(self, title: ListTitle, table: ParameterTable) -> None:
@@ -122,7 +122,7 @@ class FilterBar(QWidget):
         """Add a filter to those that are on, or take it away."""
         if mark == "since-download" and on and self.marks.downloaded is None:
             self._show_choice()
-            self.download_wanted.emit()
+            self.download_requested.emit()
             return
         self._set(self.active | {mark} if on else self.active - {mark})
 

@@ -31,7 +31,7 @@ _RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 _READABLE = Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable
 _EDITABLE = _READABLE | Qt.ItemFlag.ItemIsEditable
 _NO_NUMBER = "–"
-_FEWEST_A_SECTION = 2
+_MIN_ROWS_OF_SECTION = 2
 """Rows that a section has at least on average; a search that finds one here and one there has none."""
 
 
@@ -200,7 +200,7 @@ class ParameterTable(QAbstractTableModel):
         groups = self.workspace.file.schema.group_of
         blocks = [list(block) for _, block in groupby(rows, lambda row: id(groups[row.parameter.id]))]
         of_control = [row for row in rows if CONTROL in row.cells]
-        if 1 < len(blocks) <= len(rows) / _FEWEST_A_SECTION:
+        if 1 < len(blocks) <= len(rows) / _MIN_ROWS_OF_SECTION:
             found: list[TableRow] = []
             for block in blocks:
                 group = groups[block[0].parameter.id]

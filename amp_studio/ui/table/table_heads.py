@@ -12,7 +12,7 @@ from amp_studio.ui.base.theme import COLUMN_HEAD, GAP3, ROW, colour, font
 
 from .parameter_table import ParameterTable
 
-_MOST_REMEMBERED = 10_000
+_MAX_REMEMBERED = 10_000
 _LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
 
 
@@ -87,7 +87,7 @@ class RowHeads(QHeaderView):
         key = colour_name, text, place.width()
         elided = self._elided.get(key)
         if elided is None:
-            if len(self._elided) > _MOST_REMEMBERED:
+            if len(self._elided) > _MAX_REMEMBERED:
                 self._elided.clear()
             elided = metrics.elidedText(text, Qt.TextElideMode.ElideMiddle, place.width())
             self._elided[key] = elided

@@ -28,7 +28,7 @@ from amp_studio.ui.base.figures import sentence
 from amp_studio.ui.base.theme import font
 
 from .cell_editor import CellEditor, Refusal
-from .column_widths import LEAST_NAMES, ColumnWidths, ContentWidths, column_widths, content_widths, grown
+from .column_widths import MIN_NAMES, ColumnWidths, ContentWidths, column_widths, content_widths, grown
 from .more_columns import MoreColumns
 from .parameter_table import AddressRole, ParameterTable
 from .selected_cells import SelectedCells
@@ -47,7 +47,7 @@ class ValueTable(QTableView):
     """The address of the current cell; None where the list is empty."""
     range_changed = Signal()
     """Other cells are selected."""
-    fill_wanted = Signal(object)
+    fill_requested = Signal(object)
     """The fill handle was dragged: target -> the address that it gets its value from."""
 
     def __init__(
@@ -85,7 +85,7 @@ class ValueTable(QTableView):
         self.viewport().setMouseTracking(True)
         triggers = QAbstractItemView.EditTrigger
         self.setEditTriggers(triggers.DoubleClicked | triggers.EditKeyPressed | triggers.AnyKeyPressed)
-        self.verticalHeader().setFixedWidth(LEAST_NAMES)
+        self.verticalHeader().setFixedWidth(MIN_NAMES)
         self.verticalHeader().sectionClicked.connect(self._select_row)
         self.horizontalHeader().sectionResized.connect(self._keep_widths)
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
@@ -356,7 +356,7 @@ class ValueTable(QTableView):
         (first, last), self._filling = self._filling, None
         found = self.cells.repeated(first, last, (self.cells.ends() or (first, last))[1])
         if found:
-            self.fill_wanted.emit(found)
+            self.fill_requested.emit(found)
 
     def _select(self, first: QModelIndex, last: QModelIndex) -> None:
         self.selectionModel().select(

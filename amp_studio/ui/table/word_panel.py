@@ -31,7 +31,7 @@ _ROWS = 9
 """Number of check boxes shown without scrolling."""
 _TICK = 44
 """Width in pixels of a check box with its margins."""
-_LEAST_LETTERS = 15
+_MIN_LETTERS = 15
 _TALLEST = 260
 """Height in pixels from which the boxes and fields are scrolled."""
 
@@ -132,7 +132,7 @@ class WordPanel(QScrollArea):
         if bit.choices:
             editor = QComboBox()
             editor.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-            editor.setMinimumContentsLength(_LEAST_LETTERS)
+            editor.setMinimumContentsLength(_MIN_LETTERS)
             editor.setPlaceholderText(self.tr("another code"))
             for choice in bit.choices:
                 editor.addItem(choice.label, choice.raw)

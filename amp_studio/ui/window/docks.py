@@ -43,7 +43,7 @@ _PREVIEW_SHARE, _PREVIEW_LEAST, _PREVIEW_MOST = 0.36, 384, 560
 """Its share of the window's width, and the least and most pixels."""
 _PREVIEW_WIDEST = 0.45
 """The largest share that it keeps when the window becomes narrower."""
-_LEAST_TABLE = 320
+_MIN_TABLE = 320
 """Width in pixels that a kept arrangement must leave to the table."""
 WIDE, LEFT_WIDE, LOW = 1200, 900, 620
 """Width from which the parameter has a separate side, width from which there is a left panel,
@@ -178,7 +178,7 @@ class Docks(Translated):
 
     def add(self, page: FilePage) -> None:
         """Take the panels of a page in, each with its head."""
-        page.findings.fold_wanted.connect(self.fold)
+        page.findings.fold_requested.connect(self.fold)
         page.listed.connect(lambda: self.fold(True) if not page.findings.has_findings else None)
         for title, panel in page.panels.items():
             self._stacks[title].addWidget(panel)
@@ -240,7 +240,7 @@ class Docks(Translated):
         if not self.preview.isHidden():  # it has its room from the other panels (fit), not from the table
             width = min(self.preview.width(), self._preview_width)
             self._window.resizeDocks([self.preview], [width], Qt.Orientation.Horizontal)
-        elif self._window.isVisible() and centre.width() < min(_LEAST_TABLE, self._window.width() // 3):
+        elif self._window.isVisible() and centre.width() < min(_MIN_TABLE, self._window.width() // 3):
             self.reset()
 
     def reset(self) -> None:

@@ -28,7 +28,7 @@ class FileTabs(QSplitter):
 
     current_changed = Signal(object)
     """The page that is now in front, or None."""
-    close_wanted = Signal(object)
+    close_requested = Signal(object)
     """A page is to be closed, after the question about its unsaved work."""
 
     def __init__(self) -> None:
@@ -123,7 +123,7 @@ class FileTabs(QSplitter):
         end = bar.tabButton(place, _RIGHT)
         if not isinstance(end, TabEnd):
             end = TabEnd(family.short or family.name)
-            end.close_clicked.connect(partial(self.close_wanted.emit, page))
+            end.close_clicked.connect(partial(self.close_requested.emit, page))
             bar.setTabButton(place, _RIGHT, end)
         end.show_unsaved(page.workspace.is_dirty)
         state = self.tr("{name}, not saved") if page.workspace.is_dirty else "{name}"
@@ -193,7 +193,7 @@ class FileTabs(QSplitter):
         if not isinstance(page, FilePage):
             return
         menu = QMenu(self)
-        menu.addAction(self.tr("&Close"), partial(self.close_wanted.emit, page))
+        menu.addAction(self.tr("&Close"), partial(self.close_requested.emit, page))
         others = menu.addAction(self.tr("Close &Others"), partial(self._close_others, page))
         others.setEnabled(len(self.pages()) > 1)
         menu.addSeparator()
@@ -207,7 +207,7 @@ class FileTabs(QSplitter):
     def _close_others(self, page: FilePage) -> None:
         for other in self.pages():
             if other is not page:
-                self.close_wanted.emit(other)
+                self.close_requested.emit(other)
 
 
 def _short(name: str) -> str:

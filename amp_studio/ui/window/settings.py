@@ -18,7 +18,7 @@ from amp_studio.ui.pictures.split import PictureLayout
 
 _NEVER_STORED = re.compile(rb"@\s*(?:Variant|DateTime)")
 _REPORT = ("sort", "changed", "inactive", "units", "language", "without", "paper")
-_LEAST = 320, 200
+_MIN_SIZE = 320, 200
 """Least useful width and height of the window in pixels."""
 
 
@@ -220,8 +220,8 @@ def on_screen(place: QRect, screens: list[QRect]) -> QRect:
         return common.width() * common.height() if common.isValid() else 0
 
     screen = max(screens, key=common_area)
-    width = min(max(place.width(), _LEAST[0]), screen.width())
-    height = min(max(place.height(), _LEAST[1]), screen.height())
+    width = min(max(place.width(), _MIN_SIZE[0]), screen.width())
+    height = min(max(place.height(), _MIN_SIZE[1]), screen.height())
     left = min(max(place.left(), screen.left()), screen.right() + 1 - width)
     top = min(max(place.top(), screen.top()), screen.bottom() + 1 - height)
     return QRect(left, top, width, height)

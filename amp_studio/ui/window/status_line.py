@@ -53,9 +53,9 @@ class StatusBar(QStatusBar):
 class StatusLine(QObject):
     """The state of the file in front, in words and icons; a click on a count shows the findings."""
 
-    findings_wanted = Signal()
+    findings_requested = Signal()
     """A count was clicked."""
-    not_set_wanted = Signal()
+    not_set_requested = Signal()
     """The count of the values that are not set was clicked."""
 
     def __init__(self, bar: QStatusBar) -> None:
@@ -74,8 +74,8 @@ class StatusLine(QObject):
             for severity, icon_of in [(s, severity_icon(s)) for s in SEVERITIES]
         }
         self.not_set = self._count(icon("circle-dashed", "dim"))
-        self.not_set.clicked.disconnect(self.findings_wanted)
-        self.not_set.clicked.connect(self.not_set_wanted)
+        self.not_set.clicked.disconnect(self.findings_requested)
+        self.not_set.clicked.connect(self.not_set_requested)
         for widget in (*self.counts.values(), self.not_set, self.changes, self.file, self.control):
             widget.setFont(font("small"))
             bar.addPermanentWidget(widget)
@@ -89,7 +89,7 @@ class StatusLine(QObject):
         button.setIconSize(QSize(SMALL_ICON, SMALL_ICON))
         button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         button.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # Ctrl+4 goes there
-        button.clicked.connect(self.findings_wanted)
+        button.clicked.connect(self.findings_requested)
         return button
 
     def show_control(self, control: str) -> None:

@@ -28,7 +28,7 @@ _SCOPES = ("axis", "spindle", "process", "group")
 _SURE = 15
 """Compared values from which two instances that differ in a single one are asked about it,
 whatever the difference."""
-_LEAST = 3
+_MIN_COMPARED = 3
 """Compared values below which nothing is known of the likeness of two instances."""
 
 
@@ -233,7 +233,7 @@ class Alike:
         for (scope, a, b), pair in self._pairs.items():
             compared, count = pair.compared[0], len(pair.differing)
             # What differs in more than an eighth differs on purpose.
-            if not count or compared < _LEAST or count > max(1, compared // 8):
+            if not count or compared < _MIN_COMPARED or count > max(1, compared // 8):
                 continue
             is_sure = count == 1 and compared >= _SURE
             for name in pair.differing:

@@ -23,7 +23,7 @@ REASON = (
     "ours, not the manual's: a value that became ten times itself, or its negative, is a slip more often than"
     " a wish"
 )
-_MOST, _SHARE = 6, 16
+_MAX_FOUND, _SHARE = 6, 16
 """Values that may differ by a slip in a file of few values, and the part of all in one of many;
 beyond that it is no slip."""
 
@@ -99,7 +99,7 @@ class EarlierValues:
         done = set(asked)
         for one, found in zip(self.earlier, self._findings, strict=True):
             # So many at once are another machine or another unit, and no slips.
-            if len(found) > max(_MOST, len(one.values) // _SHARE):
+            if len(found) > max(_MAX_FOUND, len(one.values) // _SHARE):
                 continue
             for address, words in found.items():
                 if address not in done and self._file.evaluation.state(address).is_active:

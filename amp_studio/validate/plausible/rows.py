@@ -19,7 +19,7 @@ REASON = (
     "ours, not the manual's: in a table of equal rows one that is off by a slip's factor is a slip more often"
     " than a wish"
 )
-_LEAST = 4
+_MIN_ROWS = 4
 """Rows from which a table has a habit."""
 _OFTEN = 3
 """How often every other value must be there."""
@@ -38,7 +38,7 @@ def _tables_of(schema: Schema, machine: str) -> tuple[str, ...]:
         and not p.secret
         and p.access != "read"
         and p.id not in others
-        and len(here.instances(p)) >= _LEAST
+        and len(here.instances(p)) >= _MIN_ROWS
     )
 
 
@@ -91,7 +91,7 @@ class EqualRows:
             counts = Counter(figures)
             # Of two odd rows either may be the slip: only a single one is asked about.
             alone = [n for n, key in enumerate(figures) if counts[key] == 1]
-            if len(alone) == 1 and len(rows) >= _LEAST and sorted(counts.values())[1] >= _OFTEN:
+            if len(alone) == 1 and len(rows) >= _MIN_ROWS and sorted(counts.values())[1] >= _OFTEN:
                 usual, times = counts.most_common(1)[0]
                 slip = slip_between(figures[alone[0]], usual) or "not"
                 self._findings[name] = self._finding(rows[alone[0]], rows[figures.index(usual)], times, slip)
@@ -103,7 +103,7 @@ class EqualRows:
         counts = Counter(figures)
         by_count = sorted(counts.values())
         # One value that is there once, and no other that is rare: else the table has no habit to break.
-        if len(addresses) < _LEAST or by_count[0] != 1 or by_count[1] < _OFTEN:
+        if len(addresses) < _MIN_ROWS or by_count[0] != 1 or by_count[1] < _OFTEN:
             return
         alone = counts.most_common()[-1][0]
         # 0 is a row that is not used, and no factor leads to it.

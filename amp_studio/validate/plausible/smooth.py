@@ -20,7 +20,7 @@ REASON = (
     "ours, not the manual's: a single point of a smooth table that jumps out is a slip more often than a"
     " motion"
 )
-_LEAST = 8
+_MIN_POINTS = 8
 """Points of a table from which its course is known."""
 _MANY = 6.0
 """Times the median second difference that a point must be off."""
@@ -48,7 +48,7 @@ class _Table:
 
     def jumping(self) -> Iterator[int]:
         """Yield the place of each point that jumps out."""
-        if len(self.points) < _LEAST:
+        if len(self.points) < _MIN_POINTS:
             return
         # The slip itself is in three differences of the sorted ones.
         # A straight table bends nowhere: what exceeds the rounding of its figures jumps.

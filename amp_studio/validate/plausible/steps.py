@@ -19,7 +19,7 @@ REASON = (
     "ours, not the manual's: a motion that runs again and again comes back to where it began, or goes one way"
     " only"
 )
-_LEAST = 8
+_MIN_STEPS = 8
 """Steps of a table from which its course is known."""
 _NEARLY = 0.25
 """The part of the way that may be missing at its end in a motion that was meant to come back."""
@@ -94,7 +94,7 @@ class StepTables:
     def findings(self) -> Iterator[Finding]:
         """Yield each motion that nearly comes back, and each single step back."""
         for whole, motion in self._motions.items():
-            if len(motion.steps) < _LEAST:
+            if len(motion.steps) < _MIN_STEPS:
                 continue
             if whole[0] in self._travels:
                 yield from self._too_long(whole, motion)
@@ -102,7 +102,7 @@ class StepTables:
             most = max(motion.forward, motion.backward)
             drift = motion.forward - motion.backward
             # The single step back is asked about first: with it mended the motion is another one.
-            if len(fewer) == 1 and len(motion.ahead) + len(motion.behind) >= _LEAST:
+            if len(fewer) == 1 and len(motion.ahead) + len(motion.behind) >= _MIN_STEPS:
                 yield self._turning_back(next(iter(fewer)))
             # Below is the rounding of the sums; above, the motion does not nearly come back.
             elif fewer and 1e-9 * most < abs(drift) <= _NEARLY * most:

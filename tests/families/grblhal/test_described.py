@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from amp_studio.cli import run
 from amp_studio.families.grblhal.described import schema_of
-from amp_studio.families.grblhal.description import MOST_BYTES
+from amp_studio.families.grblhal.description import MAX_BYTES
 from amp_studio.families.grblhal.settings import compiled_in
 from amp_studio.files import Header, ParameterFile, ParameterFileError, open_file
 from amp_studio.files.storage import save_file
@@ -267,7 +267,7 @@ def test_a_content_without_settings_or_axes_has_no_schema() -> None:
 def test_a_flood_is_refused_at_once() -> None:
     def flooded() -> None:
         with pytest.raises(DescriptionError, match="at most"):
-            schema_of(b"[" * (MOST_BYTES + 1))
+            schema_of(b"[" * (MAX_BYTES + 1))
         with pytest.raises(DescriptionError, match="more than 2000"):
             schema_of(with_lines(*(f"[SETTING:{n}|1|S{n}||5||||0|0]" for n in range(2000, 5000))))
         schema_of(THREE_AXES + b"[SETTINGDESCR:22|" + b"x\n" * 60_000)

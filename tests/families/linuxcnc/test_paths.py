@@ -93,7 +93,7 @@ def test_what_is_not_simulated_ends_the_path_with_its_name(
 def test_corners_of_a_hostile_program_are_bounded(
     mill: ParameterFile, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("amp_studio.families.linuxcnc.law_blends.MOST_ROWS", 100)
+    monkeypatch.setattr("amp_studio.families.linuxcnc.law_blends.MAX_ROWS", 100)
     job = ProgramJob(
         ["G64 P9999 G1 F900", *("X-100 Y-50 Z5", "X-50 Y-100 Z-5", "X0 Y-50 Z5", "X0 Y0 Z0") * 9],
         [0.0] * 3,

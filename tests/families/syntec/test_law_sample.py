@@ -13,7 +13,7 @@ def mill(**figures: float) -> list[float]:
     limits.
     """
     p = [0.0] * law.PARAMETERS
-    p[law.PULSE], p[law.GAIN], p[law.MOST_PULSES], p[law.WHOLE] = 0.001, 30.0, 2047.0, 1.0
+    p[law.PULSE], p[law.GAIN], p[law.MAX_PULSES], p[law.WHOLE] = 0.001, 30.0, 2047.0, 1.0
     p[law.LIMIT] = p[law.FATAL_LIMIT] = 1e9
     for name, figure in figures.items():
         p[getattr(law, name)] = figure

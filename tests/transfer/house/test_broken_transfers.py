@@ -11,7 +11,7 @@ import pytest
 
 from amp_studio.transfer.emulated.faults import Faults
 from amp_studio.transfer.errors import CancelledError, ConnectionCutError
-from amp_studio.transfer.house.broken_transfers import LASTING, MOST, BrokenTransfers
+from amp_studio.transfer.house.broken_transfers import LASTING, MAX_KEPT, BrokenTransfers
 from amp_studio.transfer.progress import Stop
 from tests.transfer.images import OLD, send
 
@@ -81,9 +81,9 @@ def test_another_image_or_another_old_content_is_another_download(tmp_path: Path
 
 def test_what_is_old_or_damaged_is_not_taken_up_and_few_are_kept(tmp_path: Path) -> None:
     broken = BrokenTransfers(tmp_path / "begun")
-    for number in range(MOST + 5):
+    for number in range(MAX_KEPT + 5):
         broken.keep(bytes([number]), bytes(16))
-    assert len(list((tmp_path / "begun").iterdir())) == MOST
+    assert len(list((tmp_path / "begun").iterdir())) == MAX_KEPT
     broken.keep(b"x", bytes(16))
     (path,) = (p for p in (tmp_path / "begun").iterdir() if p.name == broken._path(b"x").name)
     os.utime(path, (0, time.time() - LASTING - 60))

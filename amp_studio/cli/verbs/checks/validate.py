@@ -76,7 +76,7 @@ macOS libraries of the system may not be used in such a copy."""
 
 _FAMILY = re.compile(rb"^family:[ \t]*(.+?)[ \t]*\r?$", re.MULTILINE)
 
-MOST = 61
+MAX_PROCESSES = 61
 """Processes that Windows lets one wait for."""
 
 AT_A_TIME = 16
@@ -227,7 +227,7 @@ def _each(
     check: Callable[[Path], CheckResult], paths: Sequence[Path], jobs: int | None
 ) -> Iterator[CheckResult]:
     """Yield the results of files, in their order, whichever process is ready first."""
-    workers = min(MOST, jobs or os.cpu_count() or 1)
+    workers = min(MAX_PROCESSES, jobs or os.cpu_count() or 1)
     if jobs is None and len(paths) < MANY:
         shares = _by_family(paths) if workers > 1 and _STARTS_AT_ONCE else []
         if len(shares) < FAMILIES:

@@ -89,7 +89,7 @@ _MARKS = {"not begun": " ", "begun": "~", "done": "x", "not needed": "-"}
 
 _CHANGING = ("done", "not_done", "keep_defaults")
 
-_MOST = 12
+_MAX_OPEN_VALUES = 12
 """Open values that the overview lists; the step alone lists all of them."""
 
 
@@ -302,11 +302,11 @@ def _open_lines(file: ParameterFile, addresses: Sequence[Address]) -> Iterator[s
     """Yield the first of the values that are not set, and how many more there are."""
     from amp_studio.report import open_value
 
-    for address in addresses[:_MOST]:
+    for address in addresses[:_MAX_OPEN_VALUES]:
         value = open_value(file, address)
         yield f"        {' '.join(filter(None, (value.number, value.name, value.place)))}"
-    if len(addresses) > _MOST:
-        yield f"        and {len(addresses) - _MOST} more"
+    if len(addresses) > _MAX_OPEN_VALUES:
+        yield f"        and {len(addresses) - _MAX_OPEN_VALUES} more"
 
 
 def _step_line(each: StepProgress, width: int) -> str:

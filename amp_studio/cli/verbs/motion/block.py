@@ -29,7 +29,7 @@ VERB = Verb(
     *TEXT,
     examples=('amp-studio block MILL_1394.amp "G01 X10.5 F200"', "amp-studio block MILL_1394.amp"),
 )
-MOST = 1000
+MAX_BLOCKS = 1000
 """Blocks that are read."""
 
 
@@ -58,8 +58,8 @@ def _read(file: ParameterFile, lines: Sequence[str]) -> list[ReadBlock]:
     """
     from amp_studio.programs import BlockReader, ProgramBlockError
 
-    if len(lines) > MOST:
-        raise UsageError(f"{len(lines)} blocks are more than {MOST}")
+    if len(lines) > MAX_BLOCKS:
+        raise UsageError(f"{len(lines)} blocks are more than {MAX_BLOCKS}")
     reader = BlockReader(file)
     try:
         return [reader.read(line) for line in lines]

@@ -18,7 +18,7 @@ AXES = "XYZABCUV"
 SAVED = "saved"
 """What ESAVE has written, one setting a line, the last of each counts."""
 LARGEST_P = 16_383  # assumed; the guide shows P09984 and P12345
-MOST_POSITIONS = 1_000  # of a ballscrew table (assumed)
+MAX_POSITIONS = 1_000  # of a ballscrew table (assumed)
 
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:E[+-]?[0-9]{1,3})?"
 _BY_AXIS = {
@@ -221,7 +221,7 @@ class CardSettings:
         axis = found[1].upper()
         if found[2] is None:
             return [f"{axis}{n}E{self.values[f'BSC {axis}{n}']}" for n in range(self._positions(axis))]
-        if int(found[2]) > min(self._positions(axis), MOST_POSITIONS - 1):
+        if int(found[2]) > min(self._positions(axis), MAX_POSITIONS - 1):
             raise CommandError("Position out of range")
         self.values[f"BSC {axis}{int(found[2])}"] = found[3]
         return []

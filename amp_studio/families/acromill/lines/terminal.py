@@ -31,7 +31,7 @@ ANSWER_WAIT = (
     20.0  # seconds an answer may take that goes on; a table of 1,000 positions takes 13 at 9600 bit/s
 )
 QUIET = 0.06  # seconds without a sign after which a line that was cleared is quiet
-MOST_LATE = 100  # pieces that may come behind the prompt of a line that was cleared
+MAX_LATE_PIECES = 100  # pieces that may come behind the prompt of a line that was cleared
 PATIENCE = 20.0  # seconds for which a line that is cut is made again
 PAUSE = 0.3
 GRACE = 0.2  # seconds a setting that is under way may take on after a stop was asked for
@@ -171,7 +171,7 @@ class Terminal:
             raise _DamagedError("the card does not answer")
         # A card echoes what it has been sent and falls silent: an end without an end is another
         # machine.
-        if all(self._read_until(link, bool, QUIET, keep=1) for _ in range(MOST_LATE)):
+        if all(self._read_until(link, bool, QUIET, keep=1) for _ in range(MAX_LATE_PIECES)):
             raise ProtocolMismatchError("this is no ACR card: it sends without an end")
         if not re.search(rb"P[0-9]{2}>", got):
             raise _DamagedError("there is no prompt as an ACR card has")

@@ -32,7 +32,7 @@ _DATA = tuple(
 _TAG = re.compile(r"<\?[^<>]{0,200}>|</?\w{1,40}/?>")
 _OF_EVERY_GRBL = {"100", "110", "120"}
 """Numbers without a sign are settings where these are among them."""
-_LEAST, _LONGEST = 8, 400_000
+_MIN_SETTINGS, _LONGEST = 8, 400_000
 
 
 def with_signs(text: str) -> str:
@@ -44,7 +44,7 @@ def with_signs(text: str) -> str:
     for shape in _DATA if is_data else ():
         found = list(shape.finditer(text[:_LONGEST]))
         # Numbers alone are in many texts: only those that look like a whole set of settings are taken.
-        if {match.groups()[-2] for match in found} >= _OF_EVERY_GRBL and len(found) >= _LEAST:
+        if {match.groups()[-2] for match in found} >= _OF_EVERY_GRBL and len(found) >= _MIN_SETTINGS:
             return _TAG.sub(" ", shape.sub(_with_sign, text))
     return text
 

@@ -160,7 +160,7 @@ def _machine(schema: Schema, log: Log, listing: LoggedListing, wanted: str) -> _
     )
 
 
-_MOST_MISSING = 3
+_MAX_MISSING = 3
 """Settings that a listing of Grbl 0.9 may lack before it is rather part of one of a newer Grbl."""
 
 
@@ -170,7 +170,7 @@ def _is_rather_newer(listing: LoggedListing, missing: int) -> bool:
     0.9 lists all of its settings, with remarks, and its $10 is 3 as delivered; that of 1.1 is 0 to 2 as a
     rule (Grbl v1.1 Configuration, $10).
     """
-    return missing > _MOST_MISSING or figure(listing.settings.get(10, "")) in ("", "0", "1", "2")
+    return missing > _MAX_MISSING or figure(listing.settings.get(10, "")) in ("", "0", "1", "2")
 
 
 def _hint(log: Log, listing: LoggedListing) -> str:

@@ -67,8 +67,8 @@ _AROUND = re.compile(
     re.IGNORECASE,
 )
 """Lines of a sender's log that nobody misses; overrides and jog cancel are one byte from 0x80 on."""
-_LEAST, _MOST_LISTINGS, _LOOKED_AT = 8, 1000, 20_000
-_MOST_LINES, _LONGEST, _LONGEST_VALUE = 200_000, 65_536, 400
+_MIN_LISTED, _MAX_LISTINGS, _LOOKED_AT = 8, 1000, 20_000
+_MAX_LINES, _LONGEST, _LONGEST_VALUE = 200_000, 65_536, 400
 """A listing has some hundred lines, a log of a day some ten thousand; the longest value is a macro."""
 _CELL = re.compile(r"(\$[0-9]{1,5})[ \t]*</t[dh]>[ \t]*<t[dh][^<>\n]{0,200}>", re.IGNORECASE)
 _MARKUP = re.compile(r"<(?:td|pre|br|html|div|li|p)\b[^<>\n]{0,200}>", re.IGNORECASE)
@@ -175,9 +175,9 @@ def _has_settings(text: str, anywhere: bool) -> bool:
         found += len(pieces)
         others += not pieces and _is_other(line)
         # A text of any length may be offered: it is not read through to know that it is no listing.
-        if found >= _LEAST or n > _LOOKED_AT:
+        if found >= _MIN_LISTED or n > _LOOKED_AT:
             break
-    return found >= _LEAST or (found > others and not anywhere)
+    return found >= _MIN_LISTED or (found > others and not anywhere)
 
 
 def read_log(text: str) -> Log:
@@ -192,17 +192,17 @@ def read_log(text: str) -> Log:
         found.is_comment = True
         return found
     found = _read(text, anywhere=False)
-    if max((len(listing.settings) for listing in found.listings), default=0) >= _LEAST:
+    if max((len(listing.settings) for listing in found.listings), default=0) >= _MIN_LISTED:
         return found
     deeper = _read(text, anywhere=True)
-    return deeper if sum(len(one.settings) for one in deeper.listings) >= _LEAST else found
+    return deeper if sum(len(one.settings) for one in deeper.listings) >= _MIN_LISTED else found
 
 
 def _without_signs(text: str) -> str | None:
     """Return a text whose settings all are comments without the signs of these; None where others are there,
     or too few.
     """
-    if len(_COMMENTED.findall(text)) < _LEAST or _NOT_COMMENTED.search(text):
+    if len(_COMMENTED.findall(text)) < _MIN_LISTED or _NOT_COMMENTED.search(text):
         return None
     return _COMMENTED.sub("", text)
 
@@ -252,7 +252,7 @@ class _Reader:
         part = self.parts[-1]
         # Behind sentences a smaller number is another example, not the same listing going on.
         begins = number in part.settings or (self.is_apart and number < self.before[0])
-        if begins and part.settings and len(self.parts) < _MOST_LISTINGS:
+        if begins and part.settings and len(self.parts) < _MAX_LISTINGS:
             part = LoggedListing(is_apart=self.is_apart)
             self.parts.append(part)
         self.is_apart = False
@@ -285,8 +285,8 @@ def _lines(text: str, anywhere: bool) -> Iterator[tuple[int, str, str, list[_Pie
         text = unescape(_TAG.sub(" ", _CELL.sub(r"\1=", text)))
     for n, came in enumerate(re.split(r"\r\n|\r|\n", text.lstrip(MARK)), 1):
         whole = _ESCAPES.sub("", came[:_LONGEST]).replace("\u00a0", " ").strip()
-        if n > _MOST_LINES:
-            raise FormatError(f"a log has at most {_MOST_LINES:,} lines", n)
+        if n > _MAX_LINES:
+            raise FormatError(f"a log has at most {_MAX_LINES:,} lines", n)
         if whole:
             line = _plain(whole)
             yield n, whole, line, list(_settings(whole, line, anywhere))
@@ -424,7 +424,7 @@ def _refuse(log: Log, parts: list[LoggedListing], number: int, line: int) -> Non
 def _whole(parts: list[LoggedListing]) -> list[LoggedListing]:
     """Return whole listings, each with the changes that come after it; those that are the same once."""
     # Half of the largest: the listings of one text are of one control, and so about as long.
-    least = max(_LEAST, max((len(part.settings) for part in parts), default=0) / 2)
+    least = max(_MIN_LISTED, max((len(part.settings) for part in parts), default=0) / 2)
     listings: list[LoggedListing] = []
     for part in parts:
         is_last_whole = not listings or len(listings[-1].settings) >= least

@@ -121,7 +121,7 @@ that Grbl has no more.
 """
 _BYTES = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 13, *range(14, 24), 26}
 """Numbers below 29 whose figures have no point since 0.9g, in grblHAL too."""
-_LEAST, _LEAST_SETTINGS = 3, 8
+_MIN_ALIAS_NAMES, _MIN_SETTINGS = 3, 8
 """Remarks that name another setting than the number does today before all are believed; settings before a
 listing without remarks is taken for an older one."""
 
@@ -182,7 +182,7 @@ def _by_remarks(listing: LoggedListing) -> dict[int, str]:
     number does today.
     """
     names = {n: name for n, remark in listing.remarks.items() if (name := _name_of(remark))}
-    if sum(_TODAY.get(name) != n for n, name in names.items()) < _LEAST:
+    if sum(_TODAY.get(name) != n for n, name in names.items()) < _MIN_ALIAS_NAMES:
         return {}
     # A person who types a listing leaves remarks out: the one release that the others show has the names.
     layout = dict(enumerate(_LAYOUTS.get(_release_of(listing, names), ())))
@@ -234,7 +234,7 @@ def _is_odd(listing: LoggedListing, texts: Mapping[int, str]) -> bool:
         return True
     odd = sum("." in texts[n] for n in _BYTES & texts.keys())
     # One such point may be a slip of a person; a short listing may be a part of anything.
-    return odd > 1 and len(texts) >= _LEAST_SETTINGS and texts.keys() >= {0, 1, 2}
+    return odd > 1 and len(texts) >= _MIN_SETTINGS and texts.keys() >= {0, 1, 2}
 
 
 def _fits(texts: Mapping[int, str], names: Mapping[int, str]) -> bool:

@@ -107,8 +107,8 @@ _JOINED = {
 $23 has the bit of each axis that homes in its negative direction. Which axes home, and in which cycle, Grbl
 has in its build: that is kept as text.
 """
-_MOST = 5000
-_LEAST_NAMED = 3
+_MAX_LINES = 5000
+_MIN_NAMED = 3
 """Settings by name before a text is taken for a listing of them."""
 
 
@@ -129,7 +129,7 @@ def is_relative(text: str) -> bool:
     if _MARLIN.search(text) or _FLUIDNC.search(text):
         return True
     # TinyG has names behind its $ too, but none with a slash.
-    return sum("/" in name for name, _ in _BY_NAME.findall(text)) >= _LEAST_NAMED
+    return sum("/" in name for name, _ in _BY_NAME.findall(text)) >= _MIN_NAMED
 
 
 def read_relative(text: str) -> Relative:
@@ -302,7 +302,7 @@ def _entries_of_fluidnc(text: str) -> Iterator[tuple[str, str]]:
     open_keys: list[tuple[int, str]] = []
     lines = (line.expandtabs().rstrip() for line in text.splitlines())
     entries = (_ENTRY.fullmatch(line) or _SECTION.fullmatch(line) for line in lines)
-    for entry in islice(filter(None, entries), _MOST):
+    for entry in islice(filter(None, entries), _MAX_LINES):
         if entry.re is _SECTION:
             open_keys = [(0, entry[1])]
             continue

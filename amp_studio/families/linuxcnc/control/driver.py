@@ -38,7 +38,7 @@ from .running import is_running, status_of, values_in_use
 
 PROTOCOL = "configuration"
 IN_USE = "A LinuxCNC runs with this configuration: what is written counts from its next start."
-_MOST_BYTES = 20_000_000
+_MAX_BYTES = 20_000_000
 
 
 class ConfigurationDriver(ConfigurationContent):
@@ -161,10 +161,10 @@ class ConfigurationDriver(ConfigurationContent):
         """Return the content of a file of the folder; raises NoConnectionError."""
         try:
             with path.open("rb") as stream:
-                content = stream.read(_MOST_BYTES + 1)
+                content = stream.read(_MAX_BYTES + 1)
         except OSError as error:
             raise NoConnectionError(f"{path} cannot be read: {error.strerror or error}", "") from error
-        if len(content) > _MOST_BYTES:
+        if len(content) > _MAX_BYTES:
             raise NoConnectionError(f"{path} is too large for a configuration", "")
         return content
 

@@ -20,7 +20,7 @@ from amp_studio.transfer.house import Flags
 
 from .machine_keys import MachineKeys
 from .online_amp import OnlineAmp
-from .power_up import CORRECTED, MOST_AXES, corrected_limits, estop_reasons
+from .power_up import CORRECTED, MAX_AXES, corrected_limits, estop_reasons
 
 MODIFIED = "AMP HAS BEEN MODIFIED BY PATCH AMP"
 NOT_FOUND = "PARAMETER NUMBER NOT FOUND"
@@ -33,9 +33,9 @@ def axes_supported(hardware: Mapping[str, str]) -> int:
     for name in hardware:
         if name != "axes":
             raise ValueError(f"Unknown option {quoted(name)} of an emulated 9/PC. Known: axes")
-    text = hardware.get("axes", str(MOST_AXES))
-    if text not in map(str, range(1, MOST_AXES + 1)):
-        raise ValueError(f"{quoted(text)} is no number of axes: 1 to {MOST_AXES}")
+    text = hardware.get("axes", str(MAX_AXES))
+    if text not in map(str, range(1, MAX_AXES + 1)):
+        raise ValueError(f"{quoted(text)} is no number of axes: 1 to {MAX_AXES}")
     return int(text)
 
 
@@ -47,7 +47,7 @@ class NinePcPanel:
         f" {OnlineAmp.words}, {MachineKeys.words}"
     )
 
-    def __init__(self, axes: int = MOST_AXES) -> None:
+    def __init__(self, axes: int = MAX_AXES) -> None:
         self._axes = axes
         self._online = OnlineAmp()
         self._keys = MachineKeys()

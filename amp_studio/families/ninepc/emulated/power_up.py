@@ -15,9 +15,9 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, StorageError, stored_unit, to_stored, write_number
 
 AXES = tuple("12345678")
-MOST_AXES = 8
+MAX_AXES = 8
 """Of the series, with spindles; which of them were ordered decides for one control (page 3-1)."""
-MOST_SPINDLES = 2
+MAX_SPINDLES = 2
 _LIMITS = (
     "servo.inposition_band",
     "servo.gain_break_point",
@@ -43,8 +43,8 @@ def estop_reasons(file: ParameterFile, axes: int) -> Iterator[str]:
     spindles = [axis for axis in here if _choice(file, ("axis.type", axis)) == "spindle"]
     if len(here) > axes:
         yield f"{len(here)} axes are configured and the control supports {axes} (page 3-1)"
-    if len(spindles) > MOST_SPINDLES:
-        yield f"{len(spindles)} spindles are configured and the control supports {MOST_SPINDLES} (page 3-1)"
+    if len(spindles) > MAX_SPINDLES:
+        yield f"{len(spindles)} spindles are configured and the control supports {MAX_SPINDLES} (page 3-1)"
     for axis in here:
         if _choice(file, ("servo.loop_type", axis)) in ("", "none"):
             yield f"axis {axis} has a type and no Servo Loop Type (page 3-7)"
@@ -109,7 +109,7 @@ def _lowered(limits: Mapping[Address, Fraction]) -> dict[Address, Fraction]:
 
 
 def _is_dac_code(code: Fraction) -> bool:
-    return any(code - function in range(1, MOST_AXES + 1) for function in _DAC_FUNCTIONS)
+    return any(code - function in range(1, MAX_AXES + 1) for function in _DAC_FUNCTIONS)
 
 
 def _choice(file: ParameterFile, address: Address) -> str:

@@ -18,7 +18,7 @@ from itertools import pairwise
 
 from amp_studio.errors import AmpStudioError
 
-MOST_POINTS = 1001
+MAX_POINTS = 1001
 """Of all axes together (page 36-10)."""
 LONGEST_INTERVAL = {"mm": Fraction("2133.6"), "deg": Fraction("2133.6"), "in": Fraction(84)}
 """Between neighbouring points (page 36-7); of degrees the control knows only the figure."""
@@ -79,8 +79,8 @@ def _check(table: CalibrationText) -> None:
     """Raise CalibrationTextError for a table that the screen of the control would refuse."""
     # The screen checks in the order of entry, which begins at the start of the table (36-7).
     entered = table.points if table.start == "-" else table.points[::-1]
-    if len(entered) > MOST_POINTS:
-        raise CalibrationTextError(f"it has {len(entered)} points, and {MOST_POINTS} are the most")
+    if len(entered) > MAX_POINTS:
+        raise CalibrationTextError(f"it has {len(entered)} points, and {MAX_POINTS} are the most")
     if entered[0][1]:
         raise CalibrationTextError(
             f"the first point that is entered, {_figure(entered[0][0])}, has the deviation 0"

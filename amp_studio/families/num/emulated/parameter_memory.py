@@ -18,7 +18,7 @@ TAKEN = "taken"
 """Lines of a load since then, in the order in which they came."""
 _LINE = re.compile(rb"([ -~]*);([0-9A-F]{2})")
 _HEADER = re.compile(r"P([0-9]{1,4})N([0-9]{1,4}):t([0-9])n([0-9]{1,4})")
-_MOST = 10
+_MAX_LINE_VALUES = 10
 """Values of a data line (page 13-14)."""
 
 
@@ -153,8 +153,8 @@ class ParameterMemory:
     def fault_of(self, header: TableHeader, data: list[str]) -> str:
         """Return why these words cannot be taken, "" where they can."""
         words, kind = self.words[header.parameter], TYPES[self.types[header.parameter]]
-        if len(data) > _MOST:
-            return f"more than {_MOST} values"
+        if len(data) > _MAX_LINE_VALUES:
+            return f"more than {_MAX_LINE_VALUES} values"
         if header.first + len(data) > len(words):
             return f"P{header.parameter} has {len(words)} words"
         bad = next((word for word in data if not kind.takes(word)), None)
@@ -198,6 +198,6 @@ class ParameterMemory:
         """
         yield measured(start or f"%{self.job_reference}")
         for parameter, words in sorted(self.words.items()):
-            for first in range(0, len(words), _MOST):
+            for first in range(0, len(words), _MAX_LINE_VALUES):
                 yield measured(f"P{parameter}N{first}:t{self.types[parameter]}n{len(words)}")
-                yield measured("#" + " ".join(words[first : first + _MOST]))
+                yield measured("#" + " ".join(words[first : first + _MAX_LINE_VALUES]))

@@ -16,7 +16,7 @@ from amp_studio.schema import InvalidValueError
 from .words import Spelling, Word, name_of
 
 XOFF = "\x13"
-MOST_VALUES = 10
+MAX_VALUES = 10
 """Values of one data line (page 13-14)."""
 WordTexts = dict[Word, str]
 """Every word of a table, as the control would spell it."""
@@ -188,7 +188,7 @@ def runs(words: Iterable[Word], typed: bool) -> Iterator[Placed]:
     first, count = (-1, -1), 0
     for parameter, n in words:
         # Lines of the control begin at words 0, 10, 20 …, also after a gap.
-        if count and (parameter, n) == (first[0], first[1] + count) and n % MOST_VALUES:
+        if count and (parameter, n) == (first[0], first[1] + count) and n % MAX_VALUES:
             count += 1
             continue
         if count:

@@ -15,7 +15,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.formats import FormatError, ReadOptions, TextFormat, TextRead
 from amp_studio.schema import InvalidValueError, Schema, Value
 
-from .layout import MOST_VALUES, Placed, TableLayout, WordTexts, compose, runs
+from .layout import MAX_VALUES, Placed, TableLayout, WordTexts, compose, runs
 from .lines import HEADER, Block, blocks_of, split_table
 from .words import (
     WORD_TYPES,
@@ -117,8 +117,8 @@ class _Reader:
     def _check_place(self, block: Block, word: Word, count: int | None, column: int) -> None:
         """See that there is such a word, that the line has room for it and that it occurs once."""
         line = block.line + 1
-        if word[1] - block.first[1] >= MOST_VALUES:
-            raise FormatError(f"a data line contains {MOST_VALUES} values at most", line, column)
+        if word[1] - block.first[1] >= MAX_VALUES:
+            raise FormatError(f"a data line contains {MAX_VALUES} values at most", line, column)
         if count is not None and word[1] >= count and (block.count is not None or not self.keep_unknown):
             message = (
                 f"P{word[0]} has {count} {'word' if count == 1 else 'words'}: there is no {name_of(word)}"

@@ -11,7 +11,7 @@ from amp_studio.validate import finite, not_negative, positive, whole
 
 from .servo import DAC_POINTS_AT_9_V
 
-LEAST_MODULO = 4096
+MIN_MODULO = 4096
 """Least number of increments in a revolution (page 8-12)."""
 
 INCREMENTS_PER_SAMPLE = 32768
@@ -28,7 +28,7 @@ def spindle_modulo(points: float) -> int:
     """Increments in a revolution: the power of two at or above the encoder's points,
     at least 4096 (page 8-12).
     """
-    modulo = LEAST_MODULO
+    modulo = MIN_MODULO
     while modulo < whole("The number of encoder points", points):
         modulo *= 2
     return modulo

@@ -43,7 +43,7 @@ FAULTS = {
     "DRIVE FAULT": DRIVE,
 }
 """Alarm of the simulated axis -> bit of register 73."""
-IN_POSITION, MOST_ERROR, VELOCITY, ERROR, PERIOD = 10, 8, 78, 80, 83
+IN_POSITION, MAX_ERROR, VELOCITY, ERROR, PERIOD = 10, 8, 78, 80, 83
 READ_ONLY = frozenset((*range(70, 83), *range(84, 88), *range(99, 104)))
 """Written by the module; the manual calls 72 to 82, 84 to 87 and 99 to 103 its own.
 What a write to them does is not printed: here nothing."""
@@ -243,7 +243,7 @@ class Module:
             return
         motion.move(target, self.words)
         self._begun(axis)
-        if motion.simulated is None and abs(target) > self.words[axis + MOST_ERROR]:
+        if motion.simulated is None and abs(target) > self.words[axis + MAX_ERROR]:
             self.fault(axis, POSITION_ERROR.bit_length() - 1)  # nothing follows the command
 
     def _define(self, axis: int) -> None:

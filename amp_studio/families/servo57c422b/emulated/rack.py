@@ -13,7 +13,7 @@ from amp_studio.transfer.links import Endpoint
 from .module import AXES, NAME, REGISTERS, Module
 
 LONGEST = 80  # bytes of a request
-MOST = 32  # registers of one answer
+MAX_REGISTERS = 32  # registers of one answer
 COMMANDS = "patch R3=160, show R72, fault BIT X|Y, fault drive X|Y, stop-all, power, status, quit"
 
 _REQUEST = re.compile(
@@ -69,7 +69,7 @@ class Rack:
             return f"ID {NAME}"
         if found[3] is not None:
             first, count = int(found[3]), int(found[4])
-            if not 1 <= count <= MOST or first + count > REGISTERS:
+            if not 1 <= count <= MAX_REGISTERS or first + count > REGISTERS:
                 return "E there are no such registers"
             return f"R {first} " + " ".join(str(self.module.read(r)) for r in range(first, first + count))
         register, word = int(found[5]), int(found[6])

@@ -31,7 +31,7 @@ from amp_studio.transfer import (
 )
 
 from .content import AXIS_Y, FAMILY, RegisterContent, settings, words_of_content, written_content
-from .register_line import MOST, RegisterLine
+from .register_line import MAX_REGISTERS, RegisterLine
 from .status import SHOWN, AxisRegisters, status_of
 
 MODE, COMMAND, COMMAND_2, STATUS, FAULT, VERSION = 65, 66, 67, 72, 73, 99
@@ -217,7 +217,7 @@ def _blocks(registers: tuple[int, ...]) -> Iterator[tuple[int, int]]:
     """Yield first register and count of runs that can be read at once."""
     first, count = registers[0], 0
     for register in registers:
-        if register != first + count or count == MOST:
+        if register != first + count or count == MAX_REGISTERS:
             yield first, count
             first, count = register, 0
         count += 1

@@ -16,7 +16,7 @@ from amp_studio.transfer import (
 )
 from amp_studio.transfer.links import Link, LinkError
 
-MOST = 32  # registers of one answer
+MAX_REGISTERS = 32  # registers of one answer
 LONGEST = 320  # bytes of a line
 TRIES = 6  # of one request
 LINES = 3  # times a line that is cut is made again for one request
