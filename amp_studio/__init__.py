@@ -40,7 +40,8 @@ if TYPE_CHECKING:
     )
     from .sim import MotionCheck, SimulationError, Trace
     from .transfer import CancelledError, ControlIdentity, ControlStatus, ImageError, TransferError
-    from .transfer.client import CopyError, ImageComparison, Outcome
+    from .transfer.client import CopyError, DigestError, ImageComparison, Outcome
+    from .transfer.links import EndpointError
     from .validate import Finding, Fixed
     from .value_rows import ParameterEntry
 else:
@@ -61,6 +62,8 @@ __all__ = [
     "CopyError",
     "DatabaseError",
     "Difference",
+    "DigestError",
+    "EndpointError",
     "Finding",
     "Fixed",
     "FormatError",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from numbers import Real
 from types import NoneType
 from typing import TYPE_CHECKING
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from amp_studio.files import ParameterFile
     from amp_studio.schema import Address
 
-    NewValues = Mapping[str, "NewValue | ParameterEntry"] | Iterable[tuple[str, "NewValue | ParameterEntry"]]
+    NewValues = Mapping[str, "NewValue | ParameterEntry"] | Sequence[tuple[str, "NewValue | ParameterEntry"]]
 
 # As in ``machine``, a function imports what it needs: a start loads no more than its verb uses.
 

@@ -62,7 +62,7 @@ class ConnectedControl:
 
     Each method opens the line, does its work and closes it again, so that nothing is blocked in between.
     Every method raises TransferError, whose ``at_control`` is what the control contains then: old, new,
-    mixed, defaults or unknown.
+    mixed, defaults or unknown; EndpointError for an address that is none, and UnknownFamilyError.
     """
 
     def __init__(self, address: str, family: str = "", exchange: Exchange | None = None) -> None:
@@ -150,12 +150,10 @@ class ConnectedControl:
 
         ``expect`` is the SHA-256 of what may be replaced, ``keep`` the folder of the copy: that of the
         machine's file, where it is left out. A machine with errors is refused
-        with MachineError unless they are accepted.
+        with MachineError unless they are accepted. Raises DigestError, ImageError.
         """
         if not accept_errors:
-            errors = [finding for finding in machine.check(as_delivered=True) if finding.severity == "error"]
-            if errors:
-                raise MachineError(f"{len(errors)} errors, nothing was sent; the first: {errors[0].message}")
+            _refuse_errors(machine)
         source = machine.source
         if source is None and keep is None:
             raise MachineError(
@@ -174,12 +172,25 @@ class ConnectedControl:
         (``NAME.before-STAMP.img``, or the .amp of that name), which is compared with its digest.
 
         What the control contains instead is kept first, in the folder ``keep`` or beside the copy. ``expect``
-        is as of ``download``. Raises CopyError, ParameterFileError.
+        is as of ``download``. A machine with errors, and no image beside it that proves that a control
+        contained it, is refused with MachineError. Raises CopyError, ParameterFileError, DigestError.
         """
         found = copy if isinstance(copy, Copy) else open_copy(Path(copy))
+        if found.file is not None and not found.is_kept:
+            _refuse_errors(MachineParameters(found.file, found.path))
         kept = Path(keep) / found.path.name if keep is not None else found.path
         exchange = replace(self.exchange, keep=kept, record=found.path)
         return restore_copy(found, self.address, exchange, expected=expect)
+
+
+def _refuse_errors(machine: MachineParameters) -> None:
+    """Raise MachineError for a machine with errors."""
+    from amp_studio.report import counted
+
+    errors = [finding for finding in machine.check(as_delivered=True) if finding.severity == "error"]
+    if errors:
+        number = counted(len(errors), "error")
+        raise MachineError(f"{number}, nothing was sent; the first: {errors[0].message}")
 
 
 @checked_types

@@ -8,6 +8,7 @@ the verbs of the command line are made of the same.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
@@ -116,6 +117,7 @@ class MachineParameters:
         """
         return value_row(self.file, resolved, secrets=secrets)
 
+    @checked_types
     def __setitem__(self, address: str, value: NewValue | ParameterEntry) -> None:
         """Set one value; raises AssignmentError, RangeError."""
         self.set({address: value})
@@ -204,6 +206,7 @@ class MachineParameters:
 
         return validator_of(self.file, self.source, self.builder_rules(rules))
 
+    @checked_types
     def builder_rules(self, rules: str | Path | None = None) -> BuilderRules:
         """Return a builder's own rules: those beside the machine, or of the file ``rules``."""
         if rules is not None:
@@ -262,14 +265,19 @@ class MachineParameters:
 
     @checked_types
     def compare(self, other: MachineParameters) -> Comparison:
-        """Return what differs from another machine of the same family, with how much is the same or not set;
-        raises MachineError.
-        """
-        from amp_studio.files import compare
+        """Return what differs from another machine of the same family, with how much is the same or not set.
 
-        if other.schema.family.family != self.schema.family.family:
-            raise MachineError(f"{other!r} is of another family than {self!r}")
-        return compare(self.schema, self.file.values, other.file.values)
+        Where both have their schema from their control, the other one is read by the schema of this machine;
+        what this schema does not have comes last. Raises MachineError.
+        """
+        from amp_studio.files import by_schema, compare, of_other_schema
+
+        mine, its = self.schema, other.schema
+        if its.family.family != mine.family.family:
+            raise MachineError(f"one machine is for {mine.family.name}, the other for {its.family.name}")
+        by_mine = by_schema(other.file, mine)
+        found = compare(mine, self.file.values, by_mine.values)
+        return replace(found, differences=(*found.differences, *of_other_schema(other.file, by_mine)))
 
     # -- what it does --------------------------------------------------------------
 
@@ -313,17 +321,20 @@ class MachineParameters:
     @checked_types
     def report(self, path: str | Path, *, notify: Notify = lambda _note: None, **contents: Any) -> bool:
         """Write the documentation as the ending of ``path`` names it (.pdf, .html, .xlsx, .csv, .json, .txt);
-        ``contents`` are those of Contents.
+        ``contents`` are ``sort``, ``changed_only``, ``inactive``, ``units``, ``language``, ``without``,
+        ``paper``, ``check`` and ``programs``, as the verb ``report`` has them.
 
         Returns False where the project's own template failed and the standard report was written; ``notify``
         is called with the reason. Raises MachineError, SaveError.
         """
         from amp_studio.dossier import write_report
-        from amp_studio.report import contents_of
+        from amp_studio.report import ReportNotMadeError, contents_of
 
         try:
             chosen, own = contents_of(contents), self.builder_rules()
             return write_report(self.file, path, chosen, source=self.source, own=own, notify=notify)
+        except ReportNotMadeError as error:
+            raise MachineError(str(error)) from None
         except (OSError, TypeError, ValueError) as error:
             raise refused(error) from None
 
@@ -441,14 +452,18 @@ def edit_machine(path: str | Path, *, only_view: bool = False) -> MachineParamet
 def new_machine(
     family: str, machine: str | None = None, axes: Iterable[str] = (), name: str = ""
 ) -> MachineParameters:
-    """Return a machine with the printed defaults of a family and axes of these names; raises MachineError."""
-    from amp_studio.files import new_file
+    """Return a machine with the printed defaults of a family and axes of these names; raises
+    UnknownFamilyError, MachineError.
+    """
+    from amp_studio.files import AxisError, new_file
 
     try:
         names = list(axes)
         if not all(isinstance(axis, str) for axis in names):
             raise TypeError(f"axes are names such as X, not {names!r:.80}")
         return MachineParameters(new_file(family, machine, names, name))
+    except AxisError as error:
+        raise MachineError(str(error)) from None
     except (KeyError, TypeError, ValueError) as error:
         raise refused(error) from None
 

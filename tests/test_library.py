@@ -8,11 +8,13 @@ import re
 import shutil
 import subprocess
 import sys
+import textwrap
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+import mypy.api
 import numpy as np
 import pytest
 
@@ -63,6 +65,17 @@ LIST: Any = [5]
 def test_there_are_ten_examples_of_at_most_five_lines() -> None:
     assert len(EXAMPLES) == 10
     assert max(len(example.splitlines()) for example in EXAMPLES) <= 5
+
+
+def test_the_examples_pass_a_strict_type_checker(tmp_path: Path) -> None:
+    bodies = (textwrap.indent(example, "    ") for example in EXAMPLES)
+    script = "import amp_studio as amp\n\nADDRESS = ''\n" + "".join(
+        f"\n\ndef example_{number}() -> None:\n{body}" for number, body in enumerate(bodies)
+    )
+    (tmp_path / "script.py").write_text(script, "utf-8")
+    options = ["--strict", "--config-file=", f"--cache-dir={tmp_path}", str(tmp_path / "script.py")]
+    found, errors, code = mypy.api.run(options)
+    assert (errors, code) == ("", 0), found
 
 
 @pytest.mark.parametrize("example", [e for e in EXAMPLES if "ADDRESS" not in e])
@@ -152,8 +165,12 @@ NO_CONTROLS = ("", "mill", "tcp://1", "tcp://a:99999", "serial:", "COM1?baud=x",
         (lambda _: amp.new("9pc").save(), amp.MachineError),
         (lambda _: amp.new("9pc", axes=[FIVE]), amp.MachineError),
         (lambda _: amp.connect("tcp://127.0.0.1:1").identify(), amp.AmpStudioError),
-        *((lambda _, place=place: amp.connect(place).upload(), ValueError) for place in NO_CONTROLS),
-        (lambda m: amp.connect("tcp://127.0.0.1:1").download(m, expect="00"), ValueError),
+        *((lambda _, place=place: amp.connect(place).upload(), amp.EndpointError) for place in NO_CONTROLS),
+        (lambda m: amp.connect("tcp://127.0.0.1:1").download(m, expect="00"), amp.DigestError),
+        (lambda _: amp.connect("tcp://127.0.0.1:1").restore("none.img"), amp.CopyError),
+        (lambda _: amp.new("9pc", axes=[""]), amp.MachineError),
+        (lambda m: m.__setitem__([5], 5), amp.GivenTypeError),
+        (lambda m: m.builder_rules(FIVE), amp.GivenTypeError),
     ],
 )
 def test_an_error_is_one_of_the_program_and_changes_nothing(
@@ -163,9 +180,23 @@ def test_an_error_is_one_of_the_program_and_changes_nothing(
     before = dict(machine.file.values)
     with pytest.raises(kind) as caught:
         act(machine)
+    public = {getattr(amp, name) for name in amp.__all__} - {amp.AmpStudioError}
     assert isinstance(caught.value, amp.AmpStudioError)
+    assert public.intersection(type(caught.value).__mro__), "an error that a script cannot name"
     assert machine.file.values == before
     assert sorted(mill.parent.iterdir()) == folder
+
+
+def test_a_file_with_errors_is_not_put_back_where_nothing_proves_that_a_control_contained_it(
+    mill: Path,
+) -> None:
+    """The command line and the window refused it, the library sent it."""
+    machine = amp.open(mill)
+    machine.set({"1750@X": "0 mm"})
+    assert any(finding.severity == "error" for finding in machine.check())
+    machine.save()
+    with pytest.raises(amp.MachineError, match="nothing was sent"):
+        amp.connect("tcp://127.0.0.1:1").restore(mill)
 
 
 def test_a_file_that_another_program_edits_is_not_saved(mill: Path) -> None:
@@ -277,3 +308,11 @@ def test_a_checked_type_has_the_name_by_which_annotations_know_it() -> None:
     for name in given._CHECKED - plain:
         found = [getattr(room, name, None) for room in (amp, sim, client, validate)]
         assert {kind.__name__ for kind in found if kind is not None} == {name}
+
+
+def test_a_pdf_that_cannot_be_made_is_an_error_of_the_library(
+    mill: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "executable", "none")
+    with pytest.raises(amp.MachineError, match="needs a process, which cannot be started"):
+        amp.open(mill).report("mill.pdf")

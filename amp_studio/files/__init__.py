@@ -25,6 +25,7 @@ if TYPE_CHECKING:
         write_atomic,
     )
     from .axes import (
+        AxisError,
         alike_axes,
         are_alike,
         axis_head,
@@ -52,7 +53,7 @@ if TYPE_CHECKING:
     from .axis_values import AxisDifference, bits_of_axes, compare_axes, copy_axis, swap_axes
     from .block_entry import BlockEntry, EnteredCell, plan_entry, plan_values
     from .creation import MadeLike, made_like, new_file, new_like, of_one_machine
-    from .diff import Comparison, Difference, compare, in_one_unit
+    from .diff import Comparison, Difference, compare, in_one_unit, of_other_schema
     from .document import Document, HistoryEntry, Unsaved, recover_backup
     from .erased import erased_question
     from .example_files import Example, examples, examples_folder

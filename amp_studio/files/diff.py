@@ -80,6 +80,11 @@ def compare(schema: Schema, a: Mapping[Address, Value], b: Mapping[Address, Valu
     return Comparison(tuple(found), len(both) - len(found))
 
 
+def of_other_schema(file: ParameterFile, by_other: ParameterFile) -> list[Difference]:
+    """Return the values of a file that it does not have by another schema, as differences from that."""
+    return [Difference(at, None, value) for at, value in file.values.items() if at not in by_other.values]
+
+
 @dataclass(frozen=True)
 class Conflict:
     """An address that both sides changed, and not to the same value."""

@@ -56,7 +56,7 @@ if TYPE_CHECKING:
     from .parameter.manual_page import GRADES, facts, help_parts, one_line, page_of, takes_effect
     from .parameter.printed_table import cells_of, table_lines, tables_of
     from .parameter.why import why_parts, why_text
-    from .process import run_apart
+    from .process import ReportNotMadeError, run_apart
     from .templating.starting import write_starting_template
     from .templating.templates import OWN
     from .wording import counted, delivered_text, severity_name, state_name

@@ -239,7 +239,7 @@ _PLAIN_UNITS = {
 
 @cache
 def load_schema(family_id: str) -> Schema:
-    """Return a family's schema; raises KeyError for an unknown family, DatabaseError for a bad fact."""
+    """Return a family's schema; raises UnknownFamilyError, and DatabaseError for a bad fact."""
     return schema_of(load_compiled(family_id))
 
 

@@ -81,7 +81,7 @@ AS_THE_DOOR_DOES = {
     "candidates.py": "new_file open_file",  # a shell is answered in a blink: half the door is not needed
     "controls/fleet.py": "decode_content fetch_image record_look",  # a thread for each control
     "files/marked.py": "found_in",
-    "verbs/checks/diff.py": "compare",  # by the schema of A, also where B is of another revision
+    "verbs/checks/diff.py": "by_schema compare of_other_schema",  # what only B has is printed by its schema
     "verbs/checks/merge.py": "rules_beside text_of_name",  # the result has no file yet
     "verbs/checks/validate.py": "is_text_of_control",  # of a folder, nothing is opened
     "verbs/controls/history.py": "text_of_name",  # the name in the record

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from amp_studio import Difference, MachineParameters
 from amp_studio.cli import run
 from amp_studio.families.grblhal.described import schema_of
 from amp_studio.files import Header, ParameterFile, compare, new_file
@@ -47,6 +48,21 @@ def test_a_choice_is_the_same_by_its_code_and_another_type_is_none() -> None:
     assert old.evaluation.state(("limits.soft", "")).state == "hidden"
 
 
+def test_the_library_compares_choices_by_what_the_control_stores() -> None:
+    """Machines of two controls that number their choices otherwise were compared by the names alone."""
+
+    a, b = (
+        of_control(with_lines(f"[SETTING:32|1|Mode of operation||3|{choices}|||0|0]", without="[SETTING:32|"))
+        for choices in ("Laser,Mill", "Mill,Laser")
+    )
+    for file in (a, b):
+        file.set(("general.mode", ""), Value("laser"))
+    (difference,) = MachineParameters(a).diff(MachineParameters(b))
+    assert (difference.a, difference.b) == (Value("laser"), Value("mill"))
+    b.set(("general.mode", ""), Value("mill"))
+    assert MachineParameters(a).diff(MachineParameters(b)) == ()
+
+
 def test_diff_lists_what_only_one_control_has(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     plain, plasma = of_control(THREE_AXES), of_control(PLASMA)
     for file in (plain, plasma):
@@ -58,6 +74,8 @@ def test_diff_lists_what_only_one_control_has(tmp_path: Path, capsys: pytest.Cap
     assert run(["diff", str(a), str(b), "--json"]) == 1
     (row,) = json.loads(capsys.readouterr().out)["differences"]
     assert (row["param"], row["a"], row["b"]) == ("$350", None, "120.5 V")
+    (difference,) = MachineParameters(plain).diff(b)
+    assert difference == Difference(("general.arc_voltage", ""), None, Value(120.5, "V"))
     assert run(["diff", str(b), str(a)]) == 1
     assert "1 differs, 1 is the same, 0 not set in A, 1 not set in B" in capsys.readouterr().out
     assert run(["diff", str(a), str(b)]) == 1

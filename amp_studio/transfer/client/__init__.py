@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     )
     from .kept import IMAGE, Copy, CopyError, digest_path, open_copy, save_image
     from .live import LiveTuning
-    from .parameters import download_file, fetch_file, fetch_image, restore_copy, sha256
+    from .parameters import DigestError, download_file, fetch_file, fetch_image, restore_copy, sha256
     from .previous_download import NoDownloadError, last_download
     from .project_folder import FolderContent, FolderFile, folder_content
     from .record import RecordedExchange, read_exchanges, record_look

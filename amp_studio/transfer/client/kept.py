@@ -147,7 +147,7 @@ def digest_path(path: Path) -> Path:
 
 def open_copy(path: Path) -> Copy:
     """Read a copy, checked against the digest beside it where there is one; raises CopyError,
-    ParameterFileError, OSError.
+    ParameterFileError.
     """
     if path.suffix == ENDING:
         file = open_file(path).file
@@ -174,8 +174,6 @@ def open_copy(path: Path) -> Copy:
 def _content(path: Path) -> bytes:
     try:
         return read_file(path, LARGEST)
-    except FileNotFoundError:
-        raise
     except OSError as error:
         raise CopyError(f"{path} cannot be read: {error.strerror}") from None
 

@@ -153,7 +153,7 @@ def test_a_digest_that_is_there_and_cannot_be_read_is_not_none(tmp_path: Path) -
     save_image(GARBAGE, path)
     digest_path(path).unlink()
     digest_path(path).symlink_to("nowhere")
-    with pytest.raises(OSError, match=r"x\.img\.sha256"):
+    with pytest.raises(CopyError, match=r"x\.img\.sha256 cannot be read"):
         open_copy(path)
 
 

@@ -54,7 +54,7 @@ def run(options: Options) -> int:
     1 where they differ.
     """
     from amp_studio.cli.checks.comparing import difference_json, matched_by_letter_noted, print_comparison
-    from amp_studio.files import Merge, by_schema, compare
+    from amp_studio.files import Merge, by_schema, compare, of_other_schema
 
     _check_sides(options)
     a, a_digest = _side(options, options.a)
@@ -62,7 +62,7 @@ def run(options: Options) -> int:
     if a.schema.family.family != b.schema.family.family:
         raise UsageError(f"{options.a} is for {a.schema.family.name}, {name} for {b.schema.family.name}")
     other = by_schema(b, a.schema)
-    of_b = _of_other_schema(b, other)  # settings that only the control of B has
+    of_b = of_other_schema(b, other)  # settings that only the control of B has
     if options.by_letter:
         other = matched_by_letter_noted(other, a)
     if options.base:
@@ -180,13 +180,6 @@ WHO = {
     "conflict": "both changed it",
 }
 """Kind of a row of three sources -> who changed it."""
-
-
-def _of_other_schema(b: ParameterFile, by_a: ParameterFile) -> list[Difference]:
-    """Return the values of a file that it does not have by another schema."""
-    from amp_studio.files import Difference
-
-    return [Difference(a, None, b.values[a]) for a in b.values if a not in by_a.values]
 
 
 def _side(options: Options, text: str) -> tuple[ParameterFile, str | None]:
