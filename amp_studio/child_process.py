@@ -19,7 +19,7 @@ _copies: list[int] = []
 """The copies of this process that are at work."""
 
 
-def is_the_program() -> None:
+def declare_command_line() -> None:
     """Say that this process is the command line from its start to its end: ``beside`` may copy it."""
     _own.append(True)
 

@@ -44,7 +44,7 @@ def checked_types(function: _Called) -> _Called:
     @wraps(function)
     def look(*arguments: object, **named: object) -> object:
         for name, value in (*zip(names, arguments, strict=False), *named.items()):
-            if name in kinds and not _is_of(value, kinds[name]):
+            if name in kinds and not _is_instance(value, kinds[name]):
                 allowed = " or ".join(_NAMED.get(kind, f"a {kind}") for kind in kinds[name])
                 raise GivenTypeError(f"{name} is {allowed}, not {value!r:.80}")
         return function(*arguments, **named)
@@ -52,7 +52,7 @@ def checked_types(function: _Called) -> _Called:
     return cast(_Called, look)
 
 
-def _is_of(value: object, kinds: list[str]) -> bool:
+def _is_instance(value: object, kinds: list[str]) -> bool:
     """Return whether a value is of one of these types, by their names: a start does not load them for it."""
     own = {"None"} if value is None else {kind.__name__ for kind in type(value).__mro__}
     if callable(value) and not _CALLED.isdisjoint(kinds):

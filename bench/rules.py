@@ -29,7 +29,7 @@ from amp_studio.schema.cel_engine import Context
 from amp_studio.validate import Validator, apply_fixes
 from amp_studio.validate.expression_check import ExpressionCheck
 from amp_studio.validate.expression_tree import read_expression
-from amp_studio.validate.expression_worth import DECIMAL, list_worth, text_worth
+from amp_studio.validate.expression_worth import DECIMAL, list_result, text_result
 from amp_studio.validate.plan import checks_of
 from amp_studio.validate.rules import RuleChecks
 
@@ -69,11 +69,11 @@ def measures(folder: Path, full: Path, times: int) -> Iterator[Measure]:
 def _step(times: int) -> Measure:
     """Return what a step of an expression takes, by which the cost of a rule is limited before it runs."""
     values = {"many": [1.0] * 8, "texts": ["x" * 100] * 8}
-    worths = {"many": list_worth(8, DECIMAL), "texts": list_worth(8, text_worth(100))}
+    worths = {"many": list_result(8, DECIMAL), "texts": list_result(8, text_result(100))}
     seconds: list[float] = []
     for text in COSTLY:
         check = ExpressionCheck(worths, {})
-        check.worth(read_expression(text))
+        check.result_of(read_expression(text))
         context, compiled = Context(values), program(text)
         seconds += (took / check.cost for took in timed(partial(compiled.execute, context), times))
     return Measure("step of an expression, as its cost is counted", tuple(seconds), 1e-6)

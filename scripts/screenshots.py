@@ -49,7 +49,7 @@ from amp_studio.schema import Value  # noqa: E402  # Qt reads the environment th
 from amp_studio.ui.actions import project  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.ui.base.task import Task  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.ui.base.theme import scheme  # noqa: E402  # Qt reads the environment that is set above
-from amp_studio.ui.base.translated import speak, tr  # noqa: E402  # Qt reads the environment that is set above
+from amp_studio.ui.base.translated import set_language, tr  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.ui.base.workspace import Workspace  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.ui.main_window import MainWindow  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.ui.window.settings import UserSettings  # noqa: E402  # Qt reads the environment that is set above
@@ -550,7 +550,7 @@ PAGES: tuple[Callable[[Stage], None], ...] = (
 
 def draw(language: str, only: str, sizes: Sequence[tuple[int, int]]) -> int:
     """Draw all pages in a language; returns how many pictures were written."""
-    speak(language)
+    set_language(language)
     stage = Stage(Photographer(language, only, sizes))
     for page in PAGES:
         page(stage)
@@ -577,7 +577,7 @@ def main() -> int:
     if not chosen.documents:
         count += sum(map(partial(draw, only=chosen.only, sizes=sizes), chosen.language or ("en", "de")))
     if chosen.documents or not (chosen.only or chosen.language):
-        speak("en")
+        set_language("en")
         count += draw_documents(lambda: Stage(Photographer("en", "")))
     application.quit()
     sys.stdout.write(f"{count} pictures in {OUT} and {IMAGES} after {time.monotonic() - start:.0f} s\n")

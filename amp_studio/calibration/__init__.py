@@ -23,7 +23,16 @@ if TYPE_CHECKING:
     from .edit import deleted, inserted, left_over, rechosen, replaced
     from .errors import CalibrationError
     from .measurement import DECIMALS, ERROR_UNITS, POSITION_UNITS, Measurement, MeasurementAnswers
-    from .proposal import Proposal, Wish, axes_of, base_unit, lost_motion, present_table, propose, shown_unit
+    from .proposal import (
+        Proposal,
+        ProposalRequest,
+        axes_of,
+        base_unit,
+        lost_motion,
+        present_table,
+        propose,
+        shown_unit,
+    )
     from .reading import read_measured_file
     from .steps import stepped, steps_of, usual_step, with_followers
 else:

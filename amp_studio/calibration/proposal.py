@@ -36,7 +36,7 @@ _USUAL_DECIMALS = 5
 
 
 @dataclass(frozen=True)
-class Wish:
+class ProposalRequest:
     """What is to be made of measured points.
 
     ``was_on``  whether the axis was measured with its compensation on; None for not answered
@@ -120,30 +120,30 @@ def _refuse_compensated(present: CalibrationTable | None, old: Fraction) -> None
         )
 
 
-def propose(file: ParameterFile, axis: str, measurement: Measurement, wish: Wish) -> Proposal:
+def propose(file: ParameterFile, axis: str, measurement: Measurement, request: ProposalRequest) -> Proposal:
     """Return what measured points make of an axis (its instance);
     raises CalibrationError for what is to be answered first.
     """
     offered = _offered(file)
     check_unit(file, offered, axis, measurement.unit)
-    present = _present(file, offered, axis, wish)
+    present = _present(file, offered, axis, request)
     old = lost_motion(file, offered, axis)
-    if wish.was_on is None:
+    if request.was_on is None:
         _refuse_compensated(present, old)
     # What was measured with compensation on is the error that it leaves: it comes on top.
-    was_on = bool(wish.was_on)
+    was_on = bool(request.was_on)
     on = old if was_on else Fraction(0)
     notes = [*measurement.notes]
     if measurement.is_circle:
-        return _of_circle(file, offered, axis, measurement, wish, on, notes)
+        return _of_circle(file, offered, axis, measurement, request, on, notes)
     sides = _mean_curves(measurement)
     raw = _mean_of_both(measurement)
     added = _curve_of(present if was_on else None)
     settings: dict[Address, Value] = {}
     table = reversal = None
-    if wish.table:
-        table = _table(file, offered, axis, _plus(raw, added), wish, present, settings, notes)
-    if wish.reversal:
+    if request.table:
+        table = _table(file, offered, axis, _plus(raw, added), request, present, settings, notes)
+    if request.reversal:
         reversal = _reversal(file, offered, axis, measurement, on, settings, notes)
     # Without a new table the present one goes on working.
     removed = _curve_of(table or present)
@@ -177,14 +177,16 @@ def _curve_of(table: CalibrationTable | None) -> ErrorCurve:
     return table.curve if table is not None else ErrorCurve(())
 
 
-def _present(file: ParameterFile, offered: Compensation, axis: str, wish: Wish) -> CalibrationTable | None:
+def _present(
+    file: ParameterFile, offered: Compensation, axis: str, request: ProposalRequest
+) -> CalibrationTable | None:
     """Return the table that the axis has; raises CalibrationError for one that cannot be read,
     unless it was off: what it takes away does not matter then.
     """
     try:
         return present_table(file, offered, axis)
     except CalibrationError:
-        if wish.was_on is not False:
+        if request.was_on is not False:
             raise
         return None
 
@@ -194,7 +196,7 @@ def _of_circle(
     offered: Compensation,
     axis: str,
     measurement: Measurement,
-    wish: Wish,
+    request: ProposalRequest,
     on: Fraction,
     notes: list[str],
 ) -> Proposal:
@@ -203,8 +205,8 @@ def _of_circle(
         raise CalibrationError("the control has no reversal error, and a circle gives no calibration table")
     settings: dict[Address, Value] = {}
     notes.append("a ball-bar gives the reversal error of the axis and no calibration table")
-    lost = lost_motions(measurement, wish.circle)
-    reversal = _reversal_of(file, offered, axis, lost, on, settings, notes) if wish.reversal else None
+    lost = lost_motions(measurement, request.circle)
+    reversal = _reversal_of(file, offered, axis, lost, on, settings, notes) if request.reversal else None
     curves = _mean_curves(measurement)
     return Proposal(axis, "deg", settings, None, reversal, figures(measurement), curves, curves, tuple(notes))
 
@@ -288,7 +290,7 @@ def _table(
     offered: Compensation,
     axis: str,
     raw: ErrorCurve,
-    wish: Wish,
+    request: ProposalRequest,
     present: CalibrationTable | None,
     settings: dict[Address, Value],
     notes: list[str],
@@ -303,7 +305,7 @@ def _table(
     if not state.is_active:
         raise CalibrationError(f"the calibration table of this axis is not used: {state.why}")
     before = (present.input, present.start) if present else ("", "")
-    input_, start = wish.input or before[0], wish.start or before[1]
+    input_, start = request.input or before[0], request.start or before[1]
     if present and (input_, start) != before:
         notes.append("input and start can be chosen again because all points are replaced")
     fitted = form.fit(file, axis, raw, input_, start)

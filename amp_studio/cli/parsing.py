@@ -63,9 +63,11 @@ class _Parser(argparse.ArgumentParser):
         self.verb = verb
         for argument in verb.arguments:
             # argparse fills ``%(…)s`` into a help text: a per cent sign has to be doubled.
-            self.add_argument(*argument.names, help=argument.help.replace("%", "%%"), **self._how(argument))
+            self.add_argument(
+                *argument.names, help=argument.help.replace("%", "%%"), **self._options(argument)
+            )
 
-    def _how(self, argument: VerbArgument) -> dict[str, Any]:
+    def _options(self, argument: VerbArgument) -> dict[str, Any]:
         """Return the arguments of ``add_argument``; a choice is read here,
         because an unknown one is answered with the nearest.
         """

@@ -8,12 +8,12 @@ import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NoReturn
 
-from amp_studio.child_process import is_the_program
+from amp_studio.child_process import declare_command_line
 from amp_studio.version import __version__
 
 from .exit_codes import AT_CONTROL, CHANGED, FAULT
 from .screen import end_results, flush_results, open_streams, print_notice
-from .stopping import ignore_interrupts, raise_on_interrupt, was_asked
+from .stopping import ignore_interrupts, raise_on_interrupt, stop_was_requested
 
 if TYPE_CHECKING:
     from .outcome import Target
@@ -29,13 +29,13 @@ def start(arguments: Sequence[str] | None) -> NoReturn:
     try:
         raise_on_interrupt()
         open_streams()
-        is_the_program()
+        declare_command_line()
         code = run_verb(sys.argv[1:] if arguments is None else arguments)
     except KeyboardInterrupt:  # before the verb had begun
         code = FAULT
     ignore_interrupts()
     end_results()
-    if was_asked():
+    if stop_was_requested():
         # Run by ``python -m`` CPython would end itself by the signal where it interrupted a text given to
         # exec(), a dataclass for one, or whatever else caught the exception; the exit code would be lost.
         os._exit(code)
@@ -83,7 +83,7 @@ def _run(arguments: Sequence[str], replaced: list[Target]) -> int:
     code: int | None = None
     try:
         code = _call(arguments, replaced)
-        if was_asked():
+        if stop_was_requested():
             raise KeyboardInterrupt
         flush_results()
     except BrokenPipeError:  # a reader that has enough is no fault to be shown
@@ -93,7 +93,7 @@ def _run(arguments: Sequence[str], replaced: list[Target]) -> int:
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # a panic of the rule engine is no Exception
-        if was_asked():  # what was interrupted may end in any error
+        if stop_was_requested():  # what was interrupted may end in any error
             raise KeyboardInterrupt from None
         return _refuse(_sentence(error), replaced, AT_CONTROL.get(getattr(error, "at_control", ""), FAULT))
     return code

@@ -2,7 +2,7 @@
 
 The first one raises KeyboardInterrupt; what comes while the verb ends and describes the present state is
 ignored. Python and the rule engine lose an interrupt that comes in the wrong moment (while an object is put
-away, inside a function that an expression calls): ``was_asked`` remembers it.
+away, inside a function that an expression calls): ``stop_was_requested`` remembers it.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def ignore_interrupts() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
-def was_asked() -> bool:
+def stop_was_requested() -> bool:
     """Return whether Ctrl-C has come, also where nothing was raised by it in the end."""
     return bool(_asked)
 

@@ -39,7 +39,7 @@ def drawn_values(frame: Placement, curve: Curve) -> tuple[Series, Series, tuple[
     x, y = _inside(frame, curve)
     columns = max(int(frame.width), 2)
     if curve.is_stepped:
-        x, y = unheld(x, y)
+        x, y = without_stairs(x, y)
     # More than two samples in a column of the screen: as a line they would be a solid block.
     if (curve.is_stepped or curve.dense) and len(x) > 2 * columns:
         x, y, least, most = banded(x, y, columns)
@@ -117,7 +117,7 @@ def thinned(x: Series, y: Series, columns: int, unseen: float = 0.0) -> tuple[Se
     return x[index], y[index]
 
 
-def unheld(x: Series, y: Series) -> tuple[Series, Series]:
+def without_stairs(x: Series, y: Series) -> tuple[Series, Series]:
     """Return a value that is constant between samples as the line through its samples, without the stairs.
 
     A sample that stays much longer than the others keeps its end, so that a pause stays level.

@@ -14,7 +14,7 @@ from .words import parts_of, words_of
 
 HitKind = Literal["parameter", "value", "choice", "message", "group", "note", "command"]
 Where = Literal["number", "name", "choice", "value", "code", "text", "group", "id", "help", "meaning", "note"]
-WORTH: dict[Where, float] = {
+WEIGHT: dict[Where, float] = {
     "number": 10.0,
     "code": 10.0,
     "name": 8.0,

@@ -26,7 +26,7 @@ from .words import words_of
 
 _EXACT, _VALUE, _DEFAULT = 100.0, 11.0, 7.0
 """Scores of what is no matter of words: a whole number, a value, a value that is the printed default."""
-_SYNONYM_WORTH, _LESS_LIKELY = 0.95, 0.85
+_SYNONYM_WEIGHT, _LESS_LIKELY = 0.95, 0.85
 """What a hit is worth that has what the question means, and each further meaning against the one before
 it."""
 _WITHOUT_THE_REST = 0.7
@@ -198,13 +198,13 @@ class Finder:
         """Return what is found for the words that the manuals have for those of a question."""
         index, hits = index_of(self.schema, self.machine), []
         for meaning in meanings(query):
-            worth = _SYNONYM_WORTH * _LESS_LIKELY**meaning.place
+            score = _SYNONYM_WEIGHT * _LESS_LIKELY**meaning.place
             why = f"'{meaning.typed}' as '{meaning.means}'"
             all_words = len(index.asked(meaning.means))
-            questions = {meaning.query: worth}
+            questions = {meaning.query: score}
             # Where the manuals do not have the words around it, a search with them finds nothing.
             if not index.knows(meaning.rest):
-                questions[meaning.means] = worth * _WITHOUT_THE_REST
+                questions[meaning.means] = score * _WITHOUT_THE_REST
             hits += [
                 replace(self._hit(match), score=match.score * likely, why=why)
                 for question, likely in questions.items()

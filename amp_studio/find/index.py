@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from .entries import KINDS, WORTH, Entry, Where, searched_words
+from .entries import KINDS, WEIGHT, Entry, Where, searched_words
 from .words import Vocabulary, asked_words, parts_of, words_of
 
 _EQUAL, _BEGINS, _WITHIN = 6.0, 3.0, 2.0
@@ -33,7 +33,7 @@ class Match(NamedTuple):
 
 
 class _WordMatch(NamedTuple):
-    worth: float
+    score: float
     where: Where
     word: str
 
@@ -72,7 +72,7 @@ class SearchIndex:
             for where, text in entry.texts:
                 for word in searched_words(where, text):
                     places = self._having.setdefault(word, {})
-                    if n not in places or WORTH[where] > WORTH[places[n]]:
+                    if n not in places or WEIGHT[where] > WEIGHT[places[n]]:
                         places[n] = where
         self.vocabulary = Vocabulary(self._having)
         self._plain: dict[int, list[tuple[float, str]]] = {}
@@ -98,7 +98,7 @@ class SearchIndex:
         asked = " ".join(words_of(query))
         best = []
         for n, missing in _with_enough(found, words):
-            score = sum(weights[word] * hit.worth for word, hit in found[n].items()) / total
+            score = sum(weights[word] * hit.score for word, hit in found[n].items()) / total
             score = (score + self._phrase(asked, n)) * KINDS[self.entries[n].kind] * _MISSING ** len(missing)
             # The place as a negative number: of equal scores the one that is earlier in the manual sorts
             # first.
@@ -165,9 +165,9 @@ class SearchIndex:
             likes = likes | {bare: 1.0}
         for known, likeness in likes.items():
             for n, where in self._having.get(known, {}).items():
-                worth = WORTH[where] * likeness
-                if n not in best or worth > best[n].worth:
-                    best[n] = _WordMatch(worth, where, known)
+                score = WEIGHT[where] * likeness
+                if n not in best or score > best[n].score:
+                    best[n] = _WordMatch(score, where, known)
         return best
 
     def _weight(self, count: int) -> float:
@@ -189,11 +189,11 @@ class SearchIndex:
         texts = self._plain.get(n)
         if texts is None:
             own = ((where, text) for where, text in self.entries[n].texts if where not in ("number", "code"))
-            texts = self._plain[n] = [(WORTH[where] / 4, " ".join(words_of(text))) for where, text in own]
-        return max((worth for worth, text in texts if asked in text), default=0.0)
+            texts = self._plain[n] = [(WEIGHT[where] / 4, " ".join(words_of(text))) for where, text in own]
+        return max((score for score, text in texts if asked in text), default=0.0)
 
     def _match(self, score: float, n: int, hits: dict[str, _WordMatch]) -> Match:
-        ordered = sorted(hits.items(), key=lambda hit: -hit[1].worth)
+        ordered = sorted(hits.items(), key=lambda hit: -hit[1].score)
         where = tuple(dict.fromkeys(hit.where for _, hit in ordered))
         typed = tuple((word, hit.word) for word, hit in ordered if word != hit.word)
         return Match(self.entries[n], score, where, tuple(hit.word for _, hit in ordered), typed)

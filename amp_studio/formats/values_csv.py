@@ -99,7 +99,7 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     return found
 
 
-def _is_of(text: str, schema: Schema) -> bool:
+def _has_all_ids(text: str, schema: Schema) -> bool:
     """Return whether a family has all ids of a table."""
     try:
         heads, *rows = _rows(text.casefold())
@@ -180,6 +180,6 @@ FORMAT = TextFormat(
     _read,
     _write,
     newline="\r\n",
-    is_of=_is_of,
+    is_of=_has_all_ids,
     otherwise="cp1252",
 )

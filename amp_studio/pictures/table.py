@@ -26,7 +26,7 @@ class CurveText:
                   points that the control does not take, with the reason
     ``unit``      text -> the unit of its figures; "" for that of the axis
     ``put_in``    points, point -> the points with one more; raises ValueError where none can be
-    ``take_out``  points, index -> the points without it; raises ValueError where it cannot be missing
+    ``remove_point``  points, index -> the points without it; raises ValueError where it cannot be missing
     ``grain``     the smallest compensation
     """
 
@@ -34,7 +34,7 @@ class CurveText:
     write: Callable[[str, Points, str, str], str]
     unit: Callable[[str], str]
     put_in: Callable[[Points, Point], list[Point]]
-    take_out: Callable[[Points, int], list[Point]]
+    remove_point: Callable[[Points, int], list[Point]]
     grain: float
 
 
@@ -130,7 +130,7 @@ def _handle(
 
     try:
         # Tried now, so that a point that must stay is not offered for removal.
-        without = address, Value(form.write(letter, form.take_out(points, n), text, ""))
+        without = address, Value(form.write(letter, form.remove_point(points, n), text, ""))
     except ValueError:
         without = None
     at = points[n]

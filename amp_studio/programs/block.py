@@ -131,8 +131,8 @@ class BlockReader:
         path = self.codes.facts.path
         needed = path.needs.get(letter) if path else None
         # Arcs and cycles go on as long as their code is active; each other code needs its words beside it.
-        goes_on = (self.active.get(key) for key in ("motion", "cycle"))
-        return needed is not None and not {*here, *goes_on}.intersection(needed)
+        continues = (self.active.get(key) for key in ("motion", "cycle"))
+        return needed is not None and not {*here, *continues}.intersection(needed)
 
     def _macro_call(self, words: tuple[TypedWord, ...]) -> tuple[BlockWord, ...] | None:
         """Return a call whose other words are values of variables; None for another block."""
@@ -226,9 +226,9 @@ class BlockReader:
         """Return how a letter is read now: the first of its uses whose conditions are true."""
         now, modes = {*here, *self.active.values()}, self._modes(here)
         uses = (use for listed in self.codes.facts.letters if listed.letter == letter for use in listed.uses)
-        return next((use for use in uses if self._is_now(use, here if use.in_block else now, modes)), None)
+        return next((use for use in uses if self._applies(use, here if use.in_block else now, modes)), None)
 
-    def _is_now(self, use: WordUse, codes: set[str], modes: set[str]) -> bool:
+    def _applies(self, use: WordUse, codes: set[str], modes: set[str]) -> bool:
         """Return whether a letter has this use with these codes, in these modes."""
         return (
             (not use.codes or any(TypedWord(code[0], code[1:], code).code in codes for code in use.codes))

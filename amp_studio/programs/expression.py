@@ -38,7 +38,7 @@ _LEVELS: tuple[Mapping[str, Callable[[float, float], float]], ...] = (
 """Operators and what they do, those that bind least first."""
 
 
-def worth(text: str, parameters: Mapping[int, float]) -> float:
+def evaluate(text: str, parameters: Mapping[int, float]) -> float:
     """Return what an expression results in; raises ProgramBlockError for what is none,
     a parameter without a value, and a figure that is no number.
     """

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import islice
 
 from .codes import ControlCodes
-from .expression import worth
+from .expression import evaluate
 from .words import ProgramBlockError as BlockError
 from .words import TypedWord, sentence, words_of
 
@@ -108,10 +108,10 @@ class ProgramFlow:
                 for each in self._facts.statements
                 if each.assumed and re.match(each.pattern, line)
             ]
-            if match[1] is None or worth(match[1], self._parameters) != 0.0:
+            if match[1] is None or evaluate(match[1], self._parameters) != 0.0:
                 self._branch(match[2], int(match[3]))
         elif (match := _SETS.fullmatch(line)) is not None:
-            self._set(int(match[1]), worth(match[2], self._parameters))
+            self._set(int(match[1]), evaluate(match[2], self._parameters))
         else:
             return TAKES_IN.fullmatch(line) is not None
         return True
@@ -192,7 +192,7 @@ class ProgramFlow:
                 raise BlockError(f"{word.letter} is given twice in a block", "repeated")
             if not word.number:
                 raise BlockError(f"{word.letter}: a letter without a number", "no-number")
-            numbers[word.letter] = worth(word.number, self._parameters)
+            numbers[word.letter] = evaluate(word.number, self._parameters)
         label, repeats = numbers.pop("P", None), numbers.pop("L", 1.0)
         if label is None or label != int(label):
             raise BlockError(f"{head} needs P, the number of the subroutine", "no-number")

@@ -162,7 +162,7 @@ class ModalCodes:
         self._refuse_motion_in_cycle(codes, modal)
         # Where a control takes the feed before it switches units, the F of that block is in the old one.
         is_inch = self.now.is_inch if self._path.feed_first else modal.is_inch
-        return BlockCodes(tuple(codes), modal, is_inch, _once(codes), **_effects(codes))
+        return BlockCodes(tuple(codes), modal, is_inch, _sole_effect(codes), **_effects(codes))
 
     def _refuse_together(self, written: Sequence[str]) -> None:
         """Refuse codes of which a block has one at most, though they are in no group."""
@@ -261,7 +261,7 @@ def _effects(codes: Sequence[KnownCode]) -> dict[str, Any]:
     return effects
 
 
-def _once(codes: Sequence[KnownCode]) -> str:
+def _sole_effect(codes: Sequence[KnownCode]) -> str:
     """Return what the one code does that takes the words of the axes for itself; "" without one."""
     taking = [
         code

@@ -9,7 +9,7 @@ from typing import Any
 from amp_studio.schema import ProgramPath, WordUse
 
 from .block import BlockReader
-from .expression import worth
+from .expression import evaluate
 from .formats import NumberFormat
 from .modal import BlockCodes, WordReading
 from .words import ProgramBlockError as BlockError
@@ -106,7 +106,7 @@ class WordNumbers:
         """Return the number that is written behind a letter, as the format of the file reads it."""
         if "(" in text or text[:1] in ("P", "#"):
             sign = -1.0 if text.startswith("-") else 1.0
-            return sign * worth(text.lstrip("+-"), self._parameters)
+            return sign * evaluate(text.lstrip("+-"), self._parameters)
         if reading.plain and text:
             return float(text)
         number = self._reader.number_in(text, reading.form)

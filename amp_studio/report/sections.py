@@ -204,14 +204,14 @@ def numbers_of(rows: Sequence[ReportRow]) -> str:
     numbers = list(dict.fromkeys(row.number for row in rows))
     runs: list[list[str]] = []
     for number in numbers:
-        if runs and _goes_on(runs[-1], number):
+        if runs and _continues(runs[-1], number):
             runs[-1].append(number)
         else:
             runs.append([number])
     return ", ".join(", ".join(run) if len(run) <= 3 else f"{run[0]}, {run[1]} … {run[-1]}" for run in runs)
 
 
-def _goes_on(run: list[str], number: str) -> bool:
+def _continues(run: list[str], number: str) -> bool:
     """Return whether a number follows a run of numbers in the same step."""
     # The last two decide the step that the third must keep.
     heads, counts = zip(*map(split_count, [*run[-2:], number]), strict=True)

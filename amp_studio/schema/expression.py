@@ -218,12 +218,12 @@ class PartsDecision:
         if len(parts) == 1:
             return [self._decision.is_true(keys, names, parts[0])]
         for is_true, every in ((False, self._none), (True, self._all)):
-            if self._is_so(every, keys, names, parts):
+            if self._is_true(every, keys, names, parts):
                 return [is_true] * len(parts)
         half = len(parts) // 2
         return [*self.are_true(keys, names, parts[:half]), *self.are_true(keys, names, parts[half:])]
 
-    def _is_so(
+    def _is_true(
         self, every: Program, keys: tuple[ValueKey, ...], names: Sequence[str], parts: Sequence[Circumstances]
     ) -> bool:
         """Return whether an expression over all parts is true; False where it makes no sense of them."""

@@ -107,15 +107,15 @@ def _without_new(
     before = {step: NewValue(step.address, start.file.get(step.address)) for step in steps}
     efforts = [_effort(start, step) for step in steps]
     # Which steps are done is a bit pattern. What comes of them does not depend on their order: a pattern from
-    # which nothing went on is hopeless however it is reached, and is not tried again.
+    # which nothing went on is impossible however it is reached, and is not tried again.
     everything = (1 << len(steps)) - 1
-    done, path, nexts, hopeless = 0, list[int](), [0], set[int]()
+    done, path, nexts, impossible = 0, list[int](), [0], set[int]()
     # Half of what is left for each search, so that the later, weaker ones still have some.
     tries = most = budget.left // 2
     while done != everything and nexts and tries > 0:
         at = nexts[-1]
         if at == len(steps):  # nothing goes on from here
-            hopeless.add(done)
+            impossible.add(done)
             nexts.pop()
             if path:
                 last = path.pop()
@@ -123,7 +123,7 @@ def _without_new(
                 done &= ~(1 << last)
             continue
         nexts[-1] = at + 1
-        if done >> at & 1 or done | 1 << at in hopeless:
+        if done >> at & 1 or done | 1 << at in impossible:
             continue
         tries -= efforts[at]
         if bad(start.set(steps[at]), allowed, severities):

@@ -16,7 +16,7 @@ from . import one_thread as one_thread
 
 if TYPE_CHECKING:
     from .axis.file_machine import FileMachine
-    from .axis.motion import Motion, Until, run_axis
+    from .axis.motion import Motion, RunEnd, run_axis
     from .axis.moving_axis import MovingAxis
     from .axis.orders import GoOrder, Seen, Watch
     from .axis.simulated_machine import SimulatedAxis, SimulatedMachine

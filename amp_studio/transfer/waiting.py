@@ -31,12 +31,12 @@ class Waiting:
         self.now = clock
         self.sleep = sleep
         self._exchange = QUIET
-        self._heard_at = self._notified_at = clock()
+        self._received_at = self._notified_at = clock()
 
     def begin(self, exchange: Exchange) -> None:
         """Serve another call."""
         self._exchange = exchange
-        self._heard_at = self._notified_at = self.now()
+        self._received_at = self._notified_at = self.now()
 
     @property
     def is_stopped(self) -> bool:
@@ -48,15 +48,15 @@ class Waiting:
         if self.is_stopped:
             raise CancelledError("stopped")
         now = self.now()
-        silent = now - self._heard_at
+        silent = now - self._received_at
         if silent >= SILENT_AFTER and now - self._notified_at >= SILENT_EVERY:
             self._notified_at = now
             self.notify(SILENT, round(silent), 0)
 
-    def heard(self) -> None:
+    def note_answer(self) -> None:
         """Something that was waited for has come."""
-        was_silent = self._notified_at > self._heard_at
-        self._heard_at = self._notified_at = self.now()
+        was_silent = self._notified_at > self._received_at
+        self._received_at = self._notified_at = self.now()
         if was_silent:
             self.notify(SILENT, 0, 0)
 

@@ -45,7 +45,7 @@ def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
     from PySide6.QtWidgets import QApplication
 
     from .base.task import Task
-    from .base.translated import speak
+    from .base.translated import set_language
     from .main_window import MainWindow
     from .window.settings import UserSettings
 
@@ -54,7 +54,7 @@ def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
     application = QApplication.instance() or QApplication(["amp-studio"])
     application.setApplicationName("AMP Studio")
     application.setOrganizationName("AMP Studio")
-    speak(UserSettings().language())
+    set_language(UserSettings().language())
     window = MainWindow(opening=arguments or [str(path) for path in UserSettings().session()])
     sys.excepthook = _hook(window)
     window.show()

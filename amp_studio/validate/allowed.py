@@ -46,10 +46,10 @@ class AllowedByRules:
             points = sorted({self._value(x) for x in (*steps, *wanted)})
             # What is broken at every sample has another value to blame: counted, it would leave no part
             # at all.
-            hopeless = frozenset.intersection(*map(self._broken, points))
+            impossible = frozenset.intersection(*map(self._broken, points))
         except ValueError:  # a number that this parameter cannot have
             return None
-        good = {x for x in points if not self._broken(x) - hopeless}
+        good = {x for x in points if not self._broken(x) - impossible}
         # A value that makes another machine type of the file has other checks than these.
         if not good or not self._checks.fit:
             return None
@@ -57,22 +57,22 @@ class AllowedByRules:
         start = min(good, key=lambda x: abs(x - first))
         place = points.index(start)
         return (
-            self._end(list(reversed(points[:place])), start, good, hopeless),
-            self._end(points[place + 1 :], start, good, hopeless),
+            self._end(list(reversed(points[:place])), start, good, impossible),
+            self._end(points[place + 1 :], start, good, impossible),
         )
 
     def _end(
-        self, points: list[float], start: float, good: set[float], hopeless: frozenset[FindingPlace]
+        self, points: list[float], start: float, good: set[float], impossible: frozenset[FindingPlace]
     ) -> float:
         """Return where the good values end on one side of a good one."""
         inside = start
         for outside in points:
             if outside not in good:
-                return self._between(inside, outside, hopeless)
+                return self._between(inside, outside, impossible)
             inside = outside
         return inside
 
-    def _between(self, inside: float, outside: float, hopeless: frozenset[FindingPlace]) -> float:
+    def _between(self, inside: float, outside: float, impossible: frozenset[FindingPlace]) -> float:
         """Return the last allowed value between an allowed one and one that is not: a short number, if there
         is one.
         """
@@ -83,10 +83,10 @@ class AllowedByRules:
                 return inside
             if abs(inside - outside) <= _NEAR * max(abs(inside), abs(outside)):
                 break
-            inside, outside = (middle, outside) if not self._broken(middle) - hopeless else (inside, middle)
+            inside, outside = (middle, outside) if not self._broken(middle) - impossible else (inside, middle)
         # A bound of three digits is read at a glance; the sixteen digits of a halving are noise.
         middle = self._value(_shortest(inside, outside))
-        return middle if not self._broken(middle) - hopeless else inside
+        return middle if not self._broken(middle) - impossible else inside
 
     def _value(self, x: float) -> float:
         return round(x) if self._is_whole else x

@@ -23,12 +23,12 @@ from .expression_worth import (
     WHOLE,
     YES_NO,
     KnownChoices,
+    ResultKind,
     Signature,
     ValueKind,
-    Worth,
     any_of,
-    list_worth,
-    text_worth,
+    list_result,
+    text_result,
 )
 
 _STEP = 3
@@ -60,34 +60,34 @@ class ExpressionCheck:
     ``cost`` is what one evaluation costs at most.
     """
 
-    def __init__(self, names: Mapping[str, Worth], functions: Mapping[str, Signature]) -> None:
+    def __init__(self, names: Mapping[str, ResultKind], functions: Mapping[str, Signature]) -> None:
         self._names, self._functions = dict(names), functions
         self._bound: set[str] = set()
         self.slips: list[str] = []
         self.cost = 0
 
-    def worth(self, node: Node) -> Worth:
+    def result_of(self, node: Node) -> ResultKind:
         """Return what a tree gives; adds to ``slips`` and ``cost``."""
-        found, self.cost = self._worth(node)
+        found, self.cost = self._result_and_cost(node)
         return found
 
     def _slip(self, what: str) -> None:
         if what not in self.slips:
             self.slips.append(what)
 
-    def _worth(self, node: Node) -> tuple[Worth, int]:
+    def _result_and_cost(self, node: Node) -> tuple[ResultKind, int]:
         """Return what a tree gives and what one evaluation of it costs, with all its parts."""
         if node.kind == "over":
             found, cost = self._over(node)
         else:
-            parts = [self._worth(part) for part in node.parts]
-            worths = [worth for worth, _ in parts]
-            found, own = self._of(node, worths)
+            parts = [self._result_and_cost(part) for part in node.parts]
+            results = [result_of for result_of, _ in parts]
+            found, own = self._of(node, results)
             cost = own + sum(cost for _, cost in parts)
         # Bounded: the figures of nested macros multiply.
         return found, min(cost + _STEP + found.size, LARGEST)
 
-    def _of(self, node: Node, parts: list[Worth]) -> tuple[Worth, int]:
+    def _of(self, node: Node, parts: list[ResultKind]) -> tuple[ResultKind, int]:
         """Return what a part gives, and what it costs besides its step, its operands and its result."""
         match node.kind:
             case "value":
@@ -95,7 +95,7 @@ class ExpressionCheck:
             case "name":
                 return self._named(node), 0
             case "list":
-                return replace(list_worth(len(parts), any_of(parts)), is_closed=True), 0
+                return replace(list_result(len(parts), any_of(parts)), is_closed=True), 0
             case "table":
                 return self._table(parts), 0
             case "index":
@@ -107,8 +107,8 @@ class ExpressionCheck:
                 self._demand_yes_no(node.parts[0], parts[0])
                 return any_of(parts[1:]), 0
             case "!" | "&&" | "||":
-                for part, worth in zip(node.parts, parts, strict=True):
-                    self._demand_yes_no(part, worth)
+                for part, result_of in zip(node.parts, parts, strict=True):
+                    self._demand_yes_no(part, result_of)
                 return YES_NO, 0
             case "==" | "!=" | "in" | "<" | "<=" | ">" | ">=":
                 self._compare(node, *parts)
@@ -119,7 +119,7 @@ class ExpressionCheck:
 
     # -- names, lists and functions --------------------------------------------
 
-    def _named(self, node: Node) -> Worth:
+    def _named(self, node: Node) -> ResultKind:
         name = str(node.value)
         found = self._names.get(name)
         if found is None:
@@ -128,12 +128,12 @@ class ExpressionCheck:
             return ANY
         return found
 
-    def _table(self, parts: list[Worth]) -> Worth:
+    def _table(self, parts: list[ResultKind]) -> ResultKind:
         keys, values = any_of(parts[::2]), any_of(parts[1::2])
         item = replace(values, size=values.size + keys.size)
-        return replace(list_worth(len(parts) // 2, item), kind="table", literals=keys.literals)
+        return replace(list_result(len(parts) // 2, item), kind="table", literals=keys.literals)
 
-    def _indexed(self, node: Node, of: Worth, index: Worth) -> Worth:
+    def _indexed(self, node: Node, of: ResultKind, index: ResultKind) -> ResultKind:
         """Return what an item is; adds a slip for what has no items or is counted otherwise."""
         if of.kind not in ("list", "table", "any"):
             self._slip(
@@ -148,13 +148,13 @@ class ExpressionCheck:
             self._compare_choice(node.parts[1], index, of.literals)
         return of.item or ANY
 
-    def _called(self, node: Node, given: list[Worth]) -> tuple[Worth, int]:
+    def _called(self, node: Node, given: list[ResultKind]) -> tuple[ResultKind, int]:
         """Return what a call gives and costs, however wrong its arguments are: the walk goes on to the next
         slip.
         """
         name = str(node.value)
         signature = self._functions.get(name)
-        cost = _CALL + 2 * sum(worth.size for worth in given)
+        cost = _CALL + 2 * sum(result_of.size for result_of in given)
         if signature is None:
             self._slip(f"{quoted(name)} is no function{did_you_mean(name, self._functions)}")
             return ANY, cost
@@ -172,7 +172,7 @@ class ExpressionCheck:
             return given[0], cost
         return _given_back(signature.gives, given), cost
 
-    def _demand_numbers(self, node: Node, given: list[Worth], signature: Signature) -> None:
+    def _demand_numbers(self, node: Node, given: list[ResultKind], signature: Signature) -> None:
         for place in sorted(signature.numbers):
             if place < len(given) and given[place].kind in ("text", "list", "table", "yes/no"):
                 self._slip(
@@ -180,7 +180,7 @@ class ExpressionCheck:
                     f" {_CALLED[given[place].kind]}"
                 )
 
-    def _piece(self, node: Node, given: list[Worth]) -> None:
+    def _piece(self, node: Node, given: list[ResultKind]) -> None:
         """See that a text that is looked for in a choice is in one of its keys."""
         of, name = given[0], str(node.value)
         # Where other texts are possible too, a piece that is in no key may still be in one of those.
@@ -192,7 +192,7 @@ class ExpressionCheck:
                     f"no key of {quoted(node.parts[0].text)} has {quoted(text)} there: {_keys(of.choices)}"
                 )
 
-    def _matched_choice(self, node: Node, of: Worth) -> None:
+    def _matched_choice(self, node: Node, of: ResultKind) -> None:
         """Refuse a pattern on a choice: the message shows its label,
         and the pattern would be compared with its key.
         """
@@ -203,7 +203,7 @@ class ExpressionCheck:
                 f"compare it with == or in; {_keys(of.choices)}"
             )
 
-    def _pattern(self, node: Node, given: list[Worth]) -> int:
+    def _pattern(self, node: Node, given: list[ResultKind]) -> int:
         """Return what a pattern costs; one that is worked out could be any."""
         if node.kind != "value" or not isinstance(node.value, str):
             self._slip(f"the pattern of matches must be written out, not {quoted(node.text)}")
@@ -216,36 +216,36 @@ class ExpressionCheck:
             states = min(states * max(1, int(least[:9]), int(most[:9] or 0)), LARGEST)
         return min(_PATTERN_CHARACTER * states, LARGEST) + given[0].length
 
-    def _over(self, node: Node) -> tuple[Worth, int]:
+    def _over(self, node: Node) -> tuple[ResultKind, int]:
         """Return what a macro over a list gives and costs: its body once for each item."""
-        of, cost = self._worth(node.parts[0])
+        of, cost = self._result_and_cost(node.parts[0])
         macro, name = str(node.value), node.bound
         if of.kind not in ("list", "any"):
             self._slip(f"'{macro}' goes over a list, and {quoted(node.parts[0].text)} is {_CALLED[of.kind]}")
         item = of.item or ANY
         # The name of an item hides one that is read, and only inside of the macro.
         outside, self._names = self._names, {**self._names, name: item}
-        bodies = [self._worth(part) for part in node.parts[1:]]
+        bodies = [self._result_and_cost(part) for part in node.parts[1:]]
         self._names = outside
         tests = bodies[:-1] if macro == "map" else bodies
-        for part, (worth, _) in zip(node.parts[1:], tests, strict=False):
-            self._demand_yes_no(part, worth)
-        given: Worth = YES_NO
+        for part, (result_of, _) in zip(node.parts[1:], tests, strict=False):
+            self._demand_yes_no(part, result_of)
+        given: ResultKind = YES_NO
         if macro == "map":
-            given = list_worth(of.length, bodies[-1][0])
+            given = list_result(of.length, bodies[-1][0])
         elif macro == "filter":
-            given = list_worth(of.length, item)
+            given = list_result(of.length, item)
         # What map and filter have so far is copied for each item.
         each = sum(c for _, c in bodies) + 3 * _STEP + (given.size // 2 if given.kind == "list" else 0)
         return given, cost + of.size + of.length * each
 
     # -- operators -------------------------------------------------------------
 
-    def _demand_yes_no(self, node: Node, worth: Worth) -> None:
-        if worth.kind not in ("yes/no", "any"):
-            self._slip(f"{quoted(node.text)} is {_CALLED[worth.kind]}, where true or false is wanted")
+    def _demand_yes_no(self, node: Node, result_of: ResultKind) -> None:
+        if result_of.kind not in ("yes/no", "any"):
+            self._slip(f"{quoted(node.text)} is {_CALLED[result_of.kind]}, where true or false is wanted")
 
-    def _arithmetic(self, node: Node, parts: list[Worth]) -> Worth:
+    def _arithmetic(self, node: Node, parts: list[ResultKind]) -> ResultKind:
         """Return what an operator gives: numbers, or lists and texts that ``+`` joins."""
         every = {part.kind for part in parts}
         kinds = every - {"any", "null"}
@@ -258,7 +258,7 @@ class ExpressionCheck:
             return WHOLE
         return DECIMAL if every <= {*_NUMBERS, "null"} else replace(_joined(parts), kind="any")
 
-    def _compare(self, node: Node, left: Worth, right: Worth) -> None:
+    def _compare(self, node: Node, left: ResultKind, right: ResultKind) -> None:
         """Add a slip where two operands can never be equal, or cannot be compared."""
         one, other = node.parts
         if node.kind == "in":
@@ -275,7 +275,7 @@ class ExpressionCheck:
             self._compare_choice(other, right, left.literals)
             self._compare_choices(node, left, right)
 
-    def _compare_kinds(self, node: Node, left: Worth, right: Worth) -> None:
+    def _compare_kinds(self, node: Node, left: ResultKind, right: ResultKind) -> None:
         """Add a slip where two kinds cannot be compared, with what to write instead."""
         kinds = {left.kind, right.kind} - {"any", "null"}
         # The engine compares whole numbers with decimal ones; only its arithmetic does not mix them.
@@ -293,15 +293,15 @@ class ExpressionCheck:
             f" {_CALLED[right.kind]}{hint}"
         )
 
-    def _compare_choice(self, node: Node, worth: Worth, literals: tuple[str, ...]) -> None:
+    def _compare_choice(self, node: Node, result_of: ResultKind, literals: tuple[str, ...]) -> None:
         """See that what a choice is compared with are keys of it."""
-        for text in literals if worth.choices and worth.is_closed else ():
-            if worth.choices and not worth.choices.contains(text) and text not in worth.literals:
+        for text in literals if result_of.choices and result_of.is_closed else ():
+            if result_of.choices and not result_of.choices.contains(text) and text not in result_of.literals:
                 self._slip(
-                    f"{quoted(node.text)} is never {quoted(text)}: {nearest_choice(text, worth.choices)}"
+                    f"{quoted(node.text)} is never {quoted(text)}: {nearest_choice(text, result_of.choices)}"
                 )
 
-    def _compare_choices(self, node: Node, left: Worth, right: Worth) -> None:
+    def _compare_choices(self, node: Node, left: ResultKind, right: ResultKind) -> None:
         """Add a slip where two choices have no key in common, so that they are never equal."""
         if (
             not (left.choices and right.choices and left.is_closed and right.is_closed)
@@ -340,22 +340,22 @@ def _folded(text: str) -> str:
     return " ".join(text.casefold().split())
 
 
-def _literal(node: Node) -> Worth:
+def _literal(node: Node) -> ResultKind:
     """Return what a written value is; a text is closed, since it can be no other."""
     match node.value:
         case None:
-            return Worth("null")
+            return ResultKind("null")
         case bool():
             return YES_NO
         case str() as text:
-            return replace(text_worth(len(text)), literals=(text,), is_closed=True)
+            return replace(text_result(len(text)), literals=(text,), is_closed=True)
         case int():
             return WHOLE
         case _:
             return DECIMAL
 
 
-def _unusable(node: Node, parts: list[Worth], operator: str) -> str:
+def _unusable(node: Node, parts: list[ResultKind], operator: str) -> str:
     """Return which part of a sum or a product is no number, in words."""
     pairs = zip(node.parts, parts, strict=True)
     odd, kind = next((n, p.kind) for n, p in pairs if p.kind not in (*_NUMBERS, "any", "null"))
@@ -372,20 +372,20 @@ def _how_many(signature: Signature) -> str:
     return f"{count} values"
 
 
-def _given_back(gives: Worth, given: list[Worth]) -> Worth:
+def _given_back(gives: ResultKind, given: list[ResultKind]) -> ResultKind:
     """Return what a function gives: a text or a list may be as long as all it is given, and its own."""
-    length = gives.length + sum(worth.length for worth in given)
+    length = gives.length + sum(result_of.length for result_of in given)
     if gives.item:
-        return list_worth(length, gives.item)
-    return text_worth(length) if gives.kind == "text" else gives
+        return list_result(length, gives.item)
+    return text_result(length) if gives.kind == "text" else gives
 
 
-def _joined(parts: list[Worth]) -> Worth:
+def _joined(parts: list[ResultKind]) -> ResultKind:
     """Return the list of all items of some lists."""
-    return list_worth(sum(p.length for p in parts), any_of([p.item for p in parts if p.item]))
+    return list_result(sum(p.length for p in parts), any_of([p.item for p in parts if p.item]))
 
 
-def _mixed(node: Node, parts: list[Worth]) -> str:
+def _mixed(node: Node, parts: list[ResultKind]) -> str:
     whole = next(n for n, p in zip(node.parts, parts, strict=True) if p.kind == "whole")
     better = (
         f"{whole.text}.0" if whole.kind == "value" and whole.text.isdecimal() else f"double({whole.text})"
@@ -393,12 +393,12 @@ def _mixed(node: Node, parts: list[Worth]) -> str:
     return f"mixes a whole number with a decimal one: write {better}"
 
 
-def _joined_texts(parts: list[Worth]) -> Worth:
+def _joined_texts(parts: list[ResultKind]) -> ResultKind:
     """Return a text made of others; a choice leaves its key in it."""
-    return replace(text_worth(sum(part.length for part in parts)), choices=any_of(parts).choices)
+    return replace(text_result(sum(part.length for part in parts)), choices=any_of(parts).choices)
 
 
-def _misuse(node: Node, parts: list[Worth], operator: str, kinds: set[ValueKind]) -> str:
+def _misuse(node: Node, parts: list[ResultKind], operator: str, kinds: set[ValueKind]) -> str:
     """Return what is wrong with arithmetic on these kinds; "" for nothing."""
     if kinds == {*_NUMBERS}:
         return f"{quoted(node.text)} {_mixed(node, parts)}"

@@ -206,9 +206,9 @@ class _ExpressionParser:
         return node
 
     def _either(self) -> Node:
-        return self._chain("||", self._both)
+        return self._chain("||", self._conjunction)
 
-    def _both(self) -> Node:
+    def _conjunction(self) -> Node:
         return self._chain("&&", self._relation)
 
     def _chain(self, operator: str, operand: Callable[[], Node]) -> Node:

@@ -37,13 +37,13 @@ class KnownChoices:
 
 
 @dataclass(frozen=True, slots=True)
-class Worth:
+class ResultKind:
     """What a part of an expression can give: its kind, and how large it can be."""
 
     kind: ValueKind
     length: int = 0
     """Of a text or a list, at most."""
-    item: Worth | None = None
+    item: ResultKind | None = None
     """What a list contains."""
     choices: KnownChoices | None = None
     """Where it comes from a parameter that is a choice."""
@@ -55,38 +55,43 @@ class Worth:
     """What a copy of it costs."""
 
 
-DECIMAL, WHOLE, YES_NO, ANY = Worth("decimal"), Worth("whole"), Worth("yes/no"), Worth("any")
+DECIMAL, WHOLE, YES_NO, ANY = (
+    ResultKind("decimal"),
+    ResultKind("whole"),
+    ResultKind("yes/no"),
+    ResultKind("any"),
+)
 
 
-def text_worth(length: int = LONGEST_TEXT) -> Worth:
+def text_result(length: int = LONGEST_TEXT) -> ResultKind:
     """Return a text of at most so many characters."""
-    return Worth("text", length, size=_TEXT_SIZE + length // 100)
+    return ResultKind("text", length, size=_TEXT_SIZE + length // 100)
 
 
-def list_worth(length: int, item: Worth) -> Worth:
+def list_result(length: int, item: ResultKind) -> ResultKind:
     """Return a list of at most so many items."""
-    return Worth("list", length, item, size=min(_LIST_SIZE + length * item.size, LARGEST))
+    return ResultKind("list", length, item, size=min(_LIST_SIZE + length * item.size, LARGEST))
 
 
 _GIVEN = {
     "float": DECIMAL,
     "int": WHOLE,
     "bool": YES_NO,
-    "str": text_worth(100),
+    "str": text_result(100),
     str(inspect.Signature.empty): DECIMAL,
 }
-_SEVERAL = list_worth(32, ANY)
+_SEVERAL = list_result(32, ANY)
 
 
-def choice_worth(parameter: Parameter) -> Worth:
+def choice_result(parameter: Parameter) -> ResultKind:
     """Return what the value of a choice parameter is."""
     keys = {choice.key: choice.label for choice in parameter.choices or ()}
-    return replace(text_worth(100), choices=KnownChoices(keys, parameter.more_codes), is_closed=True)
+    return replace(text_result(100), choices=KnownChoices(keys, parameter.more_codes), is_closed=True)
 
 
-def one_of(keys: Mapping[str, str]) -> Worth:
+def one_of(keys: Mapping[str, str]) -> ResultKind:
     """Return a text that is one of some keys."""
-    return replace(text_worth(100), choices=KnownChoices(keys), is_closed=True)
+    return replace(text_result(100), choices=KnownChoices(keys), is_closed=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +100,7 @@ class Signature:
 
     fewest: int
     most: int
-    gives: Worth
+    gives: ResultKind
     numbers: frozenset[int] = frozenset()
     """Places of the arguments that must be numbers."""
 
@@ -118,26 +123,26 @@ LANGUAGE: dict[str, Signature] = {
     "matches": Signature(2, 2, YES_NO),
     "int": Signature(1, 1, WHOLE),
     "double": Signature(1, 1, DECIMAL),
-    "string": Signature(1, 1, text_worth()),
+    "string": Signature(1, 1, text_result()),
     "type": Signature(1, 1, ANY),
 }
 """Functions of the language that a builder's rule may call: none of dates and bytes, no parameter is one."""
 
 
-def any_of(worths: list[Worth]) -> Worth:
+def any_of(results: list[ResultKind]) -> ResultKind:
     """Return what is one of several: as large as the largest."""
     # null is of every kind and costs nothing: it must not make the kind of the others unknown.
-    known = [worth for worth in worths if worth.kind != "null"]
-    return reduce(_either, known) if known else next(iter(worths), ANY)
+    known = [worth for worth in results if worth.kind != "null"]
+    return reduce(_either, known) if known else next(iter(results), ANY)
 
 
-def _either(one: Worth, other: Worth) -> Worth:
+def _either(one: ResultKind, other: ResultKind) -> ResultKind:
     """Return what is one of two: as large as the larger, and closed only if both are."""
     if one == other:
         return one
     # An empty list has no items, and goes with a list of anything.
     items = [worth.item for worth in (one, other) if worth.item]
-    return Worth(
+    return ResultKind(
         one.kind if one.kind == other.kind else "any",
         max(one.length, other.length),
         any_of(items) if items else None,

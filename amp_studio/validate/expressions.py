@@ -133,11 +133,11 @@ class Expressions:
         verdict = None if found is NO_RESULT else found is True
         # None cannot be remembered: it is also what an unknown key gives.
         if verdict is not None:
-            self.remembered[keys if self.hangs_on_values_alone else (keys, circumstances.key)] = verdict
+            self.remembered[keys if self.depends_on_values_alone else (keys, circumstances.key)] = verdict
         return verdict
 
     @cached_property
-    def hangs_on_values_alone(self) -> bool:
+    def depends_on_values_alone(self) -> bool:
         """Whether equal values decide alike for every instance and machine type."""
         # As a part of the text: where a longer name contains one of these, more is remembered than
         # needed, nothing less.
@@ -191,7 +191,7 @@ def _counted(rule: Rule, text: str) -> list[str]:
 def check_rule(rule: Rule, functions: Mapping[str, Callable[..., Any]]) -> FindingExpressions:
     """Compile a rule that may call ``functions`` and return its message and fixes; raises RuleError."""
     called: set[str] = set()
-    spoken_of: set[str] = set()
+    named_values: set[str] = set()
     asked_of: set[str] = set()
     for place, text in _texts(rule):
         compiled = _compiled(rule, place, text)
@@ -201,7 +201,7 @@ def check_rule(rule: Rule, functions: Mapping[str, Callable[..., Any]]) -> Findi
         for name in sorted(variables - known):
             raise RuleError(rule.id, f"{place} names {quoted(name)}, which it does not read")
         if place.startswith(("check", "value ")):
-            spoken_of |= found
+            named_values |= found
         if place == "when":
             asked_of |= found
         named = functions_called(compiled)
@@ -209,7 +209,7 @@ def check_rule(rule: Rule, functions: Mapping[str, Callable[..., Any]]) -> Findi
             raise RuleError(rule.id, f"{place} calls {quoted(name)}, which is no function")
         called |= named & set(functions)
     printed_names = _check_names(rule)
-    blames, compares = _about(rule, spoken_of | printed_names, asked_of)
+    blames, compares = _about(rule, named_values | printed_names, asked_of)
 
     def expression(text: str) -> Expression:
         return Expression(program(text), functions)
@@ -225,7 +225,7 @@ def check_rule(rule: Rule, functions: Mapping[str, Callable[..., Any]]) -> Findi
     )
 
 
-def _about(rule: Rule, spoken_of: set[str], asked_of: set[str]) -> tuple[dict[str, str], dict[str, str]]:
+def _about(rule: Rule, named_values: set[str], asked_of: set[str]) -> tuple[dict[str, str], dict[str, str]]:
     """Return what a finding of a rule is about, and what that is compared with, each with its condition:
     what the rule checks or shows comes before what decides whether it applies.
     """
@@ -234,7 +234,7 @@ def _about(rule: Rule, spoken_of: set[str], asked_of: set[str]) -> tuple[dict[st
     blames = rule.blames or replaced or dict.fromkeys(list(rule.reads)[:1], "true")
     own = {*blames, *rule.compares}
     others = [name for name, text in rule.reads.items() if name not in own and not is_list(text)]
-    named = [name for of in (spoken_of, asked_of) for name in others if name in of]
+    named = [name for of in (named_values, asked_of) for name in others if name in of]
     return blames, {**rule.compares, **dict.fromkeys(named, "true")}
 
 

@@ -195,12 +195,12 @@ class ValueChecks:
             span = self._spans[key] = _span(limits(self._file.evaluation, address, value.unit))
         return span[0] <= found <= span[1]
 
-    def _finding(self, address: Address, value: Value, text: str, mended: Value | None) -> Finding:
-        """Return the error about a value; ``mended`` is its fix if it differs and no secret is set."""
+    def _finding(self, address: Address, value: Value, text: str, fixed: Value | None) -> Finding:
+        """Return the error about a value; ``fixed`` is its fix if it differs and no secret is set."""
         parameter = self._facts[address[0]].parameter
-        allowed = mended is not None and mended != value
+        allowed = fixed is not None and fixed != value
         allowed = allowed and not parameter.secret  # a password that no user chose locks all of them out
-        fix = (AddressedValue(address, mended),) if mended is not None and allowed else ()
+        fix = (AddressedValue(address, fixed),) if fixed is not None and allowed else ()
         forced = (
             f" It was forced {with_local_times(self._file.forced[address])}."
             if address in self._file.forced

@@ -28,13 +28,13 @@ from .expression_worth import (
     LANGUAGE,
     WHOLE,
     YES_NO,
+    ResultKind,
     Signature,
-    Worth,
-    choice_worth,
-    list_worth,
+    choice_result,
+    list_result,
     one_of,
     signature_of,
-    text_worth,
+    text_result,
 )
 from .expressions import TYPES
 from .functions import rule_functions
@@ -205,21 +205,21 @@ def _expressions(rule: Rule, schema: Schema, found: Review) -> int:
             names |= {"it": item, "at": WHOLE}
         check = ExpressionCheck(names, functions)
         try:
-            worth = check.worth(read_expression(text))
+            result_of = check.result_of(read_expression(text))
         except ExpressionError as error:
             found.slips.append((place, str(error)))
             continue
         found.slips += [(place, slip) for slip in check.slips]
         # After the slips inside it: an unknown name gives ``any``, which fits everything.
-        if slip := _unfit(worth, wanted):
+        if slip := _unfit(result_of, wanted):
             found.slips.append((place, slip))
         once += times * check.cost
     return once
 
 
-def _cost_of_names(rule: Rule, names: Mapping[str, Worth]) -> int:
+def _cost_of_names(rule: Rule, names: Mapping[str, ResultKind]) -> int:
     """Return what reading the values and writing those of the message costs."""
-    lengths = {name: worth.length for name, worth in names.items() if worth.kind == "list"}
+    lengths = {name: result_of.length for name, result_of in names.items() if result_of.kind == "list"}
     # A list in the message is written item by item.
     written = {name for _, name, _, _ in _fields(rule.message) if name in names}
     items = sum(max(1, lengths.get(name or "", 1)) for name in written)
@@ -255,49 +255,49 @@ _WANTED = {"choice": "text", "boolean": "yes/no", "text": "text", "format": "tex
 _IN_WORDS = {"text": "a text in quotes", "yes/no": "true or false", "decimal": "a number"}
 
 
-def _unfit(worth: Worth, wanted: Parameter | bool | None) -> str:
+def _unfit(result_of: ResultKind, wanted: Parameter | bool | None) -> str:
     """Return why something cannot be the result of an expression."""
-    if wanted is None or worth.kind in ("any", "null"):
+    if wanted is None or result_of.kind in ("any", "null"):
         return ""
     kind = "yes/no" if isinstance(wanted, bool) else _WANTED.get(wanted.type, "decimal")
-    if worth.kind != kind and not (kind == "decimal" and worth.kind == "whole"):
+    if result_of.kind != kind and not (kind == "decimal" and result_of.kind == "whole"):
         whose = "" if isinstance(wanted, bool) else f" for {wanted.name}"
         return f"it does not give {_IN_WORDS[kind]}{whose}"
-    return "" if isinstance(wanted, bool) or wanted.type != "choice" else _unfit_choice(worth, wanted)
+    return "" if isinstance(wanted, bool) or wanted.type != "choice" else _unfit_choice(result_of, wanted)
 
 
-def _unfit_choice(worth: Worth, wanted: Parameter) -> str:
-    choices = choice_worth(wanted).choices
-    for text in worth.literals:
+def _unfit_choice(result_of: ResultKind, wanted: Parameter) -> str:
+    choices = choice_result(wanted).choices
+    for text in result_of.literals:
         if choices and not choices.contains(text):
             return f"{wanted.name} is never {quoted(text)}: {nearest_choice(text, choices)}"
     return ""
 
 
-def _names(rule: Rule, schema: Schema) -> dict[str, Worth]:
+def _names(rule: Rule, schema: Schema) -> dict[str, ResultKind]:
     """Return what every name of a rule means."""
     family = schema.family
     names = dict.fromkeys(TYPES, ANY)
     names |= {
         "machine": one_of({m.key: m.name for m in family.machines}),
-        "application": one_of({a: a for a in family.applications}) if family.applications else text_worth(),
-        "instance": text_worth(100),
+        "application": one_of({a: a for a in family.applications}) if family.applications else text_result(),
+        "instance": text_result(100),
         "part": DECIMAL,
     }
     for name, (parameter_id, which) in _read(rule).items():
         parameter = schema.parameters.get(parameter_id)
-        worth = _value(parameter) if parameter else ANY
+        result_of = _value(parameter) if parameter else ANY
         length = len(_instances(schema, parameter)) if parameter else 0
-        names[name] = list_worth(length, worth) if which in _LISTS else worth
+        names[name] = list_result(length, result_of) if which in _LISTS else result_of
     return names
 
 
-def _value(parameter: Parameter) -> Worth:
+def _value(parameter: Parameter) -> ResultKind:
     if parameter.type == "choice":
-        return choice_worth(parameter)
+        return choice_result(parameter)
     if parameter.type == "boolean":
         return YES_NO
-    return text_worth() if parameter.type in ("text", "format") else DECIMAL
+    return text_result() if parameter.type in ("text", "format") else DECIMAL
 
 
 @cache

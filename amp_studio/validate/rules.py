@@ -340,7 +340,7 @@ class RuleChecks:
         """
         fixes = check.expressions.finding.fixes
         fix = tuple(self._set(check, given, fixes)) if fixes else ()
-        return fix if fix and self._mends(check, given, fix) else ()
+        return fix if fix and self._is_met_by(check, given, fix) else ()
 
     def _set(
         self, check: RuleCheck, given: _KeyedContext, assignments: tuple[tuple[str, Expression], ...]
@@ -357,18 +357,18 @@ class RuleChecks:
             if value is not None and value != self._file.values.get(address):
                 yield AddressedValue(address, value)
 
-    def _mends(self, check: RuleCheck, given: _KeyedContext, fix: tuple[AddressedValue, ...]) -> bool:
+    def _is_met_by(self, check: RuleCheck, given: _KeyedContext, fix: tuple[AddressedValue, ...]) -> bool:
         """Return whether the rule is satisfied with its own suggested fixes,
         which were rounded as the parameter needs it.
         """
-        mended = {setting.address: key_of(setting.value) for setting in fix}
+        fixed = {setting.address: key_of(setting.value) for setting in fix}
         after = list(given.keys)
         for n, single in enumerate(check.singles):
-            after[n] = mended.get(single.address, after[n])
+            after[n] = fixed.get(single.address, after[n])
         for n, (_, listed) in enumerate(check.lists, len(check.singles)):
-            if not mended.keys().isdisjoint(listed.addresses):
+            if not fixed.keys().isdisjoint(listed.addresses):
                 before = dict(zip(listed.addresses, self._list(listed), strict=True))
-                after[n] = tuple((before | mended)[a] for a in listed.addresses)
+                after[n] = tuple((before | fixed)[a] for a in listed.addresses)
         # None, where no sense can be made of the values, is no cure either.
         return check.expressions.verdict(tuple(after), self._circumstances(check)) is False
 

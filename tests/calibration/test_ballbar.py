@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import pytest
 
-from amp_studio.calibration import CalibrationError, MeasurementAnswers, Wish, propose
+from amp_studio.calibration import CalibrationError, MeasurementAnswers, ProposalRequest, propose
 from amp_studio.calibration.ballbar import lost_motions
 from amp_studio.calibration.errors import MeasurementError
 from amp_studio.calibration.reading import read_measurement
@@ -49,8 +49,8 @@ def test_a_circle_gives_a_reversal_error_and_no_table() -> None:
     file.set(("servo.loop_type", "1"), Value("digital"))
     measurement = read_measurement(circle({"first": 8.0, "second": 0.0}.__getitem__), UM)
     with pytest.raises(CalibrationError, match="first or the second"):
-        propose(file, "1", measurement, Wish(was_on=False))
-    proposal = propose(file, "1", measurement, Wish(was_on=False, circle="first"))
+        propose(file, "1", measurement, ProposalRequest(was_on=False))
+    proposal = propose(file, "1", measurement, ProposalRequest(was_on=False, circle="first"))
     assert list(proposal.settings) == [("servo.reversal_error", "1")]
     assert proposal.reversal is not None
     assert abs(proposal.reversal[1] - Fraction("0.008")) < Fraction("0.0002")

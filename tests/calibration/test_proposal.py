@@ -15,7 +15,7 @@ from amp_studio.calibration import (
     Measurement,
     MeasurementAnswers,
     Proposal,
-    Wish,
+    ProposalRequest,
     compensation_of,
     propose,
 )
@@ -31,7 +31,7 @@ from amp_studio.schema import Value
 from tests.campaigns import examples
 
 TABLE, REVERSAL = ("calibration.table", "1"), ("servo.reversal_error", "1")
-OFF = Wish(was_on=False)
+OFF = ProposalRequest(was_on=False)
 MM = MeasurementAnswers("mm", "mm", "measured-target")
 
 
@@ -97,7 +97,7 @@ def test_points_measured_with_compensation_on_are_added_to_what_it_takes_away_al
     mill.set(TABLE, Value("deviation - mm 0:0 100:0.003 200:0.006"))
     mill.set(REVERSAL, Value(0.005, "mm"))
     left = np.array([0.0, 0.0005, 0.002])
-    proposal = propose(mill, "1", laser(left, targets, 0.001), Wish(was_on=True))
+    proposal = propose(mill, "1", laser(left, targets, 0.001), ProposalRequest(was_on=True))
     assert table_of(proposal) == "deviation - mm 0:0 100:0.0035 200:0.008"
     assert proposal.settings[REVERSAL] == Value(0.006, "mm")
     assert float(proposal.span_after) == pytest.approx(0, abs=1e-9)
@@ -107,11 +107,11 @@ def test_an_axis_that_is_compensated_is_asked_how_it_was_measured(mill) -> None:
     points = laser(np.array([0.0, 0.001]), np.array([0.0, 100.0]), 0)
     mill.set(REVERSAL, Value(0.005, "mm"))
     with pytest.raises(CalibrationError, match="compensation on or off"):
-        propose(mill, "1", points, Wish())
+        propose(mill, "1", points, ProposalRequest())
     mill.set(REVERSAL, Value(0.0, "mm"))
     mill.set(TABLE, Value("deviation - mm 0:0 100:0.003"))
     with pytest.raises(CalibrationError, match="compensation on or off"):
-        propose(mill, "1", points, Wish())
+        propose(mill, "1", points, ProposalRequest())
     assert table_of(propose(mill, "1", points, OFF)) == "deviation - mm 0:0 100:0.001"
 
 
@@ -143,7 +143,7 @@ def test_a_reversal_error_out_of_range_is_not_proposed(mill) -> None:
 def test_the_error_at_the_start_is_a_shift_and_no_deviation(mill) -> None:
     points = laser(np.array([0.01, 0.012]), np.array([0.0, 100.0]), 0)
     assert table_of(propose(mill, "1", points, OFF)) == "deviation - mm 0:0 100:0.002"
-    positive = propose(mill, "1", points, Wish(was_on=False, start="+", input="measurement"))
+    positive = propose(mill, "1", points, ProposalRequest(was_on=False, start="+", input="measurement"))
     assert table_of(positive) == "measurement + mm 0:-0.002 100:100"
 
 
@@ -213,7 +213,9 @@ def rotary(text: str) -> Measurement:
 def test_a_turn_of_a_rollover_axis_has_no_net_correction(mill, start: str, last: str) -> None:
     mill.set(("axis.rollover", "3"), Value(360, "deg"))
     points = rotary("0,0\n90,0.004\n180,0.006\n270,0.003\n" + last)
-    text = table_of(propose(mill, "3", points, Wish(was_on=False, start=start)), ("calibration.table", "3"))
+    text = table_of(
+        propose(mill, "3", points, ProposalRequest(was_on=False, start=start)), ("calibration.table", "3")
+    )
     assert calibration_fault(text, turns=True) == ""
     assert calibration_net(text) == 0
     found = read_calibration(text).points

@@ -5,7 +5,7 @@ import pytest
 
 from amp_studio.drawing import Curve, Placement, Ring, panel_of, strokes_of, zoomed
 from amp_studio.drawing.panels import ring_levels
-from amp_studio.drawing.strokes import banded, thinned, unheld
+from amp_studio.drawing.strokes import banded, thinned, without_stairs
 
 
 def test_one_row_of_an_extreme_is_drawn_however_long_the_trace_is() -> None:
@@ -20,7 +20,7 @@ def test_one_row_of_an_extreme_is_drawn_however_long_the_trace_is() -> None:
 def test_a_constant_command_is_drawn_through_its_samples_not_as_stairs() -> None:
     x = np.arange(400.0)
     is_stepped = np.floor(x / 4) * 4
-    corners, values = unheld(x, is_stepped)
+    corners, values = without_stairs(x, is_stepped)
     slopes = np.diff(values[:-1]) / np.diff(corners[:-1])
     assert slopes == pytest.approx(np.ones(len(slopes)))
     assert len(x) == 400 > 3 * len(corners)
@@ -30,7 +30,7 @@ def test_a_constant_command_that_pauses_stays_level_until_it_goes_on() -> None:
     is_stepped = np.concatenate(
         [np.repeat(np.arange(10.0), 4), np.full(400, 9.0), np.repeat(np.arange(10.0, 20.0), 4)]
     )
-    x, y = unheld(np.arange(480.0), is_stepped)
+    x, y = without_stairs(np.arange(480.0), is_stepped)
     assert np.interp(300.0, x, y) == 9.0
 
 

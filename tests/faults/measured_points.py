@@ -4,7 +4,7 @@ or what was read makes a table the control takes.
 
 from functools import cache
 
-from amp_studio.calibration import CalibrationError, MeasurementAnswers, Wish, propose
+from amp_studio.calibration import CalibrationError, MeasurementAnswers, ProposalRequest, propose
 from amp_studio.calibration.reading import read_measurement
 from amp_studio.families.ninepc.formulas.calibration import calibration_fault
 from amp_studio.files import ParameterFile, new_file
@@ -52,7 +52,9 @@ def _fuzz(answers: MeasurementAnswers, seed: int, count: int) -> list[str]:
     file = _mill()
 
     def look(text: str) -> None:
-        proposal = propose(file, "1", read_measurement(text, answers), Wish(was_on=False, circle="first"))
+        proposal = propose(
+            file, "1", read_measurement(text, answers), ProposalRequest(was_on=False, circle="first")
+        )
         if proposal.table is not None:
             table = proposal.settings[("calibration.table", "1")]
             assert calibration_fault(str(table.value), turns=False) == ""

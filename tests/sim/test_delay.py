@@ -11,7 +11,7 @@ import pytest
 from amp_studio.files import open_file
 from amp_studio.schema import Value
 from amp_studio.sim import AxisLaw, Machine, law_of, simulate
-from amp_studio.sim.axis.motion import Until, run_axis, steps
+from amp_studio.sim.axis.motion import RunEnd, run_axis, steps
 from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.command.ramps import move
 from amp_studio.sim.engine.machine import DELAY_SHARE, machine_array
@@ -89,7 +89,7 @@ def test_the_figures_of_the_router_are_those_of_its_model() -> None:
 @pytest.mark.parametrize("gain", [0.08, 0.10])
 def test_the_axis_swings_up_where_the_model_is_not_stable(gain: float) -> None:
     axis = example("acromill", None, gain)
-    motion = run_axis(axis, move(0.1, 1.0, axis.ramps["none"]), Until(0.5))
+    motion = run_axis(axis, move(0.1, 1.0, axis.ramps["none"]), RunEnd(0.5))
     error = motion.columns["following_error"]
     swing = [float(np.ptp(part)) for part in np.array_split(error[len(error) // 2 :], 2)]
     assert (swing[1] > 0.01) == (not linear_model(axis).is_stable())  # mm: at the limit of the output

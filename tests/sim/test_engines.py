@@ -13,7 +13,7 @@ import pytest
 
 from amp_studio.files import open_file
 from amp_studio.sim import law_of
-from amp_studio.sim.axis.motion import Until, run_axis
+from amp_studio.sim.axis.motion import RunEnd, run_axis
 from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.command.ramps import move
 from amp_studio.sim.engine.compiled import _machine_code
@@ -73,7 +73,8 @@ def test_plain_python_and_machine_code_agree_for_a_whole_move(path: Path) -> Non
     profile = move(0.05 * axis.feedrate, 0.5 * axis.feedrate, next(iter(axis.ramps.values())), 1e-3)
     for mode in (POSITION_LOOP, VELOCITY_LOOP):
         runs = [
-            run_axis(axis, profile, Until(0.15), mode=mode, engine=engine) for engine in ("plain", "compiled")
+            run_axis(axis, profile, RunEnd(0.15), mode=mode, engine=engine)
+            for engine in ("plain", "compiled")
         ]
         assert runs[0].stop == runs[1].stop
         for name, column in runs[0].columns.items():

@@ -7,7 +7,7 @@ import pytest
 
 from amp_studio.sim.axis.homing import Homed, home_axis, markers_ahead
 from amp_studio.sim.axis.moving_axis import MovingAxis
-from amp_studio.sim.command.events import Around, CodedScale, Failure, Homing, Ramp
+from amp_studio.sim.command.events import CodedScale, Failure, Homing, Ramp, Surroundings
 from tests.sim.tiny import tiny
 
 RAMP = Ramp("linear", 200.0)
@@ -25,7 +25,7 @@ SWITCHED = Homing(
 )
 
 
-def homed(homing: Homing, around: Around) -> tuple[MovingAxis, Homed]:
+def homed(homing: Homing, around: Surroundings) -> tuple[MovingAxis, Homed]:
     moving, found = MovingAxis(tiny(), engine="plain"), Homed()
     moving.follow(home_axis(moving, homing, RAMP, around, found))
     return moving, found
@@ -35,7 +35,7 @@ def test_the_live_axis_goes_through_the_same_sequence_in_slices_of_time() -> Non
     """A machine behind an emulated control is stepped by the clock: the same places, whatever the slices
     are.
     """
-    around = Around(switch=30.0, marker=28.0)
+    around = Surroundings(switch=30.0, marker=28.0)
     _, whole = homed(SWITCHED, around)
     moving, found = MovingAxis(tiny(), engine="plain", keep=False), Homed()
     moving.begin(home_axis(moving, SWITCHED, RAMP, around, found))
@@ -48,30 +48,32 @@ def test_the_live_axis_goes_through_the_same_sequence_in_slices_of_time() -> Non
 @pytest.mark.parametrize(
     ("around", "code"),
     [
-        (Around(switch=30.0, marker=28.0, has_markers=False), "NO MARKER"),
-        (Around(switch=30.0, marker=28.0, is_stuck=True), "STUCK"),
-        (Around(switch=30.0, marker=28.0, high=25.0), "NO SWITCH"),
+        (Surroundings(switch=30.0, marker=28.0, has_markers=False), "NO MARKER"),
+        (Surroundings(switch=30.0, marker=28.0, is_stuck=True), "STUCK"),
+        (Surroundings(switch=30.0, marker=28.0, high=25.0), "NO SWITCH"),
     ],
     ids=["marker missing", "switch stuck", "end of the way before the switch"],
 )
-def test_a_homing_that_fails_names_its_alarm_and_leaves_the_axis_at_rest(around: Around, code: str) -> None:
+def test_a_homing_that_fails_names_its_alarm_and_leaves_the_axis_at_rest(
+    around: Surroundings, code: str
+) -> None:
     moving, found = homed(SWITCHED, around)
     assert (found.alarm, found.home, found.coordinate) == (code, None, None)
     assert moving.velocity == 0.0
 
 
 def test_the_search_goes_on_until_the_way_ends() -> None:
-    moving, _ = homed(SWITCHED, Around(switch=400.0, high=350.0))
+    moving, _ = homed(SWITCHED, Surroundings(switch=400.0, high=350.0))
     assert 340.0 < moving.load < 352.0
 
 
 def test_a_switch_on_which_the_axis_is_is_left_at_once() -> None:
-    _, found = homed(SWITCHED, Around(switch=-1.0, marker=-3.0))
+    _, found = homed(SWITCHED, Surroundings(switch=-1.0, marker=-3.0))
     assert found.marker == -3.0
 
 
 def test_a_second_approach_counts_where_it_stops() -> None:
-    around = Around(switch=30.0)
+    around = Surroundings(switch=30.0)
     grbl = Homing(
         approach=20.0,
         leave=-20.0,
@@ -99,7 +101,7 @@ def test_a_coded_scale_is_known_by_three_markers() -> None:
     homing = Homing(
         approach=0.0, leave=20.0, marker="next", turn=20.0, coordinate=50.0, final=10.0, scale=scale
     )
-    moving, found = homed(homing, Around(scale=101.0))
+    moving, found = homed(homing, Surroundings(scale=101.0))
     assert found.marker == pytest.approx(ahead[2] - 101.0)
     assert found.marker < 30.0
     assert moving.position == pytest.approx(50.0 - 7.0 - 101.0)  # scale zero is called 7
@@ -115,6 +117,6 @@ def test_without_markers_a_coded_scale_is_no_home() -> None:
         coordinate=0.0,
         scale=CodedScale(20.0, 20.02, 10.0, 0.0),
     )
-    _, found = homed(homing, Around(has_markers=False))
+    _, found = homed(homing, Surroundings(has_markers=False))
     assert found.alarm == "HOME"
-    assert math.isinf(Around().switch)
+    assert math.isinf(Surroundings().switch)

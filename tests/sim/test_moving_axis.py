@@ -9,7 +9,7 @@ import pytest
 from amp_studio.files import open_file
 from amp_studio.files.example_files import examples_folder
 from amp_studio.sim import AxisLaw, law_of
-from amp_studio.sim.axis.motion import Engine, Until, run_axis
+from amp_studio.sim.axis.motion import Engine, RunEnd, run_axis
 from amp_studio.sim.axis.moving_axis import MovingAxis, way
 from amp_studio.sim.axis.orders import Watch
 from amp_studio.sim.binding import bind_axis
@@ -75,7 +75,7 @@ def of_the_mill() -> AxisLaw:
 def test_stepped_in_slices_it_is_the_motion_of_one_run(engine: Engine, made: Callable[[], AxisLaw]) -> None:
     """The state that an interruption keeps is all of it, in both engines and with a delay in the drive."""
     axis, ramp = made(), Ramp("linear", 200.0)
-    whole = run_axis(axis, move(5.0, 20.0, ramp), Until(0.4), engine=engine, thin=True).columns
+    whole = run_axis(axis, move(5.0, 20.0, ramp), RunEnd(0.4), engine=engine, thin=True).columns
     sliced = MovingAxis(axis, engine=engine)
     sliced.order(way(5.0, 20.0, ramp, axis), 1.0)
     while sliced.time < 0.35:

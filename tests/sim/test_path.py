@@ -23,7 +23,7 @@ from amp_studio.sim import (
     versions,
     what_if,
 )
-from amp_studio.sim.axis.motion import Until
+from amp_studio.sim.axis.motion import RunEnd
 from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.command.changes import change_time, change_way, peaks, reached
 from amp_studio.sim.command.pieces import change, length
@@ -255,7 +255,7 @@ def test_the_command_of_the_axes_is_the_planned_path(router: ParameterFile) -> N
     law = law_of("acromill")
     for n, profile in enumerate(axis_profiles(found.plan.whole)):
         axis = bind_axis(router, law, found.plan.path.axes[n])
-        motion = run_axis(axis, profile, Until(found.plan.time))
+        motion = run_axis(axis, profile, RunEnd(found.plan.time))
         command, time = motion.columns["command_position"], motion.columns["time_s"]
         assert np.abs(np.diff(command)).max() <= 100.0 * 25.4 / 60.0 * np.diff(time).max() * 1.01
         assert command[-1] == pytest.approx(found.plan.whole.geometry.ends[-1, n], abs=1e-3)

@@ -12,7 +12,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from amp_studio.sim import Machine, Ramp, SimulationError
-from amp_studio.sim.axis.motion import Until, run_axis
+from amp_studio.sim.axis.motion import RunEnd, run_axis
 from amp_studio.sim.command.ramps import blocks, end_of, move
 from amp_studio.sim.engine.arrays import Vector
 from amp_studio.sim.engine.machine import COULOMB, KEEP, KICK, SIZE, STATIC, machine_array
@@ -124,7 +124,7 @@ def test_a_drive_with_a_velocity_loop_is_a_first_order_lag_whatever_the_step_is(
 def test_a_delay_is_kept_to_the_fraction_of_a_step() -> None:
     def at(delay: float) -> float:
         axis = tiny(delay=delay, position_count=0.0)
-        motion = run_axis(axis, [0.0, math.inf, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0], Until(0.02), mode=OUTPUT_TEST)
+        motion = run_axis(axis, [0.0, math.inf, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0], RunEnd(0.02), mode=OUTPUT_TEST)
         return float(motion.columns["velocity"][-1])
 
     full = at(0.0)
@@ -207,7 +207,7 @@ FULL = {
 )
 def test_halving_the_step_changes_nothing_that_can_be_seen(axis: AxisLaw, visible: float) -> None:
     profile = move(20.0, 100.0, Ramp("s-curve", 1500.0, jerk=30000.0))
-    coarse, fine = (run_axis(axis, profile, Until(0.5), refine=refine).columns for refine in (1, 2))
+    coarse, fine = (run_axis(axis, profile, RunEnd(0.5), refine=refine).columns for refine in (1, 2))
     for column in ("position", "following_error"):
         assert np.max(np.abs(coarse[column] - fine[column][::2])) < visible, column
 
@@ -216,7 +216,7 @@ def test_without_dry_friction_the_step_is_exact_to_a_hundredth_of_a_micrometre()
     axis = tiny(inertia_ratio=2.0, resonance=60.0, bandwidth=200.0, viscous_friction=0.02, position_count=0.0)
     profile = move(10.0, 50.0, Ramp("s-curve", 1000.0, jerk=20000.0))
     runs = [
-        run_axis(axis, profile, Until(0.4), refine=refine).columns["position"][::refine]
+        run_axis(axis, profile, RunEnd(0.4), refine=refine).columns["position"][::refine]
         for refine in (1, 2, 16)
     ]
     first, second = (float(np.max(np.abs(run - runs[2]))) for run in runs[:2])
@@ -225,7 +225,7 @@ def test_without_dry_friction_the_step_is_exact_to_a_hundredth_of_a_micrometre()
 
 def test_an_axis_without_output_runs_out_by_its_friction_after_an_alarm() -> None:
     axis = tiny(coulomb_friction=2.0, excess=4.0, position_count=0.0)
-    motion = run_axis(axis, move(80.0, 100.0, Ramp("linear", 500.0)), Until(5.0), coast=3.0)
+    motion = run_axis(axis, move(80.0, 100.0, Ramp("linear", 500.0)), RunEnd(5.0), coast=3.0)
     assert motion.stop == 1
     assert motion.alarm_row is not None
     speed = float(motion.columns["velocity"][motion.alarm_row])
@@ -239,7 +239,7 @@ def test_a_brake_shortens_the_way_after_an_alarm_and_holds_the_weight() -> None:
     machine = {"gravity": 3.0, "coulomb_friction": 1.0, "excess": 4.0, "position_count": 0.0}
     falls, held = (
         run_axis(
-            tiny(**machine, brake=brake), move(80.0, 100.0, Ramp("linear", 500.0)), Until(5.0), coast=2.0
+            tiny(**machine, brake=brake), move(80.0, 100.0, Ramp("linear", 500.0)), RunEnd(5.0), coast=2.0
         )
         for brake in (0.0, 10.0)
     )
@@ -249,7 +249,7 @@ def test_a_brake_shortens_the_way_after_an_alarm_and_holds_the_weight() -> None:
 
 def test_an_exact_stop_waits_until_the_axis_is_in_position() -> None:
     profile = blocks([(20.0, 100.0), (20.0, 100.0)], Ramp("linear", 500.0), exact_stop=True, check=0.001)
-    motion = run_axis(tiny(position_count=0.0), profile, Until(3.0))
+    motion = run_axis(tiny(position_count=0.0), profile, RunEnd(3.0))
     assert motion.command_end is not None
     # ln(5 mm / 0.01 mm) time constants of 50 ms, less what went before the end of the ramp.
     assert 0.15 < motion.command_end - end_of(profile) < 0.4
@@ -261,7 +261,7 @@ def test_a_feed_share_that_a_law_lowers_stretches_the_command() -> None:
     def hold(p: Vector, s: Vector, io: Vector) -> None:
         io[7] = 0.5
 
-    motion = run_axis(replace(axis, position_sample=hold), move(10.0, 100.0, Ramp()), Until(1.0))
+    motion = run_axis(replace(axis, position_sample=hold), move(10.0, 100.0, Ramp()), RunEnd(1.0))
     assert motion.command_end == pytest.approx(0.2, abs=0.0021)
 
 

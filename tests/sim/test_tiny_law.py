@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from amp_studio.sim.axis.motion import Until, run_axis
+from amp_studio.sim.axis.motion import RunEnd, run_axis
 from amp_studio.sim.command.ramps import move
 from amp_studio.sim.scenarios import SCENARIOS
 from tests.campaigns import CAMPAIGN
@@ -47,7 +47,7 @@ def test_machine_code_and_plain_python_give_the_same_numbers() -> None:
         motor_count=0.0005,
     )
     profile = move(4.0, 100.0, axis.ramps["linear"])
-    runs = [run_axis(axis, profile, Until(0.25), engine=engine) for engine in ("plain", "compiled")]
+    runs = [run_axis(axis, profile, RunEnd(0.25), engine=engine) for engine in ("plain", "compiled")]
     assert len(runs[0].columns["time_s"]) == 1000
     for name, column in runs[0].columns.items():
         np.testing.assert_allclose(column, runs[1].columns[name], rtol=1e-9, atol=1e-9, err_msg=name)

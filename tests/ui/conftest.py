@@ -37,7 +37,7 @@ from amp_studio.transfer.links.security import Security
 from amp_studio.ui.base import garbage
 from amp_studio.ui.base.menu_commands import commands
 from amp_studio.ui.base.task import ProgressDialog
-from amp_studio.ui.base.translated import speak
+from amp_studio.ui.base.translated import set_language
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.table.parameter_table import ParameterTable
@@ -129,16 +129,16 @@ def _english(qapp: QApplication) -> Iterator[None]:
     """Give the program its forms of numbers: ``1 value``, ``2 values``. Leave nothing in the clipboard: what is
     in it when Python ends is deleted without Python, which is a segmentation fault.
     """
-    speak("en")
+    set_language("en")
     yield
     QGuiApplication.clipboard().clear()
 
 
 @pytest.fixture
 def german(qapp: QApplication) -> Iterator[None]:
-    speak("de")
+    set_language("de")
     yield
-    speak("en")
+    set_language("en")
 
 
 @pytest.fixture

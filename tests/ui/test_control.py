@@ -22,7 +22,7 @@ from amp_studio.transfer.exchange import Exchange
 from amp_studio.ui.actions import project
 from amp_studio.ui.actions.control import STATE_ROOM
 from amp_studio.ui.base.theme import colour, scheme
-from amp_studio.ui.base.translated import speak
+from amp_studio.ui.base.translated import set_language
 from amp_studio.ui.control.conditions import conditions_of
 from amp_studio.ui.control.differences import CONTROL, REMARK
 from amp_studio.ui.control.heading import ControlHeading
@@ -474,14 +474,14 @@ def test_a_control_that_stays_in_estop_stays_so_in_the_menu_and_its_reason_is_sh
 
 
 def test_why_an_emulated_control_refused_is_german(window: MainWindow) -> None:
-    speak("de")
+    set_language("de")
     try:
         window.control.emulated.line_shown.emit("refused: the registers of this axis make none that can move")
         assert window.statusBar().currentMessage() == (
             "Nachgebildete Steuerung: abgelehnt: mit den Registern dieser Achse kann sich keine bewegen"
         )
     finally:
-        speak("en")
+        set_language("en")
 
 
 def test_what_was_asked_before_the_line_was_lost_is_no_longer_known(window: MainWindow) -> None:

@@ -67,10 +67,10 @@ class StoppedSession(QObject):
     def present(self, _file: ParameterFile) -> ParameterFile:
         return self.content
 
-    def lose(self, error: Exception) -> None:
+    def note_loss(self, error: Exception) -> None:
         self.phase, self.error = "away", str(error)
 
-    def hear(self) -> None:
+    def note_answer(self) -> None:
         self.phase, self.error = "ready", ""
 
     def read(self) -> None:

@@ -28,7 +28,7 @@ from amp_studio.schema import Value
 from amp_studio.sim import LimitUse, MotionCheck, Trace
 from amp_studio.transfer import AxisStatus, ControlStatus, known_fault
 from amp_studio.ui.base.theme import font, scheme
-from amp_studio.ui.base.translated import speak
+from amp_studio.ui.base.translated import set_language
 from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.forms.list_title import ListTitle
 from amp_studio.ui.live.page import LiveView
@@ -134,9 +134,9 @@ def _no_motion(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture(params=("en", "de"))
 def language(request: pytest.FixtureRequest, qapp: QApplication) -> Iterator[str]:
-    speak(request.param)
+    set_language(request.param)
     yield request.param
-    speak("en")
+    set_language("en")
     scheme().choose("light")
 
 

@@ -19,7 +19,7 @@ from amp_studio.ui.base.translated import (
     CatalogueTranslator,
     counted,
     language_in_use,
-    speak,
+    set_language,
     tr,
     worded,
 )
@@ -32,9 +32,9 @@ HOLE = re.compile(r"\{[^}]*\}|%n")
 
 @pytest.fixture
 def german(qapp: QCoreApplication) -> Iterator[None]:
-    assert speak("de") == "de"
+    assert set_language("de") == "de"
     yield
-    speak("en")
+    set_language("en")
 
 
 def test_every_text_of_the_window_is_translated() -> None:
@@ -87,7 +87,7 @@ def test_numbers_have_their_form_and_what_has_no_translation_stays() -> None:
 
 
 def test_english_numbers_have_their_form_too() -> None:
-    speak("en")
+    set_language("en")
     assert tr("%n axes", "", 1) == "1 axis"
     assert tr("%n axes", "", 3) == "3 axes"
     assert tr("%n conflicts left", "", 1) == "1 conflict left"

@@ -18,7 +18,7 @@ from amp_studio.schema import Value
 from amp_studio.ui import _hook
 from amp_studio.ui.actions import project, view
 from amp_studio.ui.base.modal import AskerGoneError, is_alive, run_dialog
-from amp_studio.ui.base.task import ProgressDialog, Task, run_patiently
+from amp_studio.ui.base.task import ProgressDialog, Task, run_with_progress
 from amp_studio.ui.dialogs.axis_dialogs import AxisDialog
 from amp_studio.ui.forms.choice_box import ChoiceBox
 from amp_studio.ui.forms.message_bar import MessageBar
@@ -267,7 +267,7 @@ def test_what_follows_work_is_left_out_when_its_window_is_gone(qtbot: QtBot, is_
     asker, go_on = QWidget(), threading.Event()
     close_at_once(asker)
     QTimer.singleShot(100, go_on.set)
-    run = run_patiently if is_patient else lambda *asked: ProgressDialog(*asked).run()
+    run = run_with_progress if is_patient else lambda *asked: ProgressDialog(*asked).run()
     with pytest.raises(AskerGoneError):
         run("Work", lambda *_: go_on.wait(10), asker)
     go_on.set()

@@ -10,7 +10,7 @@ import pytest
 from amp_studio.schema import Rule, family_ids, load_schema
 from amp_studio.validate.expression_check import ExpressionCheck
 from amp_studio.validate.expression_tree import Node, read_expression
-from amp_studio.validate.expression_worth import DECIMAL, YES_NO, list_worth, text_worth
+from amp_studio.validate.expression_worth import DECIMAL, YES_NO, list_result, text_result
 from amp_studio.validate.functions import rule_functions
 from amp_studio.validate.rule_review import MAX_STEPS, _functions, review
 from tests.campaigns import some
@@ -19,9 +19,9 @@ from tests.work import calls_of
 NAMES = {
     "n": DECIMAL,
     "on": YES_NO,
-    "t": text_worth(100),
-    "many": list_worth(8, DECIMAL),
-    "texts": list_worth(8, text_worth(100)),
+    "t": text_result(100),
+    "many": list_result(8, DECIMAL),
+    "texts": list_result(8, text_result(100)),
 }
 
 

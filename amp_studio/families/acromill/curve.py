@@ -35,7 +35,7 @@ def put_in(points: Sequence[Point], at: Point) -> list[Point]:
     return [*points, (float(len(points)), at[1])]
 
 
-def take_out(points: Sequence[Point], index: int) -> list[Point]:
+def remove_point(points: Sequence[Point], index: int) -> list[Point]:
     """Return a table without its last position; raises ValueError for any other: a table has no gaps."""
     if index != len(points) - 1 or not index:
         raise ValueError(
@@ -44,4 +44,4 @@ def take_out(points: Sequence[Point], index: int) -> list[Point]:
     return list(points[:-1])
 
 
-CURVE = CurveText(read, write, lambda _text: "", put_in, take_out, grain=0.00001)
+CURVE = CurveText(read, write, lambda _text: "", put_in, remove_point, grain=0.00001)

@@ -87,7 +87,7 @@ class _Maker:
             number_format="${n}",
             command="${n}={v}",
             left_out=frozenset({AXES_RULE}),
-            stays=_stays,
+            stays=_keeps_its_place,
         )
         made = DescribedSchema(control, {"build": self._build()})
         return made.made(self._family(), self._messages(), description)
@@ -222,7 +222,7 @@ class _Maker:
         )
 
 
-def _stays(parameter: Parameter, listed: frozenset[str]) -> bool:
+def _keeps_its_place(parameter: Parameter, listed: frozenset[str]) -> bool:
     """Whether a setting that the control does not list now comes with one that it lists."""
     return "homing.cycle" in listed and any((s.when or s.unless) in KEPT_STATES for s in parameter.states)
 

@@ -121,7 +121,7 @@ def description_lines(content: bytes) -> list[str]:
         whole = (
             came.rstrip("\r") if not begun or came.startswith("[") else f"{begun}\\n{came.rstrip(chr(13))}"
         )
-        begun = whole if _goes_on(whole) else ""
+        begun = whole if _continues(whole) else ""
         row = whole.split("\t")
         is_row = len(row) == _HELP_ROW and row[0].isdecimal()
         line = f"[SETTINGDESCR:{row[0]}|{row[5]}]" if is_row else whole
@@ -131,7 +131,7 @@ def description_lines(content: bytes) -> list[str]:
     return found
 
 
-def _goes_on(line: str) -> bool:
+def _continues(line: str) -> bool:
     """Return whether a line is the beginning of a help that ends in a later one."""
     if len(line) > _LONGEST:
         return False

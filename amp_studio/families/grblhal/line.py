@@ -95,7 +95,7 @@ class GrblLine:
         self._lines: deque[str] = deque()
         self._suspended = ""  # the state in which it reports itself and reads no line
         # refusals and ``ok`` of first lines that may still come, before any other answer
-        self._owed = self._owed_oks = 0
+        self._pending = self._pending_oks = 0
         # Opening is bounded too: a port that opens and never answers would be waited for without an end.
         self._begin(START, lingers=False)
         try:
@@ -120,7 +120,7 @@ class GrblLine:
         """Close the line."""
         self._link.close()
 
-    def go_on(self) -> None:
+    def check_cancel(self) -> None:
         """Raise CancelledError where a stop was asked for before anything more is sent."""
         self._begin(ANSWER_ENDS, lingers=False)
         self.look()
@@ -132,7 +132,7 @@ class GrblLine:
         ControlSuspendedError, GrblRefusalError, GrblRestartedError, LinkError, ControlSilentError,
         ProtocolMismatchError, CancelledError.
         """
-        self.go_on()
+        self.check_cancel()
         if self._suspended:
             self._erase()  # it may read lines again
         if self._suspended:
@@ -143,24 +143,24 @@ class GrblLine:
         size = 0
         while True:
             line = self._line(ANSWER)
-            if line == "ok" and self._owed_oks and not answer:
-                self._owed_oks -= 1
+            if line == "ok" and self._pending_oks and not answer:
+                self._pending_oks -= 1
                 continue
             if line == "ok":
-                self._waiting.heard()
+                self._waiting.note_answer()
                 # Answers to first lines come before any other: none is owed any more.
-                self._owed = self._owed_oks = 0
+                self._pending = self._pending_oks = 0
                 return answer
             # error:7 answers no command: the firmware prints it at its start, when its memory could not
             # be read.
             found = None if self._lost_memory(line) else _ERROR.fullmatch(line)
             # A first line that was sent twice, for a boot loader, is refused twice: the second refusal
             # may come this late.
-            if found and self._owed and not answer:
-                self._owed -= 1
+            if found and self._pending and not answer:
+                self._pending -= 1
                 continue
             if found:
-                self._waiting.heard()
+                self._waiting.note_answer()
                 raise GrblRefusalError(int(found[1]), command)
             if _GREETING.match(line):
                 raise GrblRestartedError("the control has restarted meanwhile")
@@ -178,13 +178,13 @@ class GrblLine:
 
     def report(self) -> str:
         """Return the whole report of its state, as ``?`` brings it; raises as ``ask``."""
-        self.go_on()
+        self.check_cancel()
         self._begin(ANSWER, lingers=False)
         self._link.write(b"?")
         while True:
             line = self._line(ANSWER)
             if line.startswith("<"):
-                self._waiting.heard()
+                self._waiting.note_answer()
                 return line
             if _GREETING.match(line):
                 raise GrblRestartedError("the control has restarted meanwhile")
@@ -205,8 +205,8 @@ class GrblLine:
         more, oks = self._answers_until_quiet()
         self._buffer = b""
         # Every first line is refused once and answered ``ok`` once; what was not seen yet is on its way.
-        self._owed, self._owed_oks = max(0, sent - refused - more), max(0, sent - oks)
-        self._waiting.heard()
+        self._pending, self._pending_oks = max(0, sent - refused - more), max(0, sent - oks)
+        self._waiting.note_answer()
 
     def _send_first_line(self) -> tuple[int, int]:
         """Send the first line until it is refused; returns how often it was sent, and refused:
@@ -268,20 +268,20 @@ class GrblLine:
 
     def _line(self, patience: float) -> str:
         """Return the next line; raises ControlSilentError where no byte has come for so many seconds."""
-        heard_at = self._clock()
+        received_at = self._clock()
         while not self._lines:
             self.look()
             if data := self._link.read(SLICE):
                 self._split_lines(data)
-                heard_at = self._clock()
-            elif self._clock() - heard_at >= patience:
+                received_at = self._clock()
+            elif self._clock() - received_at >= patience:
                 raise ControlSilentError(f"the control has not answered for {patience:g} s")
         return self._lines.popleft()
 
     def _split_lines(self, data: bytes) -> None:
         """Part what has come into lines; empty ones mean nothing."""
         if data:
-            self._waiting.heard()
+            self._waiting.note_answer()
         *lines, self._buffer = (self._buffer + data).split(b"\n")
         # Bounded: at a wrong baud rate everything is one line without an end.
         if len(self._buffer) > LONGEST_LINE or any(len(line) > LONGEST_LINE for line in lines):
@@ -312,7 +312,7 @@ class GrblLine:
         self._until = self._clock() + seconds
         self._lingers = lingers
         self._stopped_at: float | None = None
-        self._waiting.heard()
+        self._waiting.note_answer()
 
     def look(self) -> None:
         """Be called by everything that waits, at least every 0.1 s; raises CancelledError,

@@ -59,7 +59,7 @@ class Writing:
             self._round(line, left, progress)
             reported = read_settings(line, self.present)
             left = {
-                n: text for n, text in self.target.settings.items() if not self._is_there(n, text, reported)
+                n: text for n, text in self.target.settings.items() if not self._is_stored(n, text, reported)
             }
         if self.others:
             self._write_others(line, progress)
@@ -72,7 +72,7 @@ class Writing:
             restart_needed=bool(waiting), notes=(*coarse, *waiting, *left_notes(self.target, self.present))
         )
 
-    def _is_there(self, number: int, text: str, reported: Mapping[int, str]) -> bool:
+    def _is_stored(self, number: int, text: str, reported: Mapping[int, str]) -> bool:
         return is_shown_as(text, reported.get(number, ""))
 
     def _round(self, line: GrblLine, left: Mapping[int, str], progress: Progress) -> None:
@@ -112,7 +112,7 @@ class Writing:
     def _write(self, line: GrblLine, name: str, command: str) -> None:
         """Send one setting, recorded before and after; raises GrblRefusalError."""
         # Between two settings is the only point at which a download may stop.
-        line.go_on()
+        line.check_cancel()
         self.sent.begin(name)
         try:
             line.ask(command, writes=True)

@@ -154,8 +154,8 @@ def _ends_of_moves(
     joins = _joins(path, rows)
     before = np.vstack([path.start[None, :], points])[:-1]
     # Whether the straight move to the point before could go on to this one.
-    goes_on = np.zeros(len(rows), bool)
-    goes_on[1:] = (
+    continues = np.zeros(len(rows), bool)
+    continues[1:] = (
         is_straight[1:]
         & is_straight[:-1]
         & (joins[1:] > 0.0)
@@ -164,12 +164,12 @@ def _ends_of_moves(
         & (path.rounding[rows[1:]] == path.rounding[rows[:-1]])
     )
     for axis in rotary:
-        goes_on &= points[:, axis] == before[:, axis]
-    second = np.flatnonzero(goes_on)
+        continues &= points[:, axis] == before[:, axis]
+    second = np.flatnonzero(continues)
     second = second[_is_near(before[second - 1], points[second], points[second - 1], joins[second])]
     third = second + 1
     has_third = third < len(rows)
-    has_third[has_third] = goes_on[third[has_third]]
+    has_third[has_third] = continues[third[has_third]]
     begun, third = before[second - 1][has_third], third[has_third]
     has_third[has_third] = _is_near(begun, points[third], points[third - 1], joins[third]) & _is_near(
         begun, points[third], points[third - 2], joins[third]
@@ -179,12 +179,12 @@ def _ends_of_moves(
     for n, has_more in zip(second.tolist(), has_third.tolist(), strict=True):
         if n <= after:
             continue  # the move before has replaced a point of it, or ends because it could not
-        after = _joined(before[n - 1], points, goes_on, float(joins[n]), n) if has_more else n + 1
+        after = _joined(before[n - 1], points, continues, float(joins[n]), n) if has_more else n + 1
         is_end[n - 1 : after - 1] = False
     return np.flatnonzero(is_end)
 
 
-def _joined(begin: PathRows, points: PathRows, goes_on: Booleans, joins: float, second: int) -> int:
+def _joined(begin: PathRows, points: PathRows, continues: Booleans, joins: float, second: int) -> int:
     """Return the point after those that one straight move from ``begin`` reaches (CN970): it is known to
     reach from the point before ``second`` to the one after it.
     """
@@ -198,7 +198,7 @@ def _joined(begin: PathRows, points: PathRows, goes_on: Booleans, joins: float, 
         near = _is_near(begin, points[tried][:, None], replaced[None], joins)
         # Each of the tried ends replaces the points before it, not those behind.
         behind = np.arange(first, tried[-1])[None] >= tried[:, None]
-        stays = goes_on[tried] & (near | behind).all(axis=1)
+        stays = continues[tried] & (near | behind).all(axis=1)
         if not stays.all():
             return int(tried[np.argmin(stays)])
         n = int(tried[-1]) + 1

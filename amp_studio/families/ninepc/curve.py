@@ -41,11 +41,11 @@ def put_in(points: Sequence[Point], at: Point) -> list[Point]:
     return sorted([*points, at]) if points else [(at[0], 0.0)]
 
 
-def take_out(points: Sequence[Point], index: int) -> list[Point]:
+def remove_point(points: Sequence[Point], index: int) -> list[Point]:
     """Return a table without a position; raises ValueError for the last one left."""
     if len(points) == 1:
         raise ValueError("A table has one point at least: set it to nothing to take it away")
     return [*points[:index], *points[index + 1 :]]
 
 
-CURVE = CurveText(read, write, unit, put_in, take_out, grain=0.00001)
+CURVE = CurveText(read, write, unit, put_in, remove_point, grain=0.00001)

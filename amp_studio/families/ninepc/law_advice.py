@@ -16,7 +16,7 @@ from .law_figures import Loop, following_error, printed_excess_error, response_t
 RESERVE = 0.8
 """Share of the available acceleration that a ramp may use; the rest is a reserve for load and wear.
 A choice of this program."""
-ORDER_PRICE = "Less is left for a faster move or a lower gain."
+ORDER_COST = "Less is left for a faster move or a lower gain."
 SLOWER = "Every change of speed takes longer."
 LOOSE = 2.0
 """Ratio of excess error to the recommended one from which it is too large. A choice of this program."""
@@ -123,7 +123,7 @@ def _excess_error(m: ServoFigures) -> Iterator[Recommendation]:
             f"{speed}; at {m.length(now)} a blocked axis is detected {late} later than with 110 % of the"
             " error."
         )
-    price = "A blocked axis is detected later." if now < wanted else ORDER_PRICE
+    price = "A blocked axis is detected later." if now < wanted else ORDER_COST
     yield from m.advise("excess_error", wanted, m.axis.unit, why, price)
 
 
@@ -137,14 +137,14 @@ def _order(m: ServoFigures) -> Iterator[Recommendation]:
         return
     limits = "each limit of the following error must not be above the next one"
     why = f"Lower the feedrate suppression point together with the excess error: {limits}."
-    yield from m.advise("feedrate_suppression", highest, m.axis.unit, why, ORDER_PRICE)
+    yield from m.advise("feedrate_suppression", highest, m.axis.unit, why, ORDER_COST)
     point = m.axis.limits.get("gain break point", math.inf)
     cutting = m.p[samples.CUTTING] or 0.5 * m.feedrate
     # Not below two in-position bands: the break must not come into the band in which the axis rests.
     wanted = max(cutting / m.loop.rate, 2.0 * m.axis.inposition_band)
     if highest <= point < math.inf and wanted < highest:
         why = f"Lower the gain break point too, to the following error at the cutting feedrate: {limits}."
-        yield from m.advise("gain_break_point", wanted, m.axis.unit, why, ORDER_PRICE)
+        yield from m.advise("gain_break_point", wanted, m.axis.unit, why, ORDER_COST)
 
 
 def _suppression(m: SimulatedMove) -> Iterator[Recommendation]:

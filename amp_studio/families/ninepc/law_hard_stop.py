@@ -18,11 +18,11 @@ from amp_studio.sim import (
     BoundMachine,
     Figure,
     Motion,
+    RunEnd,
     Scenario,
     ScenarioSettings,
     SimulationError,
     Trace,
-    Until,
     above_zero,
     alarms_of,
     assumptions,
@@ -105,7 +105,7 @@ def _pressed(axis: AxisLaw, detection: float, stiffness: float, speed: float) ->
     way = FARTHER * (detection / stiffness + max(axis.limits.values(), default=1.0))
     ramp = next(iter(axis.ramps.values()))
     profile = move(min(way, speed * LONGEST), speed, ramp)
-    return run_axis(against, profile, Until(end_of(profile)))
+    return run_axis(against, profile, RunEnd(end_of(profile)))
 
 
 def _figures(

@@ -8,7 +8,7 @@ import math
 
 from amp_studio.sim import value_text
 
-from .law_units import ODD_FRAMES, SEPARATE, gain_for_rate, highest_rate, loop_rate
+from .law_units import SEPARATE, UNUSUAL_FRAMES, gain_for_rate, highest_rate, loop_rate
 
 TUNING_START = 1500.0
 """Velocity Proportional Gain at the start of appendix A (Table A.A, A-8)."""
@@ -78,7 +78,7 @@ SMOOTH = (
     " position loop closed over a motor encoder this model does not give it (a soft load does, on a linear"
     " scale or with the position loop open)."
 )
-ODD_MOTOR = (
+UNUSUAL_MOTOR = (
     "The cells of the 7xx motors in Tables 7.B and 7.C (7-55, 7-56) do not fit the unit of the gains: the"
     " proportional one is 120 to 220 times the integral one, 14 to 25 times for all others. Take the results"
     " of this motor as rough."
@@ -114,8 +114,8 @@ def gain_notes(
     highest = highest_rate(lag, integral_time)
     if loop > 0.0 and loop >= highest:
         notes.append(f"The velocity loop is not stable: {_why_unstable(loop, lag, highest)}")
-    if motor[:2] in ODD_FRAMES:
-        notes.append(ODD_MOTOR)
+    if motor[:2] in UNUSUAL_FRAMES:
+        notes.append(UNUSUAL_MOTOR)
     if integral == 0.0 and rate > 0.0:
         notes.append(SMOOTH)
     return notes

@@ -41,11 +41,11 @@ def probing(read: AxisParameters, axis: AxisLaw, cycle: str) -> Probing:
     seen = f"The signal counts as it goes {'off' if edge == 'high-to-low' else 'on'} (602, 29-4)."
     speed = (read.optional(parameter, everywhere=True) or 0.0) / 60.0
     if name.startswith("G38"):
-        return _touch(read, axis, name, speed, seen)
+        return _probing_cycle(read, axis, name, speed, seen)
     return _skip(read, axis, name, skip, speed, seen)
 
 
-def _touch(read: AxisParameters, axis: AxisLaw, name: str, speed: float, seen: str) -> Probing:
+def _probing_cycle(read: AxisParameters, axis: AxisLaw, name: str, speed: float, seen: str) -> Probing:
     """Return a probing cycle: quick up to the approach distance, then at the probe rate."""
     return Probing(
         f"{name} at Probe Rate behind Approach Distance",

@@ -20,10 +20,10 @@ from amp_studio.sim import (
     Motion,
     ParameterValue,
     Ramp,
+    RunEnd,
     Scenario,
     SimulationError,
     Trace,
-    Until,
     above_zero,
     assumptions,
     column_units,
@@ -120,7 +120,7 @@ def chart(axis: AxisLaw, feedrate: float, proportional: float, integral: float) 
             f"The tuning move of axis {axis.axis} takes {value_text(end, 's', 3)}; at most {LONGEST:g} s are"
             " simulated. Raise its position gain or torque limits"
         )
-    motion = run_axis(axis, profile, Until(end + 13.0 * lag), engine="compiled", thin=True)
+    motion = run_axis(axis, profile, RunEnd(end + 13.0 * lag), engine="compiled", thin=True)
     time, velocity, torque = (motion.columns[name] for name in ("time_s", "velocity_feedback", "output"))
     # Cut off by an alarm or unstable: worse than any figure.
     if motion.stop or time[-1] < end:

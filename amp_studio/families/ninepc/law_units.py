@@ -76,7 +76,7 @@ OWN_TORQUE, OWN_INERTIA = "model.motor_torque", "model.motor_inertia"
 """N m and kg m² of the motor, when they are set."""
 LB_IN_S2 = 0.112984829
 """kg m² of 1 lb in s2."""
-ODD_FRAMES = ("b7",)
+UNUSUAL_FRAMES = ("b7",)
 """Motors whose cells of Tables 7.B and 7.C fit no unit together."""
 
 

@@ -15,11 +15,11 @@ from amp_studio.sim import (
     AxisLaw,
     Figure,
     Recommendation,
+    RunEnd,
     Scenario,
     ScenarioSettings,
     SimulationError,
     Trace,
-    Until,
     above_zero,
     alarms_of,
     assumptions,
@@ -107,7 +107,7 @@ def run_procedure(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     )
 
 
-def _tune_gains(axis: ModuleAxis) -> tuple[tune.Left, ScenarioSettings]:
+def _tune_gains(axis: ModuleAxis) -> tuple[tune.CommandResult, ScenarioSettings]:
     increment = abs(
         axis.needed(ids.command_position, "tune gains moves by it, .25 to .5 turns of the motor (page 4-30)")
     )
@@ -116,7 +116,7 @@ def _tune_gains(axis: ModuleAxis) -> tuple[tune.Left, ScenarioSettings]:
     return tune.gains(axis, axis.scales, increment), {"move.distance": increment}
 
 
-def _tune_dynamics(axis: ModuleAxis) -> tuple[tune.Left, ScenarioSettings]:
+def _tune_dynamics(axis: ModuleAxis) -> tuple[tune.CommandResult, ScenarioSettings]:
     """Return the registers that tuning the dynamics leaves, and the travel that it takes."""
     travel = axis.needed(ids.setup_overtravel_positive, "tune dynamics takes its travel from it (page 4-30)")
     if travel < 1.0:
@@ -128,7 +128,7 @@ def _tune_dynamics(axis: ModuleAxis) -> tuple[tune.Left, ScenarioSettings]:
     return left, {"move.distance": travel}
 
 
-def _tune_feed_forward(axis: ModuleAxis) -> tuple[tune.Left, ScenarioSettings]:
+def _tune_feed_forward(axis: ModuleAxis) -> tuple[tune.CommandResult, ScenarioSettings]:
     """Return the registers that tuning the feed forward leaves, and the travel that it takes."""
     ends = [
         axis.needed(ids[f"setup_overtravel_{side}"], "tune feedforward takes its travel from it (page 4-31)")
@@ -144,7 +144,7 @@ def _tune_feed_forward(axis: ModuleAxis) -> tuple[tune.Left, ScenarioSettings]:
     }
 
 
-_TUNES: Mapping[str, Callable[[ModuleAxis], tuple[tune.Left, ScenarioSettings]]] = {
+_TUNES: Mapping[str, Callable[[ModuleAxis], tuple[tune.CommandResult, ScenarioSettings]]] = {
     "gains": _tune_gains,
     "dynamics": _tune_dynamics,
     "feedforward": _tune_feed_forward,
@@ -235,10 +235,10 @@ def _time_cam(axis: ModuleAxis, settings: ScenarioSettings, points: int, cycles:
         words = _table(axis, ids.byte_points, (points + 1) // 2)
         values = [value for word in words for value in word_bytes(word)][:points]
     scans = round(axis.needed(ids.cam_time, "the time between two points (page 4-54)") / 1000.0 / SCAN)
-    continuous, mirror = axis.bit(ids.cam_mode, 3), _yes(settings, "cam.mirror")
+    continuous, mirror = axis.bit(ids.cam_mode, 3), _is_yes(settings, "cam.mirror")
     order = time_cam_order(
         points,
-        reverse=_yes(settings, "cam.reverse"),
+        reverse=_is_yes(settings, "cam.reverse"),
         mirror=mirror,
         continuous=continuous,
         loop_back=int(axis.register(ids.loop_back) or 0) if continuous else 0,
@@ -246,7 +246,7 @@ def _time_cam(axis: ModuleAxis, settings: ScenarioSettings, points: int, cycles:
     intervals = points * cycles * (2 if mirror and not continuous else 1)
     # For its check of the length alone, before the table is gone through.
     _scans(intervals * scans * SCAN)
-    return time_cam(values, scans, order, intervals, negative=_yes(settings, "cam.negative"))
+    return time_cam(values, scans, order, intervals, negative=_is_yes(settings, "cam.negative"))
 
 
 def _position_cam(axis: ModuleAxis, settings: ScenarioSettings, points: int) -> list[float]:
@@ -342,7 +342,7 @@ def _run(
     rest: float = _PAUSE,
 ) -> Trace:
     """Run an axis along a profile, and ``rest`` s more."""
-    motion = run_axis(axis, profile, Until(end + rest))
+    motion = run_axis(axis, profile, RunEnd(end + rest))
     columns = motion.columns
     # At the scans: between them the command goes on, and the module sees none of it.
     peak, off_speed = (
@@ -383,7 +383,7 @@ def _scans(time: float) -> int:
     return max(2, round(time / SCAN))
 
 
-def _yes(settings: ScenarioSettings, name: str) -> bool:
+def _is_yes(settings: ScenarioSettings, name: str) -> bool:
     value = settings.get(name, "no")
     if value not in ("yes", "no"):
         raise SimulationError(f"{name} is {value!r}; it must be yes or no", name)

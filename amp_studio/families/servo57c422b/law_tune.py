@@ -22,8 +22,8 @@ from amp_studio.sim import (
     AxisLaw,
     Motion,
     Piece,
+    RunEnd,
     SimulationError,
-    Until,
     end_of,
     linear_model,
     move,
@@ -58,14 +58,14 @@ class Scales:
 
 
 @dataclass(frozen=True)
-class Left:
+class CommandResult:
     """What a command leaves: registers by parameter id, and the axis with them."""
 
     registers: dict[str, float]
     axis: AxisLaw
 
 
-def gains(axis: AxisLaw, scales: Scales, increment: float) -> Left:
+def gains(axis: AxisLaw, scales: Scales, increment: float) -> CommandResult:
     """Tune gains: deadband, velocity, integral and proportional gain,
     with moves of ``increment`` counts both ways.
 
@@ -83,7 +83,7 @@ def gains(axis: AxisLaw, scales: Scales, increment: float) -> Left:
             # The velocity loop alone: position gains have no part in it yet.
             return vibrates(trial, increment, VELOCITY_LOOP)
 
-        found[ids.gain_velocity] = _third("Velocity Gain", velocity)
+        found[ids.gain_velocity] = _third_of_gain("Velocity Gain", velocity)
         axis = with_figures(axis, {loop.VELOCITY: found[ids.gain_velocity] / scales.velocity})
 
     def proportional(gain: float) -> bool:
@@ -91,7 +91,7 @@ def gains(axis: AxisLaw, scales: Scales, increment: float) -> Left:
         trial = {loop.PROPORTIONAL: gain / scales.proportional, loop.FEED_FORWARD: 0.0}
         return vibrates(with_figures(axis, trial), increment, POSITION_LOOP)
 
-    gain = _third("Proportional Gain", proportional)
+    gain = _third_of_gain("Proportional Gain", proportional)
     share = gain / scales.proportional
     found[ids.gain_integral] = float(
         math.floor(share * share / 4.0 * scales.integral)
@@ -104,10 +104,10 @@ def gains(axis: AxisLaw, scales: Scales, increment: float) -> Left:
         raise SimulationError(
             "The search ended at gains that are not stable: this axis has to be tuned by hand (page 5-2)"
         )
-    return Left(found, tuned)
+    return CommandResult(found, tuned)
 
 
-def dynamics(axis: AxisLaw, travel: float, speed: float, up: float, down: float) -> Left:
+def dynamics(axis: AxisLaw, travel: float, speed: float, up: float, down: float) -> CommandResult:
     """Tune dynamics: the greatest velocity, acceleration and deceleration, at most those given,
     in counts and s.
 
@@ -118,7 +118,7 @@ def dynamics(axis: AxisLaw, travel: float, speed: float, up: float, down: float)
     def good(velocity: float, acceleration: float, deceleration: float) -> bool:
         ramp = replace(axis.ramps["linear"], acceleration=acceleration, deceleration=deceleration)
         return all(
-            not _strained(axis, run(axis, move(way * travel, velocity, ramp), 0.05)) for way in (1.0, -1.0)
+            not _overloads(axis, run(axis, move(way * travel, velocity, ramp), 0.05)) for way in (1.0, -1.0)
         )
 
     gentle = 1.25 / travel  # ramps that leave a fifth of the travel for the speed itself
@@ -133,10 +133,12 @@ def dynamics(axis: AxisLaw, travel: float, speed: float, up: float, down: float)
         ids.command_deceleration: deceleration,
     }
     ramp = replace(axis.ramps["linear"], acceleration=acceleration, deceleration=deceleration)
-    return Left(found, replace(axis, feedrate=velocity, ramps={**axis.ramps, "linear": ramp}))
+    return CommandResult(found, replace(axis, feedrate=velocity, ramps={**axis.ramps, "linear": ramp}))
 
 
-def feed_forward(axis: AxisLaw, scales: Scales, positive: float, negative: float, speed: float) -> Left:
+def feed_forward(
+    axis: AxisLaw, scales: Scales, positive: float, negative: float, speed: float
+) -> CommandResult:
     """Tune feedforward: the greatest gain that leaves no negative following error
     at ``speed`` counts/s either way.
 
@@ -158,7 +160,7 @@ def feed_forward(axis: AxisLaw, scales: Scales, positive: float, negative: float
             ids.gain_feedforward,
         )
     gain = float(math.floor(share * scales.feed_forward))
-    return Left(
+    return CommandResult(
         {ids.gain_feedforward: gain}, with_figures(axis, {loop.FEED_FORWARD: gain / scales.feed_forward})
     )
 
@@ -175,7 +177,7 @@ def with_figures(axis: AxisLaw, figures: dict[int, float]) -> AxisLaw:
 
 def run(axis: AxisLaw, profile: list[float], rest: float, mode: float = POSITION_LOOP) -> Motion:
     """Run a profile and ``rest`` s after it."""
-    return run_axis(axis, profile, Until(end_of(profile) + rest), mode=mode)
+    return run_axis(axis, profile, RunEnd(end_of(profile) + rest), mode=mode)
 
 
 def deadband(axis: AxisLaw) -> float:
@@ -195,7 +197,7 @@ def _breakaway(axis: AxisLaw, start: float, end: float) -> float:
     """
     volts, rise = start / loop.WORDS_PER_VOLT, (end - start) / loop.WORDS_PER_VOLT
     ramp = [0.0, math.inf, volts, rise, 0.0, 0.0, POLYNOMIAL, 0.0]
-    motion = run_axis(axis, ramp, Until(1.0), mode=OUTPUT_TEST)
+    motion = run_axis(axis, ramp, RunEnd(1.0), mode=OUTPUT_TEST)
     moved = np.flatnonzero(np.abs(motion.columns["measured_position"]) >= 1.0)
     if moved.size == 0:
         raise SimulationError(
@@ -221,7 +223,7 @@ def vibrates(axis: AxisLaw, increment: float, mode: float) -> bool:
     return to_and_fro > QUIET
 
 
-def _third(name: str, too_much: Callable[[float], bool]) -> float:
+def _third_of_gain(name: str, too_much: Callable[[float], bool]) -> float:
     """Return a third of the gain from which on the shaft vibrates,
     of the largest register where it never does.
     """
@@ -253,7 +255,7 @@ def _greatest(most: float, good: Callable[[float], bool]) -> float:
     return low
 
 
-def _strained(axis: AxisLaw, motion: Motion) -> bool:
+def _overloads(axis: AxisLaw, motion: Motion) -> bool:
     """Return whether a run ended in a fault or reached the clamp of register 31."""
     clamp = axis.parameters[loop.CLAMP] / loop.WORDS_PER_VOLT
     return motion.stop != 0 or float(np.abs(motion.columns["output"]).max()) >= clamp * (1.0 - 1e-9)

@@ -87,7 +87,7 @@ def _printed(
 ) -> PrintedFinding:
     """Return findings that report the same as one, with all their axes, values and fixes."""
     first, few = same[0], [finding.addresses for finding in same if len(finding.addresses) <= _NAMED]
-    addresses, fix = _once(few), _once(finding.fix for finding in same)
+    addresses, fix = _unique(few), _unique(finding.fix for finding in same)
     brings = next(filter(None, (finding.brings for finding in same)), None)
     brought = f" ({language.text('it brings a warning:')} {language.finding(brings)})" if brings else ""
     return PrintedFinding(
@@ -99,18 +99,18 @@ def _printed(
         fix="; ".join(_settings(file, fix, language)) + brought,
         page=first.page or language.title(first.reason),
         rule=first.rule,
-        addresses=tuple(_once(finding.addresses for finding in same)),
+        addresses=tuple(_unique(finding.addresses for finding in same)),
         changes=tuple((s.address, _new_value(file, s), s.value.unit) for s in fix),
         is_own=first.is_own or bool(first.reason),
     )
 
 
 def _effective(file: ParameterFile, same: Sequence[Finding], language: Language) -> str:
-    used = "; ".join(_settings(file, _once(finding.effective for finding in same), language))
+    used = "; ".join(_settings(file, _unique(finding.effective for finding in same), language))
     return f" {language.text('Effective value in the control:')} {used}." if used else ""
 
 
-def _once(lists: Iterable[Iterable[_T]]) -> list[_T]:
+def _unique(lists: Iterable[Iterable[_T]]) -> list[_T]:
     """Return what is in several lists, each once."""
     return list(dict.fromkeys(chain.from_iterable(lists)))
 

@@ -105,13 +105,13 @@ def fix_lines(file: ParameterFile, finding: Finding) -> tuple[str, ...]:
     """Return each value that a fix sets, before and after: ``1750 Excess Error (X): 11 mm → 13.2 mm``."""
     here = file.machine_schema
     return tuple(
-        f"{here.label(s.address)}{_on(file, s)}: {_value(file, s, file.get(s.address))} → "
+        f"{here.label(s.address)}{_axis_suffix(file, s)}: {_value(file, s, file.get(s.address))} → "
         f"{_value_text(file, s)}"
         for s in finding.fix
     )
 
 
-def _on(file: ParameterFile, setting: AddressedValue) -> str:
+def _axis_suffix(file: ParameterFile, setting: AddressedValue) -> str:
     axis = setting.address[1]
     return f" ({axis_letter(file, axis) or axis})" if scope_of(file, setting.address) == "axis" else ""
 

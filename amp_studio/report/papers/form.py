@@ -51,7 +51,7 @@ def form_paper(
     )
 
 
-def _is_there(file: ParameterFile, address: Address, axes: Collection[str]) -> bool:
+def _is_printed(file: ParameterFile, address: Address, axes: Collection[str]) -> bool:
     """Return whether a value exists on this machine, and its axis is printed."""
     is_of_axis = scope_of(file, address) == "axis"
     if is_of_axis and address[1] not in axes:
@@ -69,7 +69,7 @@ def _tables(file: ParameterFile, everything: bool, language: Language) -> Iterat
             places = tuple(
                 instance
                 for instance in file.machine_schema.instances(parameter)
-                if everything or _is_there(file, (parameter.id, instance), axes)
+                if everything or _is_printed(file, (parameter.id, instance), axes)
             )
             if len(places) == 1:
                 address = (parameter.id, places[0])

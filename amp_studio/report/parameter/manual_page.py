@@ -285,7 +285,7 @@ def _bits(parameter: Parameter) -> Iterator[str]:
     fields = list(parameter.bits or ())
     while fields:
         run = [fields.pop(0)]
-        while fields and _goes_on(run[-1], fields[0]):
+        while fields and _continues(run[-1], fields[0]):
             run.append(fields.pop(0))
         first, last = run[0], run[-1]
         end = last.bit + last.width - 1
@@ -296,7 +296,7 @@ def _bits(parameter: Parameter) -> Iterator[str]:
         yield from (f"    {_choice(choice, patchable=False)}" for choice in first.choices or ())
 
 
-def _goes_on(a: Bit, b: Bit) -> bool:
+def _continues(a: Bit, b: Bit) -> bool:
     """Return whether a bit continues a series: Axis 3 after Axis 2, or one more without a legible name."""
     (head, number), (other, following) = split_count(a.label), split_count(b.label)
     plain = a.width == b.width == 1 and not a.choices and not b.choices and a.unknown == b.unknown

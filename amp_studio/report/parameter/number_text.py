@@ -51,7 +51,7 @@ def _spans(schema: Schema, parameter: Parameter, machine: str) -> str:
     # Points of a table count up within their axis: a run across axes would hide the step between them.
     for _, group in groupby(numbers.items(), key=lambda item: item[0].rpartition(".")[0]):
         members = list(group)
-        runs += [members] if _even(members) else [[member] for member in members]
+        runs += [members] if _has_constant_step(members) else [[member] for member in members]
     text = "; ".join(_run(schema, parameter, machine, run) for run in runs)
     others = sharing_numbers(schema, parameter)
     if not others:
@@ -63,7 +63,7 @@ def _spans(schema: Schema, parameter: Parameter, machine: str) -> str:
     return f"{text}; also printed for {named}"
 
 
-def _even(members: list[tuple[str, str]]) -> bool:
+def _has_constant_step(members: list[tuple[str, str]]) -> bool:
     """Return whether the numbers have a constant step, so that first, second and last are enough."""
     split = [split_count(number) for _, number in members]
     steps = {b[1] - a[1] for a, b in pairwise(split)}

@@ -8,7 +8,7 @@ import math
 from collections.abc import Generator
 from dataclasses import dataclass, field
 
-from amp_studio.sim.command.events import Around, CodedScale, Failure, Homing, Ramp
+from amp_studio.sim.command.events import CodedScale, Failure, Homing, Ramp, Surroundings
 from amp_studio.sim.rounding import page_text, value_text
 
 from .moving_axis import MovingAxis
@@ -57,7 +57,7 @@ class Homed:
         self.alarm, self.why, self.home, self.coordinate = failure.code, failure.message, None, None
 
 
-def home_axis(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: Homed) -> Orders:
+def home_axis(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Surroundings, homed: Homed) -> Orders:
     """Yield the orders of a homing from where the axis is at rest; ``homed`` is filled on the way."""
     if homing.scale is not None:
         yield from _coded(axis, homing, homing.scale, ramp, around, homed)
@@ -77,7 +77,7 @@ def home_axis(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, home
 EdgeFound = Generator[Order, Seen | None, float]
 
 
-def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: Homed) -> EdgeFound:
+def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Surroundings, homed: Homed) -> EdgeFound:
     """Go onto the switch; returns the edge over which it is left."""
     sign, edge = math.copysign(1.0, homing.approach), around.switch
     end = edge + sign * around.length
@@ -131,7 +131,9 @@ def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: H
     return end
 
 
-def _again(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: Homed, edge: float) -> Orders:
+def _again(
+    axis: MovingAxis, homing: Homing, ramp: Ramp, around: Surroundings, homed: Homed, edge: float
+) -> Orders:
     """Back off and come onto the switch slowly, as often as asked; after a pull-off stop there at once."""
     sign, back = math.copysign(1.0, homing.approach), homing.pull_off
     far = LOCATE * back if back else abs(axis.position - edge) + MARKERS * homing.turn
@@ -158,7 +160,9 @@ def _again(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: 
             yield StopOrder(Ramp())
 
 
-def _off(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: Homed, edge: float) -> Orders:
+def _off(
+    axis: MovingAxis, homing: Homing, ramp: Ramp, around: Surroundings, homed: Homed, edge: float
+) -> Orders:
     """Leave the switch over ``edge``, go to the marker and to the home position."""
     if homing.approach and homed.left is None:
         yield from _left(axis, homing, ramp, around, homed, edge)
@@ -194,7 +198,9 @@ def _home(axis: MovingAxis, homing: Homing, ramp: Ramp, homed: Homed) -> Orders:
     homed.coordinate = homing.coordinate
 
 
-def _left(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: Homed, edge: float) -> Orders:
+def _left(
+    axis: MovingAxis, homing: Homing, ramp: Ramp, around: Surroundings, homed: Homed, edge: float
+) -> Orders:
     """Leave the switch; ``found.left`` stays None where it does not go off."""
     sign, stuck = math.copysign(1.0, homing.leave), homing.failures.get("stuck")
     reach = min(_way(axis, around, sign, homing.turn), stuck.reach if stuck else math.inf)
@@ -211,7 +217,7 @@ def _left(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: H
 
 
 def _next_marker(
-    axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, homed: Homed, start: float
+    axis: MovingAxis, homing: Homing, ramp: Ramp, around: Surroundings, homed: Homed, start: float
 ) -> Orders:
     """Go on to the next marker and stop; ``found.marker`` stays None where none comes."""
     sign, turn, missing = math.copysign(1.0, homing.leave), homing.turn, homing.failures.get("marker")
@@ -232,7 +238,7 @@ def _next_marker(
 
 
 def _coded(
-    axis: MovingAxis, homing: Homing, scale: CodedScale, ramp: Ramp, around: Around, homed: Homed
+    axis: MovingAxis, homing: Homing, scale: CodedScale, ramp: Ramp, around: Surroundings, homed: Homed
 ) -> Orders:
     """Pass three markers of a coded scale, stop, take its position, and go to the home position (5-5,
     5-14).
@@ -277,7 +283,7 @@ def markers_ahead(scale: CodedScale, here: float, sign: float) -> list[float]:
     return sorted(places, key=lambda place: sign * place)
 
 
-def _way(axis: MovingAxis, around: Around, sign: float, turn: float) -> float:
+def _way(axis: MovingAxis, around: Surroundings, sign: float, turn: float) -> float:
     """Return how far the axis can go in a direction, u."""
     end = around.high if sign > 0.0 else around.low
     if math.isfinite(end):

@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from amp_studio.sim.command.ramps import end_of
 from amp_studio.sim.engine import kernel
-from amp_studio.sim.engine.compiled import can_compile, compiled, pays, plain
+from amp_studio.sim.engine.compiled import can_compile, compiled, pays_off, plain
 from amp_studio.sim.engine.machine import DELAY_SHARE, DELAY_STEPS, Machine, machine_array
 from amp_studio.sim.engine.signals import DIVERGED, FEED_SHARE, MODE, MONITOR, POSITION_LOOP, STOP
 from amp_studio.sim.errors import SimulationError
@@ -36,7 +36,7 @@ MAX_ROWS = 2_000_000
 
 
 @dataclass(frozen=True)
-class Until:
+class RunEnd:
     """When a run ends: at the latest after ``duration`` s; when the axis was in the ``rest_band`` (u) around
     the commanded end for ``rest_time`` s; ``settle_time`` s after the end of the command.
     """
@@ -71,7 +71,7 @@ class Motion:
 def run_axis(
     axis: AxisLaw,
     profile: list[float],
-    until: Until,
+    until: RunEnd,
     *,
     mode: float = POSITION_LOOP,
     share_rate: float = math.inf,
@@ -119,7 +119,7 @@ def run_axis(
 def with_leader(
     axis: AxisLaw,
     profile: list[float],
-    until: Until,
+    until: RunEnd,
     *,
     mode: float = POSITION_LOOP,
     share_rate: float = math.inf,
@@ -144,7 +144,7 @@ def with_leader(
 def prepared(
     axis: AxisLaw,
     profile: list[float],
-    until: Until,
+    until: RunEnd,
     stride: int,
     refine: int = 1,
     coast: float = 0.0,
@@ -232,7 +232,7 @@ def run_prepared(
     the signals and the state at the end. Raises SimulationError where the numbers leave all bounds.
     """
     law = axis.position_sample, axis.velocity_sample
-    machine_code = engine == "compiled" or (engine == "auto" and pays(*law, expected))
+    machine_code = engine == "compiled" or (engine == "auto" and pays_off(*law, expected))
     if machine_code and can_compile():
         arrays = [np.array(each, dtype=np.float64) for each in vectors]
         filled = compiled(*law)(*arrays, rows)
@@ -244,4 +244,4 @@ def run_prepared(
     return filled, vectors[IO], vectors[STATE]
 
 
-__all__ = ["DIVERGED", "Engine", "Motion", "Until", "run_axis", "steps"]
+__all__ = ["DIVERGED", "Engine", "Motion", "RunEnd", "run_axis", "steps"]

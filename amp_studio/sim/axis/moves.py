@@ -11,7 +11,7 @@ from amp_studio.sim.law import RAMPS, AxisLaw, Ramp
 from amp_studio.sim.rounding import rounded_up
 from amp_studio.sim.scenario import ScenarioSettings, above_zero, number
 
-from .motion import Until
+from .motion import RunEnd
 
 MOVE_SETTINGS = {
     "move.distance": "distance of the move, with its sign (mm or deg)",
@@ -121,14 +121,14 @@ def _exact(settings: ScenarioSettings) -> bool:
     return corner == "exact-stop"
 
 
-def until_of(axis: AxisLaw, moved: Move, duration: float | None) -> Until:
+def until_of(axis: AxisLaw, moved: Move, duration: float | None) -> RunEnd:
     """Return when a move is over: after ``duration`` s, or None for when the axis is at rest."""
     if duration is not None:
-        return Until(duration)
+        return RunEnd(duration)
     lag = 1.0 / axis.position_rate
     settle = LONGEST_WAIT * lag + LONGEST_SETTLING
     blocks = len(moved.profile) // 8
-    return Until(
+    return RunEnd(
         # Each exact stop between blocks may be waited for as long as the end is.
         2.0 * end_of(moved.profile) + settle + blocks * LONGEST_WAIT * lag,
         max(axis.inposition_band, axis.rest_band, 1.5 * axis.machine.position_count),

@@ -18,7 +18,7 @@ import numpy.typing as npt
 from amp_studio.sim.command.pieces import Piece, change, length
 from amp_studio.sim.command.ramps import exponential_pieces, leg, profile_of
 from amp_studio.sim.engine import kernel
-from amp_studio.sim.engine.compiled import can_compile, compiled, pays, plain
+from amp_studio.sim.engine.compiled import can_compile, compiled, pays_off, plain
 from amp_studio.sim.engine.machine import (
     POSITION_COUNT,
     POSITION_COUNTS,
@@ -40,7 +40,7 @@ from .motion import (
     TIMING,
     Engine,
     Motion,
-    Until,
+    RunEnd,
     machine_vectors,
     prepared,
     steps,
@@ -89,7 +89,7 @@ class MovingAxis:
         self._origin = 0.0  # where the kernel has its 0
         samples, substeps = steps(axis)
         self._steps, self._samples = samples * substeps, samples
-        vectors, self._rows = prepared(self.axis, [], Until(axis.servo_period * CHUNK), substeps)
+        vectors, self._rows = prepared(self.axis, [], RunEnd(axis.servo_period * CHUNK), substeps)
         self._vectors: list[Any] = [*vectors]
         """Lists, or arrays once machine code runs."""
         self._chunks: list[npt.NDArray[np.float64]] = []
@@ -290,7 +290,7 @@ class MovingAxis:
             return pieces, math.copysign(1.0, distance)
         pieces = change(order.ramp, abs(self.velocity), 0.0)
         if order.ramp.kind == "exponential" and pieces:
-            pieces = [replace(pieces[0], duration=self._fades(order.ramp))]
+            pieces = [replace(pieces[0], duration=self._exponential_stop_time(order.ramp))]
         return pieces, math.copysign(1.0, self.velocity)
 
     def order(self, pieces: Sequence[Piece], sign: float) -> None:
@@ -338,7 +338,7 @@ class MovingAxis:
         """
         x, at = self._vectors[STATE], self.measured
         motor, load = float(x[kernel.PLANT]), float(x[kernel.PLANT + 2])
-        fresh, _ = prepared(self.axis, [], Until(self.axis.servo_period), self._steps // self._samples)
+        fresh, _ = prepared(self.axis, [], RunEnd(self.axis.servo_period), self._steps // self._samples)
         # The brake is open again, and a drive that has tripped has torque. Time, delay line and rows go on.
         for place in (LAW_STATE, IO, MACHINE, BEFORE, AFTER):
             self._vectors[place][:] = fresh[place]
@@ -398,7 +398,7 @@ class MovingAxis:
 
     def _call(self) -> None:
         law = self.axis.position_sample, self.axis.velocity_sample
-        wanted = self._engine == "compiled" or (self._engine == "auto" and pays(*law, self._last_steps))
+        wanted = self._engine == "compiled" or (self._engine == "auto" and pays_off(*law, self._last_steps))
         if not self._is_compiled and wanted and can_compile():
             # Once, when machine code begins to pay: lists are faster for the plain engine.
             self._vectors = [np.array(each, dtype=np.float64) for each in self._vectors]
@@ -441,7 +441,7 @@ class MovingAxis:
         command(self._profile, piece_at(self._profile, 0, moment), moment, io)
         self.position, self.velocity = self._origin + io[COMMAND], io[COMMAND_VELOCITY]
 
-    def _fades(self, ramp: Ramp) -> float:
+    def _exponential_stop_time(self, ramp: Ramp) -> float:
         """Return how long an exponential stop lasts: until less than a count of it is left, s."""
         left = abs(self.velocity) * ramp.time
         count = max(self.axis.machine.position_count, 1e-6 * left)

@@ -11,7 +11,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from amp_studio.sim.command.events import Around, Homing, Ramp, Travel
+from amp_studio.sim.command.events import Homing, Ramp, Surroundings, Travel
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AlarmText, AxisLaw
 from amp_studio.sim.rounding import page_text, rounded_up, value_text
@@ -40,7 +40,7 @@ class SimulatedAxis:
     to reach the homing speed.
     """
 
-    def __init__(self, law: AxisLaw, around: Around | None = None, position: float = 0.0) -> None:
+    def __init__(self, law: AxisLaw, around: Surroundings | None = None, position: float = 0.0) -> None:
         self.law, self._around = law, around
         self._moving = MovingAxis(law, engine="plain", keep=False, coast=COAST)
         self._offset = position  # of the control's coordinates
@@ -126,7 +126,7 @@ class SimulatedAxis:
         self._forget_limit()
         # Ten minutes of a jog: an order without an end would be refused (`moving_axis.LONGEST`).
         far = min(farthest, abs(velocity) * 600.0)
-        self._begin(self._gone(velocity, ramp, far))
+        self._begin(self._jog_and_stop(velocity, ramp, far))
 
     def stop(self, ramp: Ramp) -> None:
         """Stop along a ramp."""
@@ -173,7 +173,7 @@ class SimulatedAxis:
         self._moving.trip()
 
     def reset(self) -> None:
-        """Give the drive back, mended; the command is where the axis is."""
+        """Give the drive back, free of its fault; the command is where the axis is."""
         self.alarm, self.is_enabled, self._braking = None, True, 0.0
         if self._moving.stop_number or self._moving.is_over or self._is_tripped:
             self._moving.restart()
@@ -192,7 +192,7 @@ class SimulatedAxis:
             yield StopOrder(ramp)
         yield MoveOrder(to, feedrate, ramp)
 
-    def _gone(self, velocity: float, ramp: Ramp, farthest: float) -> Orders:
+    def _jog_and_stop(self, velocity: float, ramp: Ramp, farthest: float) -> Orders:
         # A jog in the other direction comes to rest first: the sign of a profile is one for all of it.
         if self._moving.velocity * velocity < 0.0:
             yield StopOrder(ramp)
@@ -200,7 +200,7 @@ class SimulatedAxis:
         yield GoOrder(velocity, ramp, Watch(sign * math.inf, sign), farthest)
         yield StopOrder(ramp)
 
-    def _to_home(self, homing: Homing, ramp: Ramp, around: Around, homed: Homed) -> Orders:
+    def _to_home(self, homing: Homing, ramp: Ramp, around: Surroundings, homed: Homed) -> Orders:
         # A homing begins at rest, whatever the axis was doing.
         if self._moving.velocity != 0.0:
             yield StopOrder(ramp)
@@ -230,7 +230,7 @@ class SimulatedAxis:
             except (
                 SimulationError
             ) as error:  # a loop that is not stable: the control goes on without this axis
-                self._run_away(error.what)
+                self._end_unbounded_motion(error.what)
                 return
             left -= step
             self._left = AWAKE if self._moving.is_busy else self._left - step
@@ -285,7 +285,7 @@ class SimulatedAxis:
         self.alarm = AlarmText(code, f"The axis has passed {name} ({page_text(travel.page)})")
         self.switch_off() if travel.coasts else self.stop(travel.stop or Ramp())
 
-    def _run_away(self, text: str) -> None:
+    def _end_unbounded_motion(self, text: str) -> None:
         """Take the drive away from an axis whose motion has no bounds; it is where its command was."""
         at = self.command
         self._moving = MovingAxis(self.law, engine="plain", keep=False, coast=COAST)
@@ -324,17 +324,17 @@ class SimulatedAxis:
             self.alarm = AlarmText("HOME", NOT_IN_POSITION.format(band))
 
 
-def usual_around(law: AxisLaw, homing: Homing, ramp: Ramp) -> Around:
+def usual_around(law: AxisLaw, homing: Homing, ramp: Ramp) -> Surroundings:
     """Return switch and marker of a machine of which nothing is known: from the start at 0,
     far enough to reach the homing speed.
     """
     sign = math.copysign(1.0, homing.approach or homing.leave or 1.0)
     edge = sign * switch_ahead(law, homing, ramp) if homing.approach else 0.0
     marker = edge + math.copysign(0.25 * homing.turn, homing.leave or 1.0)
-    return Around(switch=edge if homing.approach else math.inf, marker=marker, scale=5.3 * homing.turn)
+    return Surroundings(switch=edge if homing.approach else math.inf, marker=marker, scale=5.3 * homing.turn)
 
 
-def moved(around: Around, way: float) -> Around:
+def moved(around: Surroundings, way: float) -> Surroundings:
     """Return the same surroundings, seen from another zero."""
     return replace(
         around,

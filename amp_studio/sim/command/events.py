@@ -121,7 +121,7 @@ class Homing:
 
 
 @dataclass(frozen=True)
-class Around:
+class Surroundings:
     """What is around an axis: switch, markers and ends of its way, in u of the machine."""
 
     switch: float = math.inf

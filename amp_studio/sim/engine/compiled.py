@@ -119,7 +119,7 @@ def can_compile() -> bool:
     return True
 
 
-def pays(position_sample: Sample, velocity_sample: Sample | None, steps: float) -> bool:
+def pays_off(position_sample: Sample, velocity_sample: Sample | None, steps: float) -> bool:
     """Return whether machine code is worth its loading for so many physics steps more,
     after all that this process has computed without it.
     """

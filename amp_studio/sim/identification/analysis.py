@@ -123,7 +123,7 @@ def settled_analysis(
             others = figures_of(later)
         except SimulationError:  # too little is left of a short record
             break
-        if not _is_other(figures, others):
+        if not _has_changed(figures, others):
             break
         now, way, figures, others = later, slower, others, figures
     found = _with_change(figures, figures, others)
@@ -154,7 +154,7 @@ def _changes(figures: Mapping[str, Figure], others: Mapping[str, Figure]) -> dic
     return found
 
 
-def _is_other(figures: Mapping[str, Figure], others: Mapping[str, Figure]) -> bool:
+def _has_changed(figures: Mapping[str, Figure], others: Mapping[str, Figure]) -> bool:
     return any(
         abs(change) > OTHER * (others[f"{name}{ERROR}"][0] or 0.0)
         for name, change in _changes(figures, others).items()

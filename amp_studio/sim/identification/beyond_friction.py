@@ -37,7 +37,7 @@ MIN_GAIN = 0.02
 MIN_STATIC_SHARE = 0.05
 """Share of the Coulomb friction below which what is more at the start is none."""
 BINS = 16
-DEPENDS, WORTH = 0.25, 0.02
+DEPENDS, MIN_BENEFIT = 0.25, 0.02
 """Share of the residual that its means by speed (or position) explain, and of the torque that they are,
 for a doubt."""
 
@@ -211,7 +211,7 @@ def residual_doubts(fit: FrictionFit, unit: str) -> Iterator[str]:
         explained = float((counts * means**2).sum() / max(float((rest**2).sum()), 1e-300))
         # A bin with less than an eighth of its share of the rows has a mean of noise.
         largest = float(np.abs(means[counts > len(rest) // (8 * BINS)]).max(initial=0.0))
-        if explained > DEPENDS and largest > WORTH * size:
+        if explained > DEPENDS and largest > MIN_BENEFIT * size:
             at = float(edges[int(np.argmax(np.abs(means)))])
             yield (
                 f"What inertia and friction leave depends on the {name}: up to "

@@ -328,7 +328,7 @@ def _solved(
             " this axis"
         )
     covariance = _covariance(table, torque - table @ coefficients, used, width, sizes)
-    covariance[0, 0] += (_swung(acceleration, used, period) * coefficients[0]) ** 2
+    covariance[0, 0] += (_load_swing_share(acceleration, used, period) * coefficients[0]) ** 2
     if r_squared < MIN_FIT:
         raise SimulationError(
             f"Inertia and friction explain only {max(0.0, 100.0 * r_squared):.0f} % of the torque: "
@@ -358,7 +358,7 @@ def _solved(
     )
 
 
-def _swung(acceleration: Series, used: npt.NDArray[np.bool_], period: float) -> float:
+def _load_swing_share(acceleration: Series, used: npt.NDArray[np.bool_], period: float) -> float:
     """Return by which share J may be too large as the load swings: on its spring it is accelerated more than
     its motor, by (w / its own rate)², and filters do not take that away.
     """

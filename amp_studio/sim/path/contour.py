@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from amp_studio.sim.axis.motion import Motion, Until, run_axis
+from amp_studio.sim.axis.motion import Motion, RunEnd, run_axis
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.path_rules import Indices, PathRows
@@ -71,7 +71,7 @@ def contour_error(plan: ProgramPlan, axes: Sequence[AxisLaw | None]) -> ContourE
     moving = [(n, axis) for n, axis in enumerate(axes) if axis is not None]
     # Following errors decay with the gain of the position loop: after six time constants 0.25 % is left.
     after = max(SETTLES / axis.position_rate for _, axis in moving)
-    motions = {n: run_axis(axis, profiles[n], Until(plan.time + after), thin=True) for n, axis in moving}
+    motions = {n: run_axis(axis, profiles[n], RunEnd(plan.time + after), thin=True) for n, axis in moving}
     alarms = [alarm for n, axis in moving for alarm in alarms_of(axis, motions[n])]
     # After the alarm of one axis the others have no common path any more.
     samples = min(len(motion.columns["time_s"][motion.driven]) for motion in motions.values())
@@ -89,7 +89,7 @@ def contour_error(plan: ProgramPlan, axes: Sequence[AxisLaw | None]) -> ContourE
     found = np.searchsorted(plan.start, time, side="right") - 1
     # After the last row, while the axes settle, that row counts on.
     rows = np.clip(found, 0, max(len(plan.start) - 1, 0)).astype(np.int64)
-    error = distances(place, commanded, ways_gone(plan, commanded, rows), path_points(plan, ON_ARC)[0])
+    error = distances(place, commanded, along_path(plan, commanded, rows), path_points(plan, ON_ARC)[0])
     alarms.sort(key=lambda alarm: alarm.time_s)
     return ContourError(time, error, following, rows, tuple(alarms))
 
@@ -102,7 +102,7 @@ def _on(motion: Motion, column: str, time: PathRows) -> PathRows:
     return np.interp(time, own, motion.columns[column])
 
 
-def ways_gone(plan: ProgramPlan, commanded: PathRows, rows: Indices) -> PathRows:
+def along_path(plan: ProgramPlan, commanded: PathRows, rows: Indices) -> PathRows:
     """Return how far along the path each commanded place is, u; ``rows`` are its rows of the plan."""
     geometry = plan.geometry
     before = np.concatenate([[0.0], np.cumsum(geometry.length)])[rows]

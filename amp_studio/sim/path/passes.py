@@ -69,7 +69,7 @@ def lowered_backward(bounds: StretchBounds, rules: PathRules, after: float) -> P
 
 
 @dataclass(frozen=True)
-class Rises:
+class SpeedRises:
     """How fast each row of a stretch can become, (rows,)."""
 
     entry: PathRows
@@ -79,7 +79,7 @@ class Rises:
     is_rapid: npt.NDArray[np.bool_]
 
 
-def lowered_forward(rises: Rises, rules: PathRules, reach: float) -> tuple[PathRows, float]:
+def lowered_forward(rises: SpeedRises, rules: PathRules, reach: float) -> tuple[PathRows, float]:
     """Return the speeds at which rows begin so that the one before can accelerate to each, and that which the
     last one can reach; ``reach`` is what the row before the stretch can. What is lowered here is never below
     the beginning of its row, so that no row has to brake for it.

@@ -17,7 +17,7 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.path_rules import PathLimit, PathRows, PathRules
 
 from .kept_columns import KeptColumns
-from .passes import Rises, bound_by_look_ahead, lowered_backward, lowered_forward
+from .passes import SpeedRises, bound_by_look_ahead, lowered_backward, lowered_forward
 from .planner import (
     CauseTable,
     ProgramPlan,
@@ -94,7 +94,7 @@ class PlannedProgram:
         reach = 0.0
         for n in range(len(self)):
             entry, by, length, acceleration, is_rapid = found[len(self) - 1 - n]
-            rises = Rises(entry, length, acceleration, is_rapid)
+            rises = SpeedRises(entry, length, acceleration, is_rapid)
             entry, reach = lowered_forward(rises, self._rules, reach)
             self._speeds.add([entry, by])
             self._count += len(entry)
@@ -116,7 +116,7 @@ class PlannedProgram:
             def shaped(limits: ShapedLimits) -> None:
                 limits.lower((speed, numbers[by_speed]), (ramp, numbers[by_ramp]), (joint, numbers[by_joint]))
 
-        return stretch_bounds(path, self._rules, self._table, shaped, goes_on=n > 0)
+        return stretch_bounds(path, self._rules, self._table, shaped, continues=n > 0)
 
     def stretch(self, n: int) -> ProgramPlan:
         """Return the rows of one stretch."""

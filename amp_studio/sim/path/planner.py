@@ -137,9 +137,9 @@ def stretch_bounds(
     table: CauseTable,
     shaped: Callable[[ShapedLimits], None] | None = None,
     *,
-    goes_on: bool = False,
+    continues: bool = False,
 ) -> StretchBounds:
-    """Return what bounds the rows of a path; that which ``goes_on`` begins with the last row of the stretch
+    """Return what bounds the rows of a path; that which ``continues`` begins with the last row of the stretch
     before it, which is left out. Raises SimulationError.
     """
     geometry = geometry_of(path, rules.chord.value if rules.chord else None)
@@ -164,7 +164,7 @@ def stretch_bounds(
     # A row begins with the joint before it; the first one at rest, which nothing of the file bounds.
     entry = np.concatenate([[0.0], joint[:-1]]) if len(joint) else joint
     entry_by = np.concatenate([[-1], joint_by[:-1]]).astype(np.int16) if len(joint) else joint_by
-    own = int(np.count_nonzero(geometry.row == 0)) if goes_on else 0
+    own = int(np.count_nonzero(geometry.row == 0)) if continues else 0
     columns = (is_rapid, wanted, top, top_by, acceleration, ramp_by, deceleration, slower_by, entry, entry_by)
     if own:
         path, geometry = path.rows(1, len(path)), _without(geometry, own)

@@ -11,7 +11,7 @@ import numpy as np
 from amp_studio.files import ParameterFile
 from amp_studio.programs import ToolPath
 from amp_studio.schema import Address, load_part
-from amp_studio.sim.axis.motion import Until, run_axis
+from amp_studio.sim.axis.motion import RunEnd, run_axis
 from amp_studio.sim.axis_parameters import ParameterValue
 from amp_studio.sim.command.events import Ramp
 from amp_studio.sim.command.ramps import end_of, move
@@ -180,7 +180,7 @@ def _wait(axis: AxisLaw, way: float, speed: float, ramp: Ramp) -> float:
     end = end_of(profile)
     # In position for 0.2 s: a loop that overshoots leaves its band again.
     motion = run_axis(
-        axis, profile, Until(end + LONGEST_WAIT, axis.inposition_band, 0.2, LONGEST_WAIT), thin=True
+        axis, profile, RunEnd(end + LONGEST_WAIT, axis.inposition_band, 0.2, LONGEST_WAIT), thin=True
     )
     time, error = motion.columns["time_s"], np.abs(motion.columns["following_error"])
     after = (time >= end) & (error > axis.inposition_band)

@@ -177,7 +177,7 @@ class LineTimes:
         self._cause, self._rapid = np.full(1, -1, np.int16), np.zeros(1, bool)
         self._causes = np.zeros(1, np.uint32)
 
-    def _grow(self, last: int) -> None:
+    def _extend(self, last: int) -> None:
         # In leaps: a short program needs little, and a long one few copies.
         more = min(max(last + 1, 2 * len(self._time)), LISTED + 1) - len(self._time)
         if last < len(self._time):
@@ -196,7 +196,7 @@ class LineTimes:
         if not len(rows):
             return
         lines, times = lines[rows], row_sums(plan.times[rows]).astype(np.float32)
-        self._grow(int(lines.max()))
+        self._extend(int(lines.max()))
         self._time += np.bincount(lines, plan.whole[rows], len(self._time))
         np.bitwise_or.at(self._causes, lines, causes_of(plan, rows))
         begun, first = np.unique(lines, return_index=True)

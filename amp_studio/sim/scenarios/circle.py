@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from amp_studio.sim.axis.motion import Motion, Until, run_axis
+from amp_studio.sim.axis.motion import Motion, RunEnd, run_axis
 from amp_studio.sim.engine.profiles import SINE
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
@@ -86,7 +86,7 @@ def run_circle(axis: AxisLaw, settings: ScenarioSettings, second: AxisLaw | None
     models = (linear_model(axis), linear_model(other))
     circle = _circle(axis, other, models, settings)
     motions = [
-        run_axis(each, circle.profile(phase), Until(circle.end), thin=True)
+        run_axis(each, circle.profile(phase), RunEnd(circle.end), thin=True)
         for each, phase in ((axis, math.pi / 2.0), (other, 0.0))
     ]
     alarms = tuple(

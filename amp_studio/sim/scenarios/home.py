@@ -14,7 +14,7 @@ from amp_studio.sim.axis.homing import NOT_IN_POSITION, Homed, home_axis
 from amp_studio.sim.axis.motion import Motion
 from amp_studio.sim.axis.moving_axis import MovingAxis
 from amp_studio.sim.axis.simulated_machine import switch_ahead
-from amp_studio.sim.command.events import Around, Homing
+from amp_studio.sim.command.events import Homing, Surroundings
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
@@ -116,7 +116,7 @@ def run_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     )
 
 
-def _course(axis: AxisLaw, homing: Homing, around: Around, found: Homed) -> HomingCourse:
+def _course(axis: AxisLaw, homing: Homing, around: Surroundings, found: Homed) -> HomingCourse:
     """Return what was on the way, for the picture."""
     sign = math.copysign(1.0, homing.approach)
     switch = around.switch, math.inf if around.is_stuck else around.switch + sign * around.length
@@ -143,7 +143,7 @@ def _as_left(homing: Homing, stage: str) -> str:
 
 
 def _slower(
-    axis: AxisLaw, homing: Homing, ramp: Ramp, around: Around, found: Homed
+    axis: AxisLaw, homing: Homing, ramp: Ramp, around: Surroundings, found: Homed
 ) -> Iterator[Recommendation]:
     """Yield the approach at which an axis that passed its whole switch stops on it."""
     parameter = homing.speeds.get("approach")
@@ -178,7 +178,7 @@ def _usual_ramp(axis: AxisLaw) -> Ramp:
     return axis.manual_ramp(True) if axis.manual_ramp else next(iter(axis.ramps.values()))
 
 
-def _homed(axis: AxisLaw, homing: Homing, ramp: Ramp, around: Around) -> tuple[MovingAxis, Homed]:
+def _homed(axis: AxisLaw, homing: Homing, ramp: Ramp, around: Surroundings) -> tuple[MovingAxis, Homed]:
     moving, found = MovingAxis(axis), Homed()
     moving.follow(home_axis(moving, homing, ramp, around, found))
     found.ended = moving.time
@@ -198,7 +198,7 @@ def _turned(homing: Homing, settings: ScenarioSettings) -> Homing:
     return homing.turned() if direction is not None and is_other else homing
 
 
-def _around(axis: AxisLaw, homing: Homing, ramp: Ramp, settings: ScenarioSettings) -> Around:
+def _around(axis: AxisLaw, homing: Homing, ramp: Ramp, settings: ScenarioSettings) -> Surroundings:
     """Return where switch, markers and the end of the way are, from the start;
     raises SimulationError for impossible ones.
     """
@@ -207,7 +207,7 @@ def _around(axis: AxisLaw, homing: Homing, ramp: Ramp, settings: ScenarioSetting
     if settings.get("move.dog") not in (None, "stuck"):
         raise SimulationError("move.dog must be stuck, or be left out", "move.dog")
     sign = math.copysign(1.0, homing.approach or homing.leave or 1.0)
-    around = Around(
+    around = Surroundings(
         length=length or math.inf,
         has_markers=has_markers,
         is_stuck=settings.get("move.dog") == "stuck",
@@ -255,7 +255,7 @@ def _on_scale(homing: Homing, settings: ScenarioSettings) -> float:
     return ON_SCALE * homing.scale.small if given is None else given
 
 
-def _scattered(around: Around, homing: Homing, settings: ScenarioSettings) -> list[Around]:
+def _scattered(around: Surroundings, homing: Homing, settings: ScenarioSettings) -> list[Surroundings]:
     """Return what is around the axis at the further homings: the switch at another place within its
     scatter.
     """
@@ -293,7 +293,7 @@ def _grid(homing: Homing, homed: Homed) -> float | None:
     return abs(homed.marker - homed.left.measured) / homing.turn * 100.0
 
 
-def _doubts(axis: AxisLaw, homing: Homing, around: Around, homed: Homed) -> list[str]:
+def _doubts(axis: AxisLaw, homing: Homing, around: Surroundings, homed: Homed) -> list[str]:
     """Return what is doubtful about this homing."""
     notes = []
     if homing.marker == "nearest" and homed.left and homed.marker is not None:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from amp_studio.sim.axis.motion import Motion, Until, run_axis
+from amp_studio.sim.axis.motion import Motion, RunEnd, run_axis
 from amp_studio.sim.engine.profiles import POLYNOMIAL
 from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.model import assumptions, torque_unit
@@ -91,7 +91,7 @@ def run_load(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     push = np.repeat(np.array(PHASES) * load, each).tolist()
     standing = [0.0, math.inf, 0.0, 0.0, 0.0, 0.0, POLYNOMIAL, 0.0]
     pushed = replace(axis, push=push, after=None)
-    motion = run_axis(pushed, standing, Until(len(push) * axis.servo_period))
+    motion = run_axis(pushed, standing, RunEnd(len(push) * axis.servo_period))
     stable, margins = stability(axis)
     whole = stable and motion.stop == 0
     found = _loaded(motion, each * axis.servo_period) if whole else None

@@ -58,11 +58,11 @@ def run_probe(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
         raise SimulationError("move.latency must not be negative", "move.latency")
     note = probing.latency_note if latency is None else "The latency is that of move.latency."
     wait = probing.latency if latency is None else latency
-    return _probed(axis, _meeting(axis, probing, speed, wait, settings), note, settings)
+    return _probed(axis, _probe_contact(axis, probing, speed, wait, settings), note, settings)
 
 
 @dataclass(frozen=True)
-class _Meeting:
+class _ProbeContact:
     """A probe that is to be met: places in u from the start."""
 
     probing: Probing
@@ -95,9 +95,9 @@ class _Outcome:
     """How far the axis went over the place of the signal."""
 
 
-def _meeting(
+def _probe_contact(
     axis: AxisLaw, probing: Probing, speed: float, latency: float, settings: ScenarioSettings
-) -> _Meeting:
+) -> _ProbeContact:
     """Return where the probe is met; raises SimulationError for a place that is none."""
     ramp = probing.ramp or next(iter(axis.ramps.values()))
     way = run_up(axis, speed, ramp)
@@ -108,10 +108,10 @@ def _meeting(
     if expected == 0.0:
         raise SimulationError("move.expected is 0; the probe must be somewhere else", "move.expected")
     sign = math.copysign(1.0, expected)
-    return _Meeting(probing, speed, latency, ramp, expected, sign, way, _touch(settings, expected))
+    return _ProbeContact(probing, speed, latency, ramp, expected, sign, way, _contact(settings, expected))
 
 
-def _met(axis: AxisLaw, meeting: _Meeting) -> _Outcome:
+def _probe_move(axis: AxisLaw, meeting: _ProbeContact) -> _Outcome:
     """Move the axis against the probe and through what the cycle does then."""
     probing, sign, speed, touch = meeting.probing, meeting.sign, meeting.speed, meeting.touch
     moving = MovingAxis(axis)
@@ -142,7 +142,7 @@ def _met(axis: AxisLaw, meeting: _Meeting) -> _Outcome:
     return _Outcome(moving.motion(), seen, place, captured, beyond)
 
 
-def _outside(axis: AxisLaw, meeting: _Meeting, outcome: _Outcome) -> tuple[Alarm, ...]:
+def _outside(axis: AxisLaw, meeting: _ProbeContact, outcome: _Outcome) -> tuple[Alarm, ...]:
     """Return the alarm of a cycle that expects its signal within a band."""
     probing, captured = meeting.probing, outcome.captured
     off = math.inf if captured is None else abs(captured - meeting.expected)
@@ -167,9 +167,9 @@ def _pushed_over(axis: AxisLaw, outcome: _Outcome, room: float | None) -> tuple[
     return (Alarm("PROBE OVERTRAVEL", moment, f"The probe is pushed {way} over, more than {most}"),)
 
 
-def _probed(axis: AxisLaw, meeting: _Meeting, latency_note: str, settings: ScenarioSettings) -> Trace:
+def _probed(axis: AxisLaw, meeting: _ProbeContact, latency_note: str, settings: ScenarioSettings) -> Trace:
     """Return the trace of one cycle, with its alarms and figures."""
-    outcome = _met(axis, meeting)
+    outcome = _probe_move(axis, meeting)
     probing, speed, captured, motion = meeting.probing, meeting.speed, outcome.captured, outcome.motion
     alarms = (
         *alarms_of(axis, motion),
@@ -209,7 +209,7 @@ def _probed(axis: AxisLaw, meeting: _Meeting, latency_note: str, settings: Scena
     )
 
 
-def _touch(settings: ScenarioSettings, expected: float) -> float | None:
+def _contact(settings: ScenarioSettings, expected: float) -> float | None:
     """Return where the probe is met; None where it never is."""
     text = settings.get("move.touch")
     if text is None:

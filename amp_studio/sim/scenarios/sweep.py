@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from amp_studio.sim.axis.motion import Motion, Until, run_axis
+from amp_studio.sim.axis.motion import Motion, RunEnd, run_axis
 from amp_studio.sim.engine.profiles import SINE
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
@@ -114,7 +114,7 @@ def sweep(axis: AxisLaw, tones: Sequence[Tone], *, feed_forward: bool = True) ->
         duration = tone.end - tone.start if tone is not tones[-1] else math.inf
         rows += [tone.start, duration, 0.0, tone.amplitude, 2.0 * math.pi * tone.frequency, 0.0, SINE, 0.0]
     swept = axis if axis.sweep_parameters is None else replace(axis, parameters=axis.sweep_parameters)
-    motion = run_axis(swept, rows, Until(tones[-1].end), thin=True, feed_forward=feed_forward)
+    motion = run_axis(swept, rows, RunEnd(tones[-1].end), thin=True, feed_forward=feed_forward)
     columns = {name: column[:: motion.rows_per_servo_period] for name, column in motion.columns.items()}
     time = np.ascontiguousarray(columns["time_s"])
     found = np.full((2, len(tones)), np.nan, dtype=np.complex128)

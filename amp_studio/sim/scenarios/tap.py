@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from amp_studio.sim.axis.motion import Until, run_axis
+from amp_studio.sim.axis.motion import RunEnd, run_axis
 from amp_studio.sim.command.events import Ramp
 from amp_studio.sim.command.pieces import Piece, length
 from amp_studio.sim.command.ramps import end_of, leg, profile_of
@@ -146,7 +146,7 @@ def _tapped(
     there = leg(reached, feed, Ramp("linear", rate))
     profile = _there_and_back(there, reached)
     until = end_of(profile) + SETTLE / axis.position_rate + NEAR
-    motion = run_axis(axis, profile, Until(until), thin=True)
+    motion = run_axis(axis, profile, RunEnd(until), thin=True)
     columns = per_minute({key: each.copy() for key, each in motion.columns.items()})
     time, command = motion.columns["time_s"], motion.columns["command_position"]
     thread = command if tapping.leads else _followed(time, command, tapping, lag)

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from amp_studio.sim.axis.motion import Motion, Until, run_axis
+from amp_studio.sim.axis.motion import Motion, RunEnd, run_axis
 from amp_studio.sim.axis.moves import feedrate_of, ramp_of
 from amp_studio.sim.command.ramps import move
 from amp_studio.sim.engine.signals import VELOCITY_LOOP
@@ -48,7 +48,7 @@ def run_velocity(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
     loop = axis_model(axis).inner
     lasts = above_zero(settings, "move.duration") or _time(loop)
     profile = move(speed * lasts, speed, ramp)
-    motion = run_axis(axis, profile, Until(2.0 * lasts), mode=VELOCITY_LOOP, coast=1.0)
+    motion = run_axis(axis, profile, RunEnd(2.0 * lasts), mode=VELOCITY_LOOP, coast=1.0)
     stable = loop is None or loop.is_stable(drift=True)
     margins = None if loop is None or stable else loop.margins()
     columns = {name: each for name, each in per_minute(motion.columns).items() if name not in POSITIONS}

@@ -83,13 +83,13 @@ def gain_recommendations(trial: Tried, solved: Solved, why: str = "") -> tuple[R
             continue
         page = trial.axis.sources[gain.name].page
         reason = _reason(trial, f"{why}{gives}", found, page, solved)
-        found.append(Recommendation(gain.parameter, number, old.unit, reason, _price(trial, solved, gain)))
+        found.append(Recommendation(gain.parameter, number, old.unit, reason, _cost(trial, solved, gain)))
     pages = {each.parameter: each.page for each in trial.axis.sources.values()}
     for parameter, before in solved.filters:
         number = solved.to_change.get(parameter)
         if number is not None:
             reason = _reason(trial, f"{why}{gives}", found, pages.get(parameter, ""), solved)
-            price = _filter_price(trial, before, number)
+            price = _filter_cost(trial, before, number)
             found.append(Recommendation(parameter, number, trial.unit(parameter), reason, price))
     return tuple(found)
 
@@ -99,7 +99,7 @@ def _reason(trial: Tried, first: str, found: Sequence[Recommendation], page: str
     return f"{reason} ({f'page {page}, ' if page else ''}aim {solved.aim.name})."
 
 
-def _filter_price(trial: Tried, before: float | None, number: float) -> str:
+def _filter_cost(trial: Tried, before: float | None, number: float) -> str:
     """Return what another filter costs, in a sentence."""
     if before is not None and number > before:
         choice = f" {FILTER_WEAKER}" if trial.axis.assumed else ""
@@ -109,7 +109,7 @@ def _filter_price(trial: Tried, before: float | None, number: float) -> str:
     return "The filter gives phase away below its frequency: the gains fit this filter and no other."
 
 
-def _price(trial: Tried, solved: Solved, gain: Gain) -> str:
+def _cost(trial: Tried, solved: Solved, gain: Gain) -> str:
     """Return what a change of one gain costs, in a sentence."""
     number = abs(solved.numbers[gain.parameter])
     if gain.present_size < 0.0:

@@ -34,9 +34,9 @@ STEPS = (1.25, 1.1, 1.04, 1.015)
 STARTS = 3
 """Points, of different innermost gains, from which is moved about:
 the best gains of one may be in another valley."""
-WORTH = 1.03
+MIN_BENEFIT = 1.03
 """Less stiffness than this factor is not worth a change."""
-FILTER_WORTH = 1.1
+FILTER_BENEFIT = 1.1
 """Less stiffness than this factor is not worth another filter:
 it may be set against what the model of the machine does not know."""
 FILTER_SHARES = (4.0, 2.5, 1.6, 1.25, 1.0, 0.8, 0.63)
@@ -281,7 +281,7 @@ def solve(trial: Tried, aim: Aim, *, slowest: float = math.inf) -> Solved:
     # Nothing is sound, now or by other gains: then what misses it by least.
     if best is None and gains and now == len(levels):
         best = settings.least_bad(levels)
-    chosen = _worth(settings, present, best, now, level, levels)
+    chosen = _clearly_better(settings, present, best, now, level, levels)
     after = settings.candidate(chosen) or before
     numbers = settings.search(chosen[0]).numbers(chosen[1])
     # Not rounded to the steps of the search: the same gains must not look like a change.
@@ -332,7 +332,7 @@ class _FilterSearches:
         self, setting: FilterSetting, point: GainPoint | None, levels: Sequence[Level], level: int
     ) -> Chosen | None:
         """Return filters with which a level is kept by a loop that is stiffer by what a filter is worth."""
-        most = math.inf if point is None else self.search(setting).yields(point) / FILTER_WORTH
+        most = math.inf if point is None else self.search(setting).yields(point) / FILTER_BENEFIT
         found = []
         for other in self._promising(setting, point, levels, level):
             there = self.search(other).best(levels, level)
@@ -367,7 +367,7 @@ class _FilterSearches:
         return min(found, key=lambda each: each[0])[1:] if found else None
 
 
-def _worth(
+def _clearly_better(
     settings: _FilterSearches,
     present: Chosen,
     best: Chosen | None,
@@ -382,15 +382,15 @@ def _worth(
         lacks = [settings.candidate(each) for each in (present, best)]
         need = levels[-1].need
         misses = [math.inf if each is None else each.loops.lacks(need) for each in lacks]
-        return best if misses[1] < misses[0] / WORTH else present
+        return best if misses[1] < misses[0] / MIN_BENEFIT else present
     search, point = settings.search(best[0]), best[1]
     least = search.yields(point)
     # A change must be worth a person's time at the machine.
-    if level == now and least * WORTH >= settings.search(present[0]).yields(present[1]):
+    if level == now and least * MIN_BENEFIT >= settings.search(present[0]).yields(present[1]):
         return present
     for n, value in enumerate(present[1]):  # what may stay as it is stays
         kept = (*point[:n], value, *point[n + 1 :])
-        if search.keeps(kept, levels, level) and search.yields(kept) <= least * WORTH:
+        if search.keeps(kept, levels, level) and search.yields(kept) <= least * MIN_BENEFIT:
             point = kept
     return best[0], point
 

@@ -12,9 +12,9 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from amp_studio.sim.axis.motion import TIMING, Engine, Until, prepared, run_prepared, steps
+from amp_studio.sim.axis.motion import TIMING, Engine, RunEnd, prepared, run_prepared, steps
 from amp_studio.sim.engine.arrays import Vector
-from amp_studio.sim.engine.compiled import FiguresOfRows, can_compile, compiled_figures, pays
+from amp_studio.sim.engine.compiled import FiguresOfRows, can_compile, compiled_figures, pays_off
 from amp_studio.sim.engine.kernel import (
     ALARM_ROW,
     ENDED,
@@ -101,7 +101,7 @@ def measure(
 
 
 def run_batch(
-    runs: Sequence[tuple[AxisLaw, list[float], Until, float, float]], *, machine_code: bool | None = None
+    runs: Sequence[tuple[AxisLaw, list[float], RunEnd, float, float]], *, machine_code: bool | None = None
 ) -> npt.NDArray[np.float64]:
     """Return the figures (runs, FIGURES) of runs of one law: axis, profile, when it ends, its target in u,
     rate of the feed share in 1/s.
@@ -113,7 +113,7 @@ def run_batch(
     samples, substeps = steps(axis)
     law = axis.position_sample, axis.velocity_sample
     expected = len(runs) * until.duration / axis.servo_period * samples * substeps
-    is_fast = (pays(*law, expected) if machine_code is None else machine_code) and can_compile()
+    is_fast = (pays_off(*law, expected) if machine_code is None else machine_code) and can_compile()
     figures = compiled_figures(measure) if is_fast else measure
     out = np.full((len(runs), len(FIGURES)), np.nan)
     # One room for the rows of all: large arrays that come and go are a page fault for every 4 kB of each run,
@@ -129,7 +129,7 @@ def run_batch(
 def _run(
     axis: AxisLaw,
     profile: list[float],
-    until: Until,
+    until: RunEnd,
     target: float,
     share_rate: float,
     engine: Engine,

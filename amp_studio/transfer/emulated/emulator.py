@@ -135,7 +135,7 @@ class Emulator:
             before, self._now = self._now, self._clock()
             self._panel.advance(self._control, self._now - before)
         self._screen()
-        self._obey()
+        self._execute()
         if self._restart_due:
             self._restart_due = False
             self._back_at = self._clock() + self._restart_seconds
@@ -146,7 +146,7 @@ class Emulator:
             return
         self._admit()
         for caller in list(self._callers):
-            self._hear(caller)
+            self._serve(caller)
 
     def _admit(self) -> None:
         """Take the next line, and cut those that are in its way."""
@@ -164,7 +164,7 @@ class Emulator:
                 self._drop(caller)
         self._callers.append(newest)
 
-    def _hear(self, caller: Caller) -> None:
+    def _serve(self, caller: Caller) -> None:
         """Answer what has come on one line; whatever goes wrong with it ends that line and nothing else."""
         if caller not in self._callers or self._is_over() or self._restart_due:
             return
@@ -173,7 +173,7 @@ class Emulator:
             data = caller.link.read(SLICE if caller is waited_for else 0)
             for start in range(0, len(data), PIECE):
                 self._answer(caller, data[start : start + PIECE])
-                self._obey()
+                self._execute()
                 if self._is_over() or self._restart_due or caller not in self._callers:
                     return
         except LinkError:
@@ -229,7 +229,7 @@ class Emulator:
 
     # -- the operator ------------------------------------------------------------------------------
 
-    def _obey(self) -> None:
+    def _execute(self) -> None:
         for _ in range(COMMANDS_A_TURN):
             if self._commands.empty():
                 return

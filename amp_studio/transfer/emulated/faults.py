@@ -102,7 +102,7 @@ class FaultyLink:
         self.passed += len(data)
         start = self._counts[way]
         self._counts[way] += len(data)
-        return _spoil(data, start, self._faults.corrupt_every, self._faults.lose_every)
+        return _corrupt(data, start, self._faults.corrupt_every, self._faults.lose_every)
 
 
 class FaultyLine:
@@ -145,14 +145,14 @@ def die() -> None:
     os._exit(137)
 
 
-def _spoil(data: bytes, start: int, corrupt_every: int | None, lose_every: int | None) -> bytes:
+def _corrupt(data: bytes, start: int, corrupt_every: int | None, lose_every: int | None) -> bytes:
     """Change and lose the bytes whose turn it is; ``start`` is how many have passed before."""
     if not corrupt_every and not lose_every:
         return data
-    spoilt = bytearray()
+    corrupted = bytearray()
     for count, byte in enumerate(data, start + 1):
         if lose_every and count % lose_every == 0:
             continue
         changed = corrupt_every is not None and corrupt_every > 0 and count % corrupt_every == 0
-        spoilt.append(byte ^ (1 << (count % 8)) if changed else byte)
-    return bytes(spoilt)
+        corrupted.append(byte ^ (1 << (count % 8)) if changed else byte)
+    return bytes(corrupted)

@@ -140,7 +140,7 @@ class DeviceService:
             self._now += passed
             self._device.advance(passed)
         self._screen()
-        self._obey()
+        self._execute()
         caller = self._listener.accept(0 if self._link else SLICE)
         if caller is not None:
             self._drop()
@@ -169,7 +169,7 @@ class DeviceService:
             self._link.close()
             self._link = None
 
-    def _obey(self) -> None:
+    def _execute(self) -> None:
         while not self._commands.empty() and not self._has_quit:
             line = self._commands.get().strip()
             if line == "quit":

@@ -84,7 +84,7 @@ class Connection:
         self._patience = patience
         self._policy = policy
         self._sleep = sleep
-        self._talk: Transaction | None = None
+        self._transaction: Transaction | None = None
         self._until: float | None = None  # when patience ends
         self._reached = 0  # bytes of the image under way when patience last began again
         self._best = 0  # the most bytes of it that were ever there
@@ -95,25 +95,25 @@ class Connection:
     @property
     def rate(self) -> float | None:
         """Bytes a second of the present line; None where it is not known."""
-        return None if self._talk is None else self._talk.link.bytes_per_second
+        return None if self._transaction is None else self._transaction.link.bytes_per_second
 
     def close(self) -> None:
         """Close the line."""
-        if self._talk is not None:
-            self._talk.link.close()
-            self._talk = None
+        if self._transaction is not None:
+            self._transaction.link.close()
+            self._transaction = None
 
-    def _open_talk(self) -> Transaction:
+    def _open_transaction(self) -> Transaction:
         """Return the transactions of the line there is, or of a new one."""
-        if self._talk is None:
+        if self._transaction is None:
             first = int.from_bytes(_letters(self.random(2)), "little")
             link = self._open_link(self._poll)
             try:
-                self._talk = Transaction(link, self.now, self._policy, first=first, look=self._poll)
+                self._transaction = Transaction(link, self.now, self._policy, first=first, look=self._poll)
             except BaseException:
                 link.close()
                 raise
-        return self._talk
+        return self._transaction
 
     def greet(self, tries: int = 3) -> Welcome:
         """Send Hello on the line there is, or on a new one.
@@ -121,9 +121,9 @@ class Connection:
         Raises LinkError, NoAnswerError, RefusalError; WrongFamilyError and ProtocolMismatchError,
         after which the line is closed.
         """
-        talk = self._open_talk()
-        hello = self._hello(talk.next_number)
-        welcome = talk.request(hello, Welcome, tries=tries)
+        transaction = self._open_transaction()
+        hello = self._hello(transaction.next_number)
+        welcome = transaction.request(hello, Welcome, tries=tries)
         # The answer to an earlier Hello, still on its way, is not taken for the one to this.
         if welcome.nonce != hello.nonce:
             raise NoAnswerError
@@ -161,14 +161,14 @@ class Connection:
         cause: Exception = NoAnswerError()
         while True:
             try:
-                if self._talk is None:
+                if self._transaction is None:
                     self.greet()
                     self.reconnections += 1
-                assert self._talk is not None
-                return action(self._talk)
+                assert self._transaction is not None
+                return action(self._transaction)
             except OutOfTimeError:
                 self.close()
-                raise self._gave_up(cause) from cause
+                raise self._timeout_error(cause) from cause
             except (LinkError, NoAnswerError) as error:
                 cause = error
                 if isinstance(error, LinkError):
@@ -183,16 +183,16 @@ class Connection:
             try:
                 self.pause(pause)
             except OutOfTimeError:
-                raise self._gave_up(cause) from cause
+                raise self._timeout_error(cause) from cause
             # Soon at first, for a loose plug; then rarely, for a control that restarts.
             pause = min(pause * 1.5, LONGEST_PAUSE)
 
     def once(self, action: Callable[[Transaction], object], seconds: float) -> None:
         """Run ``action`` if there is a line, whether or not it succeeds, for so long, and hang up."""
         self.begin(seconds)
-        if self._talk is not None:
+        if self._transaction is not None:
             with contextlib.suppress(LinkError, NoAnswerError, RefusalError):
-                action(self._talk)
+                action(self._transaction)
         self.close()
 
     # -- patience ----------------------------------------------------------------------------------
@@ -218,7 +218,7 @@ class Connection:
         if done > self._best:
             self._best = done
             self.further()
-        rate = self._talk.link.bytes_per_second if self._talk is not None else None
+        rate = self._transaction.link.bytes_per_second if self._transaction is not None else None
         # Of a small image and on a slow line a step is less, or patience would end while all goes well.
         step = min(STEP, total // STEPS, total if rate is None else int(rate * self._patience / 10))
         if done >= min(total, self._reached + max(1, step)) and done > self._reached:
@@ -237,11 +237,11 @@ class Connection:
         with contextlib.suppress(Exception):
             self.progress(stage, done, total)
 
-    def sizes(self, talk: Transaction) -> tuple[int, int]:
+    def sizes(self, transaction: Transaction) -> tuple[int, int]:
         """Return the length of a chunk in bytes and how many may be under way."""
         assert self.welcome is not None
         chunk = self.welcome.chunk
-        return chunk, window_limit(chunk, self.welcome.window, talk.link.bytes_per_second)
+        return chunk, window_limit(chunk, self.welcome.window, transaction.link.bytes_per_second)
 
     def pause(self, seconds: float) -> None:
         """Wait; raises CancelledError, OutOfTimeError."""
@@ -271,7 +271,7 @@ class Connection:
         if now - self._stopped_at >= LINGER or (isinstance(cancel, Stop) and cancel.is_urgent):
             raise OutOfTimeError
 
-    def _gave_up(self, cause: Exception) -> TransferError:
+    def _timeout_error(self, cause: Exception) -> TransferError:
         waited = f"for {self._patience:g} s"
         if self.cancel is not None and self.cancel.is_set():
             return CancelledError("stopped before the control has answered")

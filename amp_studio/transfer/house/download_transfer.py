@@ -95,32 +95,32 @@ class DownloadTransfer:
             self._line.is_committing = False
 
     def _stage_and_commit(self) -> Committed:
-        idle = spoilt = 0
+        idle = corrupted = 0
         while True:
             before = self._reached
             try:
                 return self._line.persist(self._attempt)
             except RefusalError as refusal:
-                # Staged bytes that are lost or spoilt are sent again under the same id. On a serial line a
+                # Staged bytes that are lost or corrupted are sent again under the same id. On a serial line a
                 # control may also have started again without the client's noticing; then it answers how much
                 # it has.
                 if refusal.code == Code.DIGEST:
-                    spoilt, self._reached = spoilt + 1, 0
+                    corrupted, self._reached = corrupted + 1, 0
                 elif refusal.code in (Code.UNKNOWN_TRANSFER, Code.INCOMPLETE):
                     # A control that loses its staging but gets further each time is slow, not hopeless.
                     further = self._reached - before > len(self._image) // STEPS
                     idle = 0 if further else idle + 1
                 else:
                     raise self._error(refusal) from None
-                if max(idle, spoilt) >= ATTEMPTS:
+                if max(idle, corrupted) >= ATTEMPTS:
                     raise self._error(refusal) from None
                 self._nothing_replaced()
 
-    def _attempt(self, talk: Transaction) -> Committed:
+    def _attempt(self, transaction: Transaction) -> Committed:
         """Continue the download where the control asks, and commit it."""
         total = len(self._image)
         opening = OpenDownload(self._transfer, total, self._digest, self._expected, self._signature)
-        ready = talk.request(opening, Ready)
+        ready = transaction.request(opening, Ready)
         if ready.offset > total:
             raise ProtocolMismatchError(
                 f"the control has staged {ready.offset} bytes of {total}, which cannot be"
@@ -139,10 +139,10 @@ class DownloadTransfer:
         if self._is_resumed:
             self._is_resumed, self._resumed_at = False, ready.offset
         done(ready.offset)
-        push(talk, self._image, ready.offset, *self._line.sizes(talk), done)
-        return self._commit(talk)
+        push(transaction, self._image, ready.offset, *self._line.sizes(transaction), done)
+        return self._commit(transaction)
 
-    def _commit(self, talk: Transaction) -> Committed:
+    def _commit(self, transaction: Transaction) -> Committed:
         cancel = self._line.cancel
         if self.at_control == "old":
             # The last moment at which a stop costs nothing.
@@ -154,7 +154,7 @@ class DownloadTransfer:
         self._line.is_committing = True  # from here on the matter is seen through
         # Until the answer is here nobody knows whether the control has replaced its image.
         self.at_control = "unknown"
-        committed = talk.request(
+        committed = transaction.request(
             Commit(self._transfer, self._digest), Committed, at_least=COMMIT_WAIT, tries=COMMIT_TRIES
         )
         self.at_control = "new"
@@ -199,6 +199,8 @@ class DownloadTransfer:
         self._broken.forget(self._what)
         if self.at_control == "old":
             self._line.once(
-                lambda talk: talk.request(Abort(self._transfer), Aborted, at_least=ABORT_WAIT, tries=1),
+                lambda transaction: transaction.request(
+                    Abort(self._transfer), Aborted, at_least=ABORT_WAIT, tries=1
+                ),
                 ABORT_WAIT,
             )

@@ -36,7 +36,7 @@ def window_limit(chunk: int, offered: int, bytes_per_second: float | None) -> in
     return max(1, min(offered, max(2, math.ceil(bytes_per_second * BACKLOG / chunk))))
 
 
-def push(talk: Transaction, image: bytes, offset: int, chunk: int, limit: int, done: Done) -> None:
+def push(transaction: Transaction, image: bytes, offset: int, chunk: int, limit: int, done: Done) -> None:
     """Send ``image`` from ``offset`` on until the control has staged it all.
 
     ``done`` is called with how many bytes are staged. Raises RefusalError, NoAnswerError, LinkError.
@@ -45,13 +45,13 @@ def push(talk: Transaction, image: bytes, offset: int, chunk: int, limit: int, d
     staged = offset
 
     def send(at: int, length: int) -> int:
-        return talk.send(Data(at, image[at : at + length]))
+        return transaction.send(Data(at, image[at : at + length]))
 
     def answer(number: int, message: Message) -> bool:
         nonlocal staged
         if not isinstance(message, Ack | Gap) or not window.knows(number) or message.next > len(image):
             return False
-        new = isinstance(message, Ack) and _learn(talk, window, number)
+        new = isinstance(message, Ack) and _measure_round_trip(transaction, window, number)
         if isinstance(message, Gap):
             window.refused(number)
         window.reached(message.next)
@@ -61,10 +61,12 @@ def push(talk: Transaction, image: bytes, offset: int, chunk: int, limit: int, d
         done(staged)
         return True
 
-    _run(talk, window, send, answer)
+    _run(transaction, window, send, answer)
 
 
-def pull(talk: Transaction, size: int, chunk: int, limit: int, pieces: dict[int, bytes], done: Done) -> None:
+def pull(
+    transaction: Transaction, size: int, chunk: int, limit: int, pieces: dict[int, bytes], done: Done
+) -> None:
     """Read the ``size`` bytes of an opened upload into ``pieces`` (offset to bytes); what is there is not
     read again.
 
@@ -76,7 +78,7 @@ def pull(talk: Transaction, size: int, chunk: int, limit: int, pieces: dict[int,
     received = sum(map(len, pieces.values()))
 
     def send(at: int, length: int) -> int:
-        return talk.send(Read(at, length))
+        return transaction.send(Read(at, length))
 
     def answer(number: int, message: Message) -> bool:
         nonlocal received
@@ -85,17 +87,20 @@ def pull(talk: Transaction, size: int, chunk: int, limit: int, pieces: dict[int,
             return False
         if (message.offset, len(message.content)) != (piece.offset, piece.length):
             return False
-        _learn(talk, window, number)
+        _measure_round_trip(transaction, window, number)
         pieces[piece.offset] = message.content
         received += piece.length
         done(received)
         return True
 
-    _run(talk, window, send, answer)
+    _run(transaction, window, send, answer)
 
 
 def _run(
-    talk: Transaction, window: Window, send: Callable[[int, int], int], answer: Callable[[int, Message], bool]
+    transaction: Transaction,
+    window: Window,
+    send: Callable[[int, int], int],
+    answer: Callable[[int, Message], bool],
 ) -> None:
     """Keep the window full until every piece has arrived; ``answer`` returns whether it was a step
     forward.
@@ -104,8 +109,8 @@ def _run(
     while not window.is_done:
         while (piece := window.next_piece()) is not None:
             number = send(*piece)
-            window.sent(number, *piece, talk.now())
-        received = talk.receive(_patience(talk, window))
+            window.sent(number, *piece, transaction.now())
+        received = transaction.receive(_patience(transaction, window))
         forward = False
         if received is not None:
             number, message = received
@@ -117,27 +122,27 @@ def _run(
                 raise NoAnswerError
         if forward:
             missed = useless = 0
-        elif _patience(talk, window) <= 0:  # whatever else has come in the meantime
+        elif _patience(transaction, window) <= 0:  # whatever else has come in the meantime
             missed += 1
-            if missed >= talk.pace.policy.tries:
+            if missed >= transaction.pace.policy.tries:
                 raise NoAnswerError
-            talk.pace.missed()
+            transaction.pace.missed()
             window.lose_all()
 
 
-def _patience(talk: Transaction, window: Window) -> float:
+def _patience(transaction: Transaction, window: Window) -> float:
     """Return the seconds until the oldest piece under way counts as lost."""
     oldest = window.oldest
     if oldest is None:
         return 0.0
-    rate = talk.link.bytes_per_second
+    rate = transaction.link.bytes_per_second
     on_the_line = window.bytes_flying / rate if rate else 0.0
-    return oldest + talk.pace.timeout + on_the_line - talk.now()
+    return oldest + transaction.pace.timeout + on_the_line - transaction.now()
 
 
-def _learn(talk: Transaction, window: Window, number: int) -> bool:
+def _measure_round_trip(transaction: Transaction, window: Window, number: int) -> bool:
     piece = window.arrived(number)
     if piece is None:
         return False
-    talk.pace.answered(talk.now() - piece.sent_at)
+    transaction.pace.answered(transaction.now() - piece.sent_at)
     return True

@@ -44,7 +44,7 @@ class UploadTransfer:
 
     def run(self) -> bytes:
         """Return the image; raises TransferError."""
-        idle = spoilt = 0
+        idle = corrupted = 0
         while True:
             before = self._received()
             try:
@@ -61,16 +61,16 @@ class UploadTransfer:
                 self._line.notify(self._stage, len(image), len(image))
                 return image
             self._opened, self._sent, self.sampled = None, None, None
-            spoilt += 1
-            if spoilt >= ATTEMPTS:
+            corrupted += 1
+            if corrupted >= ATTEMPTS:
                 raise ImageDamagedError("what the control sends does not have the digest it states")
 
-    def _read(self, talk: Transaction) -> UploadReady:
+    def _read(self, transaction: Transaction) -> UploadReady:
         """Read the pieces that are missing; if it is another image than before, all of them."""
-        ready = talk.request(OpenUpload(), UploadReady)
+        ready = transaction.request(OpenUpload(), UploadReady)
         if ready.size > MAX_IMAGE:
             raise ProtocolMismatchError(f"the control states an image of {ready.size} bytes, which cannot be")
-        chunk, limit = self._line.sizes(talk)
+        chunk, limit = self._line.sizes(transaction)
         if ready.size > chunk * MAX_PIECES:
             raise ProtocolMismatchError(
                 f"the control gives an image of {ready.size} bytes only {chunk} at a time: "
@@ -83,7 +83,7 @@ class UploadTransfer:
             self._line.moved(received, ready.size)
             self._line.notify(self._stage, received, ready.size)
 
-        pull(talk, ready.size, chunk, limit, self._pieces, done)
+        pull(transaction, ready.size, chunk, limit, self._pieces, done)
         return ready
 
     def _begin(self, ready: UploadReady, chunk: int) -> None:

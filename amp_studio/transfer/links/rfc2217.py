@@ -62,7 +62,7 @@ class Rfc2217Link:
         line.write_limit = WRITE_LIMIT if self._settings.flow == "none" else FLOW_LIMIT
         self._telnet = TelnetReader()
         self._sent: set[tuple[int, int]] = set()
-        self._is_open, self._has_heard, self._is_agreed = True, False, False
+        self._is_open, self._has_received, self._is_agreed = True, False, False
         self._answers: dict[int, bytes] = {}
         self._early = b""
         """Data that came right behind the answer that was waited for."""
@@ -90,7 +90,7 @@ class Rfc2217Link:
             self._negotiate(WILL, option)
             self._negotiate(DO, option)
         self._await(
-            lambda: self._is_agreed, end, lambda: NO_SERVER if self._has_heard else "no answer in time"
+            lambda: self._is_agreed, end, lambda: NO_SERVER if self._has_received else "no answer in time"
         )
 
     def set_port(self, end: float, *, own_flow: bool) -> None:
@@ -127,7 +127,7 @@ class Rfc2217Link:
             if left <= 0:
                 raise LinkError(self._endpoint, why_not())
             for content in self._received(min(left, SLICE)):
-                self._has_heard = True
+                self._has_received = True
                 self._early += content if is_there() else b""
 
     # -- the telnet line ---------------------------------------------------------------------------
@@ -148,7 +148,7 @@ class Rfc2217Link:
 
     def _answer(self, asked: Negotiation) -> None:
         """Agree to what is needed, refuse anything else; what was sent once is not sent again."""
-        self._has_heard = True
+        self._has_received = True
         if asked.option == COM_PORT and asked.command in (DO, DONT):
             self._is_agreed = asked.command == DO
             if not self._is_agreed:

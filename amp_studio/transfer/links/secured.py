@@ -56,16 +56,16 @@ class SecuredListener:
                     break
                 self._begin(caller)
                 wait = 0.0
-            link = self._let_in()
+            link = self._accept_next()
             if link is not None or time.monotonic() >= end:
                 return link
 
     def close(self) -> None:
         self._listener.close()
         while self._entering:
-            self._send_away(self._entering[0])
+            self._reject(self._entering[0])
 
-    def _send_away(self, entry: Entering) -> None:
+    def _reject(self, entry: Entering) -> None:
         self._entering.remove(entry)
         caller, _, steps = entry
         steps.close()
@@ -73,7 +73,7 @@ class SecuredListener:
 
     def _begin(self, caller: TcpLink) -> None:
         if len(self._entering) >= WAITING:
-            self._send_away(self._most_numerous())
+            self._reject(self._most_numerous())
         self._entering.append((caller, time.monotonic() + TIME_TO_ENTER, self._enter(caller)))
 
     def _most_numerous(self) -> Entering:
@@ -83,7 +83,7 @@ class SecuredListener:
         hosts = Counter(neighbourhood(caller.peer.host) for caller, _, _ in self._entering)
         return max(self._entering, key=lambda entry: hosts[neighbourhood(entry[0].peer.host)])
 
-    def _let_in(self) -> Link | None:
+    def _accept_next(self) -> Link | None:
         """Take each of those who wait a step further; return the first who is through."""
         for entry in list(self._entering):
             _, until, steps = entry
@@ -92,7 +92,7 @@ class SecuredListener:
                 if link is None and time.monotonic() >= until:
                     raise LinkError(self.endpoint, "not let in in time")
             except (LinkError, StopIteration):
-                self._send_away(entry)
+                self._reject(entry)
                 continue
             if link is not None:
                 self._entering.remove(entry)
@@ -110,7 +110,7 @@ class SecuredListener:
                     partial(self._context.wrap_socket, server_side=True, do_handshake_on_connect=False)
                 )
                 link = TlsLink(caller.peer, connection)
-                yield from self._shake_hands(connection)
+                yield from self._tls_handshake(connection)
             if self._gate is not None:
                 yield from self._ask(link, self._gate)
             is_through = True
@@ -123,7 +123,7 @@ class SecuredListener:
             if not is_through:
                 link.close()
 
-    def _shake_hands(self, connection: ssl.SSLSocket) -> Generator[None]:
+    def _tls_handshake(self, connection: ssl.SSLSocket) -> Generator[None]:
         """Yield until TLS is agreed on."""
         while True:
             try:

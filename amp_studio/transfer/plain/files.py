@@ -134,7 +134,7 @@ def _line(
             yield line, link
         except (PlainFileError, KeyboardInterrupt):
             if is_block:  # in a raw text it would be two more characters
-                line.give_up()
+                line.cancel_transfer()
             raise
 
 

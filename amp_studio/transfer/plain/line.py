@@ -64,7 +64,7 @@ class ByteLine:
         self._link = link
         self._cancel = cancel
         self._buffer = bytearray()
-        self._heard_at = self._reported_at = clock()
+        self._received_at = self._reported_at = clock()
 
     @property
     def quiet(self) -> float:
@@ -114,7 +114,7 @@ class ByteLine:
         self.look()
         rate = self._link.bytes_per_second
         gone = max(self.now(), began + (len(data) / rate if rate else 0.0))
-        self._heard_at = self._reported_at = gone  # nobody can answer before
+        self._received_at = self._reported_at = gone  # nobody can answer before
         return gone
 
     def await_time(self, when: float) -> None:
@@ -124,7 +124,7 @@ class ByteLine:
             del self._buffer[:-STORED]
             self.look()
 
-    def give_up(self) -> None:
+    def cancel_transfer(self) -> None:
         """Cancel the transfer at the other end, if that still hears."""
         with contextlib.suppress(OSError):
             self._link.write(CANCEL)
@@ -144,7 +144,7 @@ class ByteLine:
         if self._cancel is not None and self._cancel.is_set():
             raise PlainFileError("stopped")
         now = self.now()
-        silent = now - self._heard_at
+        silent = now - self._received_at
         if silent >= SILENT_AFTER and now - self._reported_at >= SILENT_EVERY:
             self._reported_at = now
             self.progress(SILENT, round(silent), round(self.patience.stall))
@@ -155,8 +155,8 @@ class ByteLine:
         except LinkError as error:
             raise self._lost(error) from None
         if came:
-            was_silent = self._reported_at > self._heard_at
-            self._heard_at = self._reported_at = self.now()
+            was_silent = self._reported_at > self._received_at
+            self._received_at = self._reported_at = self.now()
             if was_silent:
                 self.progress(SILENT, 0, round(self.patience.stall))
         return came

@@ -117,7 +117,7 @@ class FindSearch(Translated):
             return self._rows_of_commands(own)
         if self.window.page is None:
             found = self._messages(own) + self._among(own)
-            return rows_of(sorted(found, key=lambda hit: -hit.score), self._commands) or self._nothing(
+            return rows_of(sorted(found, key=lambda hit: -hit.score), self._commands) or self._ways_on_rows(
                 own, ""
             )
         finder = self._finder()
@@ -128,8 +128,8 @@ class FindSearch(Translated):
         found = sorted(found + self._among(own), key=lambda hit: -hit.score)
         if found:
             family = self.window.page.workspace.file.schema.family.family
-            return rows_of(found, self._commands, family) + self._every(found)
-        return self._nothing(own, finder.nearest(own))
+            return rows_of(found, self._commands, family) + self._show_all_row(found)
+        return self._ways_on_rows(own, finder.nearest(own))
 
     def _finder(self) -> Finder | None:
         """Return the finder of the file in front once its family is indexed."""
@@ -207,7 +207,7 @@ class FindSearch(Translated):
     def _hit(entry: Entry, score: float) -> Hit:
         return Hit("command", entry.title, "", "name", entry.key, score)
 
-    def _every(self, hits: list[Hit]) -> list[FindRow]:
+    def _show_all_row(self, hits: list[Hit]) -> list[FindRow]:
         """Return the row that shows in the table all parameters that were found, where there are several."""
         ids = tuple(
             dict.fromkeys(hit.key for hit in hits if hit.kind in ("parameter", "value", "choice", "note"))
@@ -217,7 +217,7 @@ class FindSearch(Translated):
         text = self.box.tr("Show %n parameters in the table", "", len(ids))
         return [FindRow(text, icon="table", every=ids)]
 
-    def _nothing(self, query: str, nearest: str) -> list[FindRow]:
+    def _ways_on_rows(self, query: str, nearest: str) -> list[FindRow]:
         """Return the ways on from a question without an answer: the nearest one, other families,
         where everything is.
         """

@@ -71,14 +71,14 @@ class FindBox(QLineEdit):
         self.list.setMouseTracking(True)
         self.list.entered.connect(self.list.setCurrentIndex)
         self.list.clicked.connect(self._choose)
-        self._foot = QLabel(self.tr("↑ ↓ choose    Enter go there    Esc close    > commands"))
-        self._foot.setFont(font("caption"))
-        self._foot.setContentsMargins(GAP2 + GAP, GAP, GAP2, GAP)
+        self._footer = QLabel(self.tr("↑ ↓ choose    Enter go there    Esc close    > commands"))
+        self._footer.setFont(font("caption"))
+        self._footer.setContentsMargins(GAP2 + GAP, GAP, GAP2, GAP)
         layout = QVBoxLayout(self._popup)
         layout.setContentsMargins(1, GAP, 1, 1)
         layout.setSpacing(0)
         layout.addWidget(self.list)
-        layout.addWidget(self._foot)
+        layout.addWidget(self._footer)
         self._popup.hide()
         self._window = window
         self._selects = False
@@ -148,7 +148,9 @@ class FindBox(QLineEdit):
         width = min(max(self.width(), _WIDE), self._window.width() - 2 * GAP2)
         left = max(GAP2, min(corner.x(), self._window.width() - width - GAP2))
         rows = range(self.model.rowCount())
-        wanted = sum(self.list.sizeHintForRow(n) for n in rows) + self._foot.sizeHint().height() + 2 * GAP + 4
+        wanted = (
+            sum(self.list.sizeHintForRow(n) for n in rows) + self._footer.sizeHint().height() + 2 * GAP + 4
+        )
         most = int(self._window.height() * _SHARE)
         self._popup.setGeometry(left, corner.y(), width, min(wanted, most))
 

@@ -14,13 +14,13 @@ from amp_studio.ui.window.studio_window import StudioWindow
 
 def connect_page(window: StudioWindow, page: FilePage) -> None:
     """Follow the buttons of a page."""
-    page.left.next_requested.connect(lambda: window.guarded(partial(go_on, window)))
+    page.left.next_requested.connect(lambda: window.guarded(partial(go_to_next, window)))
     page.left.tick_requested.connect(lambda step: window.guarded(lambda: tick_step(window, step)))
     page.left.defaults_requested.connect(lambda step: window.guarded(lambda: keep_defaults(window, step)))
     page.left.print_requested.connect(lambda: window.guarded(partial(save_check_list, window)))
 
 
-def go_on(window: StudioWindow) -> None:
+def go_to_next(window: StudioWindow) -> None:
     """Put the cursor on the next value that is not set, and show what has been passed."""
     page = window.page_in_front
     workspace = page.workspace

@@ -12,7 +12,7 @@ from amp_studio.files import ParameterFileError, Project
 from amp_studio.schema import Address
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask
-from amp_studio.ui.base.task import in_background, run_patiently
+from amp_studio.ui.base.task import in_background, run_with_progress
 from amp_studio.ui.base.translated import counted, tr
 from amp_studio.ui.merge.comparisons import parameter_files
 from amp_studio.ui.window.studio_window import StudioWindow
@@ -110,7 +110,7 @@ def _ask_name(window: StudioWindow, title: str, name: str = "") -> str:
     return text.strip() if accepted else ""
 
 
-def _let_go(window: StudioWindow, path: Path) -> bool:
+def _close_for_move(window: StudioWindow, path: Path) -> bool:
     """Close a file if it is open, asking about unsaved work; returns whether it may be moved."""
     page = window.page_of(path)
     if page is None or not page.workspace.may_edit:
@@ -135,7 +135,7 @@ def check(window: StudioWindow) -> None:
     paths = _the_project(window).files()
     if not paths:
         raise ValueError(tr("The project has no files yet."))
-    found = run_patiently(
+    found = run_with_progress(
         tr("Check All Files"), lambda progress, cancelled: check_files(paths, progress, cancelled), window
     )
     window.beside.show(ProjectCheckDialog(found, partial(show_at, window), window))
@@ -199,7 +199,7 @@ def rename(window: StudioWindow) -> None:
     if path is None or not name:
         return
     was_open = window.page_of(path) is not None
-    if _let_go(window, path):
+    if _close_for_move(window, path):
         try:
             path = project.rename(path, name)
         finally:
@@ -220,7 +220,7 @@ def delete(window: StudioWindow) -> None:
         "&Delete"
     ):
         return
-    if _let_go(window, path):
+    if _close_for_move(window, path):
         project.delete(path)
         window.show_status(tr("{name} deleted").format(name=path.name))
 
@@ -229,6 +229,6 @@ def recover(window: StudioWindow) -> None:
     """Recover a deleted file or an older version."""
     project = _the_project(window)
     path = _choose(window, tr("Recover"), project.backups())
-    if path and _let_go(window, path):
+    if path and _close_for_move(window, path):
         project.recover(path)
         window.open_path(path)

@@ -252,7 +252,7 @@ def _guide() -> Menu[PartsWindow]:
         "guide",
         tr("&Guide"),
         (
-            Action("guide.next", tr("&Next Not Set"), pages.in_values(guide.go_on), "Ctrl+."),
+            Action("guide.next", tr("&Next Not Set"), pages.in_values(guide.go_to_next), "Ctrl+."),
             Action(
                 "guide.done",
                 tr("Mark Step as &Done"),

@@ -67,25 +67,25 @@ def set_apart(page: QObject) -> None:
     """
     gc.freeze()
     _opening.setRemainingTime(_BACKGROUND_MS)
-    rest = _timer(_REST, look)
+    rest = _timer(_REST, collect_closed)
     if rest is not None and rest.isActive():
         rest.start(REST_MS + _BACKGROUND_MS)
     QTimer.singleShot(_BACKGROUND_MS, page, gc.freeze)
 
 
-def look_again() -> None:
+def collect_soon() -> None:
     """Look at everything again after a rest: a file was closed, and what belonged to it is garbage."""
-    rest = _timer(_REST, look)
+    rest = _timer(_REST, collect_closed)
     if rest is not None:
         rest.setSingleShot(True)
         rest.start(REST_MS)
 
 
-def look() -> None:
+def collect_closed() -> None:
     """Collect what belonged to closed files, and set apart what is left."""
     gc.unfreeze()
     gc.collect()
-    _give_back()
+    _return_free_pages()
     gc.freeze()
 
 
@@ -97,11 +97,11 @@ def collect() -> None:
         if gc.get_count()[generation] > gc.get_threshold()[generation]:
             gc.collect(generation)
             if generation == 2:
-                _give_back()
+                _return_free_pages()
             return
 
 
-def _give_back() -> None:
+def _return_free_pages() -> None:
     """Give free pages back to the system, where the C library is glibc; it takes 1 to 20 ms."""
     if sys.platform == "linux" and (trim := getattr(ctypes.CDLL(None), "malloc_trim", None)) is not None:
         trim(0)

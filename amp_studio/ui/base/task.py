@@ -163,7 +163,7 @@ class ProgressDialog(QDialog):
             self.buttons.setEnabled(False)
 
 
-def run_patiently(
+def run_with_progress(
     title: str,
     work: Work,
     parent: QWidget | None,
@@ -202,5 +202,5 @@ def in_background(parent: QWidget | None, title: str, work: Callable[[], _T]) ->
     def run(_: TaskProgress, __: threading.Event) -> _T:
         return work()
 
-    result: _T = run_patiently(title, run, parent, f"{title} …", cancellable=False)
+    result: _T = run_with_progress(title, run, parent, f"{title} …", cancellable=False)
     return result

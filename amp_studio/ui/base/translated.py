@@ -155,7 +155,7 @@ def language_in_use(choice: str) -> str:
     return system if system in LANGUAGES else "en"
 
 
-def speak(choice: str) -> str:
+def set_language(choice: str) -> str:
     """Give the program a language (``system`` or a code), before its first window; returns the code."""
     application = QCoreApplication.instance()
     code = language_in_use(choice)

@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QWidget
 from amp_studio.files import ParameterFile
 from amp_studio.ui.base.emulated_control import EmulatedControl
 from amp_studio.ui.base.known_controls import ControlVerb, with_exchange
-from amp_studio.ui.base.task import TaskProgress, run_patiently
+from amp_studio.ui.base.task import TaskProgress, run_with_progress
 from amp_studio.ui.base.translated import Translated, tr
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.window.studio_window import StudioWindow
@@ -45,7 +45,7 @@ def run_exchange(title: str, work: Callable[[Exchange], Any], parent: QWidget | 
 
         return work(Exchange(progress, cancel))
 
-    return run_patiently(title, run, parent, hint or tr("Waiting for the control …"), stages=stages())
+    return run_with_progress(title, run, parent, hint or tr("Waiting for the control …"), stages=stages())
 
 
 class ControlExchange(Translated):

@@ -301,7 +301,7 @@ class ControlPage(ControlPageParts):
         state = self._state()
         self._show_bar(state)
         self._show_detail()
-        self._show_foot(state)
+        self._show_hint(state)
         dangers = self.table.dangers() if self.direction == "send" else ()
         self.steps.show_plan(self.direction, session, state.to_send, dangers)
 
@@ -384,7 +384,7 @@ class ControlPage(ControlPageParts):
         seen = session.seen if session is not None else None
         self.one.setVisible(would_send and self.backup is None and seen is not None and seen.takes_one)
 
-    def _show_foot(self, state: PageState) -> None:
+    def _show_hint(self, state: PageState) -> None:
         session = self.session
         phase = session.phase if session is not None else ""
         is_busy = session is not None and session.is_busy

@@ -108,7 +108,7 @@ class AxisReadings:
         return panel_of(name, (Curve("", x, y, "now", dots=True),), ("time", "s"), unit)
 
 
-class Happened:
+class EventReadings:
     """What has happened while it was looked, the last one first, and which faults are active."""
 
     def __init__(self) -> None:

@@ -142,7 +142,7 @@ class ControlSession(QObject):
         self._take_state(seen.control)
         self.ended.emit("connect", True)
 
-    def lose(self, error: Exception) -> None:
+    def note_loss(self, error: Exception) -> None:
         """Take it that the control is not reached any more: another line to it was lost. How an exchange
         failed stays.
         """
@@ -150,7 +150,7 @@ class ControlSession(QObject):
             self.error, self.phase, self.is_refused = str(error), "away", False
             self.changed.emit()
 
-    def hear(self) -> None:
+    def note_answer(self) -> None:
         """Take it that the control has answered on another line: it is there again where it was lost."""
         self.has_answered = True
         if self.is_busy or self.is_refused or self.phase != "away" or not self.error:

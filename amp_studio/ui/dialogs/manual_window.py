@@ -81,7 +81,7 @@ class ManualWindow(QWidget):
         self._texts: dict[str, str] = {}
         self._fill()
         self._arrange()
-        self.search.textChanged.connect(self._look_for)
+        self.search.textChanged.connect(self._list_pages)
         self.search.returnPressed.connect(self.list.setFocus)
         self.list.currentItemChanged.connect(self._turn)
         self.text.anchorClicked.connect(self._follow)
@@ -135,7 +135,7 @@ class ManualWindow(QWidget):
             if item.data(0, _PAGE) == name:
                 self.list.setCurrentItem(item)
 
-    def _look_for(self, text: str) -> None:
+    def _list_pages(self, text: str) -> None:
         """List the pages that have every word; without one of them the list has its heads alone."""
         words = text.casefold().split()
         for item in self.items():

@@ -153,7 +153,7 @@ class FindingsPanel(QWidget):
         self.summary = QLabel()
         self.summary.setFont(font("small"))
         self.summary.linkActivated.connect(self._follow)
-        scheme().changed.connect(self._sum_up)
+        scheme().changed.connect(self._show_summary)
         self.chips: dict[str, QToolButton] = {}
         for severity in SEVERITIES:
             self.chips[severity] = made = chip("0")
@@ -203,9 +203,9 @@ class FindingsPanel(QWidget):
         self.fold.setAccessibleName(text)
         self.scope.setVisible(not is_folded)
         self.several.setVisible(not is_folded)
-        self._sum_up()
+        self._show_summary()
 
-    def _sum_up(self, *_: object) -> None:
+    def _show_summary(self, *_: object) -> None:
         """Say in one line what there is where nothing is found."""
         dim, link = colour("dim").name(), colour("sel").name()
         text = f'<span style="color:{dim}">{self.tr("none in this file")}'
@@ -278,7 +278,7 @@ class FindingsPanel(QWidget):
         if self.suppressed.isChecked():
             listed += map(self._suppressed_finding, suppressed)
         self._count(reached, len(workspace.findings) - len(reached), len(suppressed))
-        self._sum_up()
+        self._show_summary()
         self._delegate.may_edit = workspace.may_edit
         opened = self._opened()
         current = self.view.currentIndex()
@@ -294,7 +294,7 @@ class FindingsPanel(QWidget):
         self._pages.setCurrentIndex(0 if self.model.groups else 1)
         self.setFocusProxy(self.view if self.model.groups else self.empty)
         if not self.model.groups:
-            self._say_why_empty(len(reached))
+            self._show_why_empty(len(reached))
 
     def _opened(self) -> set[str]:
         """Return the keys of the groups that are folded out."""
@@ -341,7 +341,7 @@ class FindingsPanel(QWidget):
         self.hint.setToolTip(worded(delivered_text(now.deferred, now.deferred_to)))
         self.several.setEnabled(self._workspace.may_edit and any(finding.fix for finding in reached))
 
-    def _say_why_empty(self, number: int) -> None:
+    def _show_why_empty(self, number: int) -> None:
         shade, link = colour("dim").name(), colour("sel").name()
         count = len(addresses_not_set(self._workspace.findings))
         if number > (1 if count else 0):

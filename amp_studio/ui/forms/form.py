@@ -298,14 +298,14 @@ class FormDialog(QDialog):
             layout.addWidget(widget)
         self.hint.setVisible(bool(hint))
         self._is_touched = False
-        self.form.changed.connect(self._touch)
+        self.form.changed.connect(self._follow_answer)
         self.check()
 
     def problem(self) -> str:
         """Return what is wrong with the answers together, as a sentence."""
         return ""
 
-    def _touch(self, _: str) -> None:
+    def _follow_answer(self, _: str) -> None:
         self._is_touched = True
         self.check()
 

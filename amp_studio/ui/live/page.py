@@ -21,7 +21,7 @@ from amp_studio.ui.base.figures import sentence, show_value
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.translated import facts_in_words, message_in_words
 from amp_studio.ui.base.workspace import Workspace
-from amp_studio.ui.control.readings import Happened, StatusReadings
+from amp_studio.ui.control.readings import EventReadings, StatusReadings
 from amp_studio.ui.control.session import ControlSession
 from amp_studio.ui.forms.form import fill_choices
 
@@ -59,7 +59,7 @@ class LiveView(LivePageParts):
         """What the table listed when Live was begun."""
         self._status: ControlStatus | None = None
         self.turned: dict[Address, TurnedValue] = {}
-        self.happened = Happened()
+        self.happened = EventReadings()
         self._limits: dict[tuple[str, str], LiveLimits] = {}
         """Axis and unit -> its limits in the file as it is."""
         self._begun = time.monotonic()
@@ -120,7 +120,7 @@ class LiveView(LivePageParts):
             session.value_written.connect(self._written)
             self.turned.clear()
             self._asked.clear()
-            self.happened = Happened()
+            self.happened = EventReadings()
             self._status = self._answers.last = None
             self.panel.show_nothing("")
         self.session, self.name = session, name
@@ -256,7 +256,7 @@ class LiveView(LivePageParts):
         self.panel.grey(True)
         self._answers.end()
         if isinstance(error, Exception) and self.session is not None:
-            self.session.lose(error)
+            self.session.note_loss(error)
         self.changed.emit()
         if self._then is not None:
             then, self._then = self._then, None
@@ -298,7 +298,7 @@ class LiveView(LivePageParts):
         if self.bar.isVisible() and self.panel.readings.isEnabled() is False:
             self.bar.hide()
         if self.session is not None:
-            self.session.hear()
+            self.session.note_answer()
         if self._is_silent:
             self._is_silent = False
             self.changed.emit()

@@ -80,8 +80,8 @@ class LiveRecording(QWidget):
         self._missing: tuple[str, ...] = ()
         self._reasons: Mapping[str, str] = {}
         self._build()
-        scheme().changed.connect(self._show_foot)
-        workspace.closed.connect(self._let_go)
+        scheme().changed.connect(self._show_footer)
+        workspace.closed.connect(self._abandon_run)
 
     def _build(self) -> None:
         title = QLabel(self.tr("Recorder"))
@@ -124,12 +124,12 @@ class LiveRecording(QWidget):
         self.plot = Plot()
         self.plot.setAccessibleName(self.tr("Readings over time, a dot for each"))
         self.plot.setMinimumHeight(_MIN_PLOT)
-        self.foot = QLabel()
-        self.foot.setFont(font("small"))
-        self.foot.setWordWrap(True)
-        self.foot.setTextFormat(Qt.TextFormat.PlainText)
-        self.foot.setContentsMargins(GAP3, 0, GAP3, GAP2)
-        self.foot.setAccessibleName(self.tr("Figures of the record"))
+        self.footer = QLabel()
+        self.footer.setFont(font("small"))
+        self.footer.setWordWrap(True)
+        self.footer.setTextFormat(Qt.TextFormat.PlainText)
+        self.footer.setContentsMargins(GAP3, 0, GAP3, GAP2)
+        self.footer.setAccessibleName(self.tr("Figures of the record"))
         head = side_by_side(
             HEAD,
             title,
@@ -154,13 +154,13 @@ class LiveRecording(QWidget):
         across.addWidget(self.plot, 1)
         across.addWidget(self.channels)
         column.addLayout(across, 1)
-        column.addWidget(self.foot)
+        column.addWidget(self.footer)
         self.toggle.clicked.connect(self.start_or_stop)
         self.scales.toggled.connect(self.channels.setVisible)
         self.channels.rescaled.connect(self._redraw)
         self.open.clicked.connect(self._ask)
         self.trigger.currentIndexChanged.connect(lambda _: self._show_state())
-        self.plot.read.connect(lambda _: self._show_foot())
+        self.plot.read.connect(lambda _: self._show_footer())
         self._show_state()
 
     # -- readings ----------------------------------------------------------------
@@ -201,7 +201,7 @@ class LiveRecording(QWidget):
             is_due = self._count % DRAWN_EVERY == 0 or last is None
             if self.record is None and is_due and (picture := self._recent.picture()):
                 self._show(picture)
-                self._show_foot()
+                self._show_footer()
             return
         self._recorder.add(seconds, figures)
         if not self._recorder.has_fired and self._fires(last, axis, is_fault):
@@ -241,7 +241,7 @@ class LiveRecording(QWidget):
             before = read_number(self.before.text().strip() or "0")[0]
         except ValueError as error:
             self._problem = sentenced(str(error))
-            self._show_foot()
+            self._show_footer()
             return
         self._forget()
         waits = bool(self.trigger.currentData())
@@ -303,7 +303,7 @@ class LiveRecording(QWidget):
         )
         self._remark = f"{words}, {whose}"
         asked = AskedMotion("step", self._instance(file), settings, file, None, None, zeroed)
-        self._let_go()
+        self._abandon_run()
         self._task = Task(partial(run_motion, asked))
         self._task.done.connect(self._simulated)
         self._task.failed.connect(self._not_simulated)
@@ -327,9 +327,9 @@ class LiveRecording(QWidget):
     def _not_simulated(self, error: Exception) -> None:
         self._task = None
         self._remark = self.tr("Not simulated: {why}").format(why=sentenced(str(error), self._family))
-        self._show_foot()
+        self._show_footer()
 
-    def _let_go(self) -> None:
+    def _abandon_run(self) -> None:
         """Ignore the result of a run that has not finished."""
         if self._task is not None:
             self._task.done.disconnect(self._simulated)
@@ -341,7 +341,7 @@ class LiveRecording(QWidget):
     def _draw(self) -> None:
         if self.record is not None:
             self._show(record_picture(self.record, self._fired, self.trace))
-        self._show_foot()
+        self._show_footer()
 
     def _show(self, picture: Picture) -> None:
         """Draw a picture with the signals that are ticked, on their scales."""
@@ -351,7 +351,7 @@ class LiveRecording(QWidget):
     def _redraw(self) -> None:
         if self._whole is not None:
             self._show(self._whole)
-            self._show_foot()
+            self._show_footer()
 
     def _show_state(self) -> None:
         recorder, key = self._recorder, self.trigger.currentData()
@@ -374,9 +374,9 @@ class LiveRecording(QWidget):
             text = self.tr("○ machine   — simulated") if self.trace else self.tr("○ machine")
         self.state.setText(text)
         self.state.setToolTip(text)
-        self._show_foot()
+        self._show_footer()
 
-    def _show_foot(self) -> None:
+    def _show_footer(self) -> None:
         parts = [self._problem] if self._problem else []
         if self.record is not None:
             parts += self._figures(self.record)
@@ -384,9 +384,9 @@ class LiveRecording(QWidget):
         parts += map(self._why_missing, self._missing)
         parts.append(self.tr("dots are readings, nothing is known between them"))
         sheet = f"color: {colour('error' if self._problem else 'dim').name()};"
-        if self.foot.styleSheet() != sheet:  # Qt styles and paints again for the same one too
-            self.foot.setStyleSheet(sheet)
-        self.foot.setText("   ".join(filter(None, parts)))
+        if self.footer.styleSheet() != sheet:  # Qt styles and paints again for the same one too
+            self.footer.setStyleSheet(sheet)
+        self.footer.setText("   ".join(filter(None, parts)))
 
     def _why_missing(self, signal: str) -> str:
         """Return that a signal is not drawn, with the reason where the control has one."""
@@ -442,7 +442,7 @@ class LiveRecording(QWidget):
                 write_atomic(Path(text), picture_svg(named).encode())
         except OSError as error:
             self._problem = sentenced(str(error))
-        self._show_foot()
+        self._show_footer()
 
 
 def _beside_two(titles: Collection[str]) -> Collection[str]:

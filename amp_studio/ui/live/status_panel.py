@@ -27,7 +27,7 @@ from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.theme import GAP, GAP2, GAP3, HEAD, colour, font, scheme, severity_html
 from amp_studio.ui.base.translated import sentenced, unit_in_words
 from amp_studio.ui.control.limit_bar import LimitBar
-from amp_studio.ui.control.readings import Happened, lamps_of, titled
+from amp_studio.ui.control.readings import EventReadings, lamps_of, titled
 from amp_studio.ui.control.rows import FOOT, side_by_side
 from amp_studio.ui.forms.elided_label import ElidedLabel
 
@@ -76,7 +76,7 @@ class LiveStatusPanel(QWidget):
         self._status: ControlStatus | None = None
         self._axis: AxisStatus | None = None
         self._limits = LiveLimits()
-        self._happened = Happened()
+        self._happened = EventReadings()
         self._lay_out()
         scheme().changed.connect(self._colour)
         self.setFixedWidth(WIDE)
@@ -262,7 +262,7 @@ class LiveStatusPanel(QWidget):
         )
         self._set(self.lamps, f'<table width="100%" cellspacing="1">{table}</table>' if texts else "")
 
-    def show_happened(self, happened: Happened) -> None:
+    def show_happened(self, happened: EventReadings) -> None:
         """Show the faults that are active, and what has happened before."""
         self._happened = happened
         parts = [self._fault_html(fault, since) for fault, since in happened.active.values()]

@@ -61,7 +61,7 @@ class Line(QLabel):
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._colour_name: Token = "dim"
 
-    def say(self, text: str, colour_name: Token = "dim", more: str = "") -> None:
+    def show_text(self, text: str, colour_name: Token = "dim", more: str = "") -> None:
         """Show a text in an ink."""
         self._colour_name = colour_name
         self.setToolTip(more or text)
@@ -175,26 +175,28 @@ class MergeDetail(QFrame):
         self._group.setExclusive(False)
         for side, column in _COLUMNS.items():
             self.buttons[side].setChecked(choice == side)
-            self.values[side].say(model.cell(row, column).whole, "text")
-            self._say(self.notes[side], self._judge(row, side) if side != "base" or has_base else None)
+            self.values[side].show_text(model.cell(row, column).whole, "text")
+            self._show_verdict(
+                self.notes[side], self._judge(row, side) if side != "base" or has_base else None
+            )
         self.buttons["typed"].setChecked(isinstance(choice, Typed))
         self._group.setExclusive(True)
         self.other.setEnabled(model.may_type(row))
         self.buttons["typed"].setEnabled(model.may_type(row))
         self.other.setText(model.cell(row, RESULT).whole if isinstance(choice, Typed) else "")
-        self.notes["typed"].say("")
+        self.notes["typed"].show_text("")
 
-    def _say(self, label: Line, found: Iterable[Finding] | None) -> None:
+    def _show_verdict(self, label: Line, found: Iterable[Finding] | None) -> None:
         """Say what a choice brings: the worst finding, or that there is none."""
         if found is None:
-            label.say("")
+            label.show_text("")
             return
         worst = sorted(found, key=lambda finding: SEVERITIES.index(finding.severity))
         if not worst:
-            label.say(self.tr("no finding"))
+            label.show_text(self.tr("no finding"))
             return
         more = "\n".join(finding_in_words(finding) for finding in worst)
-        label.say(finding_in_words(worst[0]), _TOKENS[worst[0].severity], more)
+        label.show_text(finding_in_words(worst[0]), _TOKENS[worst[0].severity], more)
 
     def _words(self, row: Row) -> str:
         """Return in a sentence who changed the value."""
@@ -250,4 +252,4 @@ class MergeDetail(QFrame):
         try:
             self.chosen.emit(self._row, self._model.read(self._row, self.other.text()))
         except ValueError as error:
-            self.notes["typed"].say(str(error), "error")
+            self.notes["typed"].show_text(str(error), "error")

@@ -118,7 +118,7 @@ class MachinesDialog(QDialog):
         for button in (self.add_button, self.export_button, close):
             button.setAutoDefault(False)
         self._arrange(close)
-        self.filter.textChanged.connect(self._look_for)
+        self.filter.textChanged.connect(self._filter)
         self.everything.toggled.connect(self.compare)
         self.by_letter.toggled.connect(self.compare)
         self.list.itemChanged.connect(self.compare)
@@ -271,8 +271,8 @@ class MachinesDialog(QDialog):
     def _names(self) -> list[str]:
         return machine_names([machine.path.stem for machine in self._compared])
 
-    def _look_for(self, text: str) -> None:
-        self.rows.look_for(text)
+    def _filter(self, text: str) -> None:
+        self.rows.set_filter(text)
         self._show_summary()
 
     def _show_summary(self) -> None:

@@ -75,7 +75,7 @@ class MachinesFilter(QSortFilterProxyModel):
         super().__init__(parent)
         self._words: list[str] = []
 
-    def look_for(self, text: str) -> None:
+    def set_filter(self, text: str) -> None:
         """Show the rows with these words."""
         self._words = text.casefold().split()
         self.invalidate()

@@ -330,7 +330,7 @@ class MergeModel(QAbstractItemModel):
         if role == Qt.ItemDataRole.ToolTipRole:
             return self.text(row, column)
         if role == Qt.ItemDataRole.AccessibleTextRole:
-            return self._spoken(row, column)
+            return self._accessible_text(row, column)
         return None
 
     def text(self, row: Row, column: int) -> str:
@@ -357,7 +357,7 @@ class MergeModel(QAbstractItemModel):
             text += ", " + self.tr("%n conflicts", "", group.conflicts)
         return f"{title}  {text}"
 
-    def _spoken(self, row: Row, column: int) -> str:
+    def _accessible_text(self, row: Row, column: int) -> str:
         """Return a cell for a screen reader: whose value it is, and whether the result takes it."""
         text = self.text(row, column)
         if column in SIDES:

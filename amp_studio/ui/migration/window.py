@@ -156,7 +156,7 @@ class MigrationWindow(QDialog):
         try:
             found = migrate(self._file, target, asked)
         except (TargetError, MeaningError) as error:
-            self._sum_up(self._worded(str(error)))
+            self._show_summary(self._worded(str(error)))
             return
         self.migration = found
         self._ask(found)
@@ -164,9 +164,9 @@ class MigrationWindow(QDialog):
         self.losses.setText(
             "\n".join(f"• {self._worded(text)}" for text in less_safe(found)) or tr("nothing that is known")
         )
-        self._sum_up()
+        self._show_summary()
 
-    def _sum_up(self, fault: str = "") -> None:
+    def _show_summary(self, fault: str = "") -> None:
         """Show how far it is, or what is wrong with an answer: then nothing can be written."""
         found = self.migration
         if found is not None and not fault:

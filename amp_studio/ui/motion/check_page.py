@@ -241,7 +241,7 @@ class CheckPage(PageOfFile):
         self.again.clicked.connect(self.start)
         self.assumptions.clicked.connect(self._show_assumptions)
         self.card.axis_requested.connect(self._show_axis)
-        self.card.length_given.connect(self._home_with)
+        self.card.length_given.connect(self._home_with_marker)
         self.card.fix_requested.connect(self._apply_fix)
         for view in (self.card.scene, self.travel.scene, self.spindle.scene):
             view.parameter_requested.connect(lambda address: self._show_parameter(address[0]))
@@ -299,7 +299,7 @@ class CheckPage(PageOfFile):
         task.done.connect(self._over)
         task.failed.connect(self._over)
         task.begin()
-        self._sum_up()
+        self._show_summary()
 
     def stop(self) -> None:
         """Cancel the check that is under way."""
@@ -316,7 +316,7 @@ class CheckPage(PageOfFile):
     def _over(self, why: object) -> None:
         self._task = None
         self._lasted = time.monotonic() - self._begun
-        self._sum_up()
+        self._show_summary()
         self.travel.follow(self._workspace.file.copy())
         has_spindle = any(
             check.part == "spindle" and check.verdict != "not possible" for check in self.checks
@@ -332,7 +332,7 @@ class CheckPage(PageOfFile):
         self.rows.add(check)
         if (check.scenario, check.axis) == self._chosen:
             self.choose(*self._chosen)
-        self._sum_up()
+        self._show_summary()
 
     # -- the list ------------------------------------------------------------------------
 
@@ -341,7 +341,7 @@ class CheckPage(PageOfFile):
         self.rows.show_checks(self.checks, wanted)
         self.choose(*self._chosen)
 
-    def _sum_up(self) -> None:
+    def _show_summary(self) -> None:
         counts = counts_of(self.checks)
         for verdict, button in self.chips.items():
             button.setText(str(counts[verdict]))
@@ -451,7 +451,7 @@ class CheckPage(PageOfFile):
 
     # -- the fix ---------------------------------------------------------------------------
 
-    def _home_with(self, length: str | None) -> None:
+    def _home_with_marker(self, length: str | None) -> None:
         if self.check is not None:
             self._ask_again(self.check, length)
 

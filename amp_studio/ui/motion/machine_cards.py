@@ -253,16 +253,16 @@ class CheckCard(Card):
         self.fix.setProperty("primary", "true")
         self.fix.setAutoDefault(False)
         self.fix.clicked.connect(self.fix_requested)
-        foot = QHBoxLayout()
-        foot.setContentsMargins(GAP3, GAP, GAP2, GAP)
-        foot.setSpacing(GAP2)
+        footer = QHBoxLayout()
+        footer.setContentsMargins(GAP3, GAP, GAP2, GAP)
+        footer.setSpacing(GAP2)
         for each in (self.grid, self.grid_text):
-            foot.addWidget(each)
-        foot.addWidget(self.message, 1)
-        foot.addWidget(self.fix)
-        self.foot = QWidget()
-        self.foot.setLayout(foot)
-        self.column.addWidget(self.foot)
+            footer.addWidget(each)
+        footer.addWidget(self.message, 1)
+        footer.addWidget(self.fix)
+        self.footer = QWidget()
+        self.footer.setLayout(footer)
+        self.column.addWidget(self.footer)
         self.fix.hide()
 
     def _give_length(self) -> None:
@@ -296,13 +296,13 @@ class CheckCard(Card):
         self.message.setText(
             self.tr("The control would say: {message}").format(message=words) if words else ""
         )
-        self.foot.setVisible(bool(words or about))
+        self.footer.setVisible(bool(words or about))
 
     def offer_fix(self, text: str) -> None:
         """Offer a fix by what it sets; "" for none."""
         self.fix.setText(text)
         self.fix.setVisible(bool(text))
-        self.foot.setVisible(bool(text or self.message.text() or self.grid_text.text()))
+        self.footer.setVisible(bool(text or self.message.text() or self.grid_text.text()))
 
 
 class TravelCard(Card):

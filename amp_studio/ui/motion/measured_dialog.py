@@ -18,7 +18,7 @@ from amp_studio.calibration import (
     Measurement,
     MeasurementAnswers,
     Proposal,
-    Wish,
+    ProposalRequest,
     base_unit,
     compensation_of,
     lost_motion,
@@ -170,7 +170,7 @@ class MeasuredDialog(QDialog):
         """Read the points again with the present answers, and show what they come to."""
         given = self.form.answers()
         answers = MeasurementAnswers(given["unit"], given["error_unit"], given["sign"], given["decimal"])
-        wish = Wish(
+        request = ProposalRequest(
             # Not chosen is not off: the proposal asks for it.
             None if given["was_on"] == _ASK else given["was_on"] == "on",
             given["input"] or "",
@@ -181,7 +181,7 @@ class MeasuredDialog(QDialog):
         )
         try:
             measurement, self.proposal = in_background(
-                self, self.tr("Working out"), partial(self._work, answers, wish)
+                self, self.tr("Working out"), partial(self._work, answers, request)
             )
         except (CalibrationError, OSError) as error:
             self.proposal = None
@@ -190,11 +190,11 @@ class MeasuredDialog(QDialog):
             self._show(measurement, self.proposal)
         self.form.show_visible()
 
-    def _work(self, answers: MeasurementAnswers, wish: Wish) -> tuple[Measurement, Proposal]:
+    def _work(self, answers: MeasurementAnswers, request: ProposalRequest) -> tuple[Measurement, Proposal]:
         unit = base_unit(self._file, self._offered, self._axis)
         measurement = read_measured_file(self._path, answers, unit)
         self._is_circle = measurement.is_circle
-        return measurement, propose(self._file, self._axis, measurement, wish)
+        return measurement, propose(self._file, self._axis, measurement, request)
 
     def _show_nothing(self, why: str) -> None:
         self.summary.clear()

@@ -122,14 +122,14 @@ class ValuesPage(TuningPart):
             (name, instance)
             for name in self.page.params
             for instance in file.machine_schema.instances(file.schema.parameters[name])
-            if self._is_of_use(file, (name, instance))
+            if self._is_relevant(file, (name, instance))
         ]
         # In the order of the schema, which a sort of names would break: axis 10 behind axis 9.
         order = list(dict.fromkeys(instance for _, instance in found))
         return sorted(found, key=lambda address: order.index(address[1]))  # one axis after the other
 
     @staticmethod
-    def _is_of_use(file: ParameterFile, address: Address) -> bool:
+    def _is_relevant(file: ParameterFile, address: Address) -> bool:
         """Whether a value is shown: active, or inactive and set."""
         state = file.evaluation.state(address)
         return state.is_active or (state.state != "hidden" and file.get(address) is not None)

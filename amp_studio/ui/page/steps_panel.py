@@ -83,7 +83,7 @@ class StepsPanel(QWidget):
         layout.setSpacing(0)
         layout.addLayout(self._head())
         layout.addWidget(self.tree, 1)
-        layout.addLayout(self._foot())
+        layout.addLayout(self._footer())
         self._items: dict[str, QTreeWidgetItem] = {}
         self._fill()
         self.tree.currentItemChanged.connect(self._choose)
@@ -123,7 +123,7 @@ class StepsPanel(QWidget):
         head.addWidget(not_set, 2, 1)
         return head
 
-    def _foot(self) -> QVBoxLayout:
+    def _footer(self) -> QVBoxLayout:
         self.later, self.show_later = ElidedLabel(), QToolButton()
         self.later.setFont(font("small"))
         self.later.setForegroundRole(self.later.palette().ColorRole.PlaceholderText)

@@ -100,7 +100,7 @@ class PreviewPanel(QWidget):
         self._set.connect(self._show_pages)
         self.view.turned.connect(self.head.show_page)
         self.view.value_clicked.connect(self.value_requested)
-        self.view.zoomed.connect(self._look_from_near)
+        self.view.zoomed.connect(self._render_sharper)
         self.head.page_requested.connect(self.view.go_to_page)
         self.head.contents_requested.connect(self._choose)
         choice.changed.connect(self._chosen)
@@ -164,7 +164,7 @@ class PreviewPanel(QWidget):
         self.head.options.show_answers(answers_of(self._choice.contents))
         self.set_again()
 
-    def _look_from_near(self) -> None:
+    def _render_sharper(self) -> None:
         if self._page is not None and self._wanted_ppi() > self._preview_state().ppi:
             self.set_again()
 

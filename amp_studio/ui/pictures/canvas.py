@@ -150,7 +150,7 @@ class PictureCanvas(QWidget):
         spot = HandleSpot(self)
         spot.stepped.connect(self._step)
         spot.typed.connect(self.typed)
-        spot.removed.connect(self._take_out)
+        spot.removed.connect(self._remove_point)
         spot.left.connect(self._cancel)
         spot.focused.connect(lambda: self.choose(index))
         spot.setAccessibleDescription(
@@ -253,7 +253,7 @@ class PictureCanvas(QWidget):
         self.update()
         return done
 
-    def _take_out(self) -> None:
+    def _remove_point(self) -> None:
         """Take the point of the chosen handle out of its table."""
         if self.handle is not None and self.handle.without is not None:
             self.set_values(dict([self.handle.without]))

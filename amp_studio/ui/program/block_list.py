@@ -73,14 +73,14 @@ class BlockModel(QAbstractTableModel):
         """Show other blocks, all of them, folded."""
         self.rows, self.only = rows, ""
         self._open.clear()
-        self._lay()
+        self._list_rows()
 
     def show_only(self, letter: str) -> None:
         """Show the blocks of one limit, or what is not good, alone; all of them for ""."""
         self.only = letter
-        self._lay()
+        self._list_rows()
 
-    def _lay(self) -> None:
+    def _list_rows(self) -> None:
         self.beginResetModel()
         if self.only:
             own = np.array(sorted(self.rows.lines_of(self.only)), np.int64)
@@ -134,7 +134,7 @@ class BlockModel(QAbstractTableModel):
         """Open or close a fold; returns its row."""
         first = int(self._first[row])
         self._open ^= {first}
-        self._lay()
+        self._list_rows()
         return int(np.searchsorted(self._first, first))
 
     def open_at(self, line: int) -> int:

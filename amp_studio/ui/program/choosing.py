@@ -62,7 +62,7 @@ class GoToField(QLineEdit):
         self.setAccessibleName(tr("Go to block or line"))
         self.setPlaceholderText(tr("Block N150, or line 150"))
         self.setMaxLength(20)
-        self.returnPressed.connect(self._give)
+        self.returnPressed.connect(self._emit_text)
         self.hide()
 
     def begin(self) -> None:
@@ -71,6 +71,6 @@ class GoToField(QLineEdit):
         self.selectAll()
         self.setFocus()
 
-    def _give(self) -> None:
+    def _emit_text(self) -> None:
         self.hide()
         self.text_requested.emit(self.text())

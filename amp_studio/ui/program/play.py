@@ -96,7 +96,7 @@ class PlayBar(QWidget):
         self.slider.setRange(0, STEPS)
         self.slider.setEnabled(False)
         self.slider.setAccessibleName(self.tr("Moment of the program"))
-        self.slider.valueChanged.connect(self._slid)
+        self.slider.valueChanged.connect(self._follow_slider)
         self.time = QLabel()
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
@@ -111,7 +111,7 @@ class PlayBar(QWidget):
         self.button.setEnabled(seconds > 0.0)
         self.slider.setEnabled(seconds > 0.0)
         self.slider.setValue(0)
-        self._slid(0)
+        self._follow_slider(0)
 
     @property
     def moment(self) -> float:
@@ -152,7 +152,7 @@ class PlayBar(QWidget):
         if now >= self._whole:
             self.pause()
 
-    def _slid(self, _place: int) -> None:
+    def _follow_slider(self, _place: int) -> None:
         self._exact = None
         self._show_time()
 

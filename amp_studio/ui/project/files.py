@@ -25,7 +25,7 @@ from amp_studio.files import (
 )
 from amp_studio.schema import UnknownFamilyError, load_schema
 from amp_studio.ui.base.questions import ask
-from amp_studio.ui.base.task import in_background, run_patiently
+from amp_studio.ui.base.task import in_background, run_with_progress
 from amp_studio.ui.merge.comparisons import Comparisons, parameter_files
 from amp_studio.ui.page.file_page import FilePage
 from amp_studio.ui.window.studio_window import StudioWindow
@@ -100,7 +100,7 @@ class ProjectFiles(QObject):
     def check(self, folder: Path) -> None:
         """Check every file of a folder as it is on disk, and list the findings."""
         paths = sorted(folder.glob(f"*{ENDING}"))
-        found = run_patiently(
+        found = run_with_progress(
             self.tr("Check all files"),
             lambda progress, cancelled: check_files(paths, progress, cancelled),
             self.window,

@@ -180,7 +180,7 @@ def as_written(default: Value) -> Value:
     )
 
 
-def say_unit_once(looks: Iterable[CellLook]) -> None:
+def move_unit_to_head(looks: Iterable[CellLook]) -> None:
     """Leave the unit of the cells of a row to its head where all values have the same."""
     numbers = [look for look in looks if look.is_number]
     units = {look.unit for look in numbers}

@@ -82,7 +82,7 @@ def content_widths(table: ParameterTable, painter: CellPainter) -> ContentWidths
     return ContentWidths(_number_width(table), _names_width(table, every), full, short, slots, block)
 
 
-def grown(
+def widened(
     content: ContentWidths, table: ParameterTable, painter: CellPainter, rows: Collection[int]
 ) -> ContentWidths:
     """Return the widths with what the cells of some rows need now:

@@ -20,7 +20,7 @@ from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
 
-from .cell_look import CellLook, ShownValues, say_unit_once
+from .cell_look import CellLook, ShownValues, move_unit_to_head
 from .fact_columns import FACT_COLUMNS, FactColumn, reading_command
 
 AddressRole = Qt.ItemDataRole.UserRole + 1
@@ -287,7 +287,7 @@ class ParameterTable(QAbstractTableModel):
             # The whole row at once: which axis is unlike the others needs all of them.
             looks = self.values.row_looks([a for c, a in self.rows[row].cells.items() if c in here])
             if len(self.columns) > 1 and CONTROL not in self.rows[row].cells:
-                say_unit_once(looks.values())
+                move_unit_to_head(looks.values())
             self._looks |= looks
             found = looks[address]
         return found

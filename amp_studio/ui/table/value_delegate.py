@@ -65,7 +65,7 @@ class ValueDelegate(QStyledItemDelegate):
         """Width of the numbers in the block of the whole control; 0 without it."""
         self.refusal: Refusal | None = None
         """Why the last text was refused."""
-        self.to_mend: tuple[Address, str, Refusal] | None = None
+        self.to_reopen: tuple[Address, str, Refusal] | None = None
         """A text that was refused; the next editor of its address begins with it."""
 
     # -- painting ----------------------------------------------------------------
@@ -198,7 +198,7 @@ class ValueDelegate(QStyledItemDelegate):
         if not isinstance(editor, CellEditor) or editor.property("filled"):
             return  # an outside change does not touch what is typed
         editor.setProperty("filled", True)
-        refused, self.to_mend = self.to_mend, None
+        refused, self.to_reopen = self.to_reopen, None
         if refused is not None and refused[0] == index.data(AddressRole):
             editor.setText(refused[1])
             # After Qt has placed the editor, below which the frame is.

@@ -28,7 +28,7 @@ from amp_studio.ui.base.figures import sentence
 from amp_studio.ui.base.theme import font
 
 from .cell_editor import CellEditor, Refusal
-from .column_widths import MIN_NAMES, ColumnWidths, ContentWidths, column_widths, content_widths, grown
+from .column_widths import MIN_NAMES, ColumnWidths, ContentWidths, column_widths, content_widths, widened
 from .more_columns import MoreColumns
 from .parameter_table import AddressRole, ParameterTable
 from .selected_cells import SelectedCells
@@ -94,7 +94,7 @@ class ValueTable(QTableView):
         self.selectionModel().selectionChanged.connect(self._emit_range)
         model.modelAboutToBeReset.connect(self._before_reset)
         model.modelReset.connect(self._after_reset)
-        model.values_changed.connect(self._grow)
+        model.values_changed.connect(self._widen_columns)
 
     def selectionCommand(
         self, index: QModelIndex | QPersistentModelIndex, event: QEvent | None = None
@@ -199,7 +199,7 @@ class ValueTable(QTableView):
             if refusal is not None and hint == ValueDelegate.EndEditHint.NoHint and address is not None:
                 text = editor.text()
                 # Only when this one is closed: a cell has one editor.
-                QTimer.singleShot(0, self, lambda: self._mend(address, text, refusal))
+                QTimer.singleShot(0, self, lambda: self._reopen_editor(address, text, refusal))
             editor.close_frame()
         self._delegate.refusal = None
         super().closeEditor(editor, hint)
@@ -217,12 +217,12 @@ class ValueTable(QTableView):
         if index.flags() & Qt.ItemFlag.ItemIsEditable and self.indexWidget(index) is None:
             self.edit(index)
 
-    def _mend(self, address: Address, text: str, refusal: Refusal) -> None:
+    def _reopen_editor(self, address: Address, text: str, refusal: Refusal) -> None:
         """Open the editor again with a refused text."""
         index = self._table.index_of(address)
         if index.isValid() and self.indexWidget(index) is None:
             self.setCurrentIndex(index)
-            self._delegate.to_mend = (address, text, refusal)
+            self._delegate.to_reopen = (address, text, refusal)
             self.edit_current()
 
     def _select_row(self, row: int) -> None:
@@ -376,7 +376,7 @@ class ValueTable(QTableView):
         """
         is_same = self._parameters is self._table.asked
         self._is_dragged = self._is_dragged and is_same
-        self._lay_block()
+        self._span_block_columns()
         self._content = None
         self._fit_columns()
         index = self._table.index_of(self.last) if self.last else QModelIndex()
@@ -436,7 +436,7 @@ class ValueTable(QTableView):
         if not is_same:  # else the first column lies below the names until something else moves
             self.updateGeometries()
 
-    def _lay_block(self) -> None:
+    def _span_block_columns(self) -> None:
         """Let the values of the whole control have the width of all columns."""
         self.clearSpans()
         if self._table.has_block:
@@ -444,13 +444,13 @@ class ValueTable(QTableView):
                 if self._table.is_in_block(row):
                     self.setSpan(row, 0, 1, self._table.columnCount())
 
-    def _grow(self, changed: list[Address]) -> None:
+    def _widen_columns(self, changed: list[Address]) -> None:
         """Widen the columns for which a new value is too wide; none becomes narrower under the hand."""
         content, self._content = self._content, None
         if content is not None and changed:
             looked_at = (*changed, *self._table.values.worst)  # a mark of a finding needs room too
             rows = {i.row() for a in looked_at if (i := self._table.index_of(a)).isValid()}
-            self._content = grown(content, self._table, self._delegate.painter, rows)
+            self._content = widened(content, self._table, self._delegate.painter, rows)
         if self._is_dragged or not self._table.rows:
             return
         wanted = self._widths(self.width() - _MARGIN)

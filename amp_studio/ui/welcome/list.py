@@ -55,7 +55,7 @@ class WelcomeRow:
     words: tuple[str, ...] = field(default=())
     """What is read of it besides."""
 
-    def spoken(self) -> str:
+    def accessible_text(self) -> str:
         """Return the row as a screen reader reads it."""
         counted = [f"{n} {s}" for s, n in (self.counts or {}).items()]
         return ", ".join(
@@ -92,7 +92,7 @@ class WelcomeList(QListWidget):
     def show_row(self, item: QListWidgetItem, row: WelcomeRow) -> None:
         """Show an entry as it is now."""
         item.setData(ROW, row)
-        item.setData(Qt.ItemDataRole.AccessibleTextRole, row.spoken())
+        item.setData(Qt.ItemDataRole.AccessibleTextRole, row.accessible_text())
         item.setData(Qt.ItemDataRole.ToolTipRole, "\n".join(row.words))
 
     def fit(self) -> None:

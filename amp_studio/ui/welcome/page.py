@@ -254,7 +254,9 @@ class WelcomePage(QWidget):
         """Show the recent files whose name, folder or machine has the text."""
         for n in range(self.list.count()):
             item = self.list.item(n)
-            item.setHidden(text.casefold() not in f"{item.data(ROW).spoken()} {item.data(KEY)}".casefold())
+            item.setHidden(
+                text.casefold() not in f"{item.data(ROW).accessible_text()} {item.data(KEY)}".casefold()
+            )
         is_any_listed = any(not self.list.item(n).isHidden() for n in range(self.list.count()))
         self.filter.setVisible(self.list.count() > 0)
         self.none.setVisible(not is_any_listed)

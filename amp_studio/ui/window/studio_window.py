@@ -17,7 +17,7 @@ from PySide6.QtWidgets import QMainWindow
 
 from amp_studio.files import ChangedOnDiskError, Project, same_file
 from amp_studio.schema import Address
-from amp_studio.ui.base.garbage import look_again
+from amp_studio.ui.base.garbage import collect_soon
 from amp_studio.ui.base.questions import ask, show_message
 from amp_studio.ui.base.side_windows import SideWindows
 from amp_studio.ui.base.task import in_background
@@ -90,7 +90,7 @@ class StudioWindow(QMainWindow):
         page.workspace.deleteLater()  # else it keeps, by what follows its signals, all that was made for it
         page.deleteLater()
         if not self.is_leaving:
-            look_again()
+            collect_soon()
 
     @property
     def page(self) -> FilePage | None:

@@ -55,7 +55,7 @@ class _Pair(NamedTuple):
             self.differing.add(name)
 
 
-class _Odd(NamedTuple):
+class _Outlier(NamedTuple):
     """One instance, and how its value came of that of all others."""
 
     instance: str
@@ -120,7 +120,7 @@ class Alike:
         self._rows: dict[str, dict[str, dict[str, _Seen]]] = {}
         """Scope -> instance -> parameter -> what is compared."""
         self._pairs: dict[tuple[str, str, str], _Pair] = {}
-        self._odd: dict[tuple[str, str], _Odd] = {}
+        self._odd: dict[tuple[str, str], _Outlier] = {}
         """Scope and parameter -> the one instance that a slip parts from all others."""
 
     def check_all(self) -> None:
@@ -193,7 +193,7 @@ class Alike:
         like = next(instance for instance in column if instance != odd)
         words = self._slip(scope, name, odd, like) if column[odd].measures == usual.measures else ""
         if words and self._move_alike(scope, odd, column):
-            self._odd[scope, name] = _Odd(odd, words)
+            self._odd[scope, name] = _Outlier(odd, words)
 
     def _move_alike(self, scope: str, one: str, others: Iterable[str]) -> bool:
         return scope != "axis" or all(are_alike(self._file, one, other) for other in others)
@@ -216,7 +216,7 @@ class Alike:
     def findings(self) -> Iterator[Finding]:
         """Yield what differs between instances that are otherwise alike, a finding a parameter and scope."""
         asked: dict[tuple[str, str], list[tuple[str, str, int]]] = {}
-        for scope, a, b, name, agreeing in self._odd_pairs():
+        for scope, a, b, name, agreeing in self._unequal_pairs():
             asked.setdefault((scope, name), []).append((a, b, agreeing))
         for (scope, name), pairs in asked.items():
             yield self._finding(scope, name, pairs)
@@ -226,7 +226,7 @@ class Alike:
             if several[scope, *odd] == 1 and (scope, name) not in asked:
                 yield from self._alone(scope, name, odd.instance)
 
-    def _odd_pairs(self) -> Iterator[tuple[str, str, str, str, int]]:
+    def _unequal_pairs(self) -> Iterator[tuple[str, str, str, str, int]]:
         """Yield scope and both instances of each pair that differs in little, the parameter in which it
         does, and the number of those in which it agrees.
         """
@@ -267,7 +267,7 @@ class Alike:
     def _finding(self, scope: str, name: str, pairs: list[tuple[str, str, int]]) -> Finding:
         """Return the finding about a parameter: the one that differs from the rest, or both of two."""
         instances = list(dict.fromkeys(i for a, b, _ in pairs for i in (a, b)))
-        odd, others = self._odd_and_others(scope, name, instances)
+        odd, others = self._split_outliers(scope, name, instances)
         parameter = self._file.schema.parameters[name]
         texts = [
             f"{show_value(parameter, self._file.values[name, i])} on {self._label(name, i)}"
@@ -279,12 +279,12 @@ class Alike:
             ALIKE,
             "advice",
             tuple((name, i) for i in odd),
-            f"{parameter.name} is {_and(texts)}{slip}; they agree in {agree} other values. Is it meant?",
+            f"{parameter.name} is {_listed(texts)}{slip}; they agree in {agree} other values. Is it meant?",
             compared=tuple((name, i) for i in others),
             reason=REASON,
         )
 
-    def _odd_and_others(self, scope: str, name: str, instances: list[str]) -> tuple[list[str], list[str]]:
+    def _split_outliers(self, scope: str, name: str, instances: list[str]) -> tuple[list[str], list[str]]:
         """Return the instances that differ from the most frequent value, and the rest; without one most
         frequent value all are odd.
         """
@@ -311,6 +311,6 @@ def _compare(a: dict[str, _Seen], b: dict[str, _Seen]) -> _Pair:
     return _Pair([len(both)], {name for name in both if a[name] != b[name]})
 
 
-def _and(texts: Iterable[str]) -> str:
+def _listed(texts: Iterable[str]) -> str:
     *first, last = texts
     return f"{', '.join(first)} and {last}" if first else last

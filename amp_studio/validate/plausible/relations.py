@@ -97,9 +97,9 @@ class Relations:
                 yield row
 
     def _same(self, names: Sequence[str]) -> list[Finding]:
-        return [finding for row in self._rows(names) if (finding := self._odd_of_row(row))]
+        return [finding for row in self._rows(names) if (finding := self._outlier_of_row(row))]
 
-    def _odd_of_row(self, row: Sequence[ActiveValue]) -> Finding | None:
+    def _outlier_of_row(self, row: Sequence[ActiveValue]) -> Finding | None:
         """Return the finding about the one value that differs from all others, or about two by a slip."""
         counts = Counter(one.number for one in row)
         # Of three or more the one that differs is odd; of two nobody knows which, unless a slip explains

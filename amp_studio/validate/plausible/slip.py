@@ -21,10 +21,10 @@ _FACTORS = {
     -1.0: "the negative of",
 }
 
-ODD = 5
+MIN_DIGITS = 5
 """Digits from which nobody chooses a number that is a plain multiple of the printed default:
 8.46666 for 4.23333."""
-_OF_ODD = {**_FACTORS, 2.0: "twice", 0.5: "half of"}
+_OUTLIER_FACTORS = {**_FACTORS, 2.0: "twice", 0.5: "half of"}
 
 _POWERS = frozenset(words for factor, words in _FACTORS.items() if factor not in (_INCH, 1 / _INCH, -1.0))
 
@@ -35,7 +35,9 @@ def slip_of_default(value: float, default: float, digits: int) -> str:
     A round number that is ten times another one is chosen every day; of 4.23333 nobody chooses 42.3333. A
     slip does not make a number rounder either: 1 mm is no slip of 25.4 mm.
     """
-    words = slip_between(value, default) or (_off_by(value / default) if digits >= ODD and default else "")
+    words = slip_between(value, default) or (
+        _off_by(value / default) if digits >= MIN_DIGITS and default else ""
+    )
     if not words or not value or digits < 2 or significant_digits(value) < digits - 1:
         return ""
     return "" if digits < 3 and words in _POWERS else words
@@ -45,7 +47,7 @@ def _off_by(ratio: float) -> str:
     """Return in words what a number of many digits was multiplied by, also where its last digits went,
     or it was doubled.
     """
-    return next((words for factor, words in _OF_ODD.items() if abs(ratio / factor - 1) < 2e-5), "")
+    return next((words for factor, words in _OUTLIER_FACTORS.items() if abs(ratio / factor - 1) < 2e-5), "")
 
 
 def significant_digits(number: float) -> int:

@@ -25,7 +25,7 @@ from amp_studio.schema import (
 )
 from amp_studio.validate.finding import Finding
 
-from .slip import ODD, significant_digits, slip_of_default
+from .slip import MIN_DIGITS, significant_digits, slip_of_default
 
 USUAL = "plausible.usual"
 REASON = "ours, not the manual's: what the parameter usually is, or can mean"
@@ -228,7 +228,7 @@ def _doubt_of_bits(usual: Usual, word: int) -> str:
 def _slip_of_default(facts: _Known, default: float, number: float, entered: str) -> str:
     """Return by what slip a number in a unit would be the printed default; "" for none."""
     unit = entered
-    if dimension(unit) != facts.default_measures and facts.default_digits >= ODD:
+    if dimension(unit) != facts.default_measures and facts.default_digits >= MIN_DIGITS:
         unit = unit.replace("deg", "mm")  # the manual prints one number for linear and rotary axes
     if dimension(unit) != facts.default_measures:
         return ""

@@ -10,7 +10,7 @@ from amp_studio.families.acromill import law_plant as plant
 from amp_studio.families.acromill.law import LAW
 from amp_studio.schema import load_schema
 from amp_studio.sim import AxisLaw, AxisParameters, ParameterValue, Ramp
-from amp_studio.sim.axis.motion import Until, run_axis
+from amp_studio.sim.axis.motion import RunEnd, run_axis
 from amp_studio.sim.command.ramps import end_of, move
 from amp_studio.sim.model import with_model
 
@@ -97,7 +97,7 @@ def index(
     """Run the index of the story: 10 turns at 500 turns a minute (page 115)."""
     profile = move(turns, rpm / 60.0, Ramp("linear", ramp))
     end = end_of(profile)
-    motion = run_axis(axis, profile, Until(end + tail), engine="plain")
+    motion = run_axis(axis, profile, RunEnd(end + tail), engine="plain")
     every = motion.rows_per_servo_period
     columns = motion.columns
     return Scope(

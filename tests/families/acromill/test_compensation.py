@@ -9,7 +9,7 @@ import pytest
 from amp_studio.calibration import (
     CalibrationError,
     MeasurementAnswers,
-    Wish,
+    ProposalRequest,
     compensation_of,
     present_table,
     propose,
@@ -26,7 +26,7 @@ PRINTED = """Primary Setpoint Position,Actual 1,Actual 2,Actual 3,Actual 4
 4,4.004,4.001,4.004,4.001
 """
 INCHES = MeasurementAnswers("in", "in", "measured-target")
-OFF = Wish(was_on=False)
+OFF = ProposalRequest(was_on=False)
 TABLE = ("ballscrew.table", "X")
 
 

@@ -208,7 +208,7 @@ def _strike(bench: Bench, fault: str, choose: random.Random, every: int) -> None
         case "noise out":
             bench.spoil_out = damage(choose, every)
         case "deaf":
-            firmware._is_deaf = True
+            firmware._ignores_settings = True
         case "runs":
             firmware.state = "Run"
         case "alarm":

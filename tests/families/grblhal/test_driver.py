@@ -341,7 +341,7 @@ def test_who_stops_while_a_broken_line_is_made_again_waits_for_nothing(bench: Be
 
 def test_a_setting_that_is_never_answered_is_read_and_not_guessed(bench: Bench) -> None:
     present = current(bench)
-    bench.firmware._is_deaf = True  # as this build is after a soft reset
+    bench.firmware._ignores_settings = True  # as this build is after a soft reset
     wanted = replace(present, settings={**present.settings, 110: "600.000"})
     with pytest.raises(ControlSilentError) as caught:
         download(bench.driver, WantedContent(write_content(wanted), ""), lambda _: "copy")

@@ -16,7 +16,7 @@ from amp_studio.families.ninepc.law_figures import (
     sentence_excess_error,
 )
 from amp_studio.sim import SimulationError
-from amp_studio.sim.axis.motion import Engine, Motion, Until, run_axis
+from amp_studio.sim.axis.motion import Engine, Motion, RunEnd, run_axis
 from amp_studio.sim.command.ramps import move
 from amp_studio.sim.engine.profiles import POLYNOMIAL
 from amp_studio.sim.law import AxisLaw
@@ -33,7 +33,7 @@ IDEAL = {"motor_count": 0.0, "position_count": 0.0}
 def cruise(axis: AxisLaw, velocity: float, seconds: float) -> Motion:
     """Run at a constant velocity in u/s from the first moment on."""
     profile = [0.0, math.inf, 0.0, velocity, 0.0, 0.0, POLYNOMIAL, 0.0]
-    return run_axis(axis, profile, Until(seconds), thin=True)
+    return run_axis(axis, profile, RunEnd(seconds), thin=True)
 
 
 def step(axis: AxisLaw, **settings: float | str) -> Trace:
@@ -335,7 +335,7 @@ def test_a_finer_step_and_machine_code_change_nothing(axis: Axis) -> None:
     profile = move(20.0, 100.0, law.ramps["linear"])
 
     def run(engine: Engine, refine: int) -> Series:
-        motion = run_axis(law, profile, Until(0.5), engine=engine, refine=refine)
+        motion = run_axis(law, profile, RunEnd(0.5), engine=engine, refine=refine)
         return motion.columns["position"][:: motion.rows_per_servo_period]
 
     usual = run("compiled", 1)

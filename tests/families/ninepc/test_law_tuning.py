@@ -17,7 +17,7 @@ from amp_studio.families.ninepc.law_tune import (
     procedure_run,
 )
 from amp_studio.sim import SimulationError
-from amp_studio.sim.axis.motion import Until, run_axis
+from amp_studio.sim.axis.motion import RunEnd, run_axis
 from amp_studio.sim.command.ramps import move
 from amp_studio.sim.law import AxisLaw, Ramp
 
@@ -142,7 +142,11 @@ def test_the_smooth_overshoot_of_large_systems_takes_a_soft_load_on_a_linear_sca
         soft = {"resonance": resonance, "coulomb_friction": 3.0, "static_friction": 5.0}
         law = axis({**MACHINES["heavy"], "servo.velocity_proportional_gain": 3000.0, **values}, **soft)
         columns = run_axis(
-            law, move(400.0, FEEDRATE, Ramp("linear", 600.0, 600.0)), Until(1.3), engine="compiled", thin=True
+            law,
+            move(400.0, FEEDRATE, Ramp("linear", 600.0, 600.0)),
+            RunEnd(1.3),
+            engine="compiled",
+            thin=True,
         ).columns
         return float(columns["velocity"].max()) / FEEDRATE - 1.0
 

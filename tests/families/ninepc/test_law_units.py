@@ -8,7 +8,7 @@ import pytest
 from amp_studio.families.ninepc import law_samples as samples
 from amp_studio.families.ninepc import law_units as units
 from amp_studio.schema import load_schema
-from amp_studio.sim.axis.motion import Until, run_axis
+from amp_studio.sim.axis.motion import RunEnd, run_axis
 from amp_studio.sim.engine.profiles import POLYNOMIAL
 from amp_studio.sim.errors import SimulationError
 
@@ -60,7 +60,7 @@ def test_the_table_gives_the_same_motion_at_every_inertia_ratio(axis: Axis) -> N
             {"servo.standard_motor_values": True, "servo.load_inertia_ratio": f"r{ratio}"}, motor_count=0.0
         )
         step = [0.0, math.inf, 0.0, 1.0, 0.0, 0.0, POLYNOMIAL, 0.0]
-        return run_axis(law, step, Until(0.06), mode=1.0, engine="plain", thin=True).columns["velocity"]
+        return run_axis(law, step, RunEnd(0.06), mode=1.0, engine="plain", thin=True).columns["velocity"]
 
     alone = velocity(0)
     assert alone.max() > 1.0

@@ -7,7 +7,7 @@ import pytest
 from amp_studio.calibration import (
     CalibrationError,
     MeasurementAnswers,
-    Wish,
+    ProposalRequest,
     compensation_of,
     lost_motion,
     propose,
@@ -27,7 +27,7 @@ def test_backlash_is_counted_in_internal_units_towards_zero_and_keeps_its_sign(
     file.set(("axes.internal_unit", ""), file.read(("axes.internal_unit", ""), "3"))
     points = read_measurement(f"0,0\n100,0\n100,{falling}\n0,{falling}\n", UM)
     address = ("travel.backlash", "0")
-    proposal = propose(file, "0", points, Wish(was_on=False))
+    proposal = propose(file, "0", points, ProposalRequest(was_on=False))
     value = proposal.settings[address]
     file.set(address, value)
     assert (value.value, value.unit) == (lost, "iu")
@@ -38,4 +38,4 @@ def test_backlash_is_counted_in_internal_units_towards_zero_and_keeps_its_sign(
 def test_without_the_size_of_the_internal_unit_nothing_is_proposed() -> None:
     points = read_measurement("0,0\n100,0\n100,7\n0,7\n", UM)
     with pytest.raises(CalibrationError, match="is not set"):
-        propose(new_file("num"), "0", points, Wish(was_on=False))
+        propose(new_file("num"), "0", points, ProposalRequest(was_on=False))

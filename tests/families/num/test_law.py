@@ -9,7 +9,7 @@ from amp_studio.families.num import law_sample as sample
 from amp_studio.families.num.law import LAW
 from amp_studio.schema import Value as StoredValue
 from amp_studio.sim import AxisLaw, SimulationError, simulate
-from amp_studio.sim.axis.motion import Motion, Until, run_axis
+from amp_studio.sim.axis.motion import Motion, RunEnd, run_axis
 from amp_studio.sim.axis_parameters import AxisParameters
 from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.command.ramps import move
@@ -62,7 +62,7 @@ def bound(axis: str = "0", application: str = "1060 Series 1", **changes: Value)
 def moved(law: AxisLaw, speed: float, seconds: float = 1.0, ramp: str = "linear") -> Motion:
     """Run a move at a speed in mm/s, that goes on for a second."""
     profile = move(speed * (seconds + 0.5), speed, law.ramps[ramp])
-    return run_axis(law, profile, Until(seconds), engine="plain")
+    return run_axis(law, profile, RunEnd(seconds), engine="plain")
 
 
 def steady(motion: Motion) -> float:
@@ -133,7 +133,7 @@ def test_a_circle_of_50_mm_at_2_236_m_a_minute_is_50_um_too_small() -> None:
     law = bound(model__velocity_bandwidth=200.0, model__velocity_integral=0.0, misc__sampling_period=2.0)
     speed, radius = 2236.0 / 60.0, 50.0
     circle = [0.0, math.inf, 0.0, radius, speed / radius, 0.0, SINE, 0.0]
-    motion = run_axis(law, circle, Until(2.6), engine="plain")
+    motion = run_axis(law, circle, RunEnd(2.6), engine="plain")
     short = radius - float(motion.columns["position"].max())
     lag = 1.0 / (2.0 * math.pi * 200.0)
     assert short == pytest.approx(0.050 * (1.0 - (0.002 + 2.0 * lag) / 0.060), abs=0.0005)

@@ -10,7 +10,7 @@ from amp_studio.families.servo57c422b.law_plant import VISCOUS
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value, load_schema
 from amp_studio.sim import AxisLaw, SimulationError, simulate, simulated_axes
-from amp_studio.sim.axis.motion import Until, run_axis
+from amp_studio.sim.axis.motion import RunEnd, run_axis
 from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.command.ramps import end_of, move
 from amp_studio.sim.engine.signals import (
@@ -229,13 +229,13 @@ def test_advice_gives_the_feed_forward_that_leaves_no_error() -> None:
 
 def _stop(**changes: float | None) -> int:
     axis = axis_of(**changes, setup__max_velocity_error=None)
-    return run_axis(axis, move(60_000.0, 40_000.0, axis.ramps["linear"]), Until(1.4), engine="plain").stop
+    return run_axis(axis, move(60_000.0, 40_000.0, axis.ramps["linear"]), RunEnd(1.4), engine="plain").stop
 
 
 def _vibration(**changes: float | None) -> float:
     """Return the swing in counts at rest, after a small move."""
     axis = axis_of(**changes, setup__max_velocity_error=None, setup__max_position_error=None)
-    motion = run_axis(axis, move(500.0, 40_000.0, axis.ramps["linear"]), Until(0.6), engine="plain")
+    motion = run_axis(axis, move(500.0, 40_000.0, axis.ramps["linear"]), RunEnd(0.6), engine="plain")
     position = motion.columns["position"][motion.columns["time_s"] > 0.4]
     return float(position.max() - position.min())
 
@@ -243,7 +243,7 @@ def _vibration(**changes: float | None) -> float:
 def _error_at_speed(**changes: float | None) -> float:
     axis = axis_of(**changes)
     profile = move(30_000.0, 40_000.0, axis.ramps["linear"])
-    motion = run_axis(axis, profile, Until(end_of(profile)), engine="plain")
+    motion = run_axis(axis, profile, RunEnd(end_of(profile)), engine="plain")
     time = motion.columns["time_s"]
     at_speed = (time > end_of(profile) - 0.3) & (time < end_of(profile) - 0.2)
     return float(motion.columns["following_error"][at_speed].mean())

@@ -6,7 +6,7 @@ import pytest
 
 from amp_studio.families.syntec.law import LAW
 from amp_studio.sim import AxisLaw, SimulationError
-from amp_studio.sim.axis.motion import Motion, Until, run_axis
+from amp_studio.sim.axis.motion import Motion, RunEnd, run_axis
 from amp_studio.sim.axis_parameters import AxisParameters
 from amp_studio.sim.command.ramps import move
 from amp_studio.sim.model import with_model
@@ -51,7 +51,7 @@ def moved(law: AxisLaw, feedrate: float, seconds: float = 0.5, ramp: str = "line
     """Run a move at a feedrate in u/min, that goes on for the time."""
     speed = feedrate / 60.0
     return run_axis(
-        law, move(speed * (seconds + 1.0), speed, law.ramps[ramp]), Until(seconds), engine="plain"
+        law, move(speed * (seconds + 1.0), speed, law.ramps[ramp]), RunEnd(seconds), engine="plain"
     )
 
 

@@ -134,15 +134,15 @@ class NoisyLink:
         self._one_in = one_in
 
     def read(self, timeout: float) -> bytes:
-        return self._spoil(self._link.read(timeout))
+        return self._corrupt(self._link.read(timeout))
 
     def write(self, data: bytes) -> None:
-        self._link.write(self._spoil(data))
+        self._link.write(self._corrupt(data))
 
     def close(self) -> None:
         self._link.close()
 
-    def _spoil(self, data: bytes) -> bytes:
+    def _corrupt(self, data: bytes) -> bytes:
         out, random_up_to = bytearray(), self._chance.randrange
         for byte in data:
             if random_up_to(self._one_in):

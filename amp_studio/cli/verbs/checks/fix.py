@@ -57,11 +57,11 @@ def run(options: Options) -> int:
     else:
         print("\n".join(_lines(options, file, done, findings)))
     if not done:
-        print_remark(_nothing(options, validator))
+        print_remark(_print_nothing_to_fix(options, validator))
     return int(left["error"] > 0)
 
 
-def _nothing(options: Options, validator: Validator) -> str:
+def _print_nothing_to_fix(options: Options, validator: Validator) -> str:
     """Print that there was nothing to fix, and what could be fixed otherwise."""
     others = _fixable(validator.findings())
     message = f"{options.path}: nothing to fix"

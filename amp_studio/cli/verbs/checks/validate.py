@@ -145,14 +145,14 @@ def _results(
 ) -> Iterator[CheckResult]:
     """Yield the results of files in their order; those of several are kept for the next run."""
     if len(paths) < 2 or options.no_cache or options.motion:
-        yield from _each(check, paths, options.jobs)
+        yield from _results_in_order(check, paths, options.jobs)
         return
     from amp_studio.cli.checks.cache import CheckCache  # a file alone is checked before its database is open
 
     cache = CheckCache(options)
     keys = cache.keys(paths)
     kept = cache.read(keys, paths)
-    fresh = _each(check, [path for path in paths if path not in kept], options.jobs)
+    fresh = _results_in_order(check, [path for path in paths if path not in kept], options.jobs)
     made: list[CheckResult] = []
     for path in paths:
         if path in kept:
@@ -223,7 +223,7 @@ def _texts_in(folder: Path) -> str:
     return ""
 
 
-def _each(
+def _results_in_order(
     check: Callable[[Path], CheckResult], paths: Sequence[Path], jobs: int | None
 ) -> Iterator[CheckResult]:
     """Yield the results of files, in their order, whichever process is ready first."""

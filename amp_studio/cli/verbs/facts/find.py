@@ -87,7 +87,7 @@ def run(options: Options) -> int:
         raise UsageError("Nothing to find: give a number, a word, a value or a message of the control")
     found = _best(sources, query, options.limit)
     nearest = "" if found else _nearest(sources, query)
-    others = () if found or len(sources) > 1 else _elsewhere(query, sources[0].schema)
+    others = () if found or len(sources) > 1 else _hits_of_other_families(query, sources[0].schema)
     if options.json:
         hits = [_as_json(hit, source) for hit, source in found]
         print_json({"query": query, "hits": hits, "nearest": nearest} | _elsewhere_json(others))
@@ -113,7 +113,7 @@ def _nearest(sources: Sequence[_Source], query: str) -> str:
     return next(filter(None, (source.finder.nearest(query) for source in sources)), "")
 
 
-def _elsewhere(query: str, schema: Schema) -> Sequence[tuple[Schema, Hit]]:
+def _hits_of_other_families(query: str, schema: Schema) -> Sequence[tuple[Schema, Hit]]:
     """Return the best hit of each other family."""
     from amp_studio import family_ids, load_schema
     from amp_studio.find import Finder, elsewhere
@@ -227,17 +227,17 @@ def _print(found: list[tuple[Hit, _Source]], named: bool) -> None:
     """Print the hits, the best first; one that is a message with its whole page."""
     best, source = found[0]
     if best.kind == "message":
-        print(_where(source, named) + best.title)
+        print(_family_prefix(source, named) + best.title)
         print(*_page_lines(source.page(best), best), sep="\n")
         found = found[1:]
         if found:
             print()
     for hit, source in found:
         kind = f"{_NAMED.get(hit.kind, hit.kind)} " if _NAMED.get(hit.kind, hit.kind) else ""
-        print(f"{_where(source, named)}{kind}{hit.title}: {hit.detail} ({hit.why})")
+        print(f"{_family_prefix(source, named)}{kind}{hit.title}: {hit.detail} ({hit.why})")
 
 
-def _where(source: _Source, named: bool) -> str:
+def _family_prefix(source: _Source, named: bool) -> str:
     return f"{source.schema.family.family:8} " if named else ""
 
 

@@ -180,7 +180,13 @@ def _correction(
     options: Options, file: ParameterFile, offered: Compensation, axis: str, by_hand: bool
 ) -> _Correction:
     """Return what the options set: edited by hand, of measured points, or nothing."""
-    from amp_studio.calibration import MeasurementAnswers, Wish, base_unit, propose, read_measured_file
+    from amp_studio.calibration import (
+        MeasurementAnswers,
+        ProposalRequest,
+        base_unit,
+        propose,
+        read_measured_file,
+    )
 
     if by_hand:
         return _Correction(_edited(options, file, offered, axis))
@@ -191,7 +197,7 @@ def _correction(
     )
     measurement = read_measured_file(options.measured, answers, base_unit(file, offered, axis))
     was_on = None if options.compensation is None else options.compensation == "on"
-    wish = Wish(
+    request = ProposalRequest(
         was_on,
         options.input or "",
         _STARTS.get(options.start or "", ""),
@@ -199,7 +205,7 @@ def _correction(
         reversal=options.only != "table",
         circle=options.circle or "",
     )
-    proposal = propose(file, axis, measurement, wish)
+    proposal = propose(file, axis, measurement, request)
     correction = _Correction(dict(proposal.settings))
     correction.measurement, correction.proposal = measurement, proposal
     return correction

@@ -62,7 +62,7 @@ class AcrCard:
         """Take characters as they are typed."""
         for byte in data:
             if byte == RETURN:
-                self._obey()
+                self._execute()
             elif byte in (BACKSPACE, DELETE):  # assumed
                 if self._line:
                     self._line.pop()
@@ -75,7 +75,7 @@ class AcrCard:
         if self._echoes:
             self._out += characters
 
-    def _obey(self) -> None:
+    def _execute(self) -> None:
         """Answer the line that was typed, and begin the next one with the prompt of the program."""
         line, self._line = self._line.decode("ascii"), bytearray()
         self._echo(b"\r\n")
@@ -106,10 +106,10 @@ class AcrCard:
             self._program = int(match[1])
             return []
         if words.partition(" ")[0] in WORDS:
-            return self.motion.obey(*words.partition(" ")[::2])
+            return self.motion.execute(*words.partition(" ")[::2])
         if (match := _LIVE.fullmatch(words)) and (live := self._live(match)):
             return [live]
-        return self.settings.obey(line)
+        return self.settings.execute(line)
 
     def _live(self, match: re.Match[str]) -> str:
         """Return a system parameter or a bit as it is now;
@@ -138,7 +138,7 @@ class AcrCard:
             case "echo", "on" | "off":
                 self._echoes = rest == "on"
             case "patch", _ if rest:
-                return visible("; ".join(self.settings.obey(rest)) or line)
+                return visible("; ".join(self.settings.execute(rest)) or line)
             case "home", _:
                 return self.motion.home(rest.replace(",", "").replace(" ", ""))
             case "mdi", _ if rest:

@@ -98,7 +98,7 @@ class CardMotion:
 
     # -- words of the terminal -----------------------------------------------------------------------
 
-    def obey(self, word: str, rest: str) -> list[str]:
+    def execute(self, word: str, rest: str) -> list[str]:
         """Obey a line with one of WORDS; returns what the card shows. Raises CommandError."""
         try:
             if word == "HALT":

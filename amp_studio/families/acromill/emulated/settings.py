@@ -161,7 +161,7 @@ class CardSettings:
         """Forget what is saved; what is active stays active until the power goes."""
         self._memory.remove(SAVED)
 
-    def obey(self, line: str) -> list[str]:
+    def execute(self, line: str) -> list[str]:
         """Obey a line and return what the card shows; raises CommandError,
         with what came before it in the line done.
         """

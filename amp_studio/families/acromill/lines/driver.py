@@ -111,9 +111,9 @@ class TerminalDriver(AcrContent, LineDriver):
     def _identity(self) -> ControlIdentity:
         """Return the name and the version that the card prints."""
         # The version is only shown: two equal answers are enough, even on a bad line.
-        rows = self._twice("VER", on_damage=2)  # only shown
+        rows = self._read_until_equal("VER", on_damage=2)  # only shown
         if self._terminal.program != "00":
-            self._terminal.obey("PROG0")
+            self._terminal.execute("PROG0")
         version = next((match[1] for row in rows if (match := re.match(r"Version\s+(\S+)", row))), "")
         return ControlIdentity(
             family=FAMILY,
@@ -147,7 +147,7 @@ class TerminalDriver(AcrContent, LineDriver):
         """
         rows: list[str] = []
         for _ in range(SET_TRIES):
-            rows = self._terminal.obey(query)
+            rows = self._terminal.execute(query)
             if len(rows) == 1 and re.fullmatch(_FIGURE, rows[0], re.IGNORECASE):
                 return float(rows[0])
         raise ProtocolMismatchError(
@@ -257,7 +257,7 @@ class TerminalDriver(AcrContent, LineDriver):
         Whatever else comes, even twice, was damaged on the line and proves nothing of the card.
         """
         for _ in range(SET_TRIES):
-            rows = self._twice(query)
+            rows = self._read_until_equal(query)
             if not rows or _is_error(rows) or is_answer(rows):
                 return rows
             self._terminal.faults += 1
@@ -265,14 +265,14 @@ class TerminalDriver(AcrContent, LineDriver):
             f"the card answers '{query}' with '{rows[0][:SHOWN]}', which is neither a setting nor an error"
         )
 
-    def _twice(self, query: str, on_damage: int = 3) -> list[str]:
+    def _read_until_equal(self, query: str, on_damage: int = 3) -> list[str]:
         """Return an answer that has come twice in a row: nothing else on this line shows a damaged digit.
 
         On a line that has shown damage it has to come three times: of 10000 a zero is soon lost twice.
         """
         before, same = None, 0
         for _ in range(ASKED):
-            rows = self._terminal.obey(query)
+            rows = self._terminal.execute(query)
             same = same + 1 if rows == before else 1
             before = rows
             if same >= (on_damage if self._terminal.faults else 2):
@@ -303,7 +303,7 @@ class TerminalDriver(AcrContent, LineDriver):
                 cuts = self._terminal.cuts
                 self._set_again(transfer)
                 continue
-            rows = self._terminal.obey("ESAVE", SAVE_WAIT, transfer.begin_save)
+            rows = self._terminal.execute("ESAVE", SAVE_WAIT, transfer.begin_save)
             if rows:
                 raise ControlFullError(
                     f"the card answers ESAVE with '{rows[0][:SHOWN]}', and loses with its power what it has"
@@ -318,7 +318,7 @@ class TerminalDriver(AcrContent, LineDriver):
         """Send the command of one setting; returns what the card answers instead of obeying it,
         "" for nothing.
         """
-        rows = self._terminal.obey(transfer.lines[name], sent=partial(transfer.begin, name))
+        rows = self._terminal.execute(transfer.lines[name], sent=partial(transfer.begin, name))
         return f"the card answers '{rows[0][:SHOWN]}'" if rows else ""
 
     def _set(self, transfer: _ScriptTransfer, name: str) -> None:

@@ -49,7 +49,7 @@ class _DamagedError(Exception):
 
 
 class Terminal:
-    """One terminal; ``obey`` types a line and returns what the card shows before its next prompt."""
+    """One terminal; ``execute`` types a line and returns what the card shows before its next prompt."""
 
     def __init__(self, open_link: OpenLink, waiting: Waiting) -> None:
         self._open_link = open_link
@@ -72,7 +72,7 @@ class Terminal:
             self._link = None
         self._is_clear = False
 
-    def obey(
+    def execute(
         self, line: str, seconds: float = PROMPT_WAIT, sent: Callable[[], None] = lambda: None
     ) -> list[str]:
         """Have the card obey a line, in at most so many seconds; raises TransferError.
@@ -95,7 +95,7 @@ class Terminal:
                 self.faults += 1
                 continue
             # Only a whole answer counts as heard: noise must not keep a dead line alive.
-            self._waiting.heard()
+            self._waiting.note_answer()
             return rows
         raise ControlSilentError(f"the card does not take '{line}': {fault or 'the line breaks each time'}")
 

@@ -78,7 +78,7 @@ class Firmware:
 
     def _boot(self) -> None:
         """Start as after power: with what is stored, or with the defaults and error 7 where nothing is."""
-        self._line, self._overflows, self._is_deaf, self._last_end = "", False, False, ""
+        self._line, self._overflows, self._ignores_settings, self._last_end = "", False, False, ""
         self._is_critical = False
         self._unit = 21
         self._refusal = 0
@@ -194,7 +194,7 @@ class Firmware:
 
     def _soft_reset(self) -> None:
         """Start again as Ctrl-X does, in the middle of whatever is under way."""
-        self._line, self._is_deaf = "", True  # this build takes no setting after a soft reset
+        self._line, self._ignores_settings = "", True  # this build takes no setting after a soft reset
         self._is_critical = False
         was = self._motion.state
         if self._motion.cancel():  # motion_control.c ``mc_reset``: the position may be lost
@@ -236,7 +236,7 @@ class Firmware:
         try:
             if overflows:
                 raise RefusedError(TOO_LONG)
-            if self._is_deaf and re.match(r"\$\d+=", line):
+            if self._ignores_settings and re.match(r"\$\d+=", line):
                 return
             self._execute(line)
         except _AnswerLater:
@@ -402,7 +402,7 @@ class Firmware:
             raise RefusedError(UNKNOWN)
         self._memory.replace(MEMORY, b"")
         self._boot()
-        self._is_deaf = True
+        self._ignores_settings = True
 
     def _block(self, line: str) -> None:
         """Execute a block of G-code, of which only units and offsets matter here."""

@@ -125,7 +125,7 @@ class ConfigurationDriver(ConfigurationContent):
             try:
                 self._write(name, new[name], old.get(name))
             except (ChangedOnDiskError, SaveError) as error:
-                raise self._broken(error, written, old, new) from error
+                raise self._restored_error(error, written, old, new) from error
             written.append(name)
             self._waiting.notify("send", len(written), len(changed))
         return Receipt(restart_needed=is_running(self.path))
@@ -174,7 +174,7 @@ class ConfigurationDriver(ConfigurationContent):
         expected = None if before is None else hashlib.sha256(before).hexdigest()
         write_atomic(place, content, expected, keep_backup=False)
 
-    def _broken(
+    def _restored_error(
         self,
         error: ChangedOnDiskError | SaveError,
         written: list[str],

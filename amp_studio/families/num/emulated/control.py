@@ -88,7 +88,7 @@ class NumControl:
     def answer(self) -> bytes:
         """Return the next piece of an unload, Xon and Xoff."""
         if self._is_stopped and self._doing == "reading":
-            self._go_on()
+            self._resume()
         if self._is_paused and self._doing == "sending":
             return b""
         piece = bytes(self._out[:PIECE])
@@ -211,7 +211,7 @@ class NumControl:
         self._is_stopped = True
         self._out.append(XOFF)
 
-    def _go_on(self) -> None:
+    def _resume(self) -> None:
         """Have the peripheral go on, and read what has come meanwhile."""
         self._is_stopped = False
         self._out.append(XON)

@@ -212,7 +212,7 @@ class PeripheralDriver(NumTableContent, LineDriver):
                 if reader.has_begun and not has_begun:
                     # From here the patience is for the table, no longer for the person.
                     has_begun, end = True, waiting.now() + TABLE_WAIT
-                waiting.heard()
+                waiting.note_answer()
                 # How long the table will be is not known: half of it, until its end has come.
                 waiting.notify(stage, len(reader.table), 2 * len(reader.table))
             waiting.notify(stage, len(reader.table), len(reader.table))
@@ -278,7 +278,7 @@ class PeripheralDriver(NumTableContent, LineDriver):
         due = began = waiting.now()
         for number, line in enumerate(load.lines, 1):
             waiting.look()
-            self._await_go_on(link, load.stopped_wait)
+            self._await_resume(link, load.stopped_wait)
             if waiting.now() > began + LOAD_WAIT:
                 raise ImageRejectedError(f"the control has not taken the table within {LOAD_WAIT:g} s")
             if line.startswith("#"):  # one that changes the control
@@ -288,11 +288,11 @@ class PeripheralDriver(NumTableContent, LineDriver):
             # waited for, or Xoff would come too late.
             due = max(due, waiting.now()) + len(line) / rate
             self._listen(link, due - waiting.now())
-            waiting.heard()
+            waiting.note_answer()
             waiting.notify(load.stage, number, len(load.lines))
         # Xoff behind the last character still means that the end was not taken.
         self._listen(link, SETTLE)
-        self._await_go_on(link, load.stopped_wait)
+        self._await_resume(link, load.stopped_wait)
 
     def _write(self, link: Link, line: str) -> None:
         self._is_within_line = True
@@ -308,7 +308,7 @@ class PeripheralDriver(NumTableContent, LineDriver):
         while (left := end - waiting.now()) > 0:
             if any(byte & 0x7F == XON for byte in waiting.read(link, left)):
                 break
-        waiting.heard()
+        waiting.note_answer()
 
     def _listen(self, link: Link, seconds: float) -> None:
         """Let some time pass, and obey Xoff and Xon; what else a control sends means nothing."""
@@ -323,7 +323,7 @@ class PeripheralDriver(NumTableContent, LineDriver):
                 return
             waiting.sleep(min(left, LISTEN))
 
-    def _await_go_on(self, link: Link, seconds: float) -> None:
+    def _await_resume(self, link: Link, seconds: float) -> None:
         """Wait while the control has stopped the table; raises ImageRejectedError where it does not go on."""
         began, is_reported = self._waiting.now(), False
         while self._is_stopped:

@@ -143,7 +143,7 @@ class Module:
         if number == MODE:
             self._follow_mode(axis, before)
         elif number in (COMMAND, COMMAND_2):
-            self._obey(axis)
+            self._execute(axis)
 
     # -- what the module does ---------------------------------------------------------
 
@@ -187,7 +187,7 @@ class Module:
         self.setups[name] = tuple(self.words[axis : axis + COMMAND - 3])
         self._motion[axis].bind(self.words)
 
-    def _obey(self, axis: int) -> None:
+    def _execute(self, axis: int) -> None:
         """Obey the command words of an axis by their handshake: a command, its acknowledge, 0."""
         first, second = self.words[axis + COMMAND], self.words[axis + COMMAND_2]
         if (

@@ -40,7 +40,7 @@ class Rack:
         """Take bytes; a line that is damaged, too long or none gets no answer."""
         for byte in data:
             if byte == 10:
-                self._obey(bytes(self._line).removesuffix(b"\r"))
+                self._execute(bytes(self._line).removesuffix(b"\r"))
                 self._line.clear()
             # One character too many is kept, so that a line that is too long is no request.
             elif len(self._line) <= LONGEST:
@@ -56,7 +56,7 @@ class Rack:
         del self._out[:512]
         return out
 
-    def _obey(self, line: bytes) -> None:
+    def _execute(self, line: bytes) -> None:
         match = _REQUEST.fullmatch(line)
         if match is None or int(match[7], 16) != binascii.crc_hqx(line[:-5], 0xFFFF):
             return
@@ -106,7 +106,7 @@ class Rack:
         self.module.fault(AXES[axis], int(bit))
         return f"fault {bit} of axis {axis}"
 
-    def _trip(self, axis: str) -> str:
+    def _trip_drive(self, axis: str) -> str:
         self.module.trip(AXES[axis])
         return f"the drive of axis {axis} has tripped"
 
@@ -130,7 +130,7 @@ _ORDERS: dict[str, Callable[..., str]] = {
     r"patch R([0-9]{1,4})\s*=\s*([0-9]{1,5})": Rack._patch,
     r"show R([0-9]{1,4})": Rack._show,
     r"fault (1?[0-9]) ([XY])": Rack._fault,
-    r"fault drive ([XY])": Rack._trip,
+    r"fault drive ([XY])": Rack._trip_drive,
     "stop-all": Rack._stop_all,
     "power": Rack._power,
     "status": Rack._status,

@@ -100,7 +100,7 @@ class RegisterLine:
                 continue
             if not answer.startswith(head):
                 raise ProtocolMismatchError(f"the rack answers '{request}' with '{answer[:60]}'")
-            self._waiting.heard()
+            self._waiting.note_answer()
             return answer.removeprefix(head)
         if fault is not None:
             raise NoConnectionError(f"no connection to the rack ({fault})")

@@ -24,7 +24,7 @@ class Terminal:
             displayed += piece
         return displayed.decode()
 
-    def obey(self, line: str) -> str:
+    def execute(self, line: str) -> str:
         """Return what the card shows between the echo and the prompt."""
         displayed = self.type(line + "\r")
         assert displayed.startswith(line + "\r\n"), displayed
@@ -61,8 +61,8 @@ def terminal(tmp_path: Path) -> Terminal:
 def test_a_command_sets_and_its_word_without_a_figure_shows(
     terminal: Terminal, line: str, query: str, displayed: str
 ) -> None:
-    assert terminal.obey(line) == ""
-    assert terminal.obey(query) == displayed
+    assert terminal.execute(line) == ""
+    assert terminal.execute(query) == displayed
 
 
 @pytest.mark.parametrize(
@@ -86,21 +86,21 @@ def test_a_command_sets_and_its_word_without_a_figure_shows(
 def test_what_the_card_does_not_obey_it_answers_in_words(
     terminal: Terminal, line: str, displayed: str
 ) -> None:
-    assert terminal.obey(line) == displayed
+    assert terminal.execute(line) == displayed
 
 
 def test_every_sign_is_echoed_and_a_line_is_obeyed_at_its_end(terminal: Terminal) -> None:
     assert terminal.type("PPU X40") == "PPU X40"
     assert terminal.type("\n\x00\x1b") == "", "what is no sign of a line is neither taken nor echoed"
     assert terminal.type("96\r") == "96\r\nP00>"
-    assert terminal.obey("PPU X") == "4096\r\n"
+    assert terminal.execute("PPU X") == "4096\r\n"
 
 
 def test_half_a_line_of_a_lost_client_is_glued_to_the_next_ones(terminal: Terminal) -> None:
     terminal.type("PPU X40")
     terminal.card.connected()
     assert terminal.type("96\r") == "96\r\nP00>"
-    assert terminal.obey("PPU X") == "4096\r\n"
+    assert terminal.execute("PPU X") == "4096\r\n"
 
 
 def test_backspaces_take_a_line_back(terminal: Terminal) -> None:
@@ -112,19 +112,19 @@ def test_a_line_takes_only_so_many_signs(terminal: Terminal) -> None:
 
 
 def test_what_is_not_saved_is_lost_with_the_power(terminal: Terminal, tmp_path: Path) -> None:
-    terminal.obey("PPU X4096")
-    terminal.obey("BSC X0E.00325")
-    terminal.obey("ESAVE")
-    terminal.obey("PPU X5000")
-    terminal.obey("P3=5")
-    assert Terminal(tmp_path).obey("PPU X") == "4096\r\n"
+    terminal.execute("PPU X4096")
+    terminal.execute("BSC X0E.00325")
+    terminal.execute("ESAVE")
+    terminal.execute("PPU X5000")
+    terminal.execute("P3=5")
+    assert Terminal(tmp_path).execute("PPU X") == "4096\r\n"
     terminal.card.operate("power")
-    assert (terminal.obey("PPU X"), terminal.obey("PRINT P3")) == ("4096\r\n", "0\r\n")
-    assert terminal.obey("BSC X") == "X0E.00325\r\n"
+    assert (terminal.execute("PPU X"), terminal.execute("PRINT P3")) == ("4096\r\n", "0\r\n")
+    assert terminal.execute("BSC X") == "X0E.00325\r\n"
 
 
 def test_a_save_that_is_cut_off_keeps_the_settings_it_came_to(terminal: Terminal, tmp_path: Path) -> None:
-    terminal.obey("PPU X4096 Y4096 Z4096")
+    terminal.execute("PPU X4096 Y4096 Z4096")
     steps = iter(range(100))
 
     def step(_: str) -> None:
@@ -135,16 +135,16 @@ def test_a_save_that_is_cut_off_keeps_the_settings_it_came_to(terminal: Terminal
     with pytest.raises(KeyboardInterrupt):
         terminal.type("ESAVE\r")
     after = Terminal(tmp_path)
-    assert [after.obey(f"PPU {axis}") for axis in "XYZ"] == ["4096\r\n", "4096\r\n", "10000\r\n"]
+    assert [after.execute(f"PPU {axis}") for axis in "XYZ"] == ["4096\r\n", "4096\r\n", "10000\r\n"]
 
 
 def test_a_full_memory_is_reported(terminal: Terminal) -> None:
     terminal.card.settings._memory.full_at = 10
-    terminal.obey("PPU X4096")
-    assert terminal.obey("ESAVE") == "EEPROM failure (No space left on device)\r\n"
+    terminal.execute("PPU X4096")
+    assert terminal.execute("ESAVE") == "EEPROM failure (No space left on device)\r\n"
 
 
 def test_the_version_and_the_prompt_of_another_program(terminal: Terminal) -> None:
-    assert terminal.obey("VER") == "ACR8000 (c) 1993-1998 by AMCS Inc.\r\nVersion 1.17.08 CARD 0\r\n"
-    assert "Commands: ? ABS ACC" in terminal.obey("HELP")
+    assert terminal.execute("VER") == "ACR8000 (c) 1993-1998 by AMCS Inc.\r\nVersion 1.17.08 CARD 0\r\n"
+    assert "Commands: ? ABS ACC" in terminal.execute("HELP")
     assert terminal.type("PROG3\r") == "PROG3\r\nP03>"

@@ -16,7 +16,7 @@ TUNED = "PPU X4096 Y4096|EXC AXIS0 4 AXIS1 4|PGAIN X.08 Y.08|DGAIN X.00021 Y.000
 class MovingCard(CardBench):
     """A card whose axes are tuned, and the clock of its machine."""
 
-    def obey(self, line: str) -> list[str]:
+    def execute(self, line: str) -> list[str]:
         return self.card._done(line)
 
     def after(self, seconds: float) -> ControlStatus:
@@ -29,14 +29,14 @@ class MovingCard(CardBench):
 def card(tmp_path: Path) -> MovingCard:
     bench = MovingCard(tmp_path)
     for line in TUNED.split("|"):
-        bench.obey(line)
+        bench.execute(line)
     return bench
 
 
 def test_a_jog_moves_the_axis_and_the_terminal_shows_where(card: MovingCard) -> None:
-    card.obey("JOG VEL X2")
-    card.obey("JOG ACC X100")
-    card.obey("JOG FWD X")
+    card.execute("JOG VEL X2")
+    card.execute("JOG ACC X100")
+    card.execute("JOG FWD X")
     status = card.after(1.0)
     axis = status.axes[0]
     assert (axis.axis, axis.unit) == ("X", "in")
@@ -44,9 +44,9 @@ def test_a_jog_moves_the_axis_and_the_terminal_shows_where(card: MovingCard) -> 
     assert axis.following_error is not None
     assert 0.0 < abs(axis.following_error) < 0.01
     assert not status.faults
-    card.obey("JOG OFF X")
+    card.execute("JOG OFF X")
     card.after(1.0)
-    assert float(card.obey("?P6144")[0]) == pytest.approx(float(card.obey("?P12294")[0]), abs=40.0)
+    assert float(card.execute("?P6144")[0]) == pytest.approx(float(card.execute("?P12294")[0]), abs=40.0)
 
 
 def test_home_goes_by_priority_and_g28_over_the_point_between(card: MovingCard) -> None:
@@ -69,17 +69,17 @@ def test_what_the_machine_cannot_do_is_refused_in_words(card: MovingCard, line: 
 
 def test_an_axis_that_leaves_its_excess_error_band_loses_its_bit(card: MovingCard) -> None:
     """Page 113: the bit for not excess error goes off, and the PLC takes the power from the motors."""
-    card.obey("EXC AXIS0 0.001")
-    card.obey("PGAIN X.0001")
-    card.obey("MOV X5")
+    card.execute("EXC AXIS0 0.001")
+    card.execute("PGAIN X.0001")
+    card.execute("MOV X5")
     status = card.after(2.0)
-    assert card.obey("?BIT769") == ["0"]
+    assert card.execute("?BIT769") == ["0"]
     assert [(fault.axis, fault.code) for fault in status.faults] == [("X", "EXCESS ERROR")]
     assert status.faults[0].params == ("axes.excess_error_band", "servo.p_gain")
 
 
 def test_a_loop_that_runs_away_leaves_the_card_alive(card: MovingCard) -> None:
     for line in ("EXC AXIS0 0", "PGAIN X5", "DGAIN X0", "JOG FWD X"):
-        card.obey(line)
+        card.execute(line)
     card.after(10.0)
-    assert card.obey("VER")[0].startswith("ACR8000")
+    assert card.execute("VER")[0].startswith("ACR8000")

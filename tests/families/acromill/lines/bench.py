@@ -28,9 +28,9 @@ class CardBench:
         self.card = AcrCard(DeviceSetup("acromill", Memory(self.folder), print))
         return self.card
 
-    def obey(self, line: str) -> list[str]:
+    def execute(self, line: str) -> list[str]:
         """Do a command at another terminal of the card."""
-        return self.card.settings.obey(line)
+        return self.card.settings.execute(line)
 
     def _open(self, _look: Callable[[], None]) -> Link:
         if not self.is_up:

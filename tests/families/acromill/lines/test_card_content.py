@@ -57,7 +57,7 @@ def test_figures_are_the_same_in_seven_digits_sign_and_order(
 
 def test_a_negative_gain_is_read_sent_and_put_back_with_its_sign(tmp_path: Path) -> None:
     bench = CardBench(tmp_path)
-    bench.obey("PGAIN X-0.08")
+    bench.execute("PGAIN X-0.08")
     content = upload(bench.driver)
     assert bench.driver.decode(content).get(("servo.p_gain", "X")) == Value(-0.08, "V/count")
     assert send(bench, small_file(pgain="0.08"), []).verified
@@ -68,7 +68,7 @@ def test_a_negative_gain_is_read_sent_and_put_back_with_its_sign(tmp_path: Path)
 
 def test_a_figure_that_a_file_leaves_open_stays_as_the_card_has_it(tmp_path: Path) -> None:
     bench = CardBench(tmp_path)
-    bench.obey("NOTCH X(500, 50)")
+    bench.execute("NOTCH X(500, 50)")
     current = upload(bench.driver)
     for file, figures in ((small_file(notch="600"), ("600", "50")), (small_file(width="70"), ("500", "70"))):
         assert CardContent.read(bench.driver.encode(file, current)).figures["NOTCH X"] == figures
@@ -82,8 +82,8 @@ def test_positions_of_a_table_are_sent_by_their_numbers() -> None:
 
 def test_a_table_of_one_axis_read_again_leaves_that_of_another(tmp_path: Path) -> None:
     bench = CardBench(tmp_path)
-    bench.obey("BSC X0E.00325")
-    bench.obey("BSC Y0E-.00200")
+    bench.execute("BSC X0E.00325")
+    bench.execute("BSC Y0E-.00200")
     found = CardContent("inch", {}, {"BSC X0": ".00999", "BSC X7": ".00001", "BSC Y0": "-.00200"})
     bench.driver._read_into(found, "X")
     assert found.ballscrew == {"BSC X0": ".00325", "BSC Y0": "-.00200"}

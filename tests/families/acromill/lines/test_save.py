@@ -38,16 +38,16 @@ def at_line(bench: CardBench, line: str, event: Callable[[int, Callable[[], None
     count = 0
 
     def wrapped(link: Link) -> Link:
-        card, obey = bench.card, bench.card._obey
+        card, execute = bench.card, bench.card._obey
         if "_obey" in vars(card):  # since an earlier line to it
             return link
 
         def obeyed() -> None:
             nonlocal count
             if card._line.decode() != line:
-                return obey()
+                return execute()
             count += 1
-            return event(count, obey)
+            return event(count, execute)
 
         card._obey = obeyed
         return link
@@ -58,12 +58,12 @@ def at_line(bench: CardBench, line: str, event: Callable[[int, Callable[[], None
 def test_a_card_that_loses_its_power_in_its_save_is_set_again_with_its_table_and_saved(
     bench: CardBench,
 ) -> None:
-    def power_fails(count: int, obey: Callable[[], None]) -> None:
+    def power_fails(count: int, execute: Callable[[], None]) -> None:
         if count == 1:
             bench.switch_on()
             bench.lines[-1].close()
         else:
-            obey()
+            execute()
 
     at_line(bench, "ESAVE", power_fails)
     assert send(bench, two_values_and_a_table(), []).verified
@@ -73,8 +73,8 @@ def test_a_card_that_loses_its_power_in_its_save_is_set_again_with_its_table_and
 
 
 def test_a_line_that_breaks_at_each_save_leaves_it_unknown(bench: CardBench) -> None:
-    def breaks(count: int, obey: Callable[[], None]) -> None:
-        obey()
+    def breaks(count: int, execute: Callable[[], None]) -> None:
+        execute()
         if count % 2:
             bench.lines[-1].close()
 
@@ -87,7 +87,7 @@ def test_a_line_that_breaks_at_each_save_leaves_it_unknown(bench: CardBench) -> 
 
 
 def test_a_save_that_is_not_answered_is_reported_beside_what_the_card_contains(bench: CardBench) -> None:
-    at_line(bench, "ESAVE", lambda count, obey: bench.card._line.clear())
+    at_line(bench, "ESAVE", lambda count, execute: bench.card._line.clear())
     with pytest.raises(ControlSilentError, match=f"does not take 'ESAVE'.*; {NOT_KNOWN}") as caught:
         send(bench, small_file(pgain="0.08", ppu="4096"), [])
     assert (caught.value.at_control, caught.value.confirmed) == ("new", Confirmed(2, 2))
@@ -95,7 +95,7 @@ def test_a_save_that_is_not_answered_is_reported_beside_what_the_card_contains(b
 
 def test_ctrl_c_in_the_save_does_not_say_that_nothing_is_saved(bench: CardBench) -> None:
     cancel = threading.Event()
-    at_line(bench, "ESAVE", lambda count, obey: (obey(), cancel.set(), bench.card._out.clear()))
+    at_line(bench, "ESAVE", lambda count, execute: (execute(), cancel.set(), bench.card._out.clear()))
     with pytest.raises(CancelledError, match=NOT_KNOWN) as caught:
         send(bench, small_file(ppu="4096"), [], cancel)
     assert caught.value.at_control == "new"
@@ -103,9 +103,9 @@ def test_ctrl_c_in_the_save_does_not_say_that_nothing_is_saved(bench: CardBench)
 
 
 def test_a_save_may_take_longer_than_a_setting(bench: CardBench) -> None:
-    def slowly(count: int, obey: Callable[[], None]) -> None:
+    def slowly(count: int, execute: Callable[[], None]) -> None:
         saves.append(count)
-        obey()
+        execute()
         answer, end = bench.card.answer, bench.clock.now + 25
         bench.card.answer = lambda: answer() if bench.clock.now >= end else b""
 

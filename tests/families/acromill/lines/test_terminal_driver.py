@@ -114,7 +114,7 @@ def test_what_differs_is_sent_line_by_line_read_back_and_saved(bench: CardBench)
 def test_a_copy_that_was_kept_goes_back(bench: CardBench) -> None:
     kept: list[bytes] = []
     send(bench, small_file(pgain="0.08", table="X0E.00325 X1E-.00100"), kept)
-    bench.obey("PGAIN X0.09")
+    bench.execute("PGAIN X0.09")
     now = upload(bench.driver)
     outcome = download(
         bench.driver,
@@ -193,8 +193,8 @@ def test_the_unit_of_the_figures_is_the_persons_word(bench: CardBench, tmp_path:
 
 def refuse(bench: CardBench, line: str, rows: list[str]) -> None:
     """Have the card answer a line with words instead of obeying it."""
-    obey = bench.card.settings.obey
-    bench.card.settings.obey = lambda text: rows if text == line else obey(text)
+    execute = bench.card.settings.execute
+    bench.card.settings.execute = lambda text: rows if text == line else execute(text)
 
 
 def test_a_command_that_the_card_refuses_is_named_with_its_line_and_all_is_read_again(
@@ -234,13 +234,13 @@ def test_a_save_that_fails_is_reported(bench: CardBench) -> None:
 def test_a_card_without_some_settings_is_read_and_what_it_does_not_have_is_named(bench: CardBench) -> None:
     for n, axis in enumerate("ZABCUV", 2):
         del bench.card.settings.values[f"PGAIN {axis}"], n
-    obey = bench.card.settings.obey
+    execute = bench.card.settings.execute
 
     def missing(text: str) -> list[str]:
-        return ["Axis not attached"] if text.startswith(("PGAIN X", "BSC")) else obey(text)
+        return ["Axis not attached"] if text.startswith(("PGAIN X", "BSC")) else execute(text)
 
     bench.card.settings.values.update({f"PGAIN {axis}": "0" for axis in "ZABCUV"})
-    bench.card.settings.obey = missing
+    bench.card.settings.execute = missing
     current = upload(bench.driver)
     assert b"PGAIN X" not in current
     assert b"PGAIN Y0.00244" in current
@@ -263,8 +263,8 @@ class Repeating(FaultyLink):
 
 
 def test_an_answer_that_the_line_has_damaged_twice_does_not_make_a_short_copy(bench: CardBench) -> None:
-    bench.obey("PGAIN X0.07125")
-    bench.obey("BSC X0E.00325")
+    bench.execute("PGAIN X0.07125")
+    bench.execute("BSC X0E.00325")
     whole = upload(bench.driver)
     bench.driver.close()
     for answer in (b"0.07125", b"X0E.00325"):
@@ -276,22 +276,22 @@ def test_an_answer_that_the_line_has_damaged_twice_does_not_make_a_short_copy(be
 
 
 def test_a_setting_that_stays_unreadable_ends_the_reading(bench: CardBench) -> None:
-    bench.obey("PGAIN X0.07125")
+    bench.execute("PGAIN X0.07125")
     bench.wrap = lambda link: Repeating(link, b"0.07125", [1_000])
     with pytest.raises(ImageDamagedError, match=r"answers 'PGAIN X' with '0\.\.07125', which is neither"):
         upload(bench.driver)
 
 
 def test_a_setting_is_missing_only_where_a_second_reading_lacks_it_too(bench: CardBench) -> None:
-    obey, refused = bench.card.settings.obey, [2]
+    execute, refused = bench.card.settings.execute, [2]
 
     def silent(text: str) -> list[str]:
         if text == "PGAIN Y" and refused[0]:
             refused[0] -= 1
             return []
-        return obey(text)
+        return execute(text)
 
-    bench.card.settings.obey = silent
+    bench.card.settings.execute = silent
     with pytest.raises(ImageDamagedError, match="PGAIN Y in one reading and not in another"):
         upload(bench.driver)
     assert refused == [0]
@@ -324,7 +324,7 @@ def test_a_reading_that_is_shorter_than_the_last_copy_stops_the_download_of_anot
         pytest.raises(KeepFailedError, match=f"lacks FFACC V, which {whole.name} has") as caught,
     ):
         another_run(bench, small_file(ppu="5000"), folder)
-    assert (caught.value.at_control, bench.obey("PPU X")) == ("old", ["4096"])
+    assert (caught.value.at_control, bench.execute("PPU X")) == ("old", ["4096"])
     assert list(folder.glob("*.img")) == [whole]
     assert another_run(bench, small_file(ppu="5000"), folder).verified
 
