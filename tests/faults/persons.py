@@ -317,7 +317,7 @@ def fuzz_commands(folder: Path, seed: int, count: int) -> list[str]:
         message.clear()
         before = control.image
         emulator.operate(text)
-        emulator._obey()
+        emulator._execute()
         assert len(message) <= 1
         assert all(line == visible(line) and len(line) < 1500 for line in message), message
         if control.image != before:
@@ -349,7 +349,7 @@ def fuzz_panel(folder: Path, seed: int, count: int) -> list[str]:
         for line in ("password AB-D4", "patch-amp LOCK", text, "update"):
             shown.clear()
             emulator.operate(line)
-            emulator._obey()
+            emulator._execute()
             assert len(shown) <= 1
             assert all(line == visible(line) and len(line) < 1500 for line in shown), shown
         if control.image != before:

@@ -293,7 +293,7 @@ def _of_settings() -> Iterator[Defect]:
         (
             "read-back skipped",
             "said new",
-            partial(_no_read_back, (f"{FAMILIES}.grblhal.writing.Writing._is_there", lambda *_: True)),
+            partial(_no_read_back, (f"{FAMILIES}.grblhal.writing.Writing._is_stored", lambda *_: True)),
             "forget",
         ),
         ("acknowledged without writing", "without a fault", partial(_not_sent, GrblDriver), "none"),

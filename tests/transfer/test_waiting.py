@@ -35,7 +35,7 @@ def test_silence_is_shown_after_two_seconds_each_second_until_something_comes() 
     assert waiting.read(Silent(clock), 3) == b""
     assert displayed == [("silent", 2, 0), ("silent", 3, 0)]
     assert waiting.read(Silent(clock), 3) == b"x"
-    waiting.heard()
+    waiting.note_answer()
     assert displayed[2:] == [("silent", 4, 0), ("silent", 0, 0)]
 
 

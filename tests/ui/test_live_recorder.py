@@ -48,13 +48,13 @@ def test_readings_are_drawn_as_dots_before_anything_is_recorded(recorder: LiveRe
     picture = recorder.plot.picture
     assert picture is not None
     assert all(curve.dots for panel in picture.panels for curve in panel.curves)
-    assert "Velocity: not shown by this control" in recorder.foot.text()
+    assert "Velocity: not shown by this control" in recorder.footer.text()
 
 
 def test_what_a_control_cannot_show_is_named_with_its_reason(recorder: LiveRecording) -> None:
     why = {"velocity": "its report has the feed of the path, not the speed of an axis"}
     recorder.take(0.0, AxisStatus("X", 0.0, 0.0, None, "counts"), reasons=why)
-    assert "not shown by this control: its report has the feed of the path" in recorder.foot.text()
+    assert "not shown by this control: its report has the feed of the path" in recorder.footer.text()
 
 
 def test_a_record_waits_until_the_axis_moves_and_keeps_what_came_before(recorder: LiveRecording) -> None:
@@ -105,7 +105,7 @@ def test_the_recorded_move_is_simulated_under_the_record_and_shifted_to_fit(
         recorder.take(at, AxisStatus("X", 7.0 + place, None, speed / 60.0, "counts"))
     recorder.start_or_stop()
     qtbot.waitUntil(lambda: recorder.trace is not None, timeout=WAIT_MS)
-    assert "simulated: 30000 counts at " in recorder.foot.text()
+    assert "simulated: 30000 counts at " in recorder.footer.text()
     # The peak of the readings is the feed: the axis ripples around it, and 1 % of the way is left.
     assert recorder.trace.result["record_lag"][0] == pytest.approx(1.3, abs=0.1)
     assert recorder.trace.result["difference_rms_position"][0] < 300.0
@@ -117,7 +117,7 @@ def test_an_axis_that_did_not_move_is_not_simulated(recorder: LiveRecording) -> 
     recorder.start_or_stop()
     give(recorder, [4.0] * 4)
     recorder.start_or_stop()
-    assert "The axis did not move" in recorder.foot.text()
+    assert "The axis did not move" in recorder.footer.text()
     assert recorder.trace is None
 
 

@@ -79,7 +79,7 @@ rest = application.findChild(QTimer, garbage._REST)
 assert rest.isActive() and rest.isSingleShot()
 garbage.set_apart(window)
 assert rest.interval() > garbage.REST_MS, "a file was opened: its first seconds are left in peace"
-garbage.look()
+garbage.collect_closed()
 assert [each() for each in left] == [None] * 4
 assert gc.get_freeze_count() > 10_000, "what is left is set apart again"
 """

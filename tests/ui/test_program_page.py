@@ -332,7 +332,7 @@ def test_a_block_is_gone_to_by_its_number_and_its_line(wave: ProgramPage, qtbot:
     assert wave.play.moment == wave.outcome.plan.listed.begin(23)
     assert not wave.go_to_field.isVisible()
     for text, line in (("3", 3), ("N111", 14), ("33", 14), ("N7", 14), ("X", 14)):
-        wave.go_to_field.wanted.emit(text)
+        wave.go_to_field.text_requested.emit(text)
         assert wave.lines.line() == line, text
     assert wave.summary.text() == "The program has no block X."
     wave.go_to()

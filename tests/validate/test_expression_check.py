@@ -28,7 +28,7 @@ NAMES = {
 def checked(text: str) -> ExpressionCheck:
     """Return an expression over some names, looked through."""
     found = ExpressionCheck(NAMES, _functions("9pc"))
-    found.worth(read_expression(text))
+    found.result_of(read_expression(text))
     return found
 
 

@@ -45,7 +45,7 @@ class Operator:
         """Give one command and return what is shown."""
         self._displayed.clear()
         self._emulator.operate(line)
-        self._emulator._obey()
+        self._emulator._execute()
         if line == "restart":
             self._emulator._restart_due = False
             self._emulator._report(self._emulator._restarted)

@@ -211,7 +211,7 @@ def test_a_cut_that_leaves_the_end_unknown_names_the_kept_image(bench: Callable[
     def pull_the_cable(stage: str, done: int, total: int) -> None:
         if stage == "commit" and done == 0:
             made.lines_left = 0
-            session._line._talk.link.close()
+            session._line._transaction.link.close()
 
     with pytest.raises(ConnectionCutError) as caught:
         download(HouseDriver(session), WantedContent(NEW, "s1"), shelf, Exchange(pull_the_cable))

@@ -140,7 +140,7 @@ def test_a_control_cannot_offer_a_window_that_fills_the_line_for_good(lying: Cal
     made = lying(lambda _, answer: answer, window=255, chunk=4_096)
     session = made.session()
     session.hello()
-    assert session._line.sizes(session._line._talk) == (4_096, 16)
+    assert session._line.sizes(session._line._transaction) == (4_096, 16)
 
 
 def test_more_staged_than_there_is_cannot_be(lying: Callable[..., Any]) -> None:

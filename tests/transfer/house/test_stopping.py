@@ -236,7 +236,7 @@ def test_a_line_that_falls_silent_in_the_middle_is_reported_and_when_it_is_there
         reported.append((made.clock.now, stage, done))
         if stage == "download" and done > 60 and not fallen_silent:
             fallen_silent.append(made.clock.now)
-            link = session._line._talk.link
+            link = session._line._transaction.link
             link.read = lambda timeout: made.clock.sleep(timeout) or b""
 
     send(session, progress=note)

@@ -83,7 +83,7 @@ def test_another_control_after_the_commit_was_asked_for_leaves_the_end_unknown(
     def move_the_cable(stage: str, done: int, total: int) -> None:
         if stage == "commit" and done == 0:
             made.modem.connect = other.modem.connect
-            session._line._talk.link.close()
+            session._line._transaction.link.close()
 
     with pytest.raises(ProtocolMismatchError) as caught:
         send(session, progress=move_the_cable)
@@ -192,7 +192,7 @@ def test_a_control_that_begins_again_unnoticed_is_asked_again(
         reached.append(done)
         if done > total // 3 and stage not in forgotten:
             forgotten.append(stage)
-            responder = session._line._talk.link._link._responder
+            responder = session._line._transaction.link._link._responder
             responder._copy = responder._transfer = None
 
     assert session.fetch(Exchange(forget)) == OLD * 5

@@ -38,18 +38,18 @@ def at_line(bench: CardBench, line: str, event: Callable[[int, Callable[[], None
     count = 0
 
     def wrapped(link: Link) -> Link:
-        card, execute = bench.card, bench.card._obey
-        if "_obey" in vars(card):  # since an earlier line to it
+        card, execute = bench.card, bench.card._execute
+        if "_execute" in vars(card):  # since an earlier line to it
             return link
 
-        def obeyed() -> None:
+        def executed() -> None:
             nonlocal count
             if card._line.decode() != line:
                 return execute()
             count += 1
             return event(count, execute)
 
-        card._obey = obeyed
+        card._execute = executed
         return link
 
     bench.wrap = wrapped

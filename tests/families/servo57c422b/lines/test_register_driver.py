@@ -114,7 +114,7 @@ def test_the_handshake_ends_with_clear_command_registers_whoever_clears_them(
 
 
 def test_a_module_that_does_not_acknowledge_is_reported_with_what_it_contains(bench: RackBench) -> None:
-    bench.rack.module._obey = lambda axis: None
+    bench.rack.module._execute = lambda axis: None
     with pytest.raises(
         ControlSilentError, match=r"axis X does not acknowledge the command \(R72, bit 15\)"
     ) as caught:
@@ -205,13 +205,13 @@ def test_registers_that_differ_are_named_either_way(bench: RackBench) -> None:
 
 def test_who_stops_in_the_handshake_leaves_no_command_behind(bench: RackBench) -> None:
     cancel = threading.Event()
-    obey = bench.rack.module._obey
+    obey = bench.rack.module._execute
 
     def stop(axis: int) -> None:
         cancel.set()
         obey(axis)
 
-    bench.rack.module._obey = stop
+    bench.rack.module._execute = stop
     with pytest.raises(CancelledError) as caught:
         loaded(bench, gains(y=0), cancel=cancel)
     assert caught.value.at_control == "new"
