@@ -96,11 +96,13 @@ if TYPE_CHECKING:
         without_secrets,
     )
     from .paths import (
+        BEFORE,
         ENDING,
         RECORD,
         TUNINGS,
         backup_path,
         history_path,
+        is_of_machine,
         is_there,
         is_write_protected,
         real_path,

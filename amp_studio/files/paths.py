@@ -15,6 +15,8 @@ from amp_studio.schema import demand_file
 
 ENDING = ".amp"
 """Of parameter files."""
+BEFORE = ".before-"
+"""In the name of a copy of what a control contained before a download."""
 RECORD, TUNINGS = "exchanges.jsonl", "tunings.jsonl"
 """The record of exchanges of a folder, and that of tunings."""
 _LONGEST_NAME = 255
@@ -36,6 +38,13 @@ def real_path(path: Path) -> Path:
     except FileNotFoundError:
         real = Path(os.path.realpath(path))
         return Path(os.path.realpath(real.parent, strict=True)) / real.name
+
+
+def is_of_machine(name: str) -> bool:
+    """Return whether a file of this name has the parameters of a machine, and is no copy of what a control
+    contained.
+    """
+    return name.endswith(ENDING) and BEFORE not in name
 
 
 def is_there(path: Path) -> bool:

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from functools import lru_cache
 from pathlib import Path
 
-from amp_studio.files import ENDING, RECORD, backup_path, history_path, real_path
+from amp_studio.files import RECORD, backup_path, history_path, is_of_machine, real_path
 
 RULES_FILE = "rules.yaml"
 """A builder's own rules, for the files of their folder."""
@@ -48,6 +48,6 @@ def fleet_of(path: Path) -> list[Path]:
 
 @lru_cache(maxsize=16)
 def _machines_in(folder: Path, changed: int) -> tuple[str, ...]:  # noqa: ARG001  # another one after a change of the folder
-    names = sorted(each.name for each in folder.iterdir() if each.name.endswith(ENDING))
+    names = sorted(each.name for each in folder.iterdir() if is_of_machine(each.name))
     # The file itself and three others: values_of_fleet asks for three that agree.
     return tuple(names) if 4 <= len(names) <= LARGEST_FLEET else ()

@@ -247,6 +247,12 @@ def test_the_files_of_a_project_are_listed_by_name(project: Project, with_file: 
     assert [with_file] == project.backups()
 
 
+def test_a_copy_of_what_a_control_contained_is_no_machine(project: Project, with_file: Path) -> None:
+    kept = with_file.with_name("first.before-20261130-140500.amp")
+    kept.write_bytes(with_file.read_bytes())
+    assert [with_file] == project.files()
+
+
 def test_a_copy_is_the_same_and_has_no_past(project: Project, with_file: Path) -> None:
     save_again(with_file, 1.0)
     copied = project.copy(with_file, "second")

@@ -18,6 +18,7 @@ from amp_studio.files import (
     ParameterFile,
     ParameterFileError,
     Project,
+    is_of_machine,
     is_there,
     local_time,
     open_file,
@@ -110,7 +111,7 @@ def _controls_of(folder: Path) -> Iterator[ControlWithFile]:
             yield _with_file(known, folder / file_of_exchange(put))
     for key, address in named.items():
         known = ControlWithFile(address, folder, exchanges=tuple(by_address.get(key, ())))
-        files = sorted(folder.glob(f"*{ENDING}"))
+        files = sorted(p for p in folder.glob(f"*{ENDING}") if is_of_machine(p.name))
         if len(files) == 1:
             yield _with_file(known, files[0])
         else:

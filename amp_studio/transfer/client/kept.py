@@ -17,6 +17,7 @@ from pathlib import Path
 
 from amp_studio.errors import AmpStudioError
 from amp_studio.files import (
+    BEFORE,
     ENDING,
     ChangedOnDiskError,
     ParameterFile,
@@ -32,7 +33,6 @@ from amp_studio.transfer.image import MAGIC, ImageError
 
 IMAGE = ".img"
 DIGEST = ".sha256"
-BEFORE = ".before-"
 LARGEST = 1 << 26  # bytes of an image, as in an exchange
 _STEM = 120
 """Bytes of a file's name that its copies take over, so that the whole name is short enough for every disk."""

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Self
 
 from amp_studio.errors import AmpStudioError
-from amp_studio.files import ParameterFile
+from amp_studio.files import BEFORE, ParameterFile
 from amp_studio.schema import quoted
 from amp_studio.transfer.content import ContentKind, decode_content
 from amp_studio.transfer.driver import ControlDriver
@@ -19,7 +19,7 @@ from amp_studio.transfer.exchange import QUIET, Exchange
 
 from .drivers import open_driver, open_driver_at
 from .exchange import Outcome, WantedContent, upload
-from .kept import BEFORE, Copy, keep_image, keep_readable, open_copy
+from .kept import Copy, keep_image, keep_readable, open_copy
 from .recording import Recording
 
 __all__ = [

@@ -8,9 +8,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from amp_studio.files import ENDING, backup_path
+from amp_studio.files import BEFORE, ENDING, backup_path
 
-from .kept import BEFORE, IMAGE
+from .kept import IMAGE
 from .record import RecordedExchange, read_exchanges
 
 RULES = "rules.yaml"

@@ -13,6 +13,7 @@ from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
 from amp_studio.files import (
+    BEFORE,
     ENDING,
     RECORD,
     ParameterFile,
@@ -30,7 +31,6 @@ from amp_studio.transfer.errors import AtControl
 from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.image import ImageError
 
-from .kept import BEFORE
 
 
 @dataclass(frozen=True)
