@@ -115,13 +115,8 @@ def _choices(parameter: Parameter) -> Iterator[Entry]:
 def _message(message: ControlMessage, listed: str) -> Entry:
     """Return the entry of a message or symptom, with the texts that a search compares, by where each is."""
     if message.reaction == "symptom":  # its causes have the words of many parameters
-        return Entry(
-            "message",
-            message.name,
-            message.id,
-            (("text", f"{message.name} {' '.join(message.called)}"),),
-            f"page {message.page}",
-        )
+        called = " ".join((message.name, *message.called, _ESTOP if "E-Stop" in message.name else ""))
+        return Entry("message", message.name, message.id, (("text", called),), f"page {message.page}")
     texts: list[tuple[Where, str]] = [
         ("code", " ".join(_codes(message))),
         ("text", message.text or message.title),

@@ -21,7 +21,7 @@ from .entries import Entry, HitKind, Where, entries_of
 from .file_values import FileValues, asked_number
 from .index import Match, SearchIndex
 from .places import place_of
-from .synonyms import meanings, nearest_synonym
+from .synonyms import known_words, meanings, nearest_synonym
 from .words import words_of
 
 _EXACT, _VALUE, _DEFAULT = 100.0, 11.0, 7.0
@@ -93,8 +93,10 @@ class Finder:
         hits = self._addressed(query)
         query, axis = self._axis(query)
         hits += self._numbered(query) + self._valued(query)
+        of_the_trade = set(known_words(query))
         for index in (index_of(self.schema, self.machine), self._texts, self._commands):
-            match = index.search(query, most)
+            # A word of the trade is not mistyped: "chatter" is no "cutter".
+            match = [m for m in index.search(query, most) if not _takes_for_a_slip(m, of_the_trade)]
             # A choice of which only the parameter was named is no more than that parameter.
             hits += [self._hit(m) for m in match if m.entry.kind != "choice" or "choice" in m.where]
         hits += self._found_by_synonym(query, most)
@@ -274,6 +276,11 @@ class Finder:
 
     def _place(self, address: Address) -> str:
         return place_of(self.file, address) if self.file is not None else self._here.instance_label(address)
+
+
+def _takes_for_a_slip(match: Match, known: set[str]) -> bool:
+    """Return whether a match takes one of these words for another one that was mistyped."""
+    return any(typed in known and not found.startswith(typed) for typed, found in match.typed)
 
 
 def _best_of_each(hits: Iterable[Hit]) -> list[Hit]:

@@ -57,6 +57,14 @@ def meanings(query: str) -> Iterator[Meaning]:
             return
 
 
+def known_words(query: str) -> list[str]:
+    """Return the words of a question that are a word of the trade, each by itself or all together."""
+    words = words_of(query)
+    if _table().get(tuple(word.translate(_UMLAUTS) for word in words)):
+        return words
+    return [word for word in words if (word.translate(_UMLAUTS),) in _table()]
+
+
 def _known(typed: tuple[str, ...], *, is_last: bool) -> tuple[str, ...] | None:
     """Return the words of the table that are meant: equal, with an ending, only begun, or with one slip."""
     if typed in _table():

@@ -32,7 +32,6 @@ from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.image import ImageError
 
 
-
 @dataclass(frozen=True)
 class RecordedExchange:
     """One exchange with a control.
