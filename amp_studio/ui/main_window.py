@@ -141,6 +141,7 @@ class MainWindow(PartsWindow):
         page.left.turned.connect(self.settings.keep_left_side)
         DiskWatch(page, self.files.comparing.with_disk, self.files.reload)
         page.table_view.fill_requested.connect(self._fill_cells)
+        page.table_view.reset_requested.connect(self.edits.range.offer_defaults)
         self.docks.add(page)
         self.finder.add(page)
         self.visited.add(page)

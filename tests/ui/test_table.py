@@ -1,7 +1,9 @@
 """The table: a row a parameter, a column an axis."""
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtWidgets import QApplication, QMenu
+from pytestqt.qtbot import QtBot
 
 from amp_studio.files import ParameterFile, set_value_note
 from amp_studio.schema import Value
@@ -176,3 +178,43 @@ def test_an_edit_paints_the_rows_that_look_other_than_before_and_few_more(
     assert after == every_look(table) != before
     if value[0] == "servo.gain_break_point":
         assert 0 < len(painted) < 10
+
+
+# -- back to the default ---------------------------------------------------------
+
+
+def test_the_mark_of_a_row_offers_the_way_back_to_each_default(
+    window: MainWindow, workspace: Workspace, qtbot: QtBot
+) -> None:
+    workspace.edit(
+        "two", {("home.calibration", axis): Value(n, "mm") for n, axis in ((1.5, "1"), (2.5, "2"))}
+    )
+    names, table = window.table_view.verticalHeader(), window.table
+    row = table.index_of(("home.calibration", "1")).row()
+    window.table_view.scrollTo(table.index(row, 0))
+    tip = table.headerData(row, Qt.Orientation.Vertical, Qt.ItemDataRole.ToolTipRole)
+    assert "X: 1.5 mm, default 0 mm" in tip
+    place = QPoint(4, names.sectionViewportPosition(row) + 8)
+    qtbot.mouseClick(names.viewport(), Qt.MouseButton.LeftButton, pos=place)
+    menu = QApplication.activePopupWidget()
+    assert isinstance(menu, QMenu)
+    offered = {action.text(): action for action in menu.actions()}
+    offered["Back to default: X: 1.5 mm, default 0 mm"].trigger()
+    menu.close()
+    assert workspace.file.is_default(("home.calibration", "1"))
+    assert not workspace.file.is_default(("home.calibration", "2")), "only what was chosen"
+    workspace.undo_stack.undo()
+    assert not workspace.file.is_default(("home.calibration", "1")), "one step to undo"
+
+
+def test_a_row_without_its_own_values_has_no_mark_and_is_selected(
+    window: MainWindow, workspace: Workspace
+) -> None:
+    table = window.table
+    rows = range(len(table.rows))
+    own = {n for n in rows if table.off_default(n)}
+    assert own
+    assert len(own) < table.count
+    for n in own:
+        assert all(not workspace.file.is_default(a) for a in table.off_default(n))
+    assert "Ctrl+Backspace" in table.values.tip(table.off_default(min(own))[0])

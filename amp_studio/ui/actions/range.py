@@ -5,10 +5,12 @@ One step to undo each.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from itertools import pairwise
 
-from PySide6.QtCore import QMimeData
-from PySide6.QtGui import QGuiApplication
+from PySide6.QtCore import QMimeData, Qt
+from PySide6.QtGui import QCursor, QGuiApplication
+from PySide6.QtWidgets import QMenu
 
 from amp_studio.files import (
     BlockEntry,
@@ -230,9 +232,25 @@ class RangeEdits:
 
     # -- default, not set, other axes ----------------------------------------------
 
-    def to_default(self) -> None:
-        """Set the selected values to their printed defaults; those without one stay as they are."""
-        workspace, chosen = self.window.page_in_front.workspace, self._selected()
+    def offer_defaults(self, addresses: list[Address]) -> None:
+        """Offer the way back to the default for each of these values and for all of them, at the pointer."""
+        page = self.window.page_in_front
+        menu = QMenu(page.table_view)
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        way = tr("Back to default: {value}")
+        ways = {way.format(value=page.table.values.against_default(a)): [a] for a in addresses}
+        if len(addresses) > 1:
+            ways[tr("All %n back to their defaults", "", len(addresses))] = addresses
+        for text, chosen in ways.items():
+            act = partial(self.window.guarded, partial(self.to_default, chosen), tr("Back to Default"))
+            menu.addAction(text.replace("&", "&&")).triggered.connect(lambda _=False, act=act: act())
+        menu.popup(QCursor.pos())
+
+    def to_default(self, chosen: Sequence[Address] = ()) -> None:
+        """Set these values, or the selected ones, to their printed defaults; those without one stay as they
+        are.
+        """
+        workspace, chosen = self.window.page_in_front.workspace, chosen or self._selected()
         wanted = {a: d for a in chosen if (d := workspace.file.default(a)) is not None}
         if not wanted:
             name = describe(workspace.file, chosen[0])

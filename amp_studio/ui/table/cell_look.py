@@ -13,7 +13,7 @@ from functools import lru_cache
 from typing import Literal
 
 from amp_studio.files import HeaderSnapshot, unlike_axes, value_note, with_days_and_times
-from amp_studio.report import state_name
+from amp_studio.report import place_of, state_name
 from amp_studio.schema import (
     Address,
     Parameter,
@@ -52,6 +52,8 @@ class CellLook:
     is_number: bool = False
     is_own: bool = False
     """Not the printed default."""
+    is_off_default: bool = False
+    """Not the printed default, and can be set back to it."""
     is_changed: bool = False
     """Not what is on disk."""
     is_unlike: bool = False
@@ -269,10 +271,27 @@ class ShownValues(Translated):
             lines.append(tr("Note: {text}").format(text=note))
         return "\n".join([*lines, *self._other_values(address)])
 
+    def default_text(self, address: Address) -> str:
+        """Return the printed default of a value in words, in the unit of its cell."""
+        default = self.in_units(address, self.workspace.file.default(address))
+        return self.text(address, None if default is None else as_written(default))
+
+    def against_default(self, address: Address) -> str:
+        """Return a value and its printed default in words: ``X: 12 mm, default 10 mm``."""
+        text = tr("{value}, default {default}").format(
+            value=self.text(address, self.workspace.file.get(address)), default=self.default_text(address)
+        )
+        place = place_of(self.workspace.file, address)
+        return f"{place}: {text}" if place else text
+
     def _other_values(self, address: Address) -> Iterator[str]:
-        """Yield what is saved, and what was entered, if that is another text."""
+        """Yield the default and what is saved, with the keys that lead back, and what was entered,
+        each where it is another one.
+        """
         file = self.workspace.file
         value, saved = file.get(address), self.workspace.document.saved.get(address)
+        if value is not None and not file.is_default(address) and file.default(address) is not None:
+            yield tr("Default: {value} (Ctrl+Backspace goes back)").format(value=self.default_text(address))
         if value != saved:
             yield tr("Saved: {value} (Ctrl+Shift+Backspace goes back)").format(
                 value=self.text(address, saved)
@@ -307,6 +326,7 @@ class ShownValues(Translated):
         if value is None:
             return look
         look.is_own = not file.is_default(address)
+        look.is_off_default = look.is_own and not look.is_locked and file.default(address) is not None
         look.is_number = parameter.type in ("real", "integer", "format") and not parameter.choices
         self._put_text(look, address, value)
         used = self.effective.get(address)

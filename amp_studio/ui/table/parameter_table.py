@@ -292,6 +292,11 @@ class ParameterTable(QAbstractTableModel):
             found = looks[address]
         return found
 
+    def off_default(self, row: int) -> list[Address]:
+        """Return the values of a row that can be set back to their printed default."""
+        shown = ((self.look(row, n), self.address_at(row, n)) for n in range(len(self.columns)))
+        return [address for look, address in shown if look and address and look.is_off_default]
+
     def unit_of_row(self, row: int) -> str:
         """Return the unit of all values of a row, for its head; empty where they differ or say it
         themselves.
@@ -358,7 +363,8 @@ class ParameterTable(QAbstractTableModel):
             return self.head(row)
         if role == Qt.ItemDataRole.ToolTipRole and not self.rows[row].section:
             parameter = self.rows[row].parameter
-            return f"{self.number(row)} {self.row_name(row)}  ({parameter.id})\n{parameter.help.what}"
+            text = f"{self.number(row)} {self.row_name(row)}  ({parameter.id})\n{parameter.help.what}"
+            return "\n".join([text, *map(self.values.against_default, self.off_default(row))])
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return _LEFT
         return None

@@ -4,11 +4,11 @@ and the letter of each axis.
 
 from __future__ import annotations
 
-from PySide6.QtCore import QRect, QSize, Qt
-from PySide6.QtGui import QFontMetrics, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtCore import QEvent, QRect, QSize, Qt, Signal
+from PySide6.QtGui import QFontMetrics, QMouseEvent, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QHeaderView, QLabel, QTableView, QWidget
 
-from amp_studio.ui.base.theme import COLUMN_HEAD, GAP3, ROW, colour, font
+from amp_studio.ui.base.theme import COLUMN_HEAD, GAP3, ROW, SMALL_ICON, colour, font, paint_icon
 
 from .parameter_table import ParameterTable
 
@@ -17,7 +17,12 @@ _LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
 
 
 class RowHeads(QHeaderView):
-    """Two columns, No. and Parameter; the name of a section over both."""
+    """Two columns, No. and Parameter; the name of a section over both. A row with values that are not their
+    default has a mark at its beginning, which becomes the way back below the pointer.
+    """
+
+    reset_requested = Signal(list)
+    """The mark of a row was clicked: its values that are not their default."""
 
     def __init__(self, table: ParameterTable, parent: QWidget) -> None:
         super().__init__(Qt.Orientation.Vertical, parent)
@@ -32,6 +37,8 @@ class RowHeads(QHeaderView):
         self._elided: dict[tuple[str, str, int], str] = {}
         self.number_width = 0
         """Width of the column of numbers; 0 where no row has one."""
+        self._pointed = -1
+        """The row below the pointer."""
         self.row_height = max(ROW, QFontMetrics(font("text")).height() + 6)
         self.setMinimumSectionSize(self.row_height)
         self.setDefaultSectionSize(self.row_height)
@@ -39,6 +46,7 @@ class RowHeads(QHeaderView):
         self.setSectionsClickable(True)
         self.setHighlightSections(False)
         self.setAccessibleName(self.tr("Parameters"))
+        self.setMouseTracking(True)
 
     def sizeHint(self) -> QSize:
         """Return the width that the view has set: Qt would measure a thousand heads after each change."""
@@ -56,6 +64,8 @@ class RowHeads(QHeaderView):
         painter.fillRect(rect, background)
         painter.fillRect(rect.left(), rect.bottom(), rect.width(), 1, colour("grid"))
         place = rect.adjusted(GAP3, 0, -6, -1)
+        if not is_section and table.off_default(section):
+            self._mark(painter, rect, section)
         if is_section:
             self._write(painter, place, table.rows[section].section, "dim", is_head=True)
             return
@@ -69,6 +79,36 @@ class RowHeads(QHeaderView):
             self._write(painter, QRect(name.right() - wide, name.top(), wide + 1, name.height()), unit, "dim")
             name.setRight(name.right() - wide - GAP3)
         self._write(painter, name, table.row_name(section), "text")
+
+    def _mark(self, painter: QPainter, rect: QRect, section: int) -> None:
+        if section != self._pointed or not self._table.workspace.may_edit:
+            painter.fillRect(rect.left(), rect.top(), 3, rect.height() - 1, colour("dim"))
+            return
+        top = rect.center().y() - SMALL_ICON // 2
+        paint_icon(painter, QRect(rect.left(), top, SMALL_ICON, SMALL_ICON), "arrow-u-up-left", colour("sel"))
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        super().mouseMoveEvent(event)
+        self._point_at(self.logicalIndexAt(event.position().toPoint()))
+
+    def leaveEvent(self, event: QEvent) -> None:
+        super().leaveEvent(event)
+        self._point_at(-1)
+
+    def _point_at(self, row: int) -> None:
+        if row != self._pointed:
+            self._pointed = row
+            self.viewport().update()
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Offer the way back at the mark of a row; elsewhere the row is selected."""
+        place = event.position().toPoint()
+        row = self.logicalIndexAt(place) if place.x() < GAP3 and self._table.workspace.may_edit else -1
+        is_click = event.button() == Qt.MouseButton.LeftButton and row >= 0
+        if is_click and (found := self._table.off_default(row)):
+            self.reset_requested.emit(found)
+            return
+        super().mousePressEvent(event)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         super().paintEvent(event)

@@ -47,6 +47,8 @@ class ValueTable(QTableView):
     """The address of the current cell; None where the list is empty."""
     range_changed = Signal()
     """Other cells are selected."""
+    reset_requested = Signal(list)
+    """The mark of a row was clicked: its values that are not their default."""
     fill_requested = Signal(object)
     """The fill handle was dragged: target -> the address that it gets its value from."""
 
@@ -65,7 +67,9 @@ class ValueTable(QTableView):
         self._chosen: list[Address] = []
         self._was_block = True
         self._top = 0
-        self.setVerticalHeader(RowHeads(model, self))
+        names = RowHeads(model, self)
+        names.reset_requested.connect(self.reset_requested)
+        self.setVerticalHeader(names)
         self.setHorizontalHeader(AxisHeads(model, self))
         self._corner = Corner(self)
         self._more = MoreColumns(self, model)
