@@ -6,6 +6,7 @@ What is typed may have either sign; editors and the clipboard have a point.
 from __future__ import annotations
 
 import re
+import textwrap
 
 from amp_studio import schema
 from amp_studio.schema import Limits, Parameter, Value
@@ -22,6 +23,8 @@ _POWER = re.compile(r"(?<=\d)e([+-]?)0*(\d+)")
 _WHOLE = re.compile(r"([-−]?)([0-9]{5,})(.*)")
 _FIGURE = re.compile(r"(?<![^\s(])[-−]?\d+(?:\.\d+)?(?:e[+-]?\d+)?(?![\w.]*\w)")
 """A number in a text that has no address: a range, or the value beside the name of a parameter."""
+_TIP_WIDTH, _TIP_LINES = 100, 24
+"""Letters of a line of a tip, and its lines at most: a note may have 100,000 letters."""
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -69,6 +72,12 @@ def with_figures(text: str) -> str:
     """Return a text with its numbers as the language writes them; addresses stay."""
     point = tr(".", "decimal sign")
     return text if point == "." else _NUMBER.sub(lambda found: found[0].replace(".", point), text)
+
+
+def as_tip(text: str) -> str:
+    """Return a text in lines that a screen has room for: Qt makes one line of a paragraph."""
+    lines = [line for part in text.split("\n") for line in textwrap.wrap(part, _TIP_WIDTH) or [""]]
+    return "\n".join([*lines[:_TIP_LINES], *(["…"] if len(lines) > _TIP_LINES else [])])
 
 
 def show_value(parameter: Parameter, value: Value | None, *, secrets: bool = False) -> str:

@@ -24,7 +24,7 @@ from amp_studio.files import (
     axis_letters,
 )
 from amp_studio.schema import Value, fault, read_address, read_real, read_value, same_value, visible, whole_of
-from amp_studio.ui.base.figures import THIN
+from amp_studio.ui.base.figures import THIN, as_tip
 from amp_studio.ui.base.model_index import ModelIndex
 
 from .cells import MergeCell, cells_of
@@ -328,7 +328,7 @@ class MergeModel(QAbstractItemModel):
         if role == Qt.ItemDataRole.EditRole:
             return self.text_to_edit(row)
         if role == Qt.ItemDataRole.ToolTipRole:
-            return self.text(row, column)
+            return as_tip(self.text(row, column))
         if role == Qt.ItemDataRole.AccessibleTextRole:
             return self._accessible_text(row, column)
         return None

@@ -29,7 +29,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.files import ParameterFile
 from amp_studio.sim import CheckPart, LimitUse, MotionCheck, value_text
-from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.figures import as_tip, written
 from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.theme import GAP, GAP2, GAP3, ROW, SMALL_ICON, Token, colour, font, icon
 from amp_studio.ui.base.translated import scenario_in_words, sentenced, tr, unit_in_words, worded
@@ -180,7 +180,7 @@ class CheckRows(QAbstractListModel):
             words = f"{name_of_check(row)}: {verdict_in_words(row.verdict)}"
             return ", ".join(filter(None, (words, figure_of(self.file, row))))
         if role == Qt.ItemDataRole.ToolTipRole:
-            return self._tip(row)
+            return as_tip(self._tip(row))
         return None
 
     def _tip(self, check: MotionCheck) -> str:

@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
 from amp_studio.files import axis_letter, with_local_times
 from amp_studio.guide import GuideProgress, SetupStep, StepProgress, StepState
 from amp_studio.schema import Address, Guide, Parameter
+from amp_studio.ui.base.figures import as_tip
 from amp_studio.ui.base.places import short_place
 from amp_studio.ui.base.theme import FIGURE_SPACE, GAP, GAP2, GAP3, SMALL_CONTROL, Token, colour, font, icon
 from amp_studio.ui.base.translated import counted, worded
@@ -228,7 +229,9 @@ class StepsPanel(QWidget):
         parts += found
         parts += [self.tr("%n values not set", "", len(each.open))] if each.open else []
         item.setData(0, Qt.ItemDataRole.AccessibleTextRole, ", ".join(parts))
-        item.setToolTip(0, "\n".join([_tip(each.step, self._family), ", ".join(self._figures(each) + found)]))
+        item.setToolTip(
+            0, as_tip("\n".join([_tip(each.step, self._family), ", ".join(self._figures(each) + found)]))
+        )
         if each.step in (self._here, now.current.step if now.current else None):
             self._show_open(item, each.open)
         elif item.childCount():

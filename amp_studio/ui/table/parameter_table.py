@@ -16,6 +16,7 @@ from PySide6.QtCore import QAbstractTableModel, QModelIndex, Qt, Signal
 
 from amp_studio.files import axis_head, shown_axes
 from amp_studio.schema import Address, Parameter, whole_of
+from amp_studio.ui.base.figures import as_tip
 from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
@@ -364,7 +365,7 @@ class ParameterTable(QAbstractTableModel):
         if role == Qt.ItemDataRole.ToolTipRole and not self.rows[row].section:
             parameter = self.rows[row].parameter
             text = f"{self.number(row)} {self.row_name(row)}  ({parameter.id})\n{parameter.help.what}"
-            return "\n".join([text, *map(self.values.against_default, self.off_default(row))])
+            return as_tip("\n".join([text, *map(self.values.against_default, self.off_default(row))]))
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return _LEFT
         return None
@@ -426,7 +427,9 @@ class ParameterTable(QAbstractTableModel):
         if role == Qt.ItemDataRole.TextAlignmentRole:
             parameter = self.workspace.file.schema.parameters[address[0]]
             return _RIGHT if parameter.type in ("real", "integer", "format") else _LEFT
-        if role in (Qt.ItemDataRole.ToolTipRole, Qt.ItemDataRole.AccessibleDescriptionRole):
+        if role == Qt.ItemDataRole.ToolTipRole:
+            return as_tip(self.values.tip(address))
+        if role == Qt.ItemDataRole.AccessibleDescriptionRole:
             return self.values.tip(address)
         return None
 
