@@ -24,7 +24,7 @@ _WHOLE = re.compile(r"([-−]?)([0-9]{5,})(.*)")
 _FIGURE = re.compile(r"(?<![^\s(])[-−]?\d+(?:\.\d+)?(?:e[+-]?\d+)?(?![\w.]*\w)")
 """A number in a text that has no address: a range, or the value beside the name of a parameter."""
 _TIP_WIDTH, _TIP_LINES = 100, 24
-"""Letters of a line of a tip, and its lines at most: a note may have 100,000 letters."""
+"""Letters of a line of a tip, and its lines at most: a note may have 4,000 letters."""
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
