@@ -2,14 +2,20 @@
 
 import os
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import Document
+from amp_studio.ui.actions.project import new
+from amp_studio.ui.base.translated import speak
+from amp_studio.ui.dialogs.file_dialogs import ProjectDialog
 from amp_studio.ui.dialogs.note_dialog import NoteDialog
 from amp_studio.ui.main_window import MainWindow
+
+from .conftest import User
 
 EXCESS = ("servo.excess_error", "1")
 
@@ -65,3 +71,24 @@ def test_a_note_that_is_too_long_stays_in_its_form(window: MainWindow, qtbot: Qt
     dialog.form.set_answer("about", "value")
     dialog.form.set_answer("note", "a" * 4000)
     assert dialog.ok.isEnabled()
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_a_folder_that_cannot_be_made_is_a_sentence_without_the_number_of_its_error(
+    language: str, window: MainWindow, user: User, accept: Callable[..., None], tmp_path: Path, monkeypatch
+) -> None:
+    """It was "[Errno 13] Permission denied: '/…/project'", in a German window too."""
+
+    def refuse(folder: Path, *_: object, **__: object) -> None:
+        raise PermissionError(13, "Permission denied", str(folder))
+
+    accept(ProjectDialog, lambda dialog: dialog.form.set_answer("name", "Line 4"))
+    user.chooses(tmp_path / "line")
+    monkeypatch.setattr(Path, "mkdir", refuse)
+    speak(language)
+    try:
+        window.guarded(partial(new, window), "New Project")
+    finally:
+        speak("en")
+    why = {"en": "Permission denied", "de": "keine Berechtigung"}[language]
+    assert user.reads() == f"{tmp_path / 'line'}: {why}"

@@ -6,6 +6,7 @@ from PySide6.QtWidgets import QMessageBox, QPushButton, QWidget
 
 from .modal import run_dialog
 from .theme import icon, severity_icon
+from .translated import without_number
 
 Icon = QMessageBox.Icon
 _SIDE = 24
@@ -14,7 +15,7 @@ _SIDE = 24
 
 def show_message(parent: QWidget | None, title: str, text: str, kind: Icon = Icon.Warning) -> None:
     """Show a message and wait until it is closed."""
-    box = QMessageBox(kind, title, text, QMessageBox.StandardButton.Close, parent)
+    box = QMessageBox(kind, title, without_number(text), QMessageBox.StandardButton.Close, parent)
     _show_icon(box, kind)
     run_dialog(box)
 

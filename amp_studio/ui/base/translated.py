@@ -8,6 +8,7 @@ What is made below the window has its words there too.
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 from typing import Final
 
@@ -21,6 +22,7 @@ from amp_studio.validate import Finding, family_of_rule
 
 LANGUAGES: Final = {code: name_of_language(code) for code in language_codes()}
 """Code -> name in the language itself."""
+_OF_SYSTEM = re.compile(r"\[Errno \d+\] (.+?): '(.+)'")
 
 
 def tr(text: str, disambiguation: str = "", n: int = -1) -> str:
@@ -86,7 +88,13 @@ def finding_in_words(finding: Finding) -> str:
 
 def message_in_words(text: str) -> str:
     """Return what the program states of a value in the language of the window."""
+    text = without_number(text)
     return text if _spoken == "en" else _message(_spoken, text)
+
+
+def without_number(text: str) -> str:
+    """Return the text of an error of the system as a sentence: its path, then its reason."""
+    return _OF_SYSTEM.sub(lambda found: f"{found[2]}: {message_in_words(found[1])}", text)
 
 
 @lru_cache(maxsize=4096)

@@ -10,6 +10,7 @@ from PySide6.QtGui import QAccessible, QAccessibleEvent, QKeyEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QToolButton, QWidget
 
 from amp_studio.ui.base.theme import GAP2, GAP3, ICON, MESSAGE, icon, scheme, severity_colour, severity_icon
+from amp_studio.ui.base.translated import without_number
 
 MessageKind = Literal["information", "advice", "warning", "error"]
 READING_MS = 8_000
@@ -63,7 +64,7 @@ class MessageBar(QFrame):
             button.clicked.connect(lambda *_, act=act: (self.hide(), act()))
             self._layout.insertWidget(self._layout.count() - 1, button)
             self.buttons.append(button)
-        self._kind = kind
+        self._kind, text = kind, without_number(text)
         self.text.setText(text)
         self._colour()
         self.setAccessibleDescription(text)
