@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import ParameterFile, SaveError
+from amp_studio.files import ParameterFile, SaveError, atomic
 from amp_studio.files.storage import save_file
 from amp_studio.report import Contents, set_report
 from amp_studio.report.build import build_report
@@ -116,3 +116,17 @@ def test_a_folder_that_cannot_be_written_is_a_sentence(
     monkeypatch.setattr(Path, "mkdir", refused)
     with pytest.raises(SaveError, match=r"report\.typ\.j2 cannot be written: Permission denied$"):
         write_starting_template(machine.parent)
+
+
+def test_a_full_disk_leaves_no_empty_template(machine: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It stayed, refused the next try, and was the template of every report from then on."""
+
+    def full(_handle: int, _content: bytes) -> None:
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(atomic, "write_all", full)
+        with pytest.raises(SaveError, match=r"No space left on device$"):
+            write_starting_template(machine.parent)
+    assert list((machine.parent / "templates").iterdir()) == []
+    assert write_starting_template(machine.parent).stat().st_size > 1000

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from amp_studio.files import SaveError
+from amp_studio.files import SaveError, is_there, write_atomic
 
 from .templates import OWN
 
@@ -21,16 +21,12 @@ def write_starting_template(folder: Path) -> Path:
     path = own / NAME
     try:
         own.mkdir(exist_ok=True)
-        _write_new(path)
-        if not (own / "logo.svg").exists():
-            _write_new(own / "logo.svg")
-    except FileExistsError:
-        raise SaveError(f"{path} exists already: it is left as it is") from None
     except OSError as error:
         raise SaveError(f"{path} cannot be written: {error.strerror or error}") from error
+    if is_there(path):
+        raise SaveError(f"{path} exists already: it is left as it is")
+    # All or nothing: on a full disk an empty template would stay, and be that of every report.
+    for name in ("logo.svg", NAME):
+        if not is_there(own / name):
+            write_atomic(own / name, (_STARTING / name).read_bytes(), None)
     return path
-
-
-def _write_new(path: Path) -> None:
-    with path.open("xb") as file:
-        file.write((_STARTING / path.name).read_bytes())
