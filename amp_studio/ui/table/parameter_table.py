@@ -295,8 +295,8 @@ class ParameterTable(QAbstractTableModel):
 
     def off_default(self, row: int) -> list[Address]:
         """Return the values of a row that can be set back to their printed default."""
-        shown = ((self.look(row, n), self.address_at(row, n)) for n in range(len(self.columns)))
-        return [address for look, address in shown if look and address and look.is_off_default]
+        cells = ((self.look(row, n), self.address_at(row, n)) for n in range(len(self.columns)))
+        return [address for look, address in cells if look and address and look.is_off_default]
 
     def unit_of_row(self, row: int) -> str:
         """Return the unit of all values of a row, for its head; empty where they differ or say it
