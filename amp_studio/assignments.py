@@ -122,7 +122,7 @@ def _read_assigned(
 def _entered(file: ParameterFile, address: Address, text: str) -> Value | None:
     """Read a value, or an expression behind ``=``; raises InvalidValueError.
 
-    Nobody sees the result before it is set, so that what only looks like one (``10-5``) is none.
+    The user does not see the result before it is set, so that what only looks like one (``10-5``) is none.
     """
     from amp_studio.validate import enter
 

@@ -74,7 +74,7 @@ def main(full: Path, paths: list[Path]) -> None:
 
 
 def _rest(application: QCoreApplication) -> None:
-    """Let the window do what it does once nobody types: indexes, findings of other files."""
+    """Let the window do what it does once the user stops typing: indexes, findings of other files."""
     end = time.monotonic() + 0.4
     while time.monotonic() < end:
         application.processEvents()

@@ -52,7 +52,7 @@ class ImportedName:
 
 @cache
 def tree_of(path: Path) -> ast.Module:
-    """Return the syntax tree of a file, which nobody may change."""
+    """Return the syntax tree of a file, which must not be changed."""
     return ast.parse(path.read_text("utf-8"))
 
 

@@ -49,7 +49,7 @@ DIALECT = "http://json-schema.org/draft-07/schema#"
 
 
 class BuilderRules(Model):
-    """A file of a builder's own rules, and of findings that somebody has checked and leaves as they are."""
+    """A file of a builder's own rules, and of findings that a user has checked and leaves as they are."""
 
     rules: tuple[BuilderRule, ...] | None = None
     suppressions: tuple[Suppression, ...] | None = None

@@ -44,7 +44,7 @@ def lines_of(text: str) -> list[tuple[int, str]]:
 
 def separator_of(line: str, decimal: str) -> str:
     """Return what separates the cells of a line: a character, or "" for blanks."""
-    # First: where the comma is the decimal sign, spreadsheets separate by semicolons.
+    # First: where the comma is the decimal separator, spreadsheets separate by semicolons.
     if ";" in line:
         return ";"
     if "\t" in line.strip():

@@ -18,7 +18,7 @@ MeasuredPoints = tuple[tuple[Fraction, Fraction], ...]
 
 @dataclass(frozen=True)
 class MeasurementAnswers:
-    """What nobody but the person who measured knows for certain; "" where the file is to answer.
+    """What only the person who measured knows for certain; "" where the file is to answer.
 
     ``unit`` of the positions, ``error_unit`` of the errors, ``sign`` one of ``SIGNS``,
     ``decimal`` one of ``DECIMALS``.

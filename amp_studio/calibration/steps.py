@@ -69,7 +69,7 @@ def stepped(file: ParameterFile, address: Address, by: Fraction) -> Value:
     label = file.machine_schema.label(address)
     if present is None or isinstance(present.value, (str, bool)):
         raise CalibrationError(f"{label} is not set: give it a value first")
-    # By its text: 0.1 as a binary fraction would show digits that nobody entered after ten steps.
+    # By its text: 0.1 as a binary fraction would show digits that were not entered after ten steps.
     number = Fraction(repr(present.value) if isinstance(present.value, float) else present.value)
     if present.unit != unit and dimension(present.unit) == dimension(unit):
         number *= UNITS[present.unit][1] / UNITS[unit][1]

@@ -141,7 +141,7 @@ def _call(arguments: Sequence[str], replaced: list[Target]) -> int:
 
 
 def _sentence(error: BaseException) -> str:
-    """Return the one line a person sees; what nobody has foreseen is named, with where its details are."""
+    """Return the one line a person sees; an unforeseen error is named, with where its details are."""
     from amp_studio.schema import DatabaseError, UnknownParameterError
     from amp_studio.trouble import keep_details
 

@@ -333,7 +333,7 @@ class _Placing:
         if box is None:
             return None
         end = box.nearest(point)
-        # Without a line nobody could see which of several points a text so far away belongs to.
+        # Without a line the reader could not see which of several points a text so far away belongs to.
         far = max(abs(end[0] - point[0]), abs(end[1] - point[1]))
         leader = (point, end) if far > _LED else None
         return Label(box, text.text, value, bool(text.value), text.sort, text.address, leader, chip=text.chip)

@@ -99,7 +99,7 @@ def _read(file: ParameterFile, address: Address, text: str, read: ReadText) -> E
 
 
 def _cell(file: ParameterFile, address: Address, text: str, new: Value | None) -> EnteredCell:
-    """Return what a value would do: refused where nobody can set it, no change where it is the same."""
+    """Return what a value would do: refused where it cannot be set, no change where it is the same."""
     old, parameter = file.get(address), file.schema.parameters[address[0]]
     if parameter.access == "read" and old != new:
         problem = f"{parameter.name} can only be read: the control writes it itself"

@@ -396,7 +396,7 @@ class ParameterFile:
 
     def take_over(self, other: ParameterFile, differing: Iterable[Address]) -> None:
         """Take the content of another file of the same schema and machine type, and forget what followed from
-        what is ``differing``. Nobody is notified.
+        what is ``differing``. Listeners are not notified.
         """
         self.values.clear()
         self.values.update(other.values)

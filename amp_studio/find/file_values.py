@@ -38,7 +38,7 @@ def asked_number(query: str) -> Number | None:
     else.
     """
     if _HEX.fullmatch(query.strip()):
-        # Without a unit, not with any: nobody asks for a length in hexadecimal.
+        # Without a unit, not with any: a length is not asked for in hexadecimal.
         return Number(int(query, 16), "")
     try:
         value, rest = read_number(query.strip())

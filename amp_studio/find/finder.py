@@ -190,7 +190,7 @@ class Finder:
         parameter = file.schema.parameters[first[0]]
         title = show_value(parameter, file.get(first))
         detail = f"{parameter.name} {', '.join(self._place(a) for a in ordered)}".rstrip()
-        # A value that somebody chose is more likely meant than one of many defaults.
+        # A value that the user chose is more likely meant than one of many defaults.
         score = _VALUE if own else _DEFAULT
         return Hit("value", title, detail, why, first[0], score, ordered[0], tuple(ordered[1:]))
 

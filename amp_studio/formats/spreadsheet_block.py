@@ -218,7 +218,7 @@ def _cell_text(cell: str, number: str | None) -> str:
     A date, a time, a percentage or a truth value is a number too, but not the one that is seen:
     it stays a text.
     """
-    # LibreOffice 7.4 writes it with the decimal sign of its language, and never in groups.
+    # LibreOffice 7.4 writes it with the decimal separator of its language, and never in groups.
     number = number.replace(",", ".") if number is not None else ""
     if not re.fullmatch(r"[-+]?[0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?", number):
         return cell

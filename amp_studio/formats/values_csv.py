@@ -32,7 +32,7 @@ _NOTE = "note"
 """A column more, where something is noted about a value of the table."""
 _MARK = "\ufeff"
 _SEPARATORS = ",;\t"
-"""A spreadsheet writes the second one where a comma is the decimal sign, and the last one as Unicode text."""
+"""A spreadsheet writes the second one where the decimal separator is a comma, and the last one as Unicode."""
 
 _NAMED = re.compile('"?sep=', re.IGNORECASE)
 """A first line that names to Excel what is between the cells."""

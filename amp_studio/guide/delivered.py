@@ -17,7 +17,7 @@ class Present(NamedTuple):
 
     findings: tuple[Finding, ...]
     delivered: tuple[Finding, ...] = ()
-    """Findings about printed defaults of steps that nobody has reached: a state of the file."""
+    """Findings about printed defaults of steps that the user has not reached: a state of the file."""
     steps: tuple[int, ...] = ()
     """The numbers of the steps in which these are to be set."""
 

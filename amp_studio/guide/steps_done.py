@@ -3,13 +3,13 @@
 A value is *open* where the file needs it and has none: the parameter is active, can be set, and is not one
 that a file is complete without. A value is *untouched* where it is open or the printed default.
 
-A finding belongs to the last step of which it reads an untouched value: not before then has anybody put that
+A finding belongs to the last step of which it reads an untouched value: not before then has the user put that
 value next to the others. Where it reads none it belongs to the step of what is wrong.
 
 The steps are reached in their order, as far as the first that is not finished: it has an open value, or an
-error belongs to it. In a file in which nobody has set anything but its axes none is reached; in one that
+error belongs to it. In a file in which nothing is set but its axes none is reached; in one that
 lacks no value all are, and what is ticked as done is, with the steps before it. A finding that belongs to a
-later step is deferred, as delivered: a state of the file and no fault in it, unless somebody has set what is
+later step is deferred, as delivered: a state of the file and no fault in it, unless the user has set what is
 wrong: he learns it at once.
 A download and its preview know nothing of steps.
 """
@@ -49,7 +49,7 @@ class StepProgress:
     errors: int
     """How many errors are about its values, deferred ones too."""
     ticked: str
-    """By whom and when it was ticked as done; empty where nobody has."""
+    """By whom and when it was ticked as done; empty where it is not."""
 
     @property
     def set(self) -> int:
@@ -209,7 +209,7 @@ def _axis_parameters(family: Family) -> frozenset[str]:
 
 def _belongs_to(file: ParameterFile, finding: Finding) -> tuple[int, bool]:
     """Return the number of the step to which a finding belongs, 0 for none,
-    and whether somebody has set what is wrong.
+    and whether the user has set what is wrong.
     """
     places = step_of(file.schema)
 
@@ -218,7 +218,7 @@ def _belongs_to(file: ParameterFile, finding: Finding) -> tuple[int, bool]:
 
     untouched = [places[a[0]].number for a in finding.addresses if a[0] in places and is_untouched(a)]
     causes = [places[a[0]].number for a in finding.causes if a[0] in places]
-    # The last step with an untouched value: before that one is set nobody can have compared them.
+    # The last step with an untouched value: before that one is set they cannot have been compared.
     return max(untouched or causes[:1], default=0), not all(map(is_untouched, finding.causes))
 
 

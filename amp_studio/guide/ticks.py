@@ -8,7 +8,7 @@ from .steps import SetupStep
 
 
 def tick(file: ParameterFile, step: SetupStep | str, by: str | None) -> bool:
-    """Tick a step, or a test at the machine by its id, as done by somebody at some time (``by``), or take the
+    """Tick a step, or a test at the machine by its id, as done by a person at some time (``by``), or take the
     tick away (None); returns whether that is new.
     """
     key = step if isinstance(step, str) else step.id

@@ -24,7 +24,7 @@ def write_migration(migration: Migration, folder: Path, lines: Iterable[str]) ->
     names. Raises OSError, with nothing written.
 
     A name with an ending is that of one file, the configuration alone. What is there already stays as it is:
-    nobody knows what in it is of another machine.
+    it is not known what in it is of another machine.
     """
     if folder.suffix:
         # "x" fails where the file exists: a check before it could be overtaken.

@@ -119,7 +119,7 @@ def draw_approach(
 ) -> Scene:
     """Return the plan of a part with a way and where the axes stop on it, run before as ``trace``.
 
-    ``hard`` is how far behind the limits the hard stops are; None where nobody has given it.
+    ``hard`` is how far behind the limits the hard stops are; None where it was not given.
     """
     base = picture.scene(part)
     axes = _axes(picture, base, part)

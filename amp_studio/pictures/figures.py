@@ -221,7 +221,7 @@ class ValueReader:
         if in_entry is None or not math.isfinite(in_entry):
             return None
         definition = self.file.schema.parameters[address[0]]
-        # The coarser of both: nobody drags finer than a thousandth of the picture, and nothing below a
+        # The coarser of both: a hand drags no finer than a thousandth of the picture, and nothing below a
         # decimal is stored.
         rounded = multiple(in_entry, max(self.resolution(address), grain))
         return Value(int(rounded) if definition.type == "integer" else rounded, entry)

@@ -90,21 +90,21 @@ class _ExpressionReader:
         """Return what one operator has at a side: a number, parameter, function or parenthesis."""
         if depth > DEEPEST:
             raise ProgramBlockError(f"{quoted(self._text)} is deeper than {DEEPEST} parentheses")
-        sign = self._next()
-        if sign in _SIGNS:
+        piece = self._next()
+        if piece in _SIGNS:
             # Counted as a level: a thousand signs in a row would end Python's stack.
-            return _SIGNS[sign] * self._single(depth + 1)
-        if sign == "(":
+            return _SIGNS[piece] * self._single(depth + 1)
+        if piece == "(":
             value = self.level(0, depth)
             if self._next() != ")":
                 raise ProgramBlockError(f"{quoted(self._text)} has a parenthesis that is not closed")
             return value
-        if sign in _FUNCTIONS:
-            return _FUNCTIONS[sign](self._single(depth + 1))
-        if sign[0] in "P#" and sign[1:].strip().isdigit():
-            return self._value_of_parameter(int(sign[1:]))
-        if sign[0].isdigit() or sign.startswith("."):
-            return float(sign)
+        if piece in _FUNCTIONS:
+            return _FUNCTIONS[piece](self._single(depth + 1))
+        if piece[0] in "P#" and piece[1:].strip().isdigit():
+            return self._value_of_parameter(int(piece[1:]))
+        if piece[0].isdigit() or piece.startswith("."):
+            return float(piece)
         raise ProgramBlockError(f"{quoted(self._text)} is no expression")
 
     def _value_of_parameter(self, number: int) -> float:

@@ -229,7 +229,7 @@ def _name_of(source: Path) -> str:
 def _checksum(file: ParameterFile, source: Path | None, content: bytes) -> tuple[str, str]:
     """Return title and checksum of the file on disk, with a note where its values differ from the report.
 
-    With the report, somebody could try all passwords against a checksum, so it excludes secrets, as
+    With the report, its reader could try all passwords against a checksum, so it excludes secrets, as
     ``content`` does.
     """
     title = "SHA-256 of the file"
@@ -245,7 +245,7 @@ def _checksum(file: ParameterFile, source: Path | None, content: bytes) -> tuple
     except ParameterFileError:
         return title, "the file on disk cannot be read"
     on_disk = without_secrets(opened)
-    # Without secrets it is the file byte for byte, so that anybody can check it with another program.
+    # Without secrets it is the file byte for byte, so that a reader can check it with another program.
     digest = _digest(stored if on_disk is opened else content_of(on_disk))
     if on_disk.values != file.values:
         return title, digest + " – but this report contains unsaved changes"

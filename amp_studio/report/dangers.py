@@ -49,7 +49,7 @@ def _grouped(
     for parameter, anchor, name, place in values:
         for danger in schema.parameters[parameter].help.danger:
             about = found.setdefault((language.sentence(danger.says), danger.page, danger.brief), {})
-            # One statement with all its axes: printed for each of them, nobody would read it.
+            # One statement with all its axes: printed for each of them, it would not be read.
             about.setdefault(parameter, (anchor, name, []))[2].append(language.text(place))
     return tuple(
         Danger(

@@ -76,7 +76,7 @@ class Language:
     units: dict[str, str] = field(default_factory=dict)
     """Printed unit -> its own spelling."""
     point: str = "."
-    """The decimal sign."""
+    """The decimal separator."""
 
     def text(self, english: str) -> str:
         """Return a phrase in this language; as it is where the language has no other words for it."""
@@ -174,7 +174,7 @@ class Language:
         return _REMARK.sub(lambda found: self.text(found[0]), label)
 
     def number(self, figure: str) -> str:
-        """Return a number with its sign, and the decimal sign of this language."""
+        """Return a number with its sign, and the decimal separator of this language."""
         return _SIGN.sub("−", figure).replace(".", self.point)
 
     def unit(self, printed: str) -> str:

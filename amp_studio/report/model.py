@@ -150,8 +150,8 @@ class ReportRow:
 
     @property
     def whole(self) -> str:
-        """What is before the decimal sign of its figure, for a column aligned there; empty for what is no
-        number.
+        """The text before the decimal separator of its figure, for a column aligned there; empty for what is
+        no number.
         """
         found = _WHOLE.match(self.figure) if self.is_number else None
         return found[0] if found else ""
@@ -215,7 +215,7 @@ class _TableOfRows:
 
     @property
     def widest(self: _HasRows) -> int:
-        """Most characters before the decimal sign of a figure."""
+        """Most characters before the decimal separator of a figure."""
         # Of the printed figures: the template puts as much room before shorter ones, so that decimal
         # signs align.
         return max((len(row.whole) for row in self.rows), default=0)

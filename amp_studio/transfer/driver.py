@@ -134,7 +134,7 @@ class ControlDriver(ContentKind, Protocol):
 
 @runtime_checkable
 class RestartsItself(Protocol):
-    """A driver whose control restarts after a download without anybody's doing."""
+    """A driver whose control restarts by itself after a download."""
 
     def wait_restarted(self, receipt: Receipt, seconds: float, exchange: Exchange = QUIET) -> bool:
         """Wait up to so many seconds for the restart after ``send``;
@@ -170,7 +170,7 @@ class TakesLiveValues(Protocol):
 
 @dataclass(frozen=True)
 class Recognised:
-    """How a control is known by its answer, where nobody has named its family.
+    """How a control is known by its answer, where its family was not named.
 
     ``question`` is sent to whatever is there, so it must do nothing to any machine;
     ``answer`` is looked for in what comes.

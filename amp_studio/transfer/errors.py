@@ -137,7 +137,7 @@ class NotInEmergencyStopError(TransferError):
 
 
 class ImageChangedError(TransferError):
-    """The control's image is not the one that was fetched: somebody changed it in between."""
+    """The control's image is not the one that was fetched: it was changed in between."""
 
 
 class ImageRejectedError(TransferError):

@@ -34,7 +34,7 @@ class Exchange:
 
     @property
     def is_stopped(self) -> bool:
-        """Whether somebody has asked to stop."""
+        """Whether a stop was asked for."""
         return self.cancel is not None and self.cancel.is_set()
 
 
@@ -45,7 +45,7 @@ QUIET = Exchange()
 class Replacement:
     """One download as a driver takes it: ``content`` instead of ``current``, which the control contains.
 
-    ``signature``  of the schema under which the content was made; "" for one that nobody knows
+    ``signature``  of the schema under which the content was made; "" for an unknown one
     """
 
     content: bytes

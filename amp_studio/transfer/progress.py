@@ -1,4 +1,4 @@
-"""What somebody who waits gets to read, and how he breaks off."""
+"""What a waiting user reads, and how the wait is stopped."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ CUT = "cut"
 
 
 def quiet(stage: str, done: int, total: int) -> None:
-    """Show it to nobody."""
+    """Show nothing."""
 
 
 class Stop(threading.Event):

@@ -40,7 +40,7 @@ class Waiting:
 
     @property
     def is_stopped(self) -> bool:
-        """Whether somebody has asked to stop."""
+        """Whether a stop was asked for."""
         return self._exchange.is_stopped
 
     def look(self) -> None:

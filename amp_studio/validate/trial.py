@@ -6,7 +6,7 @@ findings or lesser ones, and making one after the other comes to an end.
 Values that are not given (``schema.unset``) do not count.
 
 A fix that brings a warning has its message. One that would make a speed less than a thirtieth of itself is
-not offered: then another value is wrong, and nobody cuts a rapid to a sixtieth for a resolution that is a
+not offered: then another value is wrong, and a rapid is not cut to a sixtieth for a resolution that is a
 sixtieth. One that makes less than a third or more than three times of a speed or a ramp, or follows from a
 value that is itself doubted, is doubtful: it is made where a user chose it, not together with all others.
 """

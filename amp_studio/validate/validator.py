@@ -151,7 +151,7 @@ class Validator:
         of which all ``differing`` values are another: only what reads them is checked. The findings are those
         of a full ``run``.
 
-        The present file takes the content of the other one; nobody may listen to it.
+        The present file takes the content of the other one; it must have no listeners.
         """
         self.file.take_over(file, differing)
         if differing:

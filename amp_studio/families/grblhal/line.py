@@ -249,7 +249,7 @@ class GrblLine:
         return refused, oks
 
     def _notice(self, state: str) -> None:
-        """Notice a state without lines: what is sent would pile up until somebody goes on, and act then."""
+        """Notice a state without lines: lines sent then would pile up until the operator resumes."""
         self._suspended = state if state in SUSPENDED else ""
 
     def _is_refusal(self, line: str) -> bool:
@@ -303,7 +303,7 @@ class GrblLine:
         if match := _ALARM.fullmatch(line):
             self.alarm = int(match[1])
             return True
-        # A status report that somebody else has asked for.
+        # A status report that another sender has asked for.
         return line.startswith("<")
 
     # -- patience ------------------------------------------------------------------------------------

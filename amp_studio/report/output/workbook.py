@@ -28,7 +28,7 @@ _ROOM = 2
 _LINE, _MAX_LINES = 13.0, 30
 """Height of a line in points; no row is higher than a page."""
 _MAX_DECIMALS = 6
-"""Digits behind the decimal sign up to which a column is aligned at it."""
+"""Digits behind the decimal separator up to which a column is aligned at it."""
 _TIME = re.compile(rb"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ")
 _MAX_TEXT = 32_767
 _MAX_FOOTER = 100
@@ -118,7 +118,7 @@ def _lines(content: WorkbookCell, width: int) -> int:
 
 
 def _decimals(content: WorkbookCell) -> int:
-    """Return the digits behind the decimal sign of a number; -1 of what is no number, or has too many."""
+    """Return the digits behind the decimal separator of a number; -1 for no number, or too many."""
     if content is None or isinstance(content, str) or not math.isfinite(content):
         return -1
     fraction = repr(float(content)).partition(".")[2]

@@ -122,8 +122,8 @@ class Trigger:
 
     def __str__(self) -> str:
         """The trigger as `trigger_of` reads it."""
-        sign = (">" if self.rising else "<") + ("=" if self.is_level else "")
-        return f"{self.signal.replace('_', ' ')} {sign} {self.level:g}"
+        comparison = (">" if self.rising else "<") + ("=" if self.is_level else "")
+        return f"{self.signal.replace('_', ' ')} {comparison} {self.level:g}"
 
 
 def trigger_of(text: str, before: float = 0.0) -> Trigger:

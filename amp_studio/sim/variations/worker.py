@@ -49,7 +49,7 @@ class SweepWorker:
 
 
 def serve(asked: BinaryIO, out: BinaryIO) -> None:
-    """Make parts until nobody asks, in the process apart."""
+    """Make parts until the asking process ends, in the process apart."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the process that waits for this one ends it
     gc.freeze()
     # What a library prints goes to the errors: the output is for the figures alone.

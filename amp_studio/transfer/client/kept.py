@@ -115,7 +115,7 @@ def save_image(image: bytes, path: Path) -> None:
         for name in written:
             with contextlib.suppress(OSError):
                 name.unlink(missing_ok=True)
-        if isinstance(error, ChangedOnDiskError):  # somebody has taken the name meanwhile
+        if isinstance(error, ChangedOnDiskError):  # another program has taken the name meanwhile
             raise FileExistsError(str(error)) from None
         raise
 

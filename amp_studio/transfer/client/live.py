@@ -106,7 +106,7 @@ class LiveTuning:
             is_return=verb == "restore",
             what="Change",
         )
-        self.file = None  # whatever happens now: it is read again before anybody relies on it
+        self.file = None  # whatever happens now: it is read again before it is relied on
         try:
             outcome = recording.run(self._driver, wanted, lambda content: self._keep(recording, content))
         except TransferError as error:

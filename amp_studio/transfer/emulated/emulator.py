@@ -2,7 +2,7 @@
 
 The manual's chapter 2 for the 9/PC is its model: a download needs E-stop, the
 control restarts to make it current (by itself or by hand), and until then
-nobody can talk to it.
+no client can talk to it.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ SLICE = 0.05  # seconds between two looks at the operator's commands
 CLIENT_SILENCE = 5.0  # seconds without a whole frame after which another client may take the control over
 UNREAD_LIMIT = 0.2  # seconds for which a client that reads no answers may keep all others waiting
 LINES = 8  # open at once; beyond them the one that was opened first and does not have the control is cut
-PIECE = 2_048  # bytes of one client that are worked on before anybody else has a turn
+PIECE = 2_048  # bytes of one client that are worked on before the next client has a turn
 COMMANDS_WAITING = 256  # operator's commands that are kept until there is time for them
 COMMANDS_A_TURN = 16
 LONGEST_COMMAND = 4_096  # bytes

@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 SUFFIX = ".transfer"
-LASTING = 7 * 24 * 3600.0  # seconds after which nobody takes a download up again
+LASTING = 7 * 24 * 3600.0  # seconds after which a download is not taken up again
 MAX_KEPT = 32  # kept at most, the newest
 
 

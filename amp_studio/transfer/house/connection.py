@@ -48,7 +48,7 @@ STEPS = 64
 
 
 class OutOfTimeError(NoAnswerError):
-    """Patience has ended, or somebody asked to stop."""
+    """Patience has ended, or a stop was asked for."""
 
 
 class Connection:

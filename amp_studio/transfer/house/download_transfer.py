@@ -152,7 +152,7 @@ class DownloadTransfer:
         self._broken.forget(self._what)
         self._line.notify("commit", 0, 1)
         self._line.is_committing = True  # from here on the matter is seen through
-        # Until the answer is here nobody knows whether the control has replaced its image.
+        # Until the answer is here it is unknown whether the control has replaced its image.
         self.at_control = "unknown"
         committed = transaction.request(
             Commit(self._transfer, self._digest), Committed, at_least=COMMIT_WAIT, tries=COMMIT_TRIES

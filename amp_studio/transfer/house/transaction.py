@@ -87,7 +87,7 @@ class Transaction:
         Repeats it under the same number, waiting twice as long each time and at first ``at_least`` seconds.
         Raises RefusalError when the control refuses, NoAnswerError when it never answers, LinkError.
         """
-        # Only the answer to a request that was sent once is timed (Karn): after that nobody knows which
+        # Only the answer to a request that was sent once is timed (Karn): after that it is unknown which
         # sending it answers, and a late answer to the first would make the timeouts too short for good.
         number = self._number()
         encoded = encode_frame(pack(message, number))

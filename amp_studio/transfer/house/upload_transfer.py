@@ -104,7 +104,7 @@ class UploadTransfer:
         return is_sent and rate is not None and ready.size / rate > SLOW
 
     def _take_as_read(self, image: bytes, chunk: int) -> None:
-        """Leave only pieces to be read that nobody could know before: the first, the last,
+        """Leave only pieces to be read that could not be known before: the first, the last,
         and some at random.
         """
         offsets = range(0, len(image), chunk)

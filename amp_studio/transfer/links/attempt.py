@@ -1,4 +1,4 @@
-"""Something that opens a line and cannot be broken off: it runs in a thread, which nobody has to wait for."""
+"""Something that opens a line and cannot be broken off: it runs in a thread of which the caller is free."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def in_time(
     """Return what ``work`` makes within ``timeout`` seconds; raises what ``look`` raises.
 
     Where it fails or takes too long, raises what ``error_of`` makes of its error or of a TimeoutError. What
-    it makes when nobody waits for it any more is given to ``put_away``.
+    it makes when the caller has stopped waiting is given to ``put_away``.
     """
     attempt = _Attempt(work, put_away)
     threading.Thread(target=attempt.run, name="connect", daemon=True).start()

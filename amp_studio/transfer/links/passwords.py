@@ -48,7 +48,7 @@ def find_password(endpoint: Endpoint) -> str:
 
 
 def ask_password(endpoint: Endpoint) -> str:
-    """Return what a person enters, "" where nobody can be asked."""
+    """Return what a person enters, "" where there is no terminal to ask at."""
     place = place_of(endpoint)
     if _known.ask is not None:
         _known.entered[place] = _known.ask(place)

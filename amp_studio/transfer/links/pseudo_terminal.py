@@ -12,7 +12,7 @@ import time
 from .endpoint import Endpoint
 from .link import LinkError
 
-WRITE_LIMIT = 1.0  # seconds until bytes that nobody reads are lost, as on an unplugged cable
+WRITE_LIMIT = 1.0  # seconds until bytes that are not read are lost, as on an unplugged cable
 READ_SIZE = 65_536
 LAST_READS = 16
 
@@ -96,12 +96,12 @@ class PtyListener:
             raise LinkError("pty:", str(error)) from None
 
     def accept(self, timeout: float) -> PtyLink | None:  # noqa: ARG002  # nothing here is waited for
-        """Return the line; while one is in use, None (nobody connects to a serial port)."""
+        """Return the line; while one is in use, None (a serial port has no connections)."""
         if self._link is not None and self._link.is_open:
             return None
         with contextlib.suppress(OSError):
             for _ in range(LAST_READS):
-                os.read(self._master, READ_SIZE)  # what was sent while nobody listened is lost
+                os.read(self._master, READ_SIZE)  # what was sent while no control listened is lost
         self._link = PtyLink(self.endpoint, self._master, self._slave)
         return self._link
 
@@ -109,6 +109,6 @@ class PtyListener:
         if self._link is not None:
             self._link.close()
         handles, self._master, self._slave = (self._master, self._slave), -1, -1
-        for handle in handles:  # a handle that is closed twice may be somebody else's by then
+        for handle in handles:  # a handle that is closed twice may be another file's by then
             with contextlib.suppress(OSError):
                 os.close(handle)

@@ -1,5 +1,5 @@
 """The control's side of TLS and passwords: a caller is let in once both are done,
-and delays nobody else meanwhile.
+and does not delay other callers meanwhile.
 """
 
 from __future__ import annotations
@@ -151,7 +151,7 @@ class SecuredListener:
 
 def neighbourhood(host: str) -> str:
     """Return what counts as one host: an IPv4 address, or the 64 bits of an IPv6 network,
-    in which anybody has any address.
+    in which each host has any number of addresses.
     """
     try:
         found = ipaddress.ip_address(host.partition("%")[0])

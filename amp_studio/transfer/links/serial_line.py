@@ -207,7 +207,7 @@ def _claim(port: Any) -> None:
 
 
 class PortListener:
-    """The control's side of a serial port: the line is there or not, nobody connects."""
+    """The control's side of a serial port: the line is there or not, without connections."""
 
     def __init__(self, endpoint: Endpoint) -> None:
         self.endpoint = endpoint

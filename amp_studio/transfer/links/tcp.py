@@ -19,7 +19,7 @@ from .link import LinkError, keep_waiting
 WRITE_LIMIT = 3.0  # seconds the other end may take to make room before the line counts as gone
 BACKLOG = 64  # callers that the system lets wait: a few that say nothing must not keep others out
 READ_SIZE = 65_536
-LAST_READS = 16  # how much of what nobody will read is taken off a line that is closed
+LAST_READS = 16  # how much of what will not be read is taken off a line that is closed
 
 # What a listening socket may report of one caller, or for the moment: it goes on listening.
 PASSING = {

@@ -1,4 +1,4 @@
-"""Links over TLS: nobody on the way reads or changes what passes, and the certificate is checked."""
+"""Links over TLS: what passes cannot be read or changed on the way, and the certificate is checked."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ from .blocks import CAN, CANCEL
 
 LOOK = 0.1  # seconds between two looks at the cancel event
 SERIAL_QUIET, SERIAL_NOISE = 0.1, 0.3  # seconds, where no network delays what was sent
-STORED = 65_536  # bytes that are kept while nobody reads
+STORED = 65_536  # bytes that are kept until they are read
 SILENT_AFTER = 1.8  # seconds without a byte until the person who waits is notified
 SILENT_EVERY = 1.0  # seconds until he is notified again
 
@@ -114,7 +114,7 @@ class ByteLine:
         self.look()
         rate = self._link.bytes_per_second
         gone = max(self.now(), began + (len(data) / rate if rate else 0.0))
-        self._received_at = self._reported_at = gone  # nobody can answer before
+        self._received_at = self._reported_at = gone  # the other end cannot answer before
         return gone
 
     def await_time(self, when: float) -> None:
@@ -140,7 +140,7 @@ class ByteLine:
             self._buffer.clear()
 
     def look(self) -> None:
-        """Raise PlainFileError where somebody has broken off; notify of silences."""
+        """Raise PlainFileError where one of both ends has broken off; notify of silences."""
         if self._cancel is not None and self._cancel.is_set():
             raise PlainFileError("stopped")
         now = self.now()

@@ -29,7 +29,7 @@ _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def written(figure: str) -> str:
-    """Return a number with the decimal sign of the language and a minus as wide as a digit;
+    """Return a number with the decimal separator of the language and a minus as wide as a digit;
     ``1e-07`` is 1 × 10⁻⁷.
     """
     figure = _MINUS.sub("−", figure)

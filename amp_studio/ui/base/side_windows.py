@@ -1,7 +1,7 @@
 """The windows beside the table: of each kind there is one for each file.
 
 A command that is given again brings its window back. Another one would lie over the first, with a copy of
-the file in it, and nobody would miss what stays open behind.
+the file in it, and a window that stays open behind is of no use.
 """
 
 from __future__ import annotations

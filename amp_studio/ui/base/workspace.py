@@ -341,7 +341,7 @@ class Workspace(QObject):
 
     def is_deferred(self, finding: Finding) -> bool:
         """Return whether lists leave a present finding out: it is of a step that has not been reached,
-        and nobody has asked for it.
+        and it was not asked for.
         """
         if self.shows_later:
             return False

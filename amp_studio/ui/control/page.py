@@ -479,7 +479,7 @@ class ControlPage(ControlPageParts):
             self.hint.setText(self.tr("Stopping at the next safe point …"))
 
     def _escape(self) -> None:
-        # Escape stops before it leaves: nobody should leave while something is being written.
+        # Escape stops before it leaves: the page must not be left while something is being written.
         if self.several.is_busy:
             self.several.stop_all()
         elif self.session is not None and self.session.phase == "running":

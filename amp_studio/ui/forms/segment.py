@@ -60,7 +60,7 @@ class Segment(QWidget):
             self.buttons[key] = button
 
     def show_choice(self, key: str | None) -> None:
-        """Press one button without telling anybody; None presses none."""
+        """Press one button without a signal; None presses none."""
         for each, button in self.buttons.items():
             button.setChecked(each == key)
 

@@ -201,7 +201,7 @@ class LiveView(LivePageParts):
         return (self.tr("no answer"), True) if self._is_silent else (self.tr("live"), False)
 
     def start(self) -> None:
-        """Begin to ask: first what the control contains, where that takes nobody at its keys."""
+        """Begin to ask: first what the control contains, where that needs no operator at its keys."""
         session = self.session
         if session is None or self.readings is None or session.is_busy:
             return

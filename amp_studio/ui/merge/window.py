@@ -291,7 +291,7 @@ class MergeWindow(QDialog):
         self._count()
 
     def _count(self) -> None:
-        """Update the counts and the buttons; at once, before anybody can click."""
+        """Update the counts and the buttons; at once, before the next click."""
         merge, side = self.merge, self._target_side()
         decided = (row for row in merge.differing if merge.choice(row) is not None)
         changes = sum(not same_value(merge.result_of(row), row.of(side)) for row in decided)

@@ -256,7 +256,7 @@ class TuningView(PageOfFile):
             try:
                 self.run_exchange(self.tr("Read Control"), live.look)
                 self._demand_family(live)
-            # Cancelling too: a line that nobody uses must be closed, or the control stays occupied.
+            # Cancelling too: an unused line must be closed, or the control stays occupied.
             except BaseException:
                 live.close()
                 raise
@@ -398,8 +398,8 @@ class TuningView(PageOfFile):
             keep = self.tr("&Forget Them")
             answer = ask(self, self.tr("Tuning"), text, keep, self.tr("Cancel"), default=1)
             return answer == keep
-        # Putting back comes first, and is what Enter does: values that nobody decided to keep are not left
-        # at a machine.
+        # Putting back comes first, and is what Enter does: values that were not chosen to be kept are not
+        # left at a machine.
         answer = ask(self, self.tr("Tuning"), text, back, keep, self.tr("Cancel"))
         if answer == back:
             self.guarded(control.put_back)

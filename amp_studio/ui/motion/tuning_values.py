@@ -253,7 +253,7 @@ class ValuesPage(TuningPart):
         text, accepted = QInputDialog.getText(self, self.tr("Add to Value"), question)
         if not accepted or not text.strip():
             return
-        # As a fraction: an addition must not leave digits that nobody typed.
+        # As a fraction: an addition must not leave digits that were not typed.
         number, rest = read_exact(text)
         if rest.strip():
             raise CalibrationError(

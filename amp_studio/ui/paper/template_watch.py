@@ -1,4 +1,4 @@
-"""Notices when somebody saves the report templates of a project, or the pictures that they show."""
+"""Notices when the report templates of a project, or the pictures that they show, are saved."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ MIN_NAMES = 150
 MAX_FROZEN = 1 / 3
 """Share of the table that numbers and names have at most: what stays while the axes scroll."""
 _MAX_TEXT, _MIN_TEXT = 300, 120
-"""Width of a column of texts that anybody may have typed, which may be a page long."""
+"""Width of a column of texts that a user may have typed, which may be a page long."""
 _MAX_FACT = 300
 
 

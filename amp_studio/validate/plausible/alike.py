@@ -255,7 +255,7 @@ class Alike:
     def _is_slip(self, scope: str, name: str, a: str, b: str) -> bool:
         left, right = self._rows[scope][a][name], self._rows[scope][b][name]
         same = left.measures == right.measures
-        # In both directions: of two instances nobody knows which is the wrong one.
+        # In both directions: of two instances either may be the wrong one.
         return same and bool(self._slip(scope, name, a, b) or self._slip(scope, name, b, a))
 
     def _slip(self, scope: str, name: str, a: str, b: str) -> str:

@@ -126,7 +126,7 @@ class AxisRelations:
     def _travels(self, fact: TravelEnds) -> list[Finding]:
         ends = [*self._ends(fact)]
         found = [] if fact.is_zone else self._table(ends, fact.side)
-        # Of two ends nobody knows which is the odd one.
+        # Of two ends either may be the odd one.
         if fact.low and len(ends) > 2:
             found += [f for n in range(len(ends)) for f in self._near(ends[n], ends[:n] + ends[n + 1 :])]
         return [*found, *self._one_sided(fact)]

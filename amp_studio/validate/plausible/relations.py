@@ -102,7 +102,7 @@ class Relations:
     def _outlier_of_row(self, row: Sequence[ActiveValue]) -> Finding | None:
         """Return the finding about the one value that differs from all others, or about two by a slip."""
         counts = Counter(one.number for one in row)
-        # Of three or more the one that differs is odd; of two nobody knows which, unless a slip explains
+        # Of three or more the one that differs is odd; of two it may be either, unless a slip explains
         # it.
         if len(row) > 2 and sorted(counts.values()) == [1, len(row) - 1]:
             alone = next(one for one in row if counts[one.number] == 1)

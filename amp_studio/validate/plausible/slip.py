@@ -22,7 +22,7 @@ _FACTORS = {
 }
 
 MIN_DIGITS = 5
-"""Digits from which nobody chooses a number that is a plain multiple of the printed default:
+"""Digits from which a number is not chosen by hand that is a plain multiple of the printed default:
 8.46666 for 4.23333."""
 _OUTLIER_FACTORS = {**_FACTORS, 2.0: "twice", 0.5: "half of"}
 
@@ -32,7 +32,7 @@ _POWERS = frozenset(words for factor, words in _FACTORS.items() if factor not in
 def slip_of_default(value: float, default: float, digits: int) -> str:
     """Return in words how ``value`` came of a printed default of so many significant digits by a slip.
 
-    A round number that is ten times another one is chosen every day; of 4.23333 nobody chooses 42.3333. A
+    A round number that is ten times another one is chosen every day; of 4.23333 no user chooses 42.3333. A
     slip does not make a number rounder either: 1 mm is no slip of 25.4 mm.
     """
     words = slip_between(value, default) or (

@@ -45,7 +45,7 @@ class AcrCard:
         self._echoes = True
 
     def connected(self) -> None:
-        """Nobody connects to a terminal line: the card sends nothing, and keeps what it has of a line."""
+        """A terminal line has no connections: the card sends nothing, and keeps what it has of a line."""
         self._out.clear()
 
     def advance(self, duration: float) -> None:

@@ -66,7 +66,7 @@ _AROUND = re.compile(
     r"ok|done|[^\x00-\x7f]|\$[$#GINXHC+]?\S{0,3}|<[^>]*>|\[.*\]|[-=_*#%~.!?\s\"'`{}()\[\],|/\\]*|ALARM:.*|error:.*|.*['\"]\$['\"].*",
     re.IGNORECASE,
 )
-"""Lines of a sender's log that nobody misses; overrides and jog cancel are one byte from 0x80 on."""
+"""Lines of a sender's log that contain no setting; overrides and jog cancel are one byte from 0x80 on."""
 _MIN_LISTED, _MAX_LISTINGS, _LOOKED_AT = 8, 1000, 20_000
 _MAX_LINES, _LONGEST, _LONGEST_VALUE = 200_000, 65_536, 400
 """A listing has some hundred lines, a log of a day some ten thousand; the longest value is a macro."""
@@ -323,26 +323,26 @@ def _settings(whole: str, line: str, anywhere: bool) -> Iterator[_Piece]:
 
 
 def _settings_with_sign(whole: str, line: str, anywhere: bool) -> Iterator[_Piece]:
-    """Yield the settings of a line that are a number, a sign and a value; a cell of a table is the last."""
+    """Yield the settings of a line: number, separator and value each; a cell of a table is the last."""
     ahead = _SETTING.search(line) if anywhere else _SETTING.match(line)
     begins_plainly = line[:1] == "$" and whole[:1] not in "\"'`|*{[,"
     while ahead:
-        number, sign, behind = int(ahead[1]), ahead[3], line[ahead.end() :][:_LONGEST_VALUE]
+        number, separator, behind = int(ahead[1]), ahead[3], line[ahead.end() :][:_LONGEST_VALUE]
         # Words that name the setting may come before the value, in the language of any sender.
-        if sign in _CELLS and (cell := _cell(behind, sign)):
+        if separator in _CELLS and (cell := _cell(behind, separator)):
             yield number, cell, "", "", False
             return
         value = _value_behind(line, ahead)
         if not value.is_certain:
             return
-        is_plain = sign == "=" and value.is_alone and begins_plainly
+        is_plain = separator == "=" and value.is_alone and begins_plainly
         rest = _FOLLOWING.split(behind, maxsplit=1)[0].strip() if is_plain else ""
         yield number, value.text, value.remark, rest, False
         ahead = value.following
 
 
 class _ValueText(NamedTuple):
-    """What is behind the sign of a setting."""
+    """What is behind the separator of a setting."""
 
     text: str
     remark: str
@@ -358,7 +358,7 @@ class _ValueText(NamedTuple):
 
 
 def _value_behind(line: str, ahead: re.Match[str]) -> _ValueText:
-    """Return the value behind a number and its sign, without the marks around it."""
+    """Return the value behind a number and its separator, without the marks around it."""
     begin, most = ahead.end(), ahead.end() + _LONGEST_VALUE
     following = _SETTING.search(line, begin, most)
     # Only as far as the next setting: a line may have ten thousand of them.
@@ -385,11 +385,11 @@ def _without_marks(text: str, ahead: re.Match[str], *, ends_there: bool) -> str:
     return text.strip().strip(marks)
 
 
-def _cell(cells: str, sign: str) -> str:
+def _cell(cells: str, separator: str) -> str:
     """Return the first cell of a table that is a number, behind words that name the setting or at once;
     empty where there is none; the number of an IP address too.
     """
-    plain = (cell.strip("\"'`* \t") for cell in cells.split(sign)[:4])
+    plain = (cell.strip("\"'`* \t") for cell in cells.split(separator)[:4])
     return next(
         (cell for cell in plain if re.fullmatch(rf"{NUMBER}|(?:\d{{1,3}}\.){{3}}\d{{1,3}}", cell)), ""
     )

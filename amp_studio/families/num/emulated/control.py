@@ -69,7 +69,7 @@ class NumControl:
     # -- the line ---------------------------------------------------------------------------------
 
     def connected(self) -> None:
-        """Nobody connects to a serial line: what is under way goes on."""
+        """A serial line has no connections: what is under way goes on."""
 
     def advance(self, duration: float) -> None:
         """Let time pass, s: the axes move."""

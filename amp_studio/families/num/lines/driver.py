@@ -297,7 +297,7 @@ class PeripheralDriver(NumTableContent, LineDriver):
     def _write(self, link: Link, line: str) -> None:
         self._is_within_line = True
         try:
-            link.write(bytes(with_parity(sign, self._parity) for sign in line.encode("ascii")))
+            link.write(bytes(with_parity(code, self._parity) for code in line.encode("ascii")))
         finally:
             self._is_within_line = False
 
