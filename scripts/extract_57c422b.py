@@ -14,8 +14,12 @@ from collections.abc import Iterator, Sequence
 
 from manual_facts import PrintedChoice, PrintedNumber, PrintedRange, Section, StoredRow, cut, write_facts
 
-HEAD = """Bare facts of the 57C422B 2-Axis Servo Module's manual, written by scripts/extract_57c422b.py. Not to be
-edited by hand: where the scanned text misleads the extractor, exceptions_57c422b.yaml says so."""
+HEAD = (
+    "Bare facts of the 57C422B 2-Axis Servo Module's manual, written by "
+    "scripts/extract_57c422b.py. Not to be\n"
+    "edited by hand: where the scanned text misleads the extractor, exceptions_57c422b.yaml says "
+    "so."
+)
 
 LIST_OF_FIGURES = "List of Figures"
 ENTRY = re.compile(r"([45]\.\d+(?:\.\d+)?) ?(\D.*)")

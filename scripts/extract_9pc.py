@@ -24,8 +24,10 @@ from manual_facts import (
     write_facts,
 )
 
-HEAD = """Bare facts of the 9/PC AMP Reference Manual, written by scripts/extract_9pc.py. Not to be edited by hand:
-where the scanned text misleads the extractor, exceptions_9pc.yaml says so."""
+HEAD = (
+    "Bare facts of the 9/PC AMP Reference Manual, written by scripts/extract_9pc.py. Not to be "
+    "edited by hand:\nwhere the scanned text misleads the extractor, exceptions_9pc.yaml says so."
+)
 
 CONTENTS_ENTRY = re.compile(r"^(\S[^\t]*)\t(\d+-\d+|[A-Z]-\d+)$")
 LAST_CONTENTS_PAGE = "B-3"

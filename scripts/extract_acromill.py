@@ -16,8 +16,11 @@ from itertools import pairwise
 
 from manual_facts import PrintedChoice, PrintedDefault, PrintedRange, Section, StoredRow, cut, write_facts
 
-HEAD = """Bare facts of AcroMill's user's guide, written by scripts/extract_acromill.py. Not to be edited by hand: where
-the printed text misleads the extractor, exceptions_acromill.yaml says so."""
+HEAD = (
+    "Bare facts of AcroMill's user's guide, written by scripts/extract_acromill.py. Not to be "
+    "edited by hand: where\n"
+    "the printed text misleads the extractor, exceptions_acromill.yaml says so."
+)
 
 ENTRY = re.compile(r"(\S[^\t]*?)\.*\t(\d+)")
 FIRST, BEHIND = "Sys Params", "P Parameters"

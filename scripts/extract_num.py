@@ -25,8 +25,11 @@ from manual_facts import (
     write_facts,
 )
 
-HEAD = """Bare facts of the NUM 1020/1040/1060 Parameter Manual, written by scripts/extract_num.py. Not to be edited by
-hand: where the scanned text misleads the extractor, exceptions_num.yaml says so."""
+HEAD = (
+    "Bare facts of the NUM 1020/1040/1060 Parameter Manual, written by scripts/extract_num.py. "
+    "Not to be edited by\nhand: where the scanned text misleads the extractor, "
+    "exceptions_num.yaml says so."
+)
 
 CONTENTS_ENTRY = re.compile(r"^(\d+(?:\.\d+)?)\s+(\S.*?)\s+(\d+) - (\d+)$")
 HEADING = re.compile(r"(?:#+ )?(\d+(?:\.\d+)?) (\S.*)")

@@ -15,8 +15,10 @@ from dataclasses import replace
 
 from manual_facts import PrintedChoice, PrintedNumber, PrintedRange, Section, StoredRow, cut, write_facts
 
-HEAD = """Bare facts of Syntec's slides on the axis parameters, written by scripts/extract_syntec.py. Not to be edited
-by hand: where the printed text misleads, exceptions_syntec.yaml says so."""
+HEAD = (
+    "Bare facts of Syntec's slides on the axis parameters, written by scripts/extract_syntec.py. "
+    "Not to be edited\nby hand: where the printed text misleads, exceptions_syntec.yaml says so."
+)
 
 SPAN = r"(\d{2,4})(?:\s?[~-]\s?(?:Pr\.?\s?)?(\d{2,4}))?(?![\d/])"
 DESCRIBES = re.compile(rf"\W*Pr\.?\s?{SPAN}\s?:\s?(.+)")

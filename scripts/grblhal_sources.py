@@ -128,7 +128,8 @@ def worth(text: str, numbers: dict[str, int]) -> int | None:
 
 def read_texts(text: str, texts: dict[str, str]) -> None:
     """Take the texts that variables have; the longest where a name has several."""
-    pattern = r"(?:char\s+(?:const\s*)?\*?\s*(\w+)\s*(?:\[\w*\])?\s*=|#\s*define\s+(\w+))\s*((?:\"(?:[^\"\\\n]|\\.)*\"\s*)+)"
+    named = r"(?:char\s+(?:const\s*)?\*?\s*(\w+)\s*(?:\[\w*\])?\s*=|#\s*define\s+(\w+))"
+    pattern = named + r"\s*((?:\"(?:[^\"\\\n]|\\.)*\"\s*)+)"
     for variable, macro, quoted in re.findall(pattern, text):
         name, value = variable or macro, "".join(re.findall(r'"((?:[^"\\]|\\.)*)"', quoted))
         if len(value) > len(texts.get(name, "")):

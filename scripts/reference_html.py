@@ -31,7 +31,8 @@ def heading_id(text: str) -> str:
 
 def section(name: str, text: str, *more: str) -> str:
     """Return a heading of the second level and its anchors; one that Sphinx makes too is not made twice."""
-    return f"{anchors(*(one for one in (name, *more) if one != heading_id(text)))}\n\n{heading(2, text)}".lstrip()
+    own = anchors(*(one for one in (name, *more) if one != heading_id(text)))
+    return f"{own}\n\n{heading(2, text)}".lstrip()
 
 
 def link(page: str, anchor: str, text: str) -> str:

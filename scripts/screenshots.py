@@ -331,7 +331,9 @@ class Stage:
         control.leave()
 
     def live(self) -> None:
-        """What emulated controls show of themselves beside the file: values that differ, one turned, a fault."""
+        """What emulated controls show of themselves beside the file: values that differ, one turned, a
+        fault.
+        """
         for folder, fault in (("57c422b-label-press", "fault drive X"), ("grblhal-router", "alarm 9")):
             self._live_of(folder, fault)
         self.window.open_first(self.path("mill-1394"))

@@ -48,12 +48,12 @@ from amp_studio.schema import Group, Parameter, Schema, family_ids, load_schema,
 LEGEND = """## How to read it
 
 - The number before a name is that of the first axis, where each axis has its own.
-- A range is given in each unit in which a file can have the value; a choice with its letter in the manual and the code
-  that is stored.
-- *Hidden*, *Ignored* and *Not available* are the reasons for which a parameter may have no effect on a machine; while
-  none applies it is active.
-- *Danger*, *Warning* and *Note* are what the manual warns of. *Contradiction* is where it has several readings, with the
-  one that is used here and why.
+- A range is given in each unit in which a file can have the value; a choice with its letter in the manual and
+  the code that is stored.
+- *Hidden*, *Ignored* and *Not available* are the reasons for which a parameter may have no effect on a
+  machine; while none applies it is active.
+- *Danger*, *Warning* and *Note* are what the manual warns of. *Contradiction* is where it has several
+  readings, with the one that is used here and why.
 - Each page number leads to all that is taken from that page of the manual."""
 
 

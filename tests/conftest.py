@@ -95,8 +95,9 @@ settings.register_profile("fixed", **_NO_CLOCK, derandomize=True, database=None,
 settings.register_profile("campaign", **_NO_CLOCK, print_blob=True, max_examples=examples(100))
 settings.load_profile("campaign" if CAMPAIGN else "fixed")
 if not CAMPAIGN:
-    # Hypothesis also tries the constants of the modules that are imported so far: with them the cases of a test
-    # depended on the tests before it, and every worker parsed the whole program (4 s each in a fresh clone).
+    # Hypothesis also tries the constants of the modules that are imported so far: with them the cases of a
+    # test depended on the tests before it, and every worker parsed the whole program (4 s each in a fresh
+    # clone).
     vars(providers)["_get_local_constants"] = lambda: vars(providers)["_local_constants"]
 
 

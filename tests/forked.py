@@ -117,8 +117,8 @@ def start_program(*words: object, script: ModuleType | None = None) -> Program:
 
 
 def ended(*words: object, closed: Collection[int] = (), **streams: int) -> tuple[int, str]:
-    """Run the program to its end, as ``start`` does. Returns its exit code, and what it has printed on standard
-    error unless ``stderr`` is given. Handles in ``closed`` are those that a shell has closed.
+    """Run the program to its end, as ``start`` does. Returns its exit code, and what it has printed on
+    standard error unless ``stderr`` is given. Handles in ``closed`` are those that a shell has closed.
     """
     arguments = [str(word) for word in words]
     with tempfile.TemporaryFile() as printed, Path(os.devnull).open("r+b") as nothing:

@@ -39,7 +39,9 @@ ROOMS = sorted(path.parent.name for path in Path(amp_studio.__file__).parent.glo
 
 @pytest.fixture(scope="module", autouse=True)
 def _trees_of_these_tests_alone() -> Iterator[None]:
-    """Forget the syntax trees: a million objects, which every later collection of garbage would go through."""
+    """Forget the syntax trees: a million objects, which every later collection of garbage would go
+    through.
+    """
     yield
     nodes_of.cache_clear()
     measure_house.tree_of.cache_clear()
@@ -182,7 +184,9 @@ def declared_libraries(pyproject: str) -> set[str]:
 
 
 def modules_of(distribution: str) -> set[str]:
-    """Return the top names of the modules that an installed distribution brings; its own name where it is not here."""
+    """Return the top names of the modules that an installed distribution brings; its own name where it is not
+    here.
+    """
     try:
         found = files(distribution) or ()
     except PackageNotFoundError:
@@ -675,7 +679,9 @@ def _texts_of(node: ast.expr) -> Iterator[str]:
 
 
 def test_every_place_of_a_text_is_filled_in(checkout: Path) -> None:
-    """A ``format`` whose argument has another name than the place in the text ends in a KeyError on the screen."""
+    """A ``format`` whose argument has another name than the place in the text ends in a KeyError on the
+    screen.
+    """
     empty = [
         f"{path.relative_to(checkout)}:{node.lineno}: {text}"
         for path in sorted((checkout / "amp_studio").rglob("*.py"))

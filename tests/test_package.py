@@ -138,10 +138,8 @@ def test_a_new_file_is_made_and_printed_far_from_the_checkout(installed: Install
     assert (tmp_path / "machine.amp").stat().st_size > 0
 
     starts = {".html": b"<", ".pdf": b"%PDF-"}
-    reports = "; ".join(
-        f"assert run(['report', 'machine.amp', '--changed-only', '--without', 'motion', '-o', 'machine{ending}']) == 0"
-        for ending in starts
-    )
+    report = "'report', 'machine.amp', '--changed-only', '--without', 'motion', '-o'"
+    reports = "; ".join(f"assert run([{report}, 'machine{ending}']) == 0" for ending in starts)
     done = installed.run("python", "-c", f"from amp_studio.cli import run; {reports}", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     for ending, start in starts.items():

@@ -44,7 +44,8 @@ parameters:
     bits:
       - {bit: 0, label: Axis turns}
       - {bit: 3, label: Second gear}
-      - {bit: 4, width: 2, label: Loop, choices: [{key: open, label: open, raw: 0}, {key: closed, label: closed, raw: 2}]}
+      - {bit: 4, width: 2, label: Loop,
+         choices: [{key: open, label: open, raw: 0}, {key: closed, label: closed, raw: 2}]}
     default: {value: 0, page: "1-2"}
     effect: {level: command, command: load modes}
     help: {what: Bits.}

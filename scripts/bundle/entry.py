@@ -10,7 +10,9 @@ import sys
 
 
 def main() -> None:
-    """Run what Python would run for ``-m`` and ``-c``, else the command line, without arguments the window."""
+    """Run what Python would run for ``-m`` and ``-c``, else the command line, without arguments the
+    window.
+    """
     multiprocessing.freeze_support()
     given = sys.argv[1:]
     while given[:1] in (["-P"], ["-I"], ["-u"]):  # nothing is ever imported from the folder at hand

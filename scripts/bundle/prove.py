@@ -1,8 +1,8 @@
 """Prove that the folder of ``make bundle`` needs nothing but the C library and zlib: ``prove.py FOLDER``.
 
 Every verb is asked for its help, and the work of a day is done: check, PDF, motion in a process apart, an
-exchange with an emulated control, the window. As root this happens in a changed root that has the C library, zlib
-and no shell, no Python and no fonts; else with an empty environment.
+exchange with an emulated control, the window. As root this happens in a changed root that has the C library,
+zlib and no shell, no Python and no fonts; else with an empty environment.
 """
 
 import os

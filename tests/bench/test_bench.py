@@ -10,7 +10,8 @@ import pytest
 from tests.campaigns import CAMPAIGN
 
 QUICK = ("find", "warm", "rules", "screen", "grid") if CAMPAIGN else ("find",)
-"""Groups that take no process or kernel each, and the quickest of them, for every day; `make bench` measures all."""
+"""Groups that take no process or kernel each, and the quickest of them, for every day; `make bench` measures
+all."""
 TARGETS_OF_FIND = {
     "index of grblhal",
     "a question, every keystroke of it",

@@ -1,4 +1,5 @@
-"""The command line uses the public door, ``import amp_studio``: what goes past it to a room is listed here."""
+"""The command line uses the public door, ``import amp_studio``: what goes past it to a room is listed
+here."""
 
 import ast
 from collections.abc import Iterator

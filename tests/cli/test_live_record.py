@@ -1,4 +1,5 @@
-"""`status -o`: the readings of one axis as a table, from an emulated control whose time passes as it is asked for."""
+"""`status -o`: the readings of one axis as a table, from an emulated control whose time passes as it is asked
+for."""
 
 import json
 import signal

@@ -35,7 +35,8 @@ parameters:
     bits:
       - {bit: 0, label: Axis 0}
       - {bit: 5, label: Axis 5}
-      - {bit: 8, width: 2, label: Kind, choices: [{key: none, label: None, raw: 0}, {key: mask, label: Mask, raw: 2}]}
+      - {bit: 8, width: 2, label: Kind,
+         choices: [{key: none, label: None, raw: 0}, {key: mask, label: Mask, raw: 2}]}
     default: {value: 1, page: "1"}
     storage: {bits: 16, signed: false, notation: hex}
     help: {what: A bit for each axis.}

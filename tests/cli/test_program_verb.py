@@ -14,7 +14,10 @@ if TYPE_CHECKING:
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ROUTER = EXAMPLES / "acromill-router" / "ROUTER.amp"
-PLATE = "%\nG20 G90 G62\nG0 X-2 Y-1 Z-0.5\nG1 Z-0.6 F24\nX-3 F190\nG3 X-3.5 Y-1.5 I-3 J-1.5\nG1 X-3\nG0 Z-0.5\nM2\n"
+PLATE = (
+    "%\nG20 G90 G62\nG0 X-2 Y-1 Z-0.5\nG1 Z-0.6 F24\nX-3 F190\nG3 X-3.5 Y-1.5 I-3 J-1.5\nG1 X-3\n"
+    "G0 Z-0.5\nM2\n"
+)
 
 
 @pytest.fixture

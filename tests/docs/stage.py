@@ -24,9 +24,9 @@ from .pages import PROGRAMS, ROOT
 
 
 def leave_out_what_takes_long(patch: pytest.MonkeyPatch) -> None:
-    """Outside of a campaign set no PDF, print changed values alone, without pictures and motion, let nothing search
-    for other gains, check one move alone, sweep few frequencies and few gains, and compute no contour error:
-    tests/report, tests/test_dossier.py, tests/cli/test_check.py, tests/cli/test_program_verb.py and
+    """Outside of a campaign set no PDF, print changed values alone, without pictures and motion, let nothing
+    search for other gains, check one move alone, sweep few frequencies and few gains, and compute no contour
+    error: tests/report, tests/test_dossier.py, tests/cli/test_check.py, tests/cli/test_program_verb.py and
     tests/sim do so.
     """
     if not CAMPAIGN:

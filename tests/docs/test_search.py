@@ -42,7 +42,10 @@ def site(script: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
     }.items():
         (folder / "_static" / name).write_text(text, encoding="utf-8")
     form = '<form role="search" action="search.html"><input name="q"></form>'
-    head = '<!doctype html><meta charset="utf-8"><html data-content_root="./"><script src="_static/search.js"></script>'
+    head = (
+        '<!doctype html><meta charset="utf-8"><html data-content_root="./"><script '
+        'src="_static/search.js"></script>'
+    )
     for name in (
         "index.html",
         "search.html",

@@ -99,6 +99,8 @@ def test_boxes_that_touch_do_not_overlap():
 
 
 def test_what_is_measured_upwards_has_room_for_a_longer_word():
-    """``Geschwindigkeit, Zoll/min`` was cut at the left edge: it lay around the middle of ``speed, in/min``."""
+    """``Geschwindigkeit, Zoll/min`` was cut at the left edge: it lay around the middle of ``speed,
+    in/min``.
+    """
     scene = Scene("home", "", "", "", Scale("X", "mm", 0.0, 10.0), Scale("speed", "in/min", 0.0, 10.0))
     assert re.search(r'<text x="8.0"[^>]* text-anchor="start">speed, in/min<', scene_svg(scene, 720.0, 300.0))

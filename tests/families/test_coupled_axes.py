@@ -1,4 +1,5 @@
-"""Axes that have no orders of their own: the slave of a split axis, members of a dual group, a synchronised pair."""
+"""Axes that have no orders of their own: the slave of a split axis, members of a dual group, a synchronised
+pair."""
 
 from __future__ import annotations
 

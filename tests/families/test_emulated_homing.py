@@ -1,5 +1,5 @@
-"""A homing over the protocol of each emulated control ends where `simulate` of the same file ends, within a count:
-one engine is behind both.
+"""A homing over the protocol of each emulated control ends where `simulate` of the same file ends, within a
+count: one engine is behind both.
 """
 
 import re

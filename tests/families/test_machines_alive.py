@@ -1,5 +1,5 @@
-"""Thirteen typical machines alive: homed, jogged, driven into a limit, with a fault, an E-stop and a reset. All of
-them behind the one panel, and the nine of families with an emulated control at its own commands.
+"""Thirteen typical machines alive: homed, jogged, driven into a limit, with a fault, an E-stop and a reset.
+All of them behind the one panel, and the nine of families with an emulated control at its own commands.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
-"""Orders at the emulated controls in any sequence: nothing that an operator gives ends a control, a homed axis
-stays inside its travel, and an order that comes later takes the place of what was still to follow.
+"""Orders at the emulated controls in any sequence: nothing that an operator gives ends a control, a homed
+axis stays inside its travel, and an order that comes later takes the place of what was still to follow.
 """
 
 import contextlib

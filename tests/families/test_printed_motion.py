@@ -16,7 +16,9 @@ def test_points_of_a_time_cam(cycle: str, scans: str, points: int) -> None:
 
 
 def test_both_printed_latencies_of_the_registration_are_shown() -> None:
-    """57C422B: 25 µs on page 2-4, 50 µs on page A-2; at 100000 counts/min they are 1/24 and 1/12 of a count."""
+    """57C422B: 25 µs on page 2-4, 50 µs on page A-2; at 100000 counts/min they are 1/24 and 1/12 of a
+    count.
+    """
     result = simulate(example("57c422b-label-press"), "probe", "X", {"move.speed": 100000.0}).result
     assert result["latency"] == (5e-5, "s")
     errors = [value for name, (value, _) in result.items() if name.startswith("probe_error_")]
@@ -39,8 +41,8 @@ def test_a_limit_at_zero_has_no_sign() -> None:
 @pytest.mark.parametrize("negative", [0, 1])
 @pytest.mark.parametrize("place", [0, 250_000, -90_000_000])
 def test_the_six_cases_of_homing_of_a_num_end_with_p16_at_the_encoder_zero(negative: int, place: int) -> None:
-    """7-5 to 7-7, 7-10: both directions, with the measurement origin at the zero, elsewhere, and outside of the
-    travel, which 7-12 allows. Their figures are lost.
+    """7-5 to 7-7, 7-10: both directions, with the measurement origin at the zero, elsewhere, and outside of
+    the travel, which 7-12 allows. Their figures are lost.
     """
     file = example("num-1060-mill")
     file.set(("travel.homing_negative", ""), Value(negative))

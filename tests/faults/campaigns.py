@@ -114,8 +114,8 @@ def _clicked(seed: int, runs: int, folder: Path) -> list[str]:
     shutil.copy(log, kept)
     return [
         (
-            f"{family}: {done.stdout}{done.stderr[-2000:]}done again by: python -m tests.faults.monkey {family}"
-            f" --replay {kept}"
+            f"{family}: {done.stdout}{done.stderr[-2000:]}done again by:"
+            f" python -m tests.faults.monkey {family} --replay {kept}"
         )
     ]
 

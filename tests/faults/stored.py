@@ -252,7 +252,8 @@ control=tcp://127.0.0.1:7090
 geometry=@ByteArray(\\x1\\xd9\\xd0\\xcb\\0\\x3\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0)
 layout="@ByteArray(\\0\\0\\0\\xff\\0\\0\\0\\0\\xfd\\0\\0\\0\\0)"
 recent=/tmp/a.amp, /tmp/b.amp, @Invalid()
-controls="{\\"address\\": \\"tcp://127.0.0.1:9600\\", \\"when\\": \\"2026-03-12T08:30:00\\", \\"verb\\": \\"download\\"}"
+controls="{\\"address\\": \\"tcp://127.0.0.1:9600\\", \\"when\\": \\"2026-03-12T08:30:00\\", \
+\\"verb\\": \\"download\\"}"
 other=@Variant(\\0\\0\\0\\x7f\\0\\0\\0\\x8QString)
 """
 

@@ -115,7 +115,7 @@ READERS = {
     "programs/source.py": "damaged part programs",
     "report/build.py": "",  # the values of the open file, written by the program
     "report/output/page.py": "",  # the program's own drawings, in letters of base64
-    "report/output/typesetter.py": "",  # what the process apart is asked, and what it answers: the program itself
+    "report/output/typesetter.py": "",  # the program itself asks and answers in the process apart
     "report/output/pdf.py": "",  # what Typst found on pages that it has set
     "report/templating/starting.py": "",  # a file of the program itself
     "report/apart.py": "hostile templates of a project",

@@ -43,7 +43,8 @@ from tests.campaigns import CAMPAIGN
 
 Case = TypeVar("Case")
 SLOWEST = 5.0
-"""Seconds of processor time for one damaged text, checked in ``make faults`` alone: no test depends on a clock."""
+"""Seconds of processor time for one damaged text, checked in ``make faults`` alone: no test depends on a
+clock."""
 REPOSITORY = Path(__file__).resolve().parents[2]
 
 TOKENS = (

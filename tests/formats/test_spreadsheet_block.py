@@ -71,9 +71,11 @@ def test_a_number_counts_and_not_what_is_shown_of_it() -> None:
 
 
 def test_excel_gives_numbers_too() -> None:
-    markup = """<html xmlns:x="urn:schemas-microsoft-com:office:excel"><head><style>td {mso-ignore:padding}</style></head>
+    markup = """<html xmlns:x="urn:schemas-microsoft-com:office:excel"><head>
+    <style>td {mso-ignore:padding}</style></head>
     <body><table><!--StartFragment--><tr><td class=xl65 x:num="0.43299999999999999">0,43</td><td x:num>12</td>
-    <td x:str>&nbsp;11 mm</td></tr><tr><td rowspan=2>a</td><td>b</td></tr><tr><td>c</td></tr><!--EndFragment--></table>"""
+    <td x:str>&nbsp;11 mm</td></tr><tr><td rowspan=2>a</td><td>b</td></tr>
+    <tr><td>c</td></tr><!--EndFragment--></table>"""
     assert read_block("", markup) == [["0.43299999999999999", "12", "11 mm"], ["a", "b", ""], ["", "c", ""]]
 
 

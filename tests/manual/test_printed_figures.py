@@ -1,4 +1,5 @@
-"""The list of printed figures of machines in motion: each has a test that there is, or a reason why it has none."""
+"""The list of printed figures of machines in motion: each has a test that there is, or a reason why it has
+none."""
 
 import re
 from functools import cache

@@ -124,7 +124,8 @@ SYNTEC = [
     ({"Pr881": "7000"}, {"HOME": None, "HOME_OFFSET": None}),
     ({"Pr17": "raw:1"}, {"MIN_LIMIT": None, "MAX_LIMIT": None, "ENCODER_SCALE": None, "MAX_VELOCITY": "400"}),
 ]
-"""Page 1.5.3: MOT-019 at twice the following error of G00, 24000 mm/min / 60 / 30 as delivered; 2.2.2.2; 1.2.6."""
+"""Page 1.5.3: MOT-019 at twice the following error of G00, 24000 mm/min / 60 / 30 as delivered; 2.2.2.2;
+1.2.6."""
 
 
 @pytest.mark.parametrize(("values", "expected"), SYNTEC)

@@ -58,7 +58,9 @@ def test_an_axis_without_a_home_switch_is_not_homed_by_a_grblhal_and_has_no_limi
     "values", [{"1330": "6 mm"}, {"1020": "no"}], ids=["home at the other end", "no overtravel"]
 )
 def test_a_travel_that_is_not_known_is_asked_for_as_0_is_no_limit(values: dict[str, str]) -> None:
-    """With $130=0 the firmware neither limits nor homes an axis that goes straight (machine_limits.c, settings.c)."""
+    """With $130=0 the firmware neither limits nor homes an axis that goes straight (machine_limits.c,
+    settings.c).
+    """
     file = other("mill-1394", values)
     found = migrate(file, "grblhal")
     assert "travel.X" in [question.id for question in found.written.open]
@@ -79,7 +81,9 @@ def test_jogs_end_at_the_limits_too() -> None:
 
 
 def test_an_absolute_encoder_gets_what_it_reports_at_zero() -> None:
-    """Measured on 2.9.0~pre1: the position after homing is that of the encoder and HOME_OFFSET, and nothing moves."""
+    """Measured on 2.9.0~pre1: the position after homing is that of the encoder and HOME_OFFSET, and nothing
+    moves.
+    """
     file = other("mill-1394", {"1570": "hiperface-absolute"})
     asked = [question.id for question in migrate(file, "linuxcnc").written.open]
     assert "home.encoder.X" in asked
@@ -106,8 +110,8 @@ def test_an_axis_that_turns_in_an_unknown_unit_is_refused() -> None:
 
 
 def test_a_joint_without_a_gain_follows_at_full_speed() -> None:
-    """With a gain of 50 alone a jog of a router (133 mm/s) lagged 2.7 mm and tripped at the 1 mm that a LinuxCNC
-    takes where FERROR is not known.
+    """With a gain of 50 alone a jog of a router (133 mm/s) lagged 2.7 mm and tripped at the 1 mm that a
+    LinuxCNC takes where FERROR is not known.
     """
     routers, mill = (
         migrate(other(name, {}), "linuxcnc").written.texts for name in ("grblhal-router", "mill-1394")

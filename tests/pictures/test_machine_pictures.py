@@ -1,5 +1,5 @@
-"""The pictures of the page Machine: course of a homing, way in the plan, speed of the spindle; all from runs of
-the one engine.
+"""The pictures of the page Machine: course of a homing, way in the plan, speed of the spindle; all from runs
+of the one engine.
 """
 
 import math

@@ -1,4 +1,5 @@
-"""Programs as they come: what a control does not read, or what no page prints, has a message with its line."""
+"""Programs as they come: what a control does not read, or what no page prints, has a message with its
+line."""
 
 from pathlib import Path
 
@@ -184,7 +185,9 @@ def test_a_linuxcnc_refuses_codes_and_words_that_do_not_belong_together(
 def test_no_control_gets_a_move_that_was_guessed(
     files: dict[str, ParameterFile], family: str, line: str
 ) -> None:
-    """A G without its number was read as G0, a page feed as a blank, and a move beside a dwell was left out."""
+    """A G without its number was read as G0, a page feed as a blank, and a move beside a dwell was left
+    out.
+    """
     found = tool_path(files[family], ["G0 X-1", line])
     assert found.fault is not None
     assert len(found) == 1
@@ -210,7 +213,9 @@ def test_several_turns_of_an_arc_are_refused(files: dict[str, ParameterFile]) ->
 def test_a_file_that_a_linuxcnc_refuses_is_refused(
     files: dict[str, ParameterFile], tmp_path: Path, content: bytes, line: int, words: str
 ) -> None:
-    """Measured with rs274: Bad character, Two g codes used from same modal group, Command too long, Too many m codes."""
+    """Measured with rs274: Bad character, Two g codes used from same modal group, Command too long, Too many
+    m codes.
+    """
     path = tmp_path / "a.ngc"
     path.write_bytes(content)
     fault = tool_path(files["linuxcnc"], read_program(path, files["linuxcnc"])).fault
@@ -283,7 +288,9 @@ def test_a_range_of_a_syntec_has_both_of_its_ends(
 def test_what_the_real_ends_refuse_is_refused(
     files: dict[str, ParameterFile], family: str, lines: list[str], message: str, code: str
 ) -> None:
-    """Measured: rs274 (R i j k words all missing for arc, Cannot use g53 incremental, Zero-radius arc), the firmware."""
+    """Measured: rs274 (R i j k words all missing for arc, Cannot use g53 incremental, Zero-radius arc), the
+    firmware.
+    """
     start = [0.0] * len(path_letters(files[family]))
     fault = tool_path(files[family], lines, start=start, zero=dict.fromkeys("XYZ", 0.0)).fault
     assert fault is not None
@@ -329,8 +336,8 @@ def test_a_subprogram_of_a_9pc_is_named_and_m02_of_a_num_ends_its_program(
 def test_a_refusal_of_a_real_control_has_its_code(
     files: dict[str, ParameterFile], family: str, line: str, message: str, code: str
 ) -> None:
-    """Measured on the firmware and with rs274 (Bad format unsigned integer); a code that the firmware has was called
-    unknown to it.
+    """Measured on the firmware and with rs274 (Bad format unsigned integer); a code that the firmware has was
+    called unknown to it.
     """
     fault = tool_path(files[family], ["G1 X-1 F100", line], zero=dict.fromkeys("XYZ", 0.0)).fault
     assert fault is not None
@@ -353,7 +360,9 @@ def test_a_refusal_of_a_real_control_has_its_code(
 def test_what_the_real_ends_take_is_taken(
     files: dict[str, ParameterFile], family: str, lines: list[str], end: float
 ) -> None:
-    """Measured: blanks inside of words, words of a center outside of the plane, open remarks, 0.00127 mm for R."""
+    """Measured: blanks inside of words, words of a center outside of the plane, open remarks, 0.00127 mm for
+    R.
+    """
     path = tool_path(files[family], lines, start=[0.0] * 3, zero=dict.fromkeys("XYZ", 0.0))
     assert path.fault is None
     assert path.ends[-1][0] == pytest.approx(end)

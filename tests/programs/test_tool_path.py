@@ -248,7 +248,9 @@ def test_work_coordinates_local_shifts_and_floating_zeros_add_up() -> None:
 
 
 def test_a_grblhal_is_in_its_first_work_system_and_waits_only_for_another_one() -> None:
-    """gcode.c: G54 is active at the start, so its G10 counts at once; C2989, C2717: the same is not switched."""
+    """gcode.c: G54 is active at the start, so its G10 counts at once; C2989, C2717: the same is not
+    switched.
+    """
     file = new_file("grblhal", "grblhal", ["X", "Y", "Z"])
     found = path(file, "F600 G1 X1|G10 L2 P1 X5|X0|G54 X1|G55 X0|G10 L2 P3 X9|X2|M48 X3|M49 X4|M49 X5")
     assert found.ends[:, 0].tolist() == [1, 1, 5, 6, 6, 0, 2, 3, 3, 4, 5]

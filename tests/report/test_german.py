@@ -1,5 +1,5 @@
-"""The German report of each example: no English sentence outside names, the control's words and the help, which
-is marked.
+"""The German report of each example: no English sentence outside names, the control's words and the help,
+which is marked.
 """
 
 import re

@@ -1,5 +1,5 @@
-"""German papers word by word: no English word of the program in a report with motion, checks and programs, in check
-list, sheet, form and differences; what the control shows stays as it is.
+"""German papers word by word: no English word of the program in a report with motion, checks and programs, in
+check list, sheet, form and differences; what the control shows stays as it is.
 """
 
 import html
@@ -237,7 +237,10 @@ def test_the_figures_of_motions_have_german_names() -> None:
     assert sentence("phase margin p5") == "Phasenreserve, 5. Perzentil"
     assert (
         sentence(
-            "With the other gains as they are none is safe: here servo.a_gain is 92.5, servo.b_gain is 3, as tune recommends."
+            (
+                "With the other gains as they are none is safe: here servo.a_gain is 92.5, "
+                "servo.b_gain is 3, as tune recommends."
+            )
         ).count(" ist ")
         == 3
     )

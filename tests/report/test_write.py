@@ -87,8 +87,9 @@ EVERY_FAMILY = [
     for at, ending in enumerate(FORMATS)
     if CAMPAIGN or (n + at) % 4 == 0
 ]
-"""Each family in one or two formats, in a campaign in each; the orders in turn, as every format prints the same rows. Of the PDF `make
-campaign` sets all values: those of the examples are set by their pages (tests/docs/test_commands.py).
+"""Each family in one or two formats, in a campaign in each; the orders in turn, as every format prints the
+same rows. Of the PDF `make campaign` sets all values: those of the examples are set by their pages
+(tests/docs/test_commands.py).
 """
 
 

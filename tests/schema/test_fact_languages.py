@@ -39,7 +39,9 @@ SLIPS = {
     'rules: {9pc.home.position-outside-travel: {title: T, message: "{position} {negative}"}}': (
         "has other names in braces than the English text"
     ),
-    "rules: {9pc.home.nonsense: {title: T, message: M}}": "rules.9pc.home.nonsense.title: there is no such text",
+    "rules: {9pc.home.nonsense: {title: T, message: M}}": (
+        "rules.9pc.home.nonsense.title: there is no such text"
+    ),
     "help: {home.calibration: {warning: [a, b]}}": "help.home.calibration.warning.1: there is no such text",
     'phrases: {"as {it} is": wie es ist}': "has other names in braces",
     "rule: {}": "rule",

@@ -37,7 +37,9 @@ def kind_of(path: Path) -> str:
 
 
 def without_their_schema(folder: Path) -> list[str]:
-    """Return the files of a family whose first line does not name the schema that an editor checks them by."""
+    """Return the files of a family whose first line does not name the schema that an editor checks them
+    by.
+    """
     found = []
     for path in sorted(folder.rglob("*.yaml")):
         inside = path.relative_to(folder)
@@ -110,7 +112,10 @@ def test_all_that_is_missing_is_listed_at_once(tmp_path: Path) -> None:
                 " of its rules"
             ),
             "tests/validate/rule_cases/bare: what breaks each of its rules, and what just does not",
-            "rules/general.yaml: its first line: # yaml-language-server: $schema=../../schemas/rules.schema.json",
+            (
+                "rules/general.yaml: its first line: # yaml-language-server: "
+                "$schema=../../schemas/rules.schema.json"
+            ),
             "parameter_db/schemas: 'make schema' writes them with this family",
         ]
     finally:

@@ -217,7 +217,8 @@ def test_fields_of_many_bits_share_a_long_word_with_unknown_bits(facts, machine)
             - {bit: 0, width: 5, label: Length of the frame}
             - {bit: 5, label: Parity}
             - {bit: 6, width: 10, label: Figure lost, unknown: true}
-            - {bit: 16, width: 3, label: Clock, choices: [{key: slow, label: slow, raw: 0}, {key: fast, label: fast, raw: 5}]}
+            - {bit: 16, width: 3, label: Clock,
+               choices: [{key: slow, label: slow, raw: 0}, {key: fast, label: fast, raw: 5}]}
           storage: {bits: 32, signed: false, notation: hex}
           help: {what: Two registers of the measuring input.}
           page: "5-18"

@@ -139,8 +139,9 @@ def test_any_text_is_read_or_refused(text: str) -> None:
 
 # -- lines that can mean but one thing ---------------------------------------------------------------------
 
-LINES = """a: 1|b:|  c: 'x'|  d: 2 mm|  e:|# r||  # r|...|f: x y|  g@X: -5 mm # c|h: 'it''s'|i: "x"|j: [1]|  k: '#'
-l: x#y|m: x #y|n:x|  o: ~|p: null|q: 0x1F|r: 1.10|---| s: 1|    t: 1|u: - 1|v: -|w: 'a' b|x: .|y: +|  z: 10 %
+LINES = """a: 1|b:|  c: 'x'|  d: 2 mm|  e:|# r||  # r|...|f: x y|  g@X: -5 mm # c|h: 'it''s'|i: "x"|j: [1]
+  k: '#'|l: x#y|m: x #y|n:x|  o: ~|p: null|q: 0x1F
+r: 1.10|---| s: 1|    t: 1|u: - 1|v: -|w: 'a' b|x: .|y: +|  z: 10 %
 aa: a: b|1300: 5|bb: yes|cc: 5  6|dd: 5 |\tee: 1|ff: 1\r|  a: 3|gg: %x|hh: @x|ii: 1, 2|jj: a;b|kk: <x>|ll: =1
 ...x|... # c|mm: a-|nn: -.5|oo: -x|pp: °|qq: é|rr: .inf|- a|? a|ss: 2001-01-01|tt: *a|uu: a*b@c|vv: ''
 ww: ' a '|xx: $FF (default)|yy: G22 - 2 & 3|zz: &a b|ab: C16 ~ C19|ac: ~x|ad: !x|ae: |af: >|ag: %""".replace(

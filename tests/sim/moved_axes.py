@@ -1,9 +1,10 @@
-"""Axes for the identification, of another make than those of `hidden_plants.py`; nothing here is of the simulator.
+"""Axes for the identification, of another make than those of `hidden_plants.py`; nothing here is of the
+simulator.
 
-One ``solve_ivp`` goes over the whole record: loops and drive are continuous, and dry friction is that of P. Dahl
-(A Solid Friction Model, 1968), which yields before it slides. An axis is one mass, or a motor and its load on a belt
-with its friction at the load, at the motor or at both; it makes S-curves, ramps without a limit of the jerk, or a sum
-of sines, and is recorded at 0.5 to 4 ms.
+One ``solve_ivp`` goes over the whole record: loops and drive are continuous, and dry friction is that of P.
+Dahl (A Solid Friction Model, 1968), which yields before it slides. An axis is one mass, or a motor and its
+load on a belt with its friction at the load, at the motor or at both; it makes S-curves, ramps without a
+limit of the jerk, or a sum of sines, and is recorded at 0.5 to 4 ms.
 """
 
 import math

@@ -1,4 +1,5 @@
-"""Short programs and the times that a real grblHAL needed for them: the firmware's own simulator counts ticks.
+"""Short programs and the times that a real grblHAL needed for them: the firmware's own simulator counts
+ticks.
 
 ``python -m tests.sim.real_programs`` measures them again (``make peers`` builds the simulator; minutes).
 """

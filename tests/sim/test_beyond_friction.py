@@ -26,8 +26,8 @@ def moved(
     square: float = 0.0,
     every: int = 1,
 ) -> tuple[np.ndarray, ...]:
-    """Return time, speed (mm/s) and torque (%) of moves at several speeds in both directions, ``every`` so many
-    rows; the torque by scipy's differentiation.
+    """Return time, speed (mm/s) and torque (%) of moves at several speeds in both directions, ``every`` so
+    many rows; the torque by scipy's differentiation.
     """
     from scipy.interpolate import CubicSpline
 

@@ -1,4 +1,5 @@
-"""Chirps on axes that scipy made: each figure is within three of its uncertainties. ``make campaign`` takes all twenty."""
+"""Chirps on axes that scipy made: each figure is within three of its uncertainties. ``make campaign`` takes
+all twenty."""
 
 import math
 from dataclasses import dataclass

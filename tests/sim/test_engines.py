@@ -1,7 +1,7 @@
 """The laws of all families give the same numbers as plain Python and as machine code.
 
-``make test`` compiles the samples of every law, and the kernel around those of one; ``make campaign`` the kernel of
-each, five seconds apiece.
+``make test`` compiles the samples of every law, and the kernel around those of one; ``make campaign`` the
+kernel of each, five seconds apiece.
 """
 
 from pathlib import Path
@@ -38,7 +38,8 @@ ROUGH = {
 WHOLE = [path for path in EXAMPLES if CAMPAIGN or path.stem == "MILL_1394"]
 """One with a velocity loop of the law."""
 ALONE = [path for path in EXAMPLES if CAMPAIGN or path.stem in ("MILL_1060", "ROUTER", "SYNTEC_MILL")]
-"""The samples of the 9/PC are compiled within its whole move; those of three other laws have all that a law does."""
+"""The samples of the 9/PC are compiled within its whole move; those of three other laws have all that a law
+does."""
 
 
 def axis_of(path: Path) -> AxisLaw:

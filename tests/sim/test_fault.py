@@ -1,4 +1,5 @@
-"""A drive that trips, and feedback that is lost: in a scenario, and at an emulated control, with its words."""
+"""A drive that trips, and feedback that is lost: in a scenario, and at an emulated control, with its
+words."""
 
 from pathlib import Path
 
@@ -30,8 +31,8 @@ def fault(name: str, axis: str, **move: float | str) -> Trace:
     ],
 )
 def test_a_control_shows_its_own_words(name: str, axis: str, kind: str, code: str) -> None:
-    """Informed of it, at once; without a page for that, once the following error is beyond its limit, which the
-    router has not set.
+    """Informed of it, at once; without a page for that, once the following error is beyond its limit, which
+    the router has not set.
     """
     trace = fault(name, axis, fault=kind)
     assert trace.alarms[-1].code == code

@@ -1,6 +1,7 @@
 """Filters as unknowns of the solver: which settings are tried, and what a count does behind a filter.
 
-``make campaign`` lets the solver set a notch; ``make tunings`` searches 300 machines on a grid with other filters.
+``make campaign`` lets the solver set a notch; ``make tunings`` searches 300 machines on a grid with other
+filters.
 """
 
 import math

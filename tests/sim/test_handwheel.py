@@ -1,4 +1,5 @@
-"""An axis driven by a handwheel: NUM by P12 to P14 (4-28 to 5-12), Syntec by Pr661 and Pr2001 to 2041 (4.1)."""
+"""An axis driven by a handwheel: NUM by P12 to P14 (4-28 to 5-12), Syntec by Pr661 and Pr2001 to 2041
+(4.1)."""
 
 import pytest
 
@@ -54,7 +55,9 @@ def test_only_wheels_that_p14_declares_move_anything(num: ParameterFile) -> None
 
 
 def test_a_wheel_that_is_turned_faster_than_the_axis_may_go_leaves_it_behind(syntec: ParameterFile) -> None:
-    """Section 4.1: 100 LIU a pulse and 100 pulses a turn are 10 mm; Pr661 is 2000 mm/min, 3.3 turns a second."""
+    """Section 4.1: 100 LIU a pulse and 100 pulses a turn are 10 mm; Pr661 is 2000 mm/min, 3.3 turns a
+    second.
+    """
     slow, fast = turned(syntec, "X", turns=10.0, rate=1.0), turned(syntec, "X", turns=10.0, rate=10.0)
     assert slow.result["distance"] == fast.result["distance"] == (pytest.approx(100.0), "mm")
     assert slow.result["feedrate"][0] == pytest.approx(600.0)

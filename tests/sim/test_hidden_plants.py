@@ -1,5 +1,5 @@
-"""What is found of axes that scipy moved (`hidden_plants.py`): each figure is within 3 %, or within its uncertainty,
-or there is none. ``make campaign`` takes all twenty.
+"""What is found of axes that scipy moved (`hidden_plants.py`): each figure is within 3 %, or within its
+uncertainty, or there is none. ``make campaign`` takes all twenty.
 """
 
 from collections.abc import Mapping
@@ -66,8 +66,8 @@ def test_moves_of_a_hidden_plant_give_no_figure_that_is_surely_wrong(seed: int, 
 
 
 def test_a_backlash_that_a_weight_keeps_closed_is_a_doubt(tmp_path: Path) -> None:
-    """It was called 0.0108 ± 0.0003 mm where it was 0.032, and the inertia, of a motor that rattles in it, 10 %
-    too small.
+    """It was called 0.0108 ± 0.0003 mm where it was 0.032, and the inertia, of a motor that rattles in it, 10
+    % too small.
     """
     plant = PLANTS[WEIGHT]
     trace = found_in_moves(plant, tmp_path)

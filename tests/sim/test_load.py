@@ -41,8 +41,8 @@ def test_dry_friction_takes_its_part_and_leaves_lost_motion() -> None:
 
 
 def test_lost_motion_of_a_load_with_backlash_is_the_sum_by_hand() -> None:
-    """The load stays where the loop pushes it with no more than its friction: behind the gap, the loop and the
-    contact each yield by that much, on both sides.
+    """The load stays where the loop pushes it with no more than its friction: behind the gap, the loop and
+    the contact each yield by that much, on both sides.
     """
     gap, friction = 0.02, 3.0
     axis = tiny(position_count=0.0, backlash=gap, coulomb_friction=friction, motor_friction=0.0)

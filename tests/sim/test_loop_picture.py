@@ -1,4 +1,5 @@
-"""The loop as a Nyquist and a Nichols chart: true to the loop, with the area that a sound one stays out of."""
+"""The loop as a Nyquist and a Nichols chart: true to the loop, with the area that a sound one stays out
+of."""
 
 from dataclasses import replace
 

@@ -1,4 +1,5 @@
-"""What the laws take from ``motion.yaml``: each role that is asked for is there, and each one there is used."""
+"""What the laws take from ``motion.yaml``: each role that is asked for is there, and each one there is
+used."""
 
 import ast
 import re

@@ -1,4 +1,5 @@
-"""What is found of forty axes that scipy moved (`moved_axes.py`) is within its uncertainties: ``make campaign``.
+"""What is found of forty axes that scipy moved (`moved_axes.py`) is within its uncertainties: ``make
+campaign``.
 
 The uncertainties were made on other forty, the first of the same kind.
 """
@@ -32,10 +33,10 @@ def within(axis: MovedAxis, path: Path) -> Iterator[tuple[str, bool, str]]:
 
 @pytest.mark.parametrize("seed", [6, 11, 47, 109])
 def test_friction_that_yields_before_it_slides_is_in_the_uncertainties(seed: int, tmp_path: Path) -> None:
-    """The friction of the first was six standard errors off, and the acceleration of the second 2.2 % (nine of
-    them), with a shift of -2 ms where it was 2.7. The viscous friction of the third was five off: a shift of
-    0.3 ms, too short to be taken out, looks like it in a sine. The static friction of the fourth was eight off:
-    it was read where the axis begins, and its friction yields.
+    """The friction of the first was six standard errors off, and the acceleration of the second 2.2 % (nine
+    of them), with a shift of -2 ms where it was 2.7. The viscous friction of the third was five off: a shift
+    of 0.3 ms, too short to be taken out, looks like it in a sine. The static friction of the fourth was eight
+    off: it was read where the axis begins, and its friction yields.
     """
     found = list(within(moved_axis(seed), tmp_path / "moves.csv"))
     assert len(found) >= 5

@@ -1,4 +1,5 @@
-"""Programs on their path: ramps, corners, look-ahead against planners of this test, what limits, contour error."""
+"""Programs on their path: ramps, corners, look-ahead against planners of this test, what limits, contour
+error."""
 
 import math
 from dataclasses import replace
@@ -358,7 +359,9 @@ def test_zones_of_power_up_and_of_the_program_are_met(
 
 
 def test_a_zone_of_a_syntec_is_read_ahead() -> None:
-    """Slides 3.2 and 3.3: X 10 to 25, Y 15 to 30, Z 0 to 20 of the example, on by Pr3838; G23 switches it off."""
+    """Slides 3.2 and 3.3: X 10 to 25, Y 15 to 30, Z 0 to 20 of the example, on by Pr3838; G23 switches it
+    off.
+    """
     file = example("syntec-mill")
     start = [{"Y": 20.0, "Z": 10.0}.get(letter, 0.0) for letter in path_letters(file)]
     for text, code in ((["G00 X30"], "COR-040"), (["G23", "G00 X30"], "")):

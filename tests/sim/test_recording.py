@@ -1,4 +1,5 @@
-"""A recording that is gathered reading by reading, with a trigger, and laid over as what it is: single readings."""
+"""A recording that is gathered reading by reading, with a trigger, and laid over as what it is: single
+readings."""
 
 from pathlib import Path
 

@@ -1,4 +1,5 @@
-"""A move that the control refuses before it begins has no stop, and sentences call parameters by their names."""
+"""A move that the control refuses before it begins has no stop, and sentences call parameters by their
+names."""
 
 import ast
 from pathlib import Path

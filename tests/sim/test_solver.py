@@ -1,7 +1,7 @@
 """The solver finds the stiffest sound gains, whatever the file has now, and has nothing to add to them.
 
-``make test`` tunes the machines that are tuned in a second; ``make campaign`` those with three gains and two loops
-too, and ``make tunings`` 300 random ones.
+``make test`` tunes the machines that are tuned in a second; ``make campaign`` those with three gains and two
+loops too, and ``make tunings`` 300 random ones.
 """
 
 import math
@@ -157,7 +157,9 @@ def test_a_candidate_shows_by_how_much_a_count_moves_its_output() -> None:
 
 @pytest.mark.skipif(not CAMPAIGN, reason="a search for three gains with 75 samples of delay; make campaign")
 def test_an_axis_with_a_long_delay_is_as_stiff_as_with_any_other_search() -> None:
-    """With fewer tries, as each took a third of a second, its load moved by 408 for one unit of torque, not 213."""
+    """With fewer tries, as each took a third of a second, its load moved by 408 for one unit of torque, not
+    213.
+    """
     file = open_file(EXAMPLES / "acromill-router" / "ROUTER.amp").file
     law = law_of("acromill")
     trial = Trial(file, lambda other: bind_axis(other, law, "X", {"model.delay": 30.0}))

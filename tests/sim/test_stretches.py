@@ -96,8 +96,8 @@ def test_stretches_change_no_figure(name: str, stretch: int, monkeypatch: pytest
 
 
 def test_rows_are_worked_out_twice_and_taken_where_they_are_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of arcs in pieces this was half of the time: on the way back, on that forward, and for all the rest; and
-    all rows were taken for a picture that draws a few.
+    """Of arcs in pieces this was half of the time: on the way back, on that forward, and for all the rest;
+    and all rows were taken for a picture that draws a few.
     """
     counted, taken = list[int](), list[int]()
 

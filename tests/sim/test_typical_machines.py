@@ -1,4 +1,5 @@
-"""Twelve machines and more, with ordinary and odd arguments: a sentence or a result, never a fault of the program."""
+"""Twelve machines and more, with ordinary and odd arguments: a sentence or a result, never a fault of the
+program."""
 
 import re
 from pathlib import Path

@@ -1,10 +1,11 @@
 """Tuned axes judged by python-control: ``make judged`` takes thirty random machines.
 
 Nothing here is of the simulator. The laws of all families with gains are written again, from docs/simulation
-(AcroMill: pages 59, 113, 128; 57C422B: the assumed loop; NUM: 6-14; Syntec: 1.5.3; 9/PC: 7-25, 7-54, 7-56, 7-69), the
-machine is motor and load on a spring behind a current loop or a drive with its own velocity loop, sampled by its own
-matrix exponential with the delay in it (K. J. Åström, B. Wittenmark, Computer-Controlled Systems, 1997, 3.2). Compared
-are margins, Ms of both loops and the way of the load under a torque, before and after ``tune``.
+(AcroMill: pages 59, 113, 128; 57C422B: the assumed loop; NUM: 6-14; Syntec: 1.5.3; 9/PC: 7-25, 7-54, 7-56,
+7-69), the machine is motor and load on a spring behind a current loop or a drive with its own velocity loop,
+sampled by its own matrix exponential with the delay in it (K. J. Åström, B. Wittenmark, Computer-Controlled
+Systems, 1997, 3.2). Compared are margins, Ms of both loops and the way of the load under a torque, before and
+after ``tune``.
 """
 
 import math
@@ -201,7 +202,9 @@ class Machine:
 
 
 def laws(name: str, gains: Mapping[str, float], period: float, control: ModuleType) -> tuple[Any, Any]:
-    """Return the controllers from following error, and from the position of the motor, to the output in V or %."""
+    """Return the controllers from following error, and from the position of the motor, to the output in V or
+    %.
+    """
     z = control.tf([1, 0], [1], period)
     change, total = (z - 1) / z, z / (z - 1)
     if name == "acromill":
@@ -274,7 +277,9 @@ def _margins(loop: Any, period: float) -> Iterator[tuple[str, float]]:
 
 
 def random_machine(dice: random.Random, name: str) -> Machine:
-    """Return a machine around the one of the example; one in two has a resonance, but not that of AcroMill."""
+    """Return a machine around the one of the example; one in two has a resonance, but not that of
+    AcroMill.
+    """
 
     def log(low: float, high: float) -> float:
         return math.exp(dice.uniform(math.log(low), math.log(high)))

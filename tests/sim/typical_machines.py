@@ -1,4 +1,5 @@
-"""Machines as a fitter sets them up, two a family: made with `new`, `axis` and `set` where a test needs them."""
+"""Machines as a fitter sets them up, two a family: made with `new`, `axis` and `set` where a test needs
+them."""
 
 from collections.abc import Sequence
 from pathlib import Path

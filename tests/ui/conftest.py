@@ -126,8 +126,8 @@ class User:
 
 @pytest.fixture(autouse=True, scope="session")
 def _english(qapp: QApplication) -> Iterator[None]:
-    """Give the program its forms of numbers: ``1 value``, ``2 values``. Leave nothing in the clipboard: what is
-    in it when Python ends is deleted without Python, which is a segmentation fault.
+    """Give the program its forms of numbers: ``1 value``, ``2 values``. Leave nothing in the clipboard: what
+    is in it when Python ends is deleted without Python, which is a segmentation fault.
     """
     set_language("en")
     yield
@@ -226,7 +226,9 @@ def open_window(qtbot: QtBot, user: User) -> Iterator[Callable[..., MainWindow]]
 def _shared(
     qapp: QApplication, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[Callable[[bytes], SharedWindow]]:
-    """Return what gives the window that the tests of a module share for a content; made when one asks for it."""
+    """Return what gives the window that the tests of a module share for a content; made when one asks for
+    it.
+    """
     windows: dict[bytes, SharedWindow] = {}
 
     def of(content: bytes) -> SharedWindow:
@@ -245,8 +247,8 @@ def _shared(
 def window_with(
     user: User, checkout: Path, _shared: Callable[[bytes], SharedWindow]
 ) -> Iterator[Callable[..., MainWindow]]:
-    """Return what gives a window with a file of this content open, or with that of a folder of examples, as a new
-    one is: one of the module, in which what a test did is taken back after it.
+    """Return what gives a window with a file of this content open, or with that of a folder of examples, as a
+    new one is: one of the module, in which what a test did is taken back after it.
     """
     given: list[SharedWindow] = []
 
@@ -266,7 +268,9 @@ def window_with(
 
 
 def is_shared(request: pytest.FixtureRequest) -> bool:
-    """Return whether the window of a test is that of its module: not where it is marked with ``own_window``."""
+    """Return whether the window of a test is that of its module: not where it is marked with
+    ``own_window``.
+    """
     return "window" in request.fixturenames and not any(request.node.iter_markers("own_window"))
 
 
@@ -285,8 +289,8 @@ def path(request: pytest.FixtureRequest, tmp_path: Path, example: bytes) -> Path
 
 @pytest.fixture
 def window(request: pytest.FixtureRequest, path: Path, example: bytes) -> MainWindow:
-    """Return a window with the example mill open: the one of the module; a separate one where the module opens
-    other files, or for a test that is marked with ``own_window``.
+    """Return a window with the example mill open: the one of the module; a separate one where the module
+    opens other files, or for a test that is marked with ``own_window``.
     """
     shared: SharedWindow = request.getfixturevalue("_shared")(example)
     made: MainWindow

@@ -31,7 +31,8 @@ def enter():
     entered += 1
     window.edits.commit(("home.calibration", "1"), f"{entered} mm")
     header = window.workspace.file.header
-    window.workspace.do("Machine facts", lambda: vars(header).update(notes=f"note {entered}", name=f"name {entered}"))
+    facts = {"notes": f"note {entered}", "name": f"name {entered}"}
+    window.workspace.do("Machine facts", lambda: vars(header).update(facts))
     print(entered, time.monotonic(), flush=True)
 timer = QTimer()
 timer.timeout.connect(enter)

@@ -49,7 +49,9 @@ def _header(page: FilePage) -> dict[str, object]:
 
 
 def put_back(window: MainWindow, first: First) -> None:
-    """Take back what was done to the file, and show what a new window shows; fails where undo does not do it."""
+    """Take back what was done to the file, and show what a new window shows; fails where undo does not do
+    it.
+    """
     page, workspace = first.page, first.page.workspace
     page.table_view.finish()
     workspace.undo_stack.setIndex(0)
@@ -124,8 +126,8 @@ class SharedWindow:
         return self._window
 
     def put_back(self) -> None:
-        """Make it as it was when it was new. A file that was saved, closed or shown on a page of motion is opened
-        again in the same window; one that was closed, or has been at a control, is thrown away.
+        """Make it as it was when it was new. A file that was saved, closed or shown on a page of motion is
+        opened again in the same window; one that was closed, or has been at a control, is thrown away.
         """
         window, first, self._window = self._window, self._first, None
         if window is None or first is None:
@@ -148,7 +150,9 @@ class SharedWindow:
         self._window, self._first = window, first
 
     def _is_taken_back_by_undo(self, window: MainWindow, first: First) -> bool:
-        """Return whether the one file is still open and on disk as it was, and nothing else was made for it."""
+        """Return whether the one file is still open and on disk as it was, and nothing else was made for
+        it.
+        """
         if window.tabs.pages() != [first.page] or first.page.pages or window.project is not None:
             return False
         taken_back = first.page.workspace.document.journal_path

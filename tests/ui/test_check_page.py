@@ -1,4 +1,5 @@
-"""The page Machine: each check as it is done, in its part, with its bar, its figure, its picture and its fix."""
+"""The page Machine: each check as it is done, in its part, with its bar, its figure, its picture and its
+fix."""
 
 from collections.abc import Iterator
 from pathlib import Path

@@ -331,7 +331,9 @@ def test_values_of_the_control_are_taken_into_the_file_in_one_step(
 def test_values_of_the_control_go_to_the_file_that_was_opened_again(
     window: MainWindow, start_control: Start, path: Path, qtbot: QtBot
 ) -> None:
-    """An exchange that outlasted its file ended in an error, and the next one was not shown beside the file."""
+    """An exchange that outlasted its file ended in an error, and the next one was not shown beside the
+    file.
+    """
     control = start_control(file=window.workspace.file)
     session = at_control(window, control.address, "compare", qtbot).session
     window.files.close()

@@ -27,7 +27,9 @@ from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QApplication, QStyledItemDelegate, QTableView, QVBoxLayout, QWidget
 
 failed = set()
-sys.excepthook = lambda kind, error, trace: failed.add(trace.tb_next.tb_frame.f_code.co_name if trace.tb_next else "?")
+sys.excepthook = lambda kind, error, trace: failed.add(
+    trace.tb_next.tb_frame.f_code.co_name if trace.tb_next else "?"
+)
 
 def fail():
     RAISE

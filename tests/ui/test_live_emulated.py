@@ -1,4 +1,5 @@
-"""Live of the emulated control that the window itself starts: the one with the machine of the family behind it."""
+"""Live of the emulated control that the window itself starts: the one with the machine of the family behind
+it."""
 
 from collections.abc import Callable
 from typing import Any

@@ -1,4 +1,5 @@
-"""The recorder of the motion page: a record with its trigger, live from a control, channels on scales of their own."""
+"""The recorder of the motion page: a record with its trigger, live from a control, channels on scales of
+their own."""
 
 from pathlib import Path
 

@@ -273,8 +273,8 @@ def test_no_text_of_a_page_is_cut_and_nothing_overlaps_on_any_screen(
 
 
 def painted(window: MainWindow) -> np.ndarray:
-    """Return the colour of each pixel of a window as one number, painted in twice its size so that thin strokes
-    have their ink.
+    """Return the colour of each pixel of a window as one number, painted in twice its size so that thin
+    strokes have their ink.
     """
     drawn = QPixmap(window.size() * 2)
     drawn.setDevicePixelRatio(2)

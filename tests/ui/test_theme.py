@@ -116,7 +116,8 @@ def inks(icon):
 icon = theme.icon("floppy-disk")
 before = inks(icon)
 SettingsDialog(window).form.set_answer("theme", "dark")
-print(json.dumps({"told": told, "base": QGuiApplication.palette().base().color().name(), "before": before, "after": inks(icon),
+print(json.dumps({"told": told, "base": QGuiApplication.palette().base().color().name(),
+                  "before": before, "after": inks(icon),
                   "window": window.palette().window().color().name(), "kept": UserSettings().theme()}))
 """
 """A program that is switched to dark; separate, so that no window of another test follows."""

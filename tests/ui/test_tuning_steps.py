@@ -1,5 +1,5 @@
-"""The printed ways of tuning as steps in the page Tuning: what is changed, what the simulated axis shows, what
-is proposed.
+"""The printed ways of tuning as steps in the page Tuning: what is changed, what the simulated axis shows,
+what is proposed.
 """
 
 from collections.abc import Mapping

@@ -254,7 +254,9 @@ def test_a_file_of_chance_is_told_explained_and_fixed(seed: int, name: str, a_ma
 
 
 def test_a_speed_that_is_zero_in_its_canonical_unit_has_fixes(a_machine) -> None:
-    """The least number of all in deg/min/s is no deg/s2: the part of it that a fix leaves was divided by 0."""
+    """The least number of all in deg/min/s is no deg/s2: the part of it that a fix leaves was divided by
+    0.
+    """
     file = a_machine("mill")
     file.values["jog.speed_third", "3"] = Value(5e-324, "deg/min/s")
     assert any(("jog.speed_third", "3") in finding.addresses for finding in Validator(file).run())

@@ -115,7 +115,8 @@ from amp_studio.validate.expression_tree import read_expression
 n, deep = {DEEPEST_BRACKETS - 1}, {DEEPEST - 2}
 texts = ["(" * n + "1" + ")" * n, "[" * n + "1" + "]" * n, "true ? 1 : " * n + "1", "+".join(["1"] * deep),
          "[1].all(x, " * n + "true" + ")" * n, "!(" * n + "true" + ")" * n, "1 in [" * n + "]" * n,
-         "abs(" * n + "1.0" + ")" * n, "[1]" + ".map(x, x)" * deep, "1.0" + ".abs()" * deep, "&&".join(["true"] * 600)]
+         "abs(" * n + "1.0" + ")" * n, "[1]" + ".map(x, x)" * deep, "1.0" + ".abs()" * deep,
+         "&&".join(["true"] * 600)]
 done = []
 def run():
     for text in texts:

@@ -2,8 +2,9 @@
 
 Of every rule of every family the expressions of its fixes, of what the control uses instead and of the
 figures in its message are changed as ``test_rule_mutants.py`` changes what decides. A case notices by its
-``fix``, ``effective`` and ``message`` (``make test`` tries one change in eight); also, as ``test_rules.py`` does, when there is no longer a fix, or one
-that should not be there, or when what the control uses instead breaks the rule as well.
+``fix``, ``effective`` and ``message`` (``make test`` tries one change in eight); also, as ``test_rules.py``
+does, when there is no longer a fix, or one that should not be there, or when what the control uses instead
+breaks the rule as well.
 """
 
 import re

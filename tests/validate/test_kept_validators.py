@@ -20,7 +20,9 @@ FACTORS = (-1.0, 0.0, 0.1, 2.0, 25.4)
 
 
 def slipped(base: ParameterFile, random: Random, count: int) -> ParameterFile:
-    """Return a copy in which some values are wrong, missing, out of range on purpose, or of another choice."""
+    """Return a copy in which some values are wrong, missing, out of range on purpose, or of another
+    choice.
+    """
     file = base.copy()
     for address in random.sample(list(file.values), min(count, len(file.values))):
         value, choices = file.values[address], file.schema.parameters[address[0]].choices

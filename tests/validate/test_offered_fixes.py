@@ -1,8 +1,9 @@
 """Whatever fix is offered in any state that the tables of cases bring about keeps its promises,
 whosever it is.
 
-One case in twelve in ``make test``, each in ``make campaign``. Applied alone it is within range, ends its finding and brings nothing as severe; and one that is marked as
-safe sets what the control uses anyway, or what no motion depends on.
+One case in twelve in ``make test``, each in ``make campaign``. Applied alone it is within range, ends its
+finding and brings nothing as severe; and one that is marked as safe sets what the control uses anyway, or
+what no motion depends on.
 """
 
 from collections.abc import Iterator

@@ -40,8 +40,8 @@ name: All
 chapter: "1"
 parameters:
   - {id: control.top, name: Top, type: real, quantity: length, help: {what: The top.}, page: "1"}
-  - {id: axis.length, name: Length, scope: axis, type: real, quantity: length, help: {what: Its length.}, page: "1",
-     ranges: {mm: [0, {param: axis.room}]}, states: [{state: ignored, when: parked}]}
+  - {id: axis.length, name: Length, scope: axis, type: real, quantity: length, help: {what: Its length.},
+     page: "1", ranges: {mm: [0, {param: axis.room}]}, states: [{state: ignored, when: parked}]}
   - {id: axis.room, name: Room, scope: axis, type: real, quantity: length, help: {what: Its room.}, page: "1"}
   - {id: axis.kind, name: Kind, scope: axis, type: choice, help: {what: Its kind.}, page: "1",
      choices: [{key: moving, label: Moving}, {key: parked, label: Parked}]}

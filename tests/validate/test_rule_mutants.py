@@ -1,8 +1,8 @@
 """The tables of cases are sharp: a rule changed in one place no longer gives what they say.
 
 Of every rule of every family the check is negated, the guard left out, every comparison flipped, every "and"
-made an "or", every "or" an "and", and every "not" left out; ``make test`` tries one in sixteen of them beside the
-first two. The full run (``make mutants``) also replaces
+made an "or", every "or" an "and", and every "not" left out; ``make test`` tries one in sixteen of them beside
+the first two. The full run (``make mutants``) also replaces
 every choice and number, turns every sum, product, quantifier and truth value into its opposite, and leaves
 out every operand of "and" and "or". What is alive at the end is in ``equivalent_mutants.yaml``, with the
 reason why no case can distinguish it.

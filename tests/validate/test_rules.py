@@ -1,8 +1,9 @@
 """Every rule of every family is broken by the change of its table, not by the one beside it,
 and its fix ends the finding.
 
-The tables are in ``rule_cases/``; the machines they change are in ``sound_machines/``. ``make test`` makes the fixes
-of some cases of each rule, and looks at the others' values alone; ``make campaign`` makes all of them.
+The tables are in ``rule_cases/``; the machines they change are in ``sound_machines/``. ``make test`` makes
+the fixes of some cases of each rule, and looks at the others' values alone; ``make campaign`` makes all of
+them.
 """
 
 import math

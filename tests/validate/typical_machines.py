@@ -1,6 +1,7 @@
-"""Typical machines of every family, drawn from what is built: bench mills, machining centres, lathes, routers,
-gantries, tables; inch and metric, slow and fast. A second generator beside ``plausible_machines``, written
-without knowing it: travels, screws, encoders and speeds of a machine first, then the manual's procedures.
+"""Typical machines of every family, drawn from what is built: bench mills, machining centres, lathes,
+routers, gantries, tables; inch and metric, slow and fast. A second generator beside ``plausible_machines``,
+written without knowing it: travels, screws, encoders and speeds of a machine first, then the manual's
+procedures.
 
 Nothing may be found in them but a recommendation in one of forty.
 """
@@ -52,7 +53,8 @@ KINDS = {
         ((3000, 6000), (1500, 2500), (200, 500)), (20000, 50000), (500, 3000), (20, 40), (8000, 24000)
     ),
 }
-"""The two first axes of a kind have one screw and one speed, the third is a little slower on the lighter ones."""
+"""The two first axes of a kind have one screw and one speed, the third is a little slower on the lighter
+ones."""
 
 
 @dataclass(frozen=True)
@@ -287,7 +289,9 @@ def acromill(made: Typical, random: Random) -> Settings:
 
 
 def module_57c422b(made: Typical, random: Random) -> Settings:
-    """A linear or a rotary axis; half a turn of position error; gains as the tuning leaves them; a time cam on one."""
+    """A linear or a rotary axis; half a turn of position error; gains as the tuning leaves them; a time cam
+    on one.
+    """
     out: Settings = {}
     still, damping = random.randint(5, 60), 0.002 * 5 ** random.random()
     for letter, axis in zip("XY", made.axes, strict=False):
@@ -344,7 +348,9 @@ def _cam(random: Random, slide: Axis) -> Settings:
 
 
 def syntec(made: Typical, random: Random) -> Settings:
-    """Pulses a turn, gears and screw; rapid below what the interpolator sends (page 1.4.2); a rotary table."""
+    """Pulses a turn, gears and screw; rapid below what the interpolator sends (page 1.4.2); a rotary
+    table.
+    """
     out: Settings = {}
     first = random.choice((2000, 3000, 5000))
     rapids = []
@@ -436,7 +442,9 @@ def _fraction(over: int, under: int) -> tuple[int, int]:
 
 
 def ninepc(made: Typical, random: Random) -> Settings:
-    """Errors and break point of pages 7-20 to 7-22, ramps of 10-2, jerks of 10-19 and 10-21, motor speed of 7-74."""
+    """Errors and break point of pages 7-20 to 7-22, ramps of 10-2, jerks of 10-19 and 10-21, motor speed of
+    7-74.
+    """
     out: Settings = {}
     for n, axis in enumerate(made.axes, 1):
         screw = random.choice((12.7, 16, 20, 25)) if n == 1 else out["screw"]

@@ -163,11 +163,14 @@ effect: {level: at-once}
 groups: [all]
 """
 COMMANDS = """
-  - {id: a.sense, name: Sense, type: choice, choices: [{key: up, label: Up, raw: 1}, {key: down, label: Down}],
+  - {id: a.sense, name: Sense, type: choice,
+     choices: [{key: up, label: Up, raw: 1}, {key: down, label: Down}],
      storage: {command: "SENSE {v}"}, help: {what: A choice.}, page: "1"}
   - {id: a.time, name: Time, scope: axis, type: real, quantity: time, unit: s,
-     storage: {unit: ms, scale: 2, decimals: 1, command: "SET TIME{k}: {a.time} {a.sense2}"}, help: {what: A time.}, page: "1"}
-  - {id: a.sense2, name: Word, scope: axis, type: bits, storage: {bits: 16, command: "SET TIME{k}: {a.time} {a.sense2}"},
+     storage: {unit: ms, scale: 2, decimals: 1, command: "SET TIME{k}: {a.time} {a.sense2}"},
+     help: {what: A time.}, page: "1"}
+  - {id: a.sense2, name: Word, scope: axis, type: bits,
+     storage: {bits: 16, command: "SET TIME{k}: {a.time} {a.sense2}"},
      help: {what: A word.}, page: "1"}
   - {id: a.note, name: Note, type: text, storage: {command: "NOTE {v}"}, help: {what: A text.}, page: "1"}
 """
@@ -217,8 +220,8 @@ def test_what_has_no_figure_is_told(small: Schema) -> None:
 
 
 NUMBERED = """
-  - {id: rate.max, name: Maximum Rate, scope: axis, numbers: {start: 110, step: 1, format: "${n}"}, type: real,
-     unit: mm/min, storage: {command: "${n}={v}"}, help: {what: A rate.}, page: "1"}
+  - {id: rate.max, name: Maximum Rate, scope: axis, numbers: {start: 110, step: 1, format: "${n}"},
+     type: real, unit: mm/min, storage: {command: "${n}={v}"}, help: {what: A rate.}, page: "1"}
   - {id: rate.homing, name: Homing Rate, numbers: {start: 25, format: "${n}"}, type: real,
      unit: mm/min, storage: {command: "${n}={v}"}, help: {what: A rate.}, page: "1"}
 """

@@ -102,7 +102,10 @@ def test_a_number_that_another_build_uses_otherwise_is_kept_as_text() -> None:
 
 
 def test_forks_of_grbl_are_machine_types(tmp_path: Path) -> None:
-    old = "$0=10\n$1=25\n$2=0\n$3=0\n$4=0\n$5=0\n$6=0\n$10=19\n$11=0.01\n$12=0.002\n$13=0\n$20=0\n$21=0\n$22=0\n$23=0\n$24=25\n$25=500\n$26=250\n$27=1\n"
+    old = (
+        "$0=10\n$1=25\n$2=0\n$3=0\n$4=0\n$5=0\n$6=0\n$10=19\n$11=0.01\n$12=0.002\n$13=0\n$20=0\n"
+        "$21=0\n$22=0\n$23=0\n$24=25\n$25=500\n$26=250\n$27=1\n"
+    )
     axes = lambda count: "".join(f"${100 + 10 * q + n}=500\n" for q in range(4) for n in range(count))  # noqa: E731  # one line
     later = "$30=1000\n$31=0\n$32=0\n"
     found = {
@@ -151,9 +154,11 @@ static char inputs[] = "Left,N/A,Right";
 /* { Setting_First, Group_X, "Old", NULL, Format_Bool, NULL, NULL, NULL, 0 }, */
 static const setting_detail_t details[] = {
 #if FOO_ENABLE > 1
-    { Setting_First, Group_Foo, "Gate inputs", NULL, Format_Bitfield, inputs, NULL, NULL, Setting_NonCore, &a, NULL, NULL },
+    { Setting_First, Group_Foo, "Gate inputs", NULL, Format_Bitfield, inputs, NULL, NULL,
+        Setting_NonCore, &a, NULL, NULL },
 #endif
-    { Setting_GateBase, Group_Foo, "Gate ? time", "milliseconds", Format_Decimal, "-#0.00", "-5", "20", Setting_NonCore, &b, NULL, NULL, X_OPTS },
+    { Setting_GateBase, Group_Foo, "Gate ? time", "milliseconds", Format_Decimal, "-#0.00", "-5", "20",
+        Setting_NonCore, &b, NULL, NULL, X_OPTS },
 };
 static const setting_group_detail_t groups [] = { { Group_Root, Group_Foo, "Gates" } };
 """
@@ -183,12 +188,15 @@ def test_the_harvest_finds_numbers_bounds_bits_and_conditions(checkout: Path, tm
 
 
 CORE = {
-    "settings.h": "typedef enum {\n    Setting_ControlInvertMask = 14,\n    Setting_Unheard = 999,\n} setting_id_t;\n",
+    "settings.h": (
+        "typedef enum {\n    Setting_ControlInvertMask = 14,\n    Setting_Unheard = 999,\n} setting_id_t;\n"
+    ),
     "alarms.h": "enum { Alarm_None = 0, Alarm_Known = 1, Alarm_Unheard = 98, };\n",
     "errors.h": "enum { Status_OK = 0, Status_Known = 20, Status_Unheard = 199, Status_Unhandled = 253, };\n",
     "settings.c": """static char signals[] = "A,B,C,D,E,F,G,H,I,J,K,L,M,N";
 static const setting_detail_t details[] = {
-    { Setting_ControlInvertMask, Group_X, "Inputs", NULL, Format_Bitfield, signals, NULL, NULL, 0, &a, NULL, NULL },
+    { Setting_ControlInvertMask, Group_X, "Inputs", NULL, Format_Bitfield, signals, NULL, NULL,
+        0, &a, NULL, NULL },
     { Setting_Unheard, Group_X, "New", NULL, Format_Bool, NULL, NULL, NULL, 0, &a, NULL, NULL },
 };
 """,
@@ -198,9 +206,9 @@ static const setting_detail_t details[] = {
 def test_the_harvest_counts_what_the_firmware_has_and_names_what_is_missing_here(
     checkout: Path, tmp_path: Path
 ) -> None:
-    """Of the core of 2026-08-18 it counts 146 settings (135 in the core of the issue), 13 bits of $14, 22 alarms
-    and 88 errors, and finds none missing. The same is asked of the sources of ``make peer-grblhal`` where they
-    are.
+    """Of the core of 2026-08-18 it counts 146 settings (135 in the core of the issue), 13 bits of $14, 22
+    alarms and 88 errors, and finds none missing. The same is asked of the sources of ``make peer-grblhal``
+    where they are.
     """
     (tmp_path / "core").mkdir()
     for name, text in CORE.items():
@@ -227,8 +235,8 @@ def counts(checkout: Path, folder: Path) -> list[str]:
 
 
 OF_THE_CORE = (
-    "0-49 56-69 90-92 95 100 110 120 130 160 170 180 190 340-349 370-372 374-376 384 392-395 398-399 481 484-489"
-    " 519 534 536-539 640-648 650 671 673 676 680-681 700-701 709 716 730-731 733-740 742-745 800"
+    "0-49 56-69 90-92 95 100 110 120 130 160 170 180 190 340-349 370-372 374-376 384 392-395 398-399 481"
+    " 484-489 519 534 536-539 640-648 650 671 673 676 680-681 700-701 709 716 730-731 733-740 742-745 800"
 )
 """The numbers that ``--counts`` found described in grblHAL/core f80fc34 (2026-08-18)."""
 

@@ -77,8 +77,8 @@ def test_the_expected_verdict_is_that_of_the_firmware_s_own_rules(one: dict[str,
 
 
 def test_what_is_refused_of_a_setting_is_what_the_source_of_grblhal_refuses(tmp_path: Path) -> None:
-    """The bounds are those that firmware.py took from settings.c; 0 is allowed beside some of them, and there a
-    figure between 0 and the least one is left to the control.
+    """The bounds are those that firmware.py took from settings.c; 0 is allowed beside some of them, and there
+    a figure between 0 and the least one is left to the control.
     """
     path = tmp_path / "small.txt"
     axes = " ".join(f"{number}=80" for number in range(100, 108))

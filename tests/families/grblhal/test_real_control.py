@@ -1,6 +1,7 @@
 """The driver and the command line against the real firmware, where it is built (``make peers``).
 
-The firmware keeps a processor busy all the while, so ``make faults`` has the power cuts, and what is put back.
+The firmware keeps a processor busy all the while, so ``make faults`` has the power cuts, and what is put
+back.
 """
 
 import random

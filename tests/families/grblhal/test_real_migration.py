@@ -1,5 +1,5 @@
-"""What `migrate --to grblhal` writes, sent to the real firmware where it is built (``make peers``): each line is taken,
-and read back as it was written.
+"""What `migrate --to grblhal` writes, sent to the real firmware where it is built (``make peers``): each line
+is taken, and read back as it was written.
 """
 
 from contextlib import closing

@@ -41,7 +41,10 @@ axes:
   z:
     steps_per_mm: 80.000
 """
-BY_NAME = "$X/StepsPerMm=80.000\n$Y/StepsPerMm=81.000\n$Z/StepsPerMm=82.000\n$Stepper/Pulse=4\n$GCode/LaserMode=On\n$Spindle/Type=PWM\n"
+BY_NAME = (
+    "$X/StepsPerMm=80.000\n$Y/StepsPerMm=81.000\n$Z/StepsPerMm=82.000\n$Stepper/Pulse=4\n"
+    "$GCode/LaserMode=On\n$Spindle/Type=PWM\n"
+)
 
 
 def read(text: str) -> TextRead:
@@ -116,7 +119,10 @@ def test_fluidnc_in_a_letter_and_with_an_entry_twice_is_read_and_nothing_is_lost
 
 
 def test_fluidnc_is_read_from_its_configuration_and_from_its_entries() -> None:
-    entries = "$/axes/x/steps_per_mm=100.000\n$/axes/x/max_rate_mm_per_min=5000.000\n$/axes/y/steps_per_mm=90.000\n$/stepping/pulse_us=4\n"
+    entries = (
+        "$/axes/x/steps_per_mm=100.000\n$/axes/x/max_rate_mm_per_min=5000.000\n"
+        "$/axes/y/steps_per_mm=90.000\n$/stepping/pulse_us=4\n"
+    )
     for text in (FLUIDNC, entries):
         found = read(text)
         assert (number(found, "axis.steps", "X"), number(found, "axis.steps", "Y")) == (100.0, 90.0)
@@ -129,7 +135,10 @@ def test_fluidnc_is_read_from_its_configuration_and_from_its_entries() -> None:
 
 def test_sections_that_fluidnc_shows_are_read_under_their_heads() -> None:
     """``$/axes/x`` is answered by the entries below it (RuntimeSetting.cpp)."""
-    axis = "$/axes/{0}\n/axes/{0}:\n  steps_per_mm: {1}\n  soft_limits: true\n  motor0:\n    pulloff_mm: 1.5\nok\n"
+    axis = (
+        "$/axes/{0}\n/axes/{0}:\n  steps_per_mm: {1}\n  soft_limits: true\n  motor0:\n"
+        "    pulloff_mm: 1.5\nok\n"
+    )
     text = (
         axis.format("x", "100.000")
         + axis.format("y", "90.000")
@@ -143,7 +152,10 @@ def test_sections_that_fluidnc_shows_are_read_under_their_heads() -> None:
 
 def test_what_all_axes_of_fluidnc_agree_in_is_a_setting_of_grbl_and_the_rest_is_kept() -> None:
     """$23 has the bit of an axis that homes in its negative direction (Grbl v1.1 Configuration)."""
-    home = "    soft_limits: {}\n    homing:\n      cycle: 1\n      positive_direction: {}\n      seek_mm_per_min: {}\n"
+    home = (
+        "    soft_limits: {}\n    homing:\n      cycle: 1\n      positive_direction: {}\n"
+        "      seek_mm_per_min: {}\n"
+    )
     motor = "    motor0:\n      hard_limits: false\n      pulloff_mm: 1.500\n"
     axes = "".join(
         f"  {axis}:\n    steps_per_mm: 80.000\n" + home.format("true", direction, speed) + motor

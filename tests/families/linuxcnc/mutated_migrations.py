@@ -1,7 +1,8 @@
-"""Examples with other limits, signs, homing and units, migrated and started in the real program: its pins have the
-figures that the old file means, and every joint homes to where its file has it.
+"""Examples with other limits, signs, homing and units, migrated and started in the real program: its pins
+have the figures that the old file means, and every joint homes to where its file has it.
 
-``python -m tests.families.linuxcnc.mutated_migrations [NUMBER ...]`` runs them, as root and with a user ``cnc``.
+``python -m tests.families.linuxcnc.mutated_migrations [NUMBER ...]`` runs them, as root and with a user
+``cnc``.
 """
 
 import os
@@ -39,8 +40,9 @@ ENDS = {
     "grblhal-router": "--+",
     "57c422b-label-press": "..",
 }
-"""Example -> the end at which the home switch of each joint is in the old file, "." without one: 1010 (page 5-15),
-P15 (7-8), Pr861 (2.2.2.3), the direction of AcroMill (65) and $23 (S2427). Never read from what was written."""
+"""Example -> the end at which the home switch of each joint is in the old file, "." without one: 1010 (page
+5-15), P15 (7-8), Pr861 (2.2.2.3), the direction of AcroMill (65) and $23 (S2427). Never read from what was
+written."""
 SWITCH = 5.0
 """mm or deg from the start to each switch."""
 
@@ -58,7 +60,9 @@ class Mutation:
     zero: float | None = None
     """The coordinate of the first joint's marker in the old file, of its switch without one."""
     counts: float = 0.0
-    """What the encoder of the first joint counts in a unit, with its sign; 0 for none between motor and loop."""
+    """What the encoder of the first joint counts in a unit, with its sign; 0 for none between motor and
+    loop.
+    """
     answers: dict[str, str] = field(default_factory=dict)
     homes: bool = True
     compared: int = 16
@@ -169,7 +173,9 @@ def _of_others() -> Iterator[Mutation]:
 
 
 def _of_57c422b() -> Iterator[Mutation]:
-    """Home, rapid and ramp are in no register whose meaning is known: nothing homes, and LinuxCNC has its own."""
+    """Home, rapid and ramp are in no register whose meaning is known: nothing homes, and LinuxCNC has its
+    own.
+    """
     press, linear = "57c422b-label-press", {"R0": "0x0404", "R11": "400000", "R13": "-40000", "R8": "8000"}
     none = {**_limits(-NO_LIMIT, NO_LIMIT), "ini.0.max_velocity": 1.0, "ini.0.home_sequence": 999.0}
     yield Mutation(press, "as it is", {}, none, homes=False, compared=8)
@@ -273,7 +279,9 @@ show("homed.txt")
 
 
 def mutated(mutation: Mutation) -> ParameterFile:
-    """Return the example with its other values; a number of a parameter without an axis is its first one's."""
+    """Return the example with its other values; a number of a parameter without an axis is its first
+    one's.
+    """
     file = open_file(next((examples_folder() / mutation.example).glob("*.amp"))).file
     file.set_checked(read_assignments(file, mutation.values.items()), force="a mutation")
     return file
@@ -293,8 +301,8 @@ def migrated(file: ParameterFile, own: Mapping[str, str]) -> Migration:
 
 
 def with_machine(hal: str, ends: str, counts: float) -> str:
-    """Return the HAL of a migration with a simulated switch and marker where the old machine has them, and with the
-    first joint's encoder in its loop.
+    """Return the HAL of a migration with a simulated switch and marker where the old machine has them, and
+    with the first joint's encoder in its loop.
     """
     first, lines = [f"loadrt sim_home_switch names={','.join(f'switch.{n}' for n in range(len(ends)))}"], []
     if counts:
@@ -388,7 +396,7 @@ def _homes(mutation: Mutation, written: ParameterFile, listed: dict[str, str], e
         elif abs(place - float(home or 0.0)) > 0.05:
             yield f"joint {n} is homed at {place:.6g}, not {home}"
     if mutation.zero is not None:
-        # A marker makes the feedback 0, which the loop in the computer does not: it is where it was found then.
+        # A marker makes the feedback 0, which the loop in the computer does not: it stays where it was found.
         value = written.get(("joint.home_use_index", "0"))
         switch = 0.0 if value and value.value else (-SWITCH if ends[0] == "-" else SWITCH)
         found = switch - float(listed["joint.0.motor-offset"])

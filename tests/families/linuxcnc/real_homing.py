@@ -198,8 +198,8 @@ def simulated(homing: RealHoming, axis: str) -> tuple[Course, Trace]:
 
 
 def _marker(homing: RealHoming, axis: str) -> float:
-    """Return how far the axis goes before its marker comes, mm; it looks for one from rest, or as it leaves its
-    switch.
+    """Return how far the axis goes before its marker comes, mm; it looks for one from rest, or as it leaves
+    its switch.
     """
     latch = abs(float(keys_of(homing, axis)["HOME_LATCH_VEL"]))
     begins = 0.0 if axis in homing.edges else latch * latch / (2.0 * LIMITS[axis][1])

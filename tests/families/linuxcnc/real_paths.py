@@ -1,6 +1,7 @@
 """Short programs and the times that a real LinuxCNC needed for them: its own servo thread counts the cycles.
 
-``python -m tests.families.linuxcnc.real_paths [NAME ...]`` measures them again, as root and with a user ``cnc``.
+``python -m tests.families.linuxcnc.real_paths [NAME ...]`` measures them again, as root and with a user
+``cnc``.
 """
 
 import math
@@ -210,7 +211,9 @@ def _run(programs: list[RealPath], limits: dict[str, tuple[float, float]]) -> di
 
 @contextmanager
 def real_run(texts: Mapping[str, str]) -> Iterator[Path]:
-    """Run the real program in a folder with some files until its screen ends; the folder has what it wrote."""
+    """Run the real program in a folder with some files until its screen ends; the folder has what it
+    wrote.
+    """
     folder = Path(tempfile.mkdtemp(prefix="amp-studio-paths-"))
     try:
         for name, text in {"a.tbl": "", "a.var": "", **texts}.items():

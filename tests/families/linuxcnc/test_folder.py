@@ -17,7 +17,10 @@ from amp_studio.transfer import ImageChangedError, ImageError, Replacement, Tran
 from amp_studio.transfer.client import open_driver
 from amp_studio.transfer.links import parse_endpoint
 
-MAIN = b"[EMC]\r\nMACHINE = Fr\xe4se\r\n#INCLUDE joints.inc\r\n[HAL]\r\nHALFILE = m.hal\r\n[RS274NGC]\r\nMINE = 1\r\n"
+MAIN = (
+    b"[EMC]\r\nMACHINE = Fr\xe4se\r\n#INCLUDE joints.inc\r\n[HAL]\r\nHALFILE = m.hal\r\n"
+    b"[RS274NGC]\r\nMINE = 1\r\n"
+)
 JOINTS = "# größer\n[JOINT_0]\nFERROR = 1.50   # wide\nMAX_LIMIT = 8\nMINE = 3\n".encode()
 HAL = b"setp pid.0.Pgain [JOINT_0]MINE\n"
 

@@ -53,7 +53,7 @@ def test_a_move_against_a_limit_is_refused_in_the_scenario_too() -> None:
 
 @pytest.mark.skipif(
     not (os.environ.get("AMP_STUDIO_FULL") and shutil.which("linuxcnc") and os.geteuid() == 0 and has_user()),
-    reason="a minute, alone on the computer: make campaign, with Debian's linuxcnc-uspace, root and a user cnc",
+    reason="a minute, alone on the computer: make campaign, with linuxcnc-uspace, root and a user cnc",
 )
 @pytest.mark.parametrize("homing", [*HOMINGS, None], ids=lambda homing: homing.name if homing else "limits")
 def test_the_real_control_still_does_so(homing: RealHoming | None) -> None:

@@ -1,4 +1,5 @@
-"""A page of LinuxCNC's codes is a file of its source and a line of it, and the head of the facts names the file."""
+"""A page of LinuxCNC's codes is a file of its source and a line of it, and the head of the facts names the
+file."""
 
 import re
 from pathlib import Path

@@ -33,7 +33,7 @@ def test_a_program_takes_the_time_of_the_real_control_on_its_path(program: RealP
 
 @pytest.mark.skipif(
     not (os.environ.get("AMP_STUDIO_FULL") and shutil.which("linuxcnc") and os.geteuid() == 0 and has_user()),
-    reason="minutes, alone on the computer: make campaign, with Debian's linuxcnc-uspace, root and a user cnc",
+    reason="minutes, alone on the computer: make campaign, with linuxcnc-uspace, root and a user cnc",
 )
 def test_the_real_control_still_does_so() -> None:
     for name, rows in positions(PROGRAMS).items():
@@ -144,7 +144,9 @@ def test_a_change_of_direction_may_cost_nothing() -> None:
 def test_a_spindle_or_coolant_waits_until_the_moves_before_it_have_ended(
     mill: ParameterFile, word: str
 ) -> None:
-    """Measured with two public programs: within 0.3 % of the real time, 2.5 and 12 % off without it (E1547)."""
+    """Measured with two public programs: within 0.3 % of the real time, 2.5 and 12 % off without it
+    (E1547).
+    """
     job = ProgramJob(
         ["G64 F900", "G1 X-20", word, "Y-20"], [0.0] * 3, dict.fromkeys("XYZ", 0.0), with_contour=False
     )

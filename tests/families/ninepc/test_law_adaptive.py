@@ -1,4 +1,5 @@
-"""Adaptive feed of a 9/PC (30-1 to 30-3): the torque gains decide how soon the torque of the block is back."""
+"""Adaptive feed of a 9/PC (30-1 to 30-3): the torque gains decide how soon the torque of the block is
+back."""
 
 from pathlib import Path
 

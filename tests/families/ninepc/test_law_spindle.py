@@ -172,7 +172,9 @@ def test_skip_cycles_have_their_own_feedrate_where_4_is_yes(
 
 
 def test_the_spindle_taps_with_the_zero_following_error_of_its_axis(mill: ParameterFile) -> None:
-    """Page 27-1: both get the loop and the feed-forward of the axis, so that the reversal error is smaller."""
+    """Page 27-1: both get the loop and the feed-forward of the axis, so that the reversal error is
+    smaller.
+    """
     move = {"move.pitch": 1.0, "move.speed": 400.0}
     closed = simulate(mill, "tap", None, move, advise=False)
     mill.set(("servo.position_loop_type", "3"), Value("zfe"))

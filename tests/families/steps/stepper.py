@@ -50,8 +50,9 @@ def _read(text: str, schema: Schema, _options: ReadOptions) -> TextRead:
 
 
 def _write(file: ParameterFile) -> str:
+    here, parameters = file.schema.on(file.machine), file.schema.parameters
     lines = [
-        f"N{file.schema.on(file.machine).short(a)}={write_value(file.schema.parameters[a[0]], file.values[a])}"
+        f"N{here.short(a)}={write_value(parameters[a[0]], file.values[a])}"
         for a in file.addresses()
         if a in file.values
     ]

@@ -146,7 +146,8 @@ from amp_studio.schema import load_schema
 from amp_studio.validate import Validator
 from amp_studio.files import new_file
 Validator(new_file("num")).run()
-print(sorted(name.split(".")[2] for name in sys.modules if name.count(".") == 2 and name.startswith("amp_studio.families.")))
+loaded = [name.split(".") for name in sys.modules if name.startswith("amp_studio.families.")]
+print(sorted(parts[2] for parts in loaded if len(parts) == 3))
 """
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "['num']"

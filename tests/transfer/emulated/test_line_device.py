@@ -35,7 +35,9 @@ class Machine:
 
 
 def test_quick_turns_step_the_machine_seldom_and_lose_no_time() -> None:
-    """A terminal that echoes has a turn for each character: a step in each cost more than the motion itself."""
+    """A terminal that echoes has a turn for each character: a step in each cost more than the motion
+    itself.
+    """
     now, machine = 5.0, Machine()
 
     def clock() -> float:

@@ -19,7 +19,8 @@ VALUES = {
     "servo.d_gain": 0.00021,
     "servo.vel_ffwd": 0.0000015,
 }
-"""Of axis X: figures of appendix C for the bare test motor (pages 115 to 135), and its soft limits (page 60)."""
+"""Of axis X: figures of appendix C for the bare test motor (pages 115 to 135), and its soft limits (page
+60)."""
 
 
 def the_card(folder: Path) -> AcrCard:

@@ -1,4 +1,5 @@
-"""What breaks while an ACR card saves (ESAVE): what is then reported of the card, and what is set and saved again."""
+"""What breaks while an ACR card saves (ESAVE): what is then reported of the card, and what is set and saved
+again."""
 
 import threading
 from collections.abc import Callable
