@@ -50,8 +50,8 @@ timing.logic_warning                 18 ms; 36 ms
 servo.velocity_integral_gain@1       0
 servo.velocity_proportional_gain@1   1500
 spindle.voltage_at_max@1.1           10 V
-spindle.max_speed@1.1                3000 rpm; 5000 rpm; 1000 rpm; 99999.9 rpm; 20000 rpm; 10000 rpm; 50 rpm; \
-20 rpm
+spindle.max_speed@1.1                3000 rpm; 5000 rpm; 1000 rpm; 99999.9 rpm; 20000 rpm; 10000 rpm; \
+50 rpm; 20 rpm
 patch.dac_monitor@2                  204; 101; 201; 301; 401; 501; 601
 patch.dac_monitor@3                  504
 """

@@ -237,10 +237,8 @@ def test_the_figures_of_motions_have_german_names() -> None:
     assert sentence("phase margin p5") == "Phasenreserve, 5. Perzentil"
     assert (
         sentence(
-            (
-                "With the other gains as they are none is safe: here servo.a_gain is 92.5, "
-                "servo.b_gain is 3, as tune recommends."
-            )
+            "With the other gains as they are none is safe: here servo.a_gain is 92.5, "
+            "servo.b_gain is 3, as tune recommends."
         ).count(" ist ")
         == 3
     )

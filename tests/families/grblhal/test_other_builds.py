@@ -154,11 +154,11 @@ static char inputs[] = "Left,N/A,Right";
 /* { Setting_First, Group_X, "Old", NULL, Format_Bool, NULL, NULL, NULL, 0 }, */
 static const setting_detail_t details[] = {
 #if FOO_ENABLE > 1
-    { Setting_First, Group_Foo, "Gate inputs", NULL, Format_Bitfield, inputs, NULL, NULL,
-        Setting_NonCore, &a, NULL, NULL },
+    { Setting_First, Group_Foo, "Gate inputs", NULL, Format_Bitfield, inputs, NULL, NULL, \
+Setting_NonCore, &a, NULL, NULL },
 #endif
-    { Setting_GateBase, Group_Foo, "Gate ? time", "milliseconds", Format_Decimal, "-#0.00", "-5", "20",
-        Setting_NonCore, &b, NULL, NULL, X_OPTS },
+    { Setting_GateBase, Group_Foo, "Gate ? time", "milliseconds", Format_Decimal, "-#0.00", "-5", "20", \
+Setting_NonCore, &b, NULL, NULL, X_OPTS },
 };
 static const setting_group_detail_t groups [] = { { Group_Root, Group_Foo, "Gates" } };
 """
@@ -195,8 +195,8 @@ CORE = {
     "errors.h": "enum { Status_OK = 0, Status_Known = 20, Status_Unheard = 199, Status_Unhandled = 253, };\n",
     "settings.c": """static char signals[] = "A,B,C,D,E,F,G,H,I,J,K,L,M,N";
 static const setting_detail_t details[] = {
-    { Setting_ControlInvertMask, Group_X, "Inputs", NULL, Format_Bitfield, signals, NULL, NULL,
-        0, &a, NULL, NULL },
+    { Setting_ControlInvertMask, Group_X, "Inputs", NULL, Format_Bitfield, signals, NULL, NULL, \
+0, &a, NULL, NULL },
     { Setting_Unheard, Group_X, "New", NULL, Format_Bool, NULL, NULL, NULL, 0, &a, NULL, NULL },
 };
 """,
