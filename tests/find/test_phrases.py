@@ -1,4 +1,5 @@
-"""What an integrator types at a machine: the first three hits of each family that has it have what he needs."""
+"""What an integrator types at a machine: the first three hits of each family that has it have what he
+needs."""
 
 import re
 from pathlib import Path
