@@ -61,6 +61,7 @@ def _scenarios() -> Sequence[str]:
 def _formats() -> Sequence[str]:
     from amp_studio.family_places import own_formats
 
+    # Names alone: the help of one verb must not load the formats of all families.
     formats = {"csv": "table of values, of every family (.csv)", **own_formats()}
     return tuple(f"{name:20} {what}" for name, what in formats.items())
 

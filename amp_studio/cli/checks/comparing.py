@@ -41,6 +41,7 @@ def row_json(merge: Merge, row: Row, secrets: bool) -> dict[str, Any]:
     from amp_studio.files import Difference
 
     found = difference_json(merge.a, Difference(row.address, row.a, row.b), secrets)
+    # By the same function as the two sides: a secret of the base is masked like theirs.
     base = difference_json(merge.a, Difference(row.address, row.base, None), secrets)["a"]
     return found | {"base": base, "kind": row.kind}
 
@@ -81,6 +82,7 @@ def print_comparison(
     second, of_second = other or (file, ())
     for difference in of_second:
         print_difference(second, difference, secrets)
+    # What the manual warns of is printed where a value changes, not where both machines agree.
     if comparison.differences or of_second:
         print_dangers((file, comparison.differences), (second, of_second))
     more = len(of_second)

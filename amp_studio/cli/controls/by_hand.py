@@ -31,6 +31,7 @@ def ways_offered(family: str, address: str) -> Iterator[None]:
     except TransferError as error:
         is_silent = isinstance(error, ControlSilentError)
         is_there = not (is_silent or isinstance(error, NoConnectionError))
+        # A control that has answered is reached: another way would not help with its refusal.
         if not is_there and (hint := _hint(family, address, is_silent=is_silent)):
             error.what = f"{error.what} ({hint})"
         raise

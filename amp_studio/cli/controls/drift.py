@@ -47,6 +47,7 @@ def verify_all_verb(options: Options) -> int:
         _print(found, counts, options.secrets)
     if options.report is not None:
         write_paper(_paper(found, options.secrets), options.report, notify=print_remark)
+    # The worst of all: a job that watches a shop looks at this one number.
     return max(_CODES[each.result] for each in found)
 
 
@@ -59,6 +60,7 @@ def _folder_of_controls(options: Options) -> Path:
         raise UsageError(f"{folder} is no folder: --all compares the known controls of one")
     if options.report is not None:
         check_paper_ending(options.report)
+        # Before the controls are asked: a name that cannot be written must not cost the comparison.
         check_replaced(options.report)  # a job writes the same page each time
     return folder
 

@@ -61,6 +61,7 @@ def way_lines(schema: Schema, name: str, path: str, file: ParameterFile | None) 
             yield f"     Look for: {step.look}"
         yield from _values(schema, step) if file is None else _values_of(file, step)
         if step.shows is not None and file is not None:
+            # With the path quoted: the line is copied into a shell, and a file may have blanks in its name.
             settings = _options(step.shows.settings)
             yield f"     Shown by: amp-studio simulate {shlex.quote(path)} {step.shows.scenario}{settings}"
             yield f"               {', '.join(step.shows.figures)}"

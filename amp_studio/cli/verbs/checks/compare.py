@@ -50,9 +50,11 @@ def run(options: Options) -> int:
     from amp_studio.report import SIDE_BY_SIDE, alike_of, machine_groups, machine_names
 
     files = [opened(path, options).file for path in options.paths]
+    # One number is another parameter in each family: only what parameters mean can be compared.
     if len({file.schema.family.family for file in files}) > 1:
         return _by_meaning(options, files)
     if options.by_letter:
+        # All to the axes of the first: with pairs of their own two columns could be of different axes.
         files = [files[0], *(matched_by_letter_noted(file, files[0]) for file in files[1:])]
     names = machine_names([path.stem for path in options.paths])
     rows, same = _rows(files, everything=options.everything)
@@ -118,6 +120,7 @@ def _json_row(first: ParameterFile, address: Address, values: Sequence[Value | N
     def text(value: Value | None) -> str | None:
         if value is None:
             return None
+        # Also in JSON, and without an option for it: a comparison of machines goes to others.
         return MASKED if parameter.secret else write_value(parameter, value)
 
     return {
@@ -186,6 +189,7 @@ def _runs(numbers: Sequence[int]) -> str:
 
 
 def _print_wrapped(line: str) -> None:
+    # A value is never broken: ``12`` at the end of a line and ``.5`` below it would be read as two.
     print(fill(line, WIDTH, subsequent_indent=" " * 8, break_long_words=False, break_on_hyphens=False))
 
 

@@ -61,6 +61,7 @@ def run(options: Options) -> int:
     b, b_digest, name = _other_side(options, a)
     if a.schema.family.family != b.schema.family.family:
         raise UsageError(f"{options.a} is for {a.schema.family.name}, {name} for {b.schema.family.name}")
+    # Controls that describe themselves have a schema each: B is read with that of A.
     other = by_schema(b, a.schema)
     of_b = of_other_schema(b, other)  # settings that only the control of B has
     if options.by_letter:
@@ -79,6 +80,7 @@ def run(options: Options) -> int:
         print_comparison(a, found, options.secrets, (b, of_b))
         for digest in filter(None, (a_digest, b_digest)):
             print(f"sha256 {digest}")
+    # Settings that only B has make the machines differ too.
     return int(bool(found.differences or of_b))
 
 
@@ -141,6 +143,7 @@ def _other_side(options: Options, a: ParameterFile) -> tuple[ParameterFile, str 
     from amp_studio.transfer.client import last_download
 
     last = last_download(a, Path(options.a))
+    # It names the control: a file may have been sent to several, and only the last one is compared.
     print_remark(f"last download: {last.when} to {last.control}")
     return last.file, None, "its last download"
 
@@ -160,6 +163,7 @@ def _print_three(options: Options, merge: Merge) -> int:
     """Print what two sides changed of their base; 1 where anything differs."""
     from amp_studio.cli.checks.comparing import how_many, named, row_json, value_text
 
+    # Notes, ticks and the header can be merged, but are no differences between machines.
     rows = [row for row in merge.differing if row.id.part == "value"]
     same = sum(row.id.part == "value" for row in merge.rows) - len(rows)
     if options.json:

@@ -36,6 +36,7 @@ def run(options: Options) -> int:
     from amp_studio import edit
 
     dry = options.dry_run
+    # A dry run takes no lock: the file may be open in the window.
     with edit(options.path, only_view=dry) as machine:
         file, validator = machine.file, machine.validator()
         done = machine.fix(options.rule, param=options.param, safe=options.safe, validator=validator)
@@ -75,6 +76,7 @@ def _fixable(findings: Sequence[Finding]) -> str:
 
 def _doubtful(options: Options, findings: Sequence[Finding]) -> str:
     """Return the rules with doubtful fixes: without an option that chooses, all others were made."""
+    # With an option that chooses, the others were not asked for.
     return "" if options.rule or options.param or options.safe else _fixable(findings)
 
 

@@ -63,6 +63,7 @@ def run(options: Options) -> int:
     from amp_studio.transfer.emulated import EmulatedOptions, emulate
     from amp_studio.transfer.links import parse_endpoint
 
+    # An unknown family is reported here, in the words of every verb, before a port is opened.
     family(options.family)
     return emulate(
         _secured(options),

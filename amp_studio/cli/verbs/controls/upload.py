@@ -53,12 +53,14 @@ def run(options: Options) -> int:
             from amp_studio.transfer import Exchange
 
             return upload_several(options, Exchange(cancel=stop))
+    # Before the line is opened: an upload may be the only copy of what a control contains.
     check_new(output, "an upload")
     control = connect(source, progress=progress())
     image = control.fetch()
     if not image:
         raise UsageError("the control is empty: there is nothing to upload")
     values: int | None = None
+    # The bytes first of all: they are kept even where no version of this program can read them.
     if output.suffix == IMAGE:
         save_image(image, output)
         text = f"{output}: {len(image)} bytes, digest in {digest_path(output).name}"
@@ -68,6 +70,7 @@ def run(options: Options) -> int:
         print_by_hand(file.schema.family.family)
         settle_values(file, options.on_fault, "an upload")
         write_new(machine, output)
+        # A control whose battery failed contains only defaults: worth a question before the file is used.
         if question := erased_question(file):
             print_remark(f"{output}: {question}")
         values = len(file.values)

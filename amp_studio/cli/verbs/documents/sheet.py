@@ -78,6 +78,7 @@ def run(options: Options) -> int:
     path: Path = options.path
     machine = opened(path, options)
     file = machine.file
+    # The ticks as well: they are the only record of what has been keyed in.
     inputs = [path, ticks_path(path), *([options.check] if options.check else [])]
     if options.output:
         check_replaced(options.output, *inputs)
@@ -120,6 +121,7 @@ def _present(options: Options) -> tuple[ParameterFile, str]:
     from amp_studio.transfer.client import open_copy
 
     path = Path(text)
+    # An .img is a copy that the client kept of a control, in the form in which it was read.
     if path.suffix != ".img":
         return opened(path, options).file, path.name
     copy = open_copy(path)
@@ -147,6 +149,7 @@ def _named(names: Iterable[str], file: ParameterFile, sheet: Sheet) -> list[Shee
 
 def _check(options: Options, file: ParameterFile, sheet: Sheet, ticks: Ticks) -> int:
     found = _read_back(options, file, sheet)
+    # What the screen does not show is not the same either: it has not been checked.
     different = [each for each in found if each.state != "same"]
     if options.json or options.output:
         _print(options, sheet, ticks, {each.entry.number: each for each in found})

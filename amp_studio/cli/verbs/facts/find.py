@@ -68,6 +68,7 @@ class _Source:
         """Return the page of a message; its rules are checked in the file, where there is one."""
         from amp_studio.find import message_page
 
+        # Only a message has rules to check: a search for a name does not wait for a check of the whole file.
         if self._findings is None:
             self._findings = self._checked()
         message = self.schema.messages[hit.key]
@@ -87,6 +88,7 @@ def run(options: Options) -> int:
         raise UsageError("Nothing to find: give a number, a word, a value or a message of the control")
     found = _best(sources, query, options.limit)
     nearest = "" if found else _nearest(sources, query)
+    # The other families are loaded only for a question that would end here without an answer.
     others = () if found or len(sources) > 1 else _hits_of_other_families(query, sources[0].schema)
     if options.json:
         hits = [_as_json(hit, source) for hit, source in found]
@@ -148,6 +150,7 @@ def _sources(options: Options) -> tuple[list[_Source], list[str]]:
     if first in family_ids():
         return [_Source(family(first))], words
     path = Path(first)
+    # Any file counts only with words behind it: ``find X`` alone is a question about X, even beside a file X.
     if path.suffix.casefold() == ENDING or (words and path.is_file()):
         machine = opened(path)
         return [_Source(machine.schema, machine)], words
@@ -226,6 +229,7 @@ def _message_json(page: MessagePage) -> dict[str, Any]:
 def _print(found: list[tuple[Hit, _Source]], named: bool) -> None:
     """Print the hits, the best first; one that is a message with its whole page."""
     best, source = found[0]
+    # An alarm is looked up at a machine that stands still: its whole page, not a line that leads to it.
     if best.kind == "message":
         print(_family_prefix(source, named) + best.title)
         print(*_page_lines(source.page(best), best), sep="\n")

@@ -62,6 +62,7 @@ def run(options: Options) -> int:
     least, most = OPERATIONS[options.operation]
     if not least <= len(options.arguments) <= most:
         raise UsageError(f"axis {options.operation} takes {_expected(least, most)}: amp-studio axis --help")
+    # Without a lock: a file that the window is editing can be listed.
     if options.operation in ("list", "compare"):
         file = opened(options.path).file
         if options.operation == "list":
@@ -115,6 +116,7 @@ def _change(file: ParameterFile, operation: str, arguments: Sequence[str]) -> li
         return rename_axis(file, first, arguments[1])
     if operation == "type":
         address = (axis_profile(file).type, first)
+        # Read as a value of that parameter: its label, letter and code all name the type.
         return retype_axis(file, first, str(file.read(address, arguments[1]).value))
     act: Callable[[ParameterFile, str, str], list[Change]] = copy_axis if operation == "copy" else swap_axes
     return act(file, first, _axis(file, arguments[1]))
@@ -194,6 +196,7 @@ def _row(file: ParameterFile, difference: AxisDifference, secrets: bool) -> tupl
     from amp_studio.schema import MASKED, show_value
 
     parameter, here = file.schema.parameters[difference.first[0]], file.machine_schema
+    # Both axes are bits of one word: the word is the same value for both, so the bits are compared.
     if difference.bits is not None:
         value = file.get(difference.first)
         word = int(float(value.value)) if value else 0

@@ -94,6 +94,7 @@ def _values_asked_for(options: Options, file: ParameterFile) -> list[ResolvedAdd
     if options.all:
         return list(map(ResolvedAddress, file.addresses()))
     state = file.evaluation.state
+    # What is hidden does not exist in this configuration; --all prints it.
     return [ResolvedAddress(a) for a in file.addresses() if a in file.values and state(a).state != "hidden"]
 
 
@@ -108,6 +109,7 @@ def run(options: Options) -> int:
         return _print_not_set(options, machine, {m.address for m in found} if options.params else None)
     if marks := marks_asked(options):
         found = with_marks(machine, options.path, found, marks)
+    # Each remark once: a number that is several words has the same for each.
     for message in filter(None, dict.fromkeys(m.remark(file.schema) for m in found)):
         print_remark(message)
     rows = [machine.row(each, secrets=options.secrets) for each in found]
@@ -130,6 +132,7 @@ def _line(file: ParameterFile, each: ResolvedAddress, row: Mapping[str, Any], *,
         return f"{row['param']} {row['label']:40} {value}"
     parameter, entered = file.schema.parameters[address[0]], file.get(address)
     text = show_value(parameter, entered, secrets=secrets)
+    # So that who sets it next knows in which unit a bare number would be read.
     if entered is None and row["unit"]:
         text += f" (in {unit_text(row['unit'])})"
     real = real_value(file.evaluation, address, entered)

@@ -108,6 +108,7 @@ def run(options: Options) -> int:
     is_changing = any(getattr(options, key) for key in _CHANGING)
     machine = _changed(options) if is_changing else opened(path, options)
     file = machine.file
+    # --json has every way with each answer.
     if options.way and not options.json:
         print("\n".join(way_lines(file.schema, options.way, str(path), file)))
         return 0
@@ -139,6 +140,7 @@ def _changed(options: Options) -> MachineParameters:
 
     with edit(options.path) as machine:
         _change(options, machine)
+        # A tick that was there already changes nothing: a save would make the backup a copy of the file.
         if machine.document and machine.document.is_dirty:
             machine.save(verb="guide")
             print_remarks(machine.notes)
@@ -231,6 +233,7 @@ def _change(options: Options, machine: MachineParameters) -> None:
     validator = machine.validator()
     come = progress(validator, validator.run())
     wanted = {a: value for a in come.of(step).open if (value := file.default(a)) is not None}
+    # All together: the range of one default may be given by another of them.
     file.set_checked(wanted)
     print_remark(f"{step.title}: {counted(len(wanted), 'value')} set to the default")
 
@@ -251,6 +254,7 @@ def _next(options: Options, file: ParameterFile, come: GuideProgress, only: Setu
     from amp_studio.report import open_value
     from amp_studio.schema import resolve_addresses
 
+    # A number may be several words: what follows the last of them is asked for.
     behind = resolve_addresses(file.evaluation, options.after)[-1] if options.after else None
     if only is not None:
         come = replace(come, steps=tuple(each for each in come.steps if each.step is only))
@@ -295,6 +299,7 @@ def _overview(file: ParameterFile, come: GuideProgress, path: Path) -> Iterator[
             yield f"[x] at the machine: {name.replace('@', ', axis ')}, ticked {with_local_times(who)}"
     yield from way_names(file.schema)
     if come.deferred:
+        # Counted alone: errors of printed defaults would bury the step that is next.
         yield f"{delivered_text(come.deferred, come.deferred_to)}; validate --json lists them"
 
 
@@ -337,6 +342,7 @@ def _value_lines(file: ParameterFile, each: StepProgress) -> Iterator[str]:
             address = (parameter.id, instance)
             if address in open_values:
                 yield f"  {here.named(address):52} not set  {open_value(file, address).allowed}".rstrip()
+            # An inactive value is left out, set or not: on this machine it decides nothing.
             elif address in file.values and file.evaluation.state(address).is_active:
                 mark = "" if file.is_default(address) else " *"
                 yield f"  {here.named(address):52} {show_value(parameter, file.get(address))}{mark}"
@@ -376,6 +382,7 @@ def _as_json(file: ParameterFile, come: GuideProgress, path: Path, only: SetupSt
         "current": come.current.step.id if come.current else None,
         "next": None if following is None else _open_json(file, following),
         "later": {
+            # The keys are older than the word "recommendation", and scripts read them.
             f"{key}s" if key != "advice" else key: sum(f.severity == key for f in come.deferred)
             for key in SEVERITIES
         },

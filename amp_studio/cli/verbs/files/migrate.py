@@ -60,6 +60,7 @@ def run(options: Options) -> int:
         print(json.dumps(migration_json(migration), indent=2, ensure_ascii=False))
     else:
         print("\n".join(migration_lines(migration)))
+    # After the answer is printed: the open questions are in it, and they are what the user needs to go on.
     if not options.draft:
         _check_answered(migration.written.open)
     if options.output is None:

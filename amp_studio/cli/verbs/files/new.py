@@ -50,6 +50,7 @@ def run(options: Options) -> int:
 
     schema = family(options.family)
     axes = [a.strip() for a in options.axes.split(",")] if options.axes else []
+    # First: what is printed about a file made like another one would mislead if none were written.
     check_new(options.path, "a new file")
     if options.like:
         machine = _file_like(options, axes)
@@ -79,6 +80,7 @@ def _made_like(options: Options, axes: list[str]) -> MadeLike:
     from amp_studio.files import made_like, record_origin
 
     path = Path(options.like)
+    # A file comes before an example of the same name: the user sees the file, and not the examples.
     source = opened(path if path.exists() else _example(options.like)).file
     if source.schema.family.family != options.family:
         raise UsageError(
@@ -90,6 +92,7 @@ def _made_like(options: Options, axes: list[str]) -> MadeLike:
         made = made_like(source, options.path.stem, axes)
     except ValueError as error:
         raise UsageError(str(error)) from None
+    # An example is no earlier state of this machine: only a user's own file is named as its origin.
     if path.exists():
         record_origin(made.file, options.path, path)
     return made

@@ -38,12 +38,14 @@ def run(options: Options) -> int:
     from amp_studio.programs import power_up
 
     file = opened(options.path, options).file
+    # Without a printed page there is no guess: a letter is a feed at one control and a dwell at another.
     if not file.schema.program.page:
         raise UsageError(f"{file.schema.family.name}: no page here prints how its blocks are read")
     if not options.block:
         state = power_up(file)
         print_json(_state_json(file, state)) if options.json else _print_state(file, state)
         return 0
+    # An argument may be several lines that were pasted.
     blocks = _read(file, "\n".join(options.block).splitlines())
     if options.json:
         print_json(_json(file, blocks))
@@ -60,6 +62,7 @@ def _read(file: ParameterFile, lines: Sequence[str]) -> list[ReadBlock]:
 
     if len(lines) > MAX_BLOCKS:
         raise UsageError(f"{len(lines)} blocks are more than {MAX_BLOCKS}")
+    # One for all of them: what a block switches on is active in the next one.
     reader = BlockReader(file)
     try:
         return [reader.read(line) for line in lines]

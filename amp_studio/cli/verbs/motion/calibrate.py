@@ -99,6 +99,7 @@ def run(options: Options) -> int:
 
     by_hand = _is_by_hand(options)
     writes = (by_hand or bool(options.measured)) and not options.dry_run
+    # Without a lock where nothing is written: the window may have the file open meanwhile.
     with edit(options.path, only_view=not writes) as machine:
         file = machine.file
         offered = compensation_of(file.schema.family.family)
@@ -153,6 +154,7 @@ def _draw(options: Options, file: ParameterFile, proposal: Proposal) -> None:
 
     letter = axis_name(file.evaluation, proposal.axis) or proposal.axis
     scene = proposal_scene(proposal, f"Axis {letter}: mean errors")
+    # No backup: the picture can be drawn again from the same points.
     write_atomic(options.output, scene_svg(scene).encode(), keep_backup=False, notify=print_remark)
     print_remark(f"Written: {options.output}")
 
@@ -196,6 +198,7 @@ def _correction(
         *(getattr(options, name) or "" for name in ("unit", "error_unit", "sign", "decimal"))
     )
     measurement = read_measured_file(options.measured, answers, base_unit(file, offered, axis))
+    # None is not "off": only a table that was active while it was measured is added to the errors.
     was_on = None if options.compensation is None else options.compensation == "on"
     request = ProposalRequest(
         was_on,
@@ -234,6 +237,7 @@ def _edited(
         raise UsageError(f"{file.schema.family.name} has no calibration table of an axis")
     table = _table_to_edit(options, file, offered, form, axis)
     _, size = shown_unit(file, table)
+    # Deleted before it is inserted: one call may move a point, which is both.
     for text in options.delete or ():
         table = deleted(table, _number(text) * size)
     if options.insert and form.is_even:
@@ -281,6 +285,7 @@ def _pair(text: str) -> tuple[Fraction, Fraction]:
 def _number(text: str) -> Fraction:
     from amp_studio.schema import read_exact
 
+    # Exact: a position is found in the table by its value, which a binary fraction of it would miss.
     number, rest = read_exact(text)
     if rest.strip():
         raise UsageError(f"{text[:40]} is no bare number: positions and figures are in the unit of the table")
@@ -345,6 +350,7 @@ def _measured(measurement: Measurement, proposal: Proposal) -> Iterator[str]:
         ("Accuracy A", figures.accuracy),
     )
     for name, value in rows:
+        # From one direction alone there is no reversal value, and from one run no repeatability.
         if value is not None:
             yield f"{name}: {value:.5f} {unit}"
     yield (
@@ -380,6 +386,7 @@ def _table_lines(
         yield f"Calibration table: {len(table.points)} points in {unit_text(unit)}{how}"
         for at, by in table.points:
             yield f"{float(at / size):14.5f} {float(form.figure(table, at, by) / size):14.5f}"
+        # To standard error: standard output stays a table that a program can read.
         for remark in form.remarks(file, axis, table):
             print_remark(remark)
     yield from form.limits(file, axis)
@@ -448,6 +455,7 @@ def _proposal_json(measurement: Measurement, proposal: Proposal) -> dict[str, An
     figures = asdict(proposal.figures)
     targets = [asdict(t) | {"mean": t.mean, "reversal": t.reversal} for t in proposal.figures.targets]
     names = {True: "rising", False: "falling"}
+    # A ball-bar measures radii and has no targets: the figures of ISO 230-2 are not defined for it.
     if measurement.is_circle:
         asked = [_OPTIONS[name] for name in measurement.assumed]
         return {"answers": asdict(measurement.answers), "assumed": asked, "notes": list(proposal.notes)}

@@ -102,6 +102,7 @@ def run(options: Options) -> int:
     show = progress()
 
     def step(what: str, share: float) -> None:
+        # The line of progress counts steps of an exchange; a plan has shares: hundredths are its steps.
         show(what, int(100.0 * share), 100)
 
     try:
@@ -162,6 +163,7 @@ def _write(options: Options, file: ParameterFile, found: ProgramRun) -> None:
     else:
         picture = picture_svg(path_picture(file, found))
         content = picture.encode() if ending == ".svg" else _pdf(picture)
+    # No backup: the program and the file make it again.
     write_atomic(options.output, content, keep_backup=False)
 
 
@@ -174,6 +176,7 @@ def _pdf(picture: str) -> bytes:
 
     title = '"Path of a part program"'
     image = f'#image(bytes({json.dumps(picture, ensure_ascii=False)}), format: "svg", alt: {title})'
+    # The text of JSON is one of Typst as well, without escapes of letters: Typst writes those otherwise.
     page = f"#set document(title: {title})\n#set page(width: auto, height: auto, margin: 10mm)\n{image}\n"
     return typeset(page, datetime.now().astimezone())
 
@@ -188,6 +191,7 @@ def _start(options: Options, file: ParameterFile) -> Sequence[float] | None:
     places, letters = typed_places(options.start, file), path_letters(file)
     if other := sorted(set(places) - set(letters)):
         raise UsageError(f"--start: the machine has no axis {', '.join(other)}")
+    # An axis that is not named begins at the zero of the machine.
     return [places.get(letter, 0.0) for letter in letters]
 
 
@@ -207,6 +211,7 @@ def _length(text: str | None, file: ParameterFile) -> float | None:
     if word is None:
         raise UsageError(f"--retract is '{text}'; it takes a length, as '1 mm'")
     is_inch = word[2] == "in" or (not word[2] and file.header.units == "inch")
+    # The simulator counts in mm; a bare figure has the unit system of the file.
     return float(word[1]) * (25.4 if is_inch else 1.0)
 
 

@@ -196,6 +196,7 @@ def run(options: Options) -> int:
     from amp_studio.sim import called_parameter, named_parameter, trace_summary, trace_text
 
     if options.output:
+        # Before anything is computed: a sweep takes minutes, and must not replace what it was made of.
         beside = filter(None, (options.record, options.machine_file))
         check_replaced(options.output, options.path, *beside)
     machine = opened(options.path)
@@ -214,6 +215,7 @@ def run(options: Options) -> int:
         print_json(trace_summary(trace, lambda parameter: named_parameter(file, parameter, trace.axis)))
     else:
         print(trace_text(trace, lambda parameter: called_parameter(file, parameter, trace.axis)))
+    # An alarm is a result: a script reads it from the exit code, and 2 stays for what cannot be used.
     return 1 if trace.alarms else 0
 
 
@@ -227,6 +229,7 @@ def _simulated(options: Options, machine: MachineParameters) -> tuple[ParameterF
     axis = _axis(options, tried)
     if options.machine_file:
         axis, plant = machine_for(tried.file, read_machine(options.machine_file), axis)
+        # What --set gives is what the user tries: it has precedence over the machine that was measured.
         settings = {**plant, **settings}
     system = options.units or tried.file.header.units
     way = _way(options) if options.scenario == "sweep" else None
@@ -234,6 +237,7 @@ def _simulated(options: Options, machine: MachineParameters) -> tuple[ParameterF
     if options.against:
         trace = laid_over(trace, options.against, trigger_given(options))
     print_remarks(messages)
+    # The second run takes as long as the first: only for a picture, which draws one under the other.
     if own and options.output and options.output.suffix.lower() in DRAWN:
         return tried.file, trace, _earlier(machine, trace, settings, system)
     return tried.file, trace, None
@@ -281,6 +285,7 @@ def _given_machine(options: Options) -> list[tuple[str, str, str]]:
     if options.machine_file:
         settings = read_machine(options.machine_file).settings
         found = {name: (name, text, options.machine_file.name) for name, text in settings.items()}
+    # --set last, as in the simulation: the document names what was computed with.
     own = ((name, text) for name, text in assignments(options.assignments) if name.startswith("model."))
     return list((found | {name: (name, text, "--set") for name, text in own}).values())
 
@@ -306,10 +311,12 @@ def _settings_and_assignments(options: Options) -> tuple[dict[str, Any], list[st
 def _settings_with_options(options: Options) -> dict[str, float | str]:
     """Return the settings that have an option, or a word, of their own: an S word, --speed, --pitch."""
     found: dict[str, float | str] = {}
+    # One positional argument for both: the record of identify, the S word of spindle.
     if options.record and options.scenario == "spindle":
         word = str(options.record)
         if not re.fullmatch(r"[Ss]?[+-]?[0-9]+([.,][0-9]+)?", word):
             raise UsageError(f"'{word}' is no S word: S1500, with a minus for M4")
+        # The sign stays: M4 is a speed below 0.
         found["move.speed"] = word.lstrip("Ss")
     for name in ("speed", "pitch"):
         value = getattr(options, name)
@@ -335,6 +342,7 @@ def _sweep_settings(options: Options) -> dict[str, float | str]:
         raise UsageError(
             f"--over, --samples, --figure, --scheduler and --jobs belong to sweep, not to {options.scenario}"
         )
+    # A setting of a scenario is a decimal number or a text; the samples are a count.
     return {name: float(value) if isinstance(value, int) else value for name, value in found.items()}
 
 
@@ -384,6 +392,7 @@ def _identify(options: Options, of: MachineParameters) -> int:
         )
     else:
         trace = identify(file, options.record, axis, options.scale, options.units, options.turn)
+    # A machine that --machine reads again; every other ending is a document about the record.
     if options.output and options.output.suffix.lower() in (".yaml", ".yml"):
         write_machine(trace, file.schema.family.family, options.output, print_remark)
     elif options.output:
@@ -405,6 +414,7 @@ def _earlier(machine: MachineParameters, trace: Trace, settings: dict[str, Any],
 
     try:
         return machine.simulate(trace.scenario, trace.axis, units=system, like=trace, **settings)
+    # Often the reason why values are tried at all: with those of the file the move cannot be made.
     except SimulationError:
         return None
 

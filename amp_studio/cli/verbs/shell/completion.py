@@ -48,6 +48,7 @@ complete -c amp-studio -f -a '(__amp_studio)'
 SCRIPTS = {"bash": _BASH, "zsh": _ZSH, "fish": _FISH}
 
 
+# The scripts ask the program for each completion, so a newer program needs no newer script.
 VERB = Verb(
     __doc__,
     VerbArgument("shell", choices=tuple(SCRIPTS), help="bash, zsh or fish"),
