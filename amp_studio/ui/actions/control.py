@@ -55,9 +55,9 @@ class ControlDesk(Translated):
         self.exchanges = ControlExchange(window, self.emulated)
         self._page: ControlPage | None = None
         self._sessions: dict[tuple[str, str, str], ControlSession] = {}
+        """Address, family and file -> its exchanges."""
         self._workspace_of: dict[ControlSession, Workspace | None] = {}
         """The file that a session was last chosen for: it may be closed and opened again meanwhile."""
-        """Address, family and file -> its exchanges."""
         self._live: LiveView | None = None
         """The page that was live last: one control is asked at a time."""
         self.exchanges.show_page = self.open
@@ -137,6 +137,7 @@ class ControlDesk(Translated):
 
     def _add_line(self, line: str) -> None:
         """Show a line of the emulated control's screen; one that stays in E-stop stays so in the menu too."""
+        # The action was switched before the control answered, which has refused.
         if line.startswith(("kept in E-stop: ", "refused: the control stays in E-stop: ")):
             self.window.menus["control.estop"].setChecked(True)
         if line.startswith("estop "):
@@ -155,6 +156,7 @@ class ControlDesk(Translated):
             session.cancel()
         if self._page is not None:
             self._page.several.stop_all()
+        # Disconnected first: the window that shows its end is being closed.
         self.emulated.ended.disconnect(self._ended)
         self.emulated.stop(wait=True)
 
@@ -212,6 +214,7 @@ class ControlDesk(Translated):
             return
         if self.window.table_view is not None and not self.window.table_view.finish():
             return
+        # A page that opens is about one control; several are chosen again on purpose.
         page.known.several.setChecked(False)
         page.show_file(workspace, direction, only)
         self._centre.setCurrentWidget(page)
@@ -246,6 +249,7 @@ class ControlDesk(Translated):
     def _use(self, address: str) -> None:
         from amp_studio.transfer.links import parse_endpoint
 
+        # A typing error is reported before anything is changed.
         parse_endpoint(address)
         if self.page.known.several.isChecked():
             self.page.several.tick(address)
@@ -260,6 +264,7 @@ class ControlDesk(Translated):
         from amp_studio.ui.control.session import ControlSession
 
         family = workspace.file.schema.family.family if workspace is not None else ""
+        # Of a file too: what differs, what was approved and what was read belong to both.
         key = (address, family, str(workspace.path) if workspace is not None else "")
         session = self._sessions.get(key)
         if session is None:
@@ -277,6 +282,7 @@ class ControlDesk(Translated):
         workspace = self._workspace_of[session]
         if workspace is None or not is_alive(workspace) or not reached:
             return
+        # After a verified download the control contains this file: it need not be read again to be compared.
         if verb == "download" and session.outcome is not None and session.outcome.verified:
             self.exchanges.remember(workspace, workspace.file.copy())
         elif (present := session.present(workspace.file)) is not None:

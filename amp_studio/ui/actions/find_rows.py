@@ -84,6 +84,7 @@ def rows_of(hits: Sequence[Hit], actions: dict[str, QAction], family: str = "") 
     rows = []
     for kind, found in kinds.items():
         rows.append(FindRow(_head(kind)))
+        # Of a single kind all: there is no other that could be buried.
         listed = found[: _MAX_HITS[kind]] if len(kinds) > 1 else found
         rows += [_row(hit, actions.get(hit.key) if kind == "command" else None, family) for hit in listed]
     return rows
@@ -92,6 +93,7 @@ def rows_of(hits: Sequence[Hit], actions: dict[str, QAction], family: str = "") 
 def _row(hit: Hit, action: QAction | None, family: str) -> FindRow:
     if action is not None:
         mark = "✓ " if action.isCheckable() and action.isChecked() else ""
+        # As the keyboard of the system has them, not as Qt writes them.
         keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
         return FindRow(mark + hit.title, "", keys, _ICONS["command"], hit, action)
     reasons = [_in_words(reason) for reason in hit.why.split(", ") if reason not in _PLAIN]
@@ -127,6 +129,7 @@ class FindRows(QAbstractListModel):
     def data(
         self, index: QModelIndex | QPersistentModelIndex, role: int = Qt.ItemDataRole.DisplayRole
     ) -> object:
+        # The whole row as one text, which a screen reader reads; the delegate paints its parts.
         if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
             row = self.rows[index.row()]
             return ", ".join(filter(None, (row.text, row.detail, row.right)))

@@ -67,6 +67,7 @@ class _ControlDelegate(QStyledItemDelegate):
                 font("small"),
                 "warn" if listed.warns else "dim",
                 listed.state,
+                # The usual way to a control is not written: there is little room, and the tip has all of it.
                 listed.address.removeprefix("tcp://"),
                 place.center().y() + 1,
             ),
@@ -123,6 +124,7 @@ class KnownList(QWidget):
         self.list.itemClicked.connect(lambda item: self.chosen.emit(item.data(_KEY)))
         self.list.itemActivated.connect(lambda item: self.chosen.emit(item.data(_KEY)))
         plus = QShortcut(QKeySequence("+"), self.list)
+        # In the list alone: in the field + is a character.
         plus.setContext(Qt.ShortcutContext.WidgetShortcut)
         plus.activated.connect(self.ask)
         self.setFocusProxy(self.list)
@@ -168,6 +170,7 @@ class KnownList(QWidget):
             self.list.addItem(item)
             if each.address == chosen:
                 self.list.setCurrentItem(item)
+        # With nothing to choose the field is the way to go on.
         if not listed:
             self.field.show()
         self.setFocusProxy(self.list if listed else self.field)

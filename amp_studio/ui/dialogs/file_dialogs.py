@@ -91,6 +91,7 @@ PAPER_KINDS = "PDF (*.pdf);;HTML (*.html);;Excel (*.xlsx);;CSV (*.csv)"
 def path_of_kind(text: str, kind: str) -> Path:
     """Return a path from a file dialog, with the ending of the chosen kind where it has none."""
     path = Path(text)
+    # An ending that was typed has precedence over the kind that was chosen.
     return path if path.suffix else path.with_suffix(kind[kind.index("*") + 1 : -1])
 
 
@@ -103,6 +104,7 @@ class ProjectDialog(FormDialog):
         family = info.family if info else families[0][0]
         fields = (
             Field("name", tr("&Name"), default=info.name if info else "", check=_name_fault),
+            # Not changed later: its files belong to one family.
             Field("family", tr("Control &family"), "choice", family, families, enabled=info is None),
             Field("machine", tr("&Machine type"), "choice", choices=_machines(family)),
             Field(

@@ -64,6 +64,7 @@ class Field:
 
 def fill_choices(box: QComboBox, choices: Sequence[tuple[Any, str]], chosen: object) -> None:
     """Fill a box without a signal, and choose an entry by its key, else the first."""
+    # Filling is no choice: a signal for each entry would run what follows a choice.
     box.blockSignals(True)
     box.clear()
     for key, title in choices:
@@ -104,6 +105,7 @@ class FieldForm(QWidget):
         """
         answers = self.answers() if keep else {}
         same = {field.key for field in fields if self._fields.get(field.key) == field}
+        # Only what has changed is made again: a field that stays keeps its text, its cursor and the focus.
         for key in [key for key in self._rows if key not in same]:
             self._layout.removeRow(self._rows.pop(key))
             del self.editors[key], self._fields[key]
@@ -113,6 +115,7 @@ class FieldForm(QWidget):
                 self._insert(n, field)
                 if field.key in answers:
                     self._show_answer(field, answers[field.key])
+            # A field that was made later would else come last.
             if before is not None and field.kind != "words":
                 QWidget.setTabOrder(before, self.editors[field.key])
             before = self.editors[field.key] if field.kind != "words" else before
@@ -124,6 +127,7 @@ class FieldForm(QWidget):
         editor.setToolTip(field.tip)
         editor.setEnabled(field.enabled)
         if field.kind != "check" and field.label and not editor.accessibleName():
+            # Without the mark of the Alt letter, which a screen reader would read.
             editor.setAccessibleName(field.label.replace("&", ""))
         self._fields[field.key], self.editors[field.key] = field, editor
         self._rows[field.key] = whole = self._with_button(field, editor) if field.browse else editor
@@ -147,6 +151,7 @@ class FieldForm(QWidget):
             return QCheckBox(field.label)
         if field.kind == "lines":
             text = QPlainTextEdit()
+            # No tabs in a note: Tab leaves the field as in every other one.
             text.setTabChangesFocus(True)
             return text
         if field.kind == "words":
@@ -161,6 +166,7 @@ class FieldForm(QWidget):
 
     def _with_button(self, field: Field, line: QWidget) -> QWidget:
         whole, button = QWidget(), QPushButton(tr("&Browse…"))
+        # Enter in the line is for the dialog, and must not open a file dialog.
         button.setAutoDefault(False)
         button.clicked.connect(lambda *_: self.browse(field.key))
         row = QHBoxLayout(whole)
@@ -242,6 +248,7 @@ class FieldForm(QWidget):
         editor = self.editors[field.key]
         if isinstance(editor, QComboBox):
             row = _row_of(editor, answer)
+            # A box that was made by its dialog may have answers that are not listed: it keeps its own text.
             if field.editor is None or row >= 0:
                 editor.setCurrentIndex(max(row, 0))
         elif isinstance(editor, QCheckBox):

@@ -52,6 +52,7 @@ class MaskList(QFrame):
             max((metrics.horizontalAdvance(self._text(field, 0)) for field in self._fields), default=0)
             + 8 * GAP2
         )
+        # As wide as its labels: it covers cells of the table while it is open.
         self.setFixedWidth(max(_NARROWEST, min(_WIDEST, wanted)))
         self.list.setFixedHeight(min(_MAX_ROWS, max(1, self.list.count())) * ROW + 2)
         self.list.itemClicked.connect(self._toggle)
@@ -96,6 +97,7 @@ class MaskList(QFrame):
                 checked += is_set
                 item.setCheckState(Qt.CheckState.Checked if is_set else Qt.CheckState.Unchecked)
             else:
+                # A field of several bits has no box: one click could not choose among its values.
                 item.setForeground(QColor(colour("dim")))
         bits = sum(map(_is_bit, self._fields))
         self._count.setText(self.tr("{count} of {bits} bits set").format(count=checked, bits=bits))

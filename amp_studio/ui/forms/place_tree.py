@@ -78,6 +78,7 @@ class PlaceTree(QTreeWidget):
 
 def _background(tree: QTreeWidget, index: ModelIndex, is_hovered: bool) -> Token:
     if tree.selectionModel().isSelected(index):
+        # Bright only while it has the keyboard.
         return "selbg" if tree.hasFocus() else "selidle"
     return "hover" if is_hovered else "panel"
 
@@ -90,6 +91,7 @@ def counts_with_room(
     """
     least = min(title, _MIN_TITLE)
     kept = counts
+    # The worst severity always stays; the others give room to the title from the least one on.
     while len(kept) > 1:
         used = sum(width_of(str(count)) + 3 + SMALL_ICON + GAP for _, count in kept)
         used += width_of(_MORE) + GAP if kept != counts else 0
@@ -121,6 +123,7 @@ class _PlaceDelegate(QStyledItemDelegate):
             left += SMALL_ICON + GAP2
         right = self._right_text(painter, place, right, index.data(RIGHT))
         colour_name: Token = index.data(TOKEN) or "text"
+        # A head between places, as "Procedures".
         is_small = colour_name == "dim" and not picture and index.data(KEY) is None
         face, small = font("small") if is_small else font(), QFontMetrics(font("small"))
         title = QFontMetrics(face).horizontalAdvance(index.data() or "")

@@ -88,6 +88,7 @@ class LiveRows(QTableWidget):
         ]
         self.setRowCount(len(self.addresses))
         self.refresh()
+        # By the parameter, not the address: with another axis the same parameter stays the current one.
         wanted = next((n for n, each in enumerate(self.addresses) if before and each[0] == before[0]), 0)
         if self.addresses:
             self.setCurrentCell(wanted, NAME)
@@ -119,6 +120,7 @@ class LiveRows(QTableWidget):
             parameter = file.schema.parameters[address[0]]
             own = file.get(address)
             theirs = self._present.get(address) if self._present is not None else None
+            # In one unit: 1 in beside 25.4 mm would look like a difference.
             shown_own, shown_theirs = in_one_unit((own, theirs), self._workspace.typed_unit(address))
             texts = (
                 file.machine_schema.number(address) or "",
@@ -146,6 +148,7 @@ class LiveRows(QTableWidget):
     def _show_remark(self, item: QTableWidgetItem, address: Address, differs: bool) -> None:
         """Show what is to be minded: a value that was turned here, or one that is another in the file."""
         turned = self._turned.get(address)
+        # A value that was turned here differs on purpose.
         item.setIcon(severity_icon("warning") if differs and turned is None else QIcon())
         item.setForeground(colour("chg" if turned is not None else "text"))
         text = ""

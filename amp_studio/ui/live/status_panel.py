@@ -84,6 +84,7 @@ class LiveStatusPanel(QWidget):
     def _lay_out(self) -> None:
         for label in (self.lamps, self.raw, self.values, self.faults, self.events, self.notes):
             label.setWordWrap(True)
+            # They ask for no width and wrap: without a horizontal scroll bar a long line would be cut.
             label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         for label in (self.raw, self.notes, self.age, self.fault_count, self.place, self.events):
             label.setFont(font("small"))
@@ -172,6 +173,7 @@ class LiveStatusPanel(QWidget):
     def _press(self) -> None:
         if command := self.keys.text().strip():
             self.keys_pressed.emit(command)
+            # Kept and selected: Enter repeats it, typing replaces it.
             self.keys.selectAll()
 
     def show_keys(self, wanted: bool) -> None:
@@ -208,6 +210,7 @@ class LiveStatusPanel(QWidget):
 
     def grey(self, is_old: bool) -> None:
         """Show that the figures are old."""
+        # Disabled, not cleared: after a lost line the last position is all that the operator has.
         self.readings.setEnabled(not is_old)
         self.lamps.setEnabled(not is_old)
         self.raw.setEnabled(not is_old)
@@ -224,6 +227,8 @@ class LiveStatusPanel(QWidget):
         for name, value in zip(_FIGURES, figures, strict=True):
             self.figures[name].setText("–" if value is None else value_text(value))
             self.units[name].setText("" if value is None else f"{unit}/s" if name == "velocity" else unit)
+            # A control that never reports a speed has no row for it; before the first reading
+            # all rows are there, so that the panel does not jump.
             if name != "position":
                 for label in (self.words[name], self.figures[name], self.units[name]):
                     label.setVisible(value is not None or axis is None)
@@ -310,6 +315,7 @@ class LiveStatusPanel(QWidget):
         ]
 
     def _in_words(self, text: str) -> str:
+        # Texts of the facts, some with < and &: they are no markup.
         return html.escape(sentenced(text, self._family))
 
 
@@ -320,7 +326,9 @@ def value_text(value: float | str) -> str:
     text = f"{round(value, PLACES):.{PLACES}f}".rstrip("0").rstrip(".")
     whole, point, rest = text.partition(".")
     if len(whole.lstrip("-")) >= GROUPED:
+        # A narrow space groups: point and comma are both decimal separators somewhere.
         whole = f"{int(whole):,}".replace(",", "\u202f")
+    # A minus in front of 0 would come and go at rest.
     return written("0" if text in ("-0", "") else f"{whole}{point}{rest}")
 
 

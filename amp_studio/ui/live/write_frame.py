@@ -197,6 +197,7 @@ class WriteFrame(QFrame):
         self.name.setText(self._workspace.name_of(about.address))
         self.unit.setText(unit_in_words(self._workspace.typed_unit(about.address)))
         self.unit.setVisible(bool(self.unit.text()) and not parameter.choices)
+        # Only where the control has another value now: a reading must not replace what is being typed.
         if not is_same or (was is not None and not same_value(was.now, about.now)):
             self._why_off = ""
             self._wanted = about.now
@@ -246,6 +247,7 @@ class WriteFrame(QFrame):
         parameter = self._workspace.file.schema.parameters[self._about.address[0]]
         found = self._in_unit(self._wanted)
         text = write_value(parameter, found) if found is not None else ""
+        # The unit is beside the field, where it is not deleted by mistake.
         self.field.setText(text.partition(" ")[0] if _is_number(found) else text)
 
     def _read(self) -> None:
@@ -268,6 +270,7 @@ class WriteFrame(QFrame):
         if self._wanted is None:
             return self.tr("No value")
         try:
+            # On a copy: the range may depend on other values, and the file itself is not what is written to.
             self._workspace.file.copy().set_checked({self._about.address: self._wanted})
         except RangeError as error:
             return sentence(str(error))
@@ -310,9 +313,11 @@ class WriteFrame(QFrame):
             return
         number = float(found.value)
         by = step_of(found)
+        # To the next multiple of the step: 0.13 and a step of 0.1 are 0.2.
         turned = (
             round((number + steps * by) / by) * by if not isinstance(found.value, int) else number + steps
         )
+        # Nine digits: a multiple of 0.1 without the last digits of its binary fraction.
         value: float | int = int(turned) if isinstance(found.value, int) else float(f"{turned:.9g}")
         self._wanted = Value(value, found.unit)
         self._fill()
@@ -320,6 +325,7 @@ class WriteFrame(QFrame):
 
     def press(self) -> None:
         """Want the value of the field in the control, where it can be written."""
+        # Ctrl+Enter comes past the button, and must be off when it is.
         if self._about is not None and self._wanted is not None and self.write.isEnabled():
             self.write_requested.emit(self._about.address, self._wanted)
 

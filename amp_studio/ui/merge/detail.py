@@ -58,6 +58,7 @@ class Line(QLabel):
     def __init__(self, face: QFont) -> None:
         super().__init__()
         self.setFont(face)
+        # It asks for no width: a long value must not make the window wider.
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._colour_name: Token = "dim"
 
@@ -172,6 +173,7 @@ class MergeDetail(QFrame):
         has_base = model.merge.base is not None
         for widget in (self.buttons["base"], self.values["base"], self.notes["base"]):
             widget.setVisible(has_base)
+        # An exclusive group always has a checked button; a row without a choice has none.
         self._group.setExclusive(False)
         for side, column in _COLUMNS.items():
             self.buttons[side].setChecked(choice == side)
@@ -221,6 +223,7 @@ class MergeDetail(QFrame):
         effect = effect_words(file.schema, row.address)
         state = file.evaluation.state(row.address) if row.address in file.machine_schema.places else None
         lines = [(self.tr("Takes effect"), effect), (self.tr("Page"), parameter.page)]
+        # A value of another machine type stays in the file, and has no state on this one.
         if state is None:
             lines.append((self.tr("Here"), self.tr("not on this machine type")))
         elif not state.is_active:
@@ -241,6 +244,7 @@ class MergeDetail(QFrame):
             if self.buttons[side].isChecked():
                 self.chosen.emit(row, side)
                 return
+        # "Other" without a text is no choice yet: the field is where to go on.
         if self.other.text().strip():
             self._typed()
         else:

@@ -146,6 +146,7 @@ class CheckRows(QAbstractListModel):
         self.checks.append(check)
         new = list(self._ordered())
         while len(self.rows) < len(new):
+            # Inserted, not reset: a reset would take the selection away while checks still come in.
             at = next((n for n, each in enumerate(self.rows) if each is not new[n]), len(self.rows))
             self.beginInsertRows(QModelIndex(), at, at)
             self.rows.insert(at, new[at])
@@ -157,6 +158,7 @@ class CheckRows(QAbstractListModel):
             own = [c for c in self.checks if c.part == part and (not self.wanted or c.verdict in self.wanted)]
             if own:
                 yield part
+                # A stable sort: with one verdict they stay in the order in which they were made.
                 yield from sorted(own, key=lambda check: order.index(check.verdict))
 
     def check(self, index: RowIndex) -> MotionCheck | None:
@@ -168,6 +170,7 @@ class CheckRows(QAbstractListModel):
         return 0 if parent is not None and parent.isValid() else len(self.rows)
 
     def flags(self, index: RowIndex) -> Qt.ItemFlag:
+        # So that arrow keys skip a head.
         return super().flags(index) if self.check(index) else Qt.ItemFlag.NoItemFlags
 
     def data(self, index: RowIndex, role: int = Qt.ItemDataRole.DisplayRole) -> object:
@@ -242,6 +245,7 @@ class CheckDelegate(QStyledItemDelegate):
         room = inner.adjusted(0, 0, -wide - GAP2, 0)
         if check.use is not None and box.width() >= _WITH_BARS:
             place = QRect(box.right() - GAP3 - FIGURES - BAR - GAP2, box.top(), BAR, box.height())
+            # Bars are below each other; only a figure that is wider than its column moves its own bar.
             place.moveRight(min(place.right(), room.right()))
             self._bar(painter, place, check.use.share, tint)
             room.setRight(place.left() - GAP2)
@@ -252,6 +256,7 @@ class CheckDelegate(QStyledItemDelegate):
         painter.drawText(
             room,
             Qt.AlignmentFlag.AlignVCenter,
+            # In the middle: the scenario at its begin and the axis at its end are both needed.
             measure.elidedText(name, Qt.TextElideMode.ElideMiddle, room.width()),
         )
         if check.verdict == "not possible":
@@ -264,6 +269,7 @@ class CheckDelegate(QStyledItemDelegate):
         text = QFontMetrics(small).elidedText(
             sentenced_with_letters(file, check.why), Qt.TextElideMode.ElideRight, room.width()
         )
+        # Less is an ellipsis with a letter.
         if len(text) > 2:
             painter.drawText(room, Qt.AlignmentFlag.AlignVCenter, text)
         painter.setPen(QPen(colour("line2"), 1, Qt.PenStyle.DashLine))
@@ -277,6 +283,7 @@ class CheckDelegate(QStyledItemDelegate):
         painter.drawRoundedRect(line, 2.0, 2.0)
         painter.setBrush(QColor(colour(tint)))
         part = min(max(share, 0.0), 1.0)
+        # Two points at least: a share of nearly 0 is not the same as none.
         painter.drawRoundedRect(QRectF(line.left(), line.top(), max(part * line.width(), 2.0), 4.0), 2.0, 2.0)
 
 

@@ -74,6 +74,7 @@ class LatestWork(QObject):
         """Want nothing any more; what is under way ends unheard."""
         self._next = None
         if self._task is not None:
+            # Disconnected, not cancelled: a simulation cannot be interrupted; its result is dropped.
             self._task.done.disconnect(self._receive)
             self._task.failed.disconnect(self._receive)
             self._task = None
@@ -94,6 +95,7 @@ class LatestWork(QObject):
         self._task = None
         if self._next is not None:
             self._begin()
+        # A move that cannot be simulated is an answer for the card; other errors are faults of the program.
         elif isinstance(found, Exception) and not isinstance(found, SimulationError):
             raise found
         else:
@@ -192,6 +194,7 @@ def typed_length(text: str) -> str | None:
     number, unit = read_number(text.strip())
     if not number > 0.0:
         raise InvalidValueError(f"{text} is not above 0")
+    # The shortest text that is read as the same number again: no digit is lost on the way to the scenario.
     return f"{number!r} {unit.strip()}".strip()
 
 
@@ -370,6 +373,7 @@ class TravelCard(Card):
     def _move(self, name: str, at: Point) -> None:
         if self.way is None:
             return
+        # Rows in place of a second axis: a drag has one direction.
         if self.scene.scene is not None and self.scene.scene.y.rows:
             at = at[0], 0.0
         self.way = self._ways[self.part] = replace(self.way, **{name: at})
@@ -382,6 +386,7 @@ class TravelCard(Card):
             self.trace = None
             self.failed.emit(found.what)
             self.about.setText(sentenced(found.what))
+        # Only the motion of the way that is shown: another may have been dragged while it was computed.
         elif isinstance(found, tuple) and found[:2] == (self.part, self.way):
             self.trace = found[2]
             self._draw()
@@ -453,6 +458,7 @@ class SpindleCard(Card):
         if self._file is None:
             return
         speed: float | str = HIGHEST
+        # S1500 as in a program, or the figure alone.
         if text := self.speed.text().strip().lstrip("Ss"):
             try:
                 speed = read_number(text)[0]
@@ -463,6 +469,7 @@ class SpindleCard(Card):
         settings: dict[str, dict[str, float | str]] = {
             "spindle": {"move.speed": speed},
             "orient": {"move.orient": "yes"},
+            # The pitch belongs to the program and is in no file: 1 mm.
             "tap": {"move.speed": speed, "move.pitch": 1.0},
         }
         scenario = "tap" if view == "tap" else "spindle"
@@ -471,6 +478,7 @@ class SpindleCard(Card):
     def _receive(self, found: object) -> None:
         if isinstance(found, SimulationError):
             self.show_reason(sentenced(found.what))
+        # Only for the view that is chosen now: the answer may be that of the one before.
         elif isinstance(found, tuple) and found[0] == self.views.choice:
             if found[0] != "spindle":
                 self.show_trace(found[1])

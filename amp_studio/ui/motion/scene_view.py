@@ -38,6 +38,7 @@ class SceneView(QWidget):
         self._dragged = ""
         self._names: list[tuple[QRectF, Address]] = []
         self.setMouseTracking(True)
+        # Every pixel is painted here: Qt need not clear them before.
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         scheme().changed.connect(self.update)
@@ -70,6 +71,7 @@ class SceneView(QWidget):
         place = self.place
         for name in [*self._spots]:
             if name not in self.grips:
+                # Later: it may be the one whose event is being handled.
                 self._spots.pop(name).deleteLater()
         for name, (called, at) in self.grips.items():
             spot = self._spots.get(name)
@@ -93,6 +95,7 @@ class SceneView(QWidget):
         scene = self.scene
         if scene is None:
             return
+        # A grip that was dragged out of the picture could not be taken back.
         inside = min(max(at[0], scene.x.low), scene.x.high), min(max(at[1], scene.y.low), scene.y.high)
         self.grips[name] = self.grips[name][0], inside
         self._arrange()
@@ -136,6 +139,7 @@ class SceneView(QWidget):
             return
         self._dragged = self._near(event.position())
         if self._dragged:
+            # So that the arrow keys go on from where the mouse has dragged it.
             self._spots[self._dragged].setFocus(Qt.FocusReason.MouseFocusReason)
             self.update()
         elif (address := self._name_at(event.position())) is not None:

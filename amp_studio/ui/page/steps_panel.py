@@ -158,6 +158,7 @@ class StepsPanel(QWidget):
         for each in self._workspace.progress.steps:
             step = each.step
             item = QTreeWidgetItem(
+                # A space as wide as a figure: titles begin below each other.
                 [f"{str(step.number).rjust(2, FIGURE_SPACE)}  {worded(step.title, self._family)}"]
             )
             item.setData(0, KEY, step)
@@ -208,6 +209,7 @@ class StepsPanel(QWidget):
             self.tr("{done} of {needed} steps").format(done=now.done, needed=len(now.needed))
         )
         self.values_set.setText(self.tr("{set} of {total} set").format(set=now.set, total=now.total))
+        # A family without steps has nothing left to do.
         self.bar.show_part(now.set / now.total if now.total else 1.0)
         for each in now.steps:
             self._show_step(self._items[each.step.id], each, now)
@@ -234,6 +236,7 @@ class StepsPanel(QWidget):
         )
         if each.step in (self._here, now.current.step if now.current else None):
             self._show_open(item, each.open)
+        # Of other steps the open values are not listed: only the present one unfolds.
         elif item.childCount():
             item.takeChildren()
 
@@ -263,6 +266,7 @@ class StepsPanel(QWidget):
         by_parameter: dict[str, list[Address]] = {}
         for address in addresses:
             by_parameter.setdefault(address[0], []).append(address)
+        # Items are used again: new ones would take the selection and the place of the scroll bar away.
         while item.childCount() > len(by_parameter):
             item.takeChild(item.childCount() - 1)
         while item.childCount() < len(by_parameter):

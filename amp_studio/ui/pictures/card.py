@@ -142,6 +142,7 @@ class PictureCard(QFrame):
         self.more_parts.setVisible(not few)
         if few:
             self.parts.offer(options)
+        # Filled again only when it is another list: an open one would close under the pointer.
         elif [self.more_parts.itemData(n) for n in range(self.more_parts.count())] != [
             key for key, _, _ in options
         ]:
@@ -172,6 +173,7 @@ class PictureCard(QFrame):
         self.speed.setVisible(self.picture.has_speed and not self.small)
         is_brief = self._is_brief
         self.notes.setWordWrap(not is_brief)
+        # What is wrong comes first: a card beside others shows one line.
         notes = sorted(self.canvas.scene.notes, key=lambda note: note.order)
         most = MAX_NOTES[is_brief]
         lines = []

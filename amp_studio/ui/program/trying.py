@@ -89,6 +89,7 @@ class ProgramTries:
             return
         tries = list(limit_tries(self._page.file, self._page.outcome))
         if tries:
+            # Not ticked: they show what each would save; the user chooses.
             self._compute(tries, is_ticked=False)
         else:
             self._page.say(tr("No parameter with a number limits this program."))
@@ -124,6 +125,7 @@ class ProgramTries:
     def _try_together(self) -> None:
         """Run the program with all ticked changes: they are computed together, not added."""
         job = self._page.job
+        # One change alone has been computed already.
         if job is None or len(self.panel.chosen()) < 2:
             return
         values = self.panel.values()

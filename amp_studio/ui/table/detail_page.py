@@ -91,6 +91,7 @@ class DetailPage(Translated):
         """
         file = (workspace or self._workspace).file
         parameter = file.schema.parameters[address[0]]
+        # The labels of the bits, and the number that the control's own screen shows.
         if parameter.bits and value is not None and isinstance(value.value, int) and not parameter.secret:
             return html.escape(f"{labels_of_word(parameter, value.value)} ({hex_text(value.value)})")
         text = (
@@ -141,6 +142,7 @@ class DetailPage(Translated):
 
     def findings(self, address: Address) -> list[Finding]:
         """Return what is wrong with an address."""
+        # That it is not set is what the value itself shows.
         return [f for f in self._workspace.findings_of(address) if f.rule != NOT_SET]
 
     def _notes(self, address: Address) -> str:
@@ -160,6 +162,7 @@ class DetailPage(Translated):
         file, lines = self._workspace.file, []
         for n, finding in enumerate(self.findings(address)):
             for setting in finding.fix:
+                # A fix may change several values: here only what it gives this one.
                 if setting.address == address:
                     use = f' <a href="{USE}{n}">{self.tr("Use")}</a>' if self._workspace.may_edit else ""
                     title = html.escape(
@@ -265,6 +268,7 @@ class DetailPage(Translated):
                 (self.tr("Last download, {time}").format(time=self.last_download[0]), self.last_download[1])
             )
         cells = [(name, self._compared(address, each, value)) for name, each in rows]
+        # Behind a link: it is read from a file beside, and compared only for who asks.
         if self.may_have_download and self.last_download is None:
             cells.append((self.tr("Last download"), f'<a href="{DOWNLOAD}">{self.tr("Show")}</a>'))
         found = ((html.escape(other.path.stem), self._in_other(other, address)) for other in self.others())
@@ -292,6 +296,7 @@ class DetailPage(Translated):
             return ""
         found = [
             (a, v)
+            # A few: a table of hundreds of points would fill the page.
             for a in other.file.machine_schema.instances(parameter)[:8]
             if (v := other.file.get((address[0], a)))
         ]
@@ -322,6 +327,7 @@ class DetailPage(Translated):
             f' text-decoration:none">{arrow} {self.tr("Facts")}</a>'
         )
         if not is_open:
+            # Folded, with the two facts that decide how a change is made.
             brief = ", ".join(worded(text) for name, text in found if name in ("Takes effect", "Access"))
             return title, f'<p style="color:{shade}">{html.escape(brief)}</p>'
         rows = "".join(

@@ -104,6 +104,7 @@ class WelcomeList(QListWidget):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Enter opens on every system; the rest is the list's own."""
+        # On macOS Enter edits an item and activates none.
         if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and self.currentItem() is not None:
             self.itemActivated.emit(self.currentItem())
             return
@@ -116,6 +117,7 @@ class WelcomeList(QListWidget):
         if item is None or event.button() != Qt.MouseButton.LeftButton:
             return
         row: WelcomeRow = item.data(ROW)
+        # A larger place than the star, which is hard to hit.
         star = star_place(inner(self.visualItemRect(item)), row).adjusted(-6, -10, 6, 10)
         is_star = row.star is not None and star.contains(event.position().toPoint())
         (self.star_clicked if is_star else self.itemActivated).emit(item)
@@ -140,6 +142,7 @@ class RowDelegate(QStyledItemDelegate):
 
     def _paint_background(self, painter: QPainter, option: QStyleOptionViewItem, place: QRect) -> None:
         state = option.state
+        # Only with the focus: each of the lists on the page has a current row.
         focused = bool(state & QStyle.StateFlag.State_Selected) and option.widget.hasFocus()
         if focused:
             painter.fillRect(place, colour("selbg"))
@@ -167,6 +170,7 @@ class RowDelegate(QStyledItemDelegate):
         painter.setFont(font("small"))
         painter.setPen(colour("dim"))
         if row.right:
+            # A column of times: what is left of them begins at the same place in each row.
             width = max(painter.fontMetrics().horizontalAdvance(row.right), 96 if row.star is not None else 0)
             painter.drawText(QRect(x - width, place.top(), width, place.height()), _RIGHT, row.right)
             x -= width + GAP3
@@ -174,6 +178,7 @@ class RowDelegate(QStyledItemDelegate):
             width = painter.fontMetrics().horizontalAdvance(row.status)
             painter.drawText(QRect(x - width, place.top(), width, place.height()), _RIGHT, row.status)
             x -= width + GAP3
+        # From the right edge inwards, so the last one painted is the first one read: errors.
         for severity in reversed(_SEVERITIES):
             if count := (row.counts or {}).get(severity, 0):
                 x = _count(painter, x, place, severity, count)

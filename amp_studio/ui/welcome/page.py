@@ -142,6 +142,7 @@ class WelcomePage(QWidget):
         scroll.setWidget(page)
         scroll.setWidgetResizable(True)
         scroll.setFrameShape(QFrame.Shape.NoFrame)
+        # No stop of Tab: everything in it is one itself.
         scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.setBackgroundRole(self.palette().ColorRole.Base)
         self.setAutoFillBackground(True)
@@ -152,6 +153,7 @@ class WelcomePage(QWidget):
         outer.addWidget(self.message)
         outer.addWidget(scroll, 1)
         control = self.controls
+        # By hand: else Tab goes by the order in which they were made, which is not that on the screen.
         order = [self.families, *self._beside_families, self.examples, self.filter, self.list]
         order += [control.connect_button, control.upload_button, control.list]
         for before, after in pairwise(order):
@@ -203,6 +205,7 @@ class WelcomePage(QWidget):
             view.customContextMenuRequested.connect(menu)
         for keys, act in (("Del", self._forget), ("Ctrl+B", self._pin)):
             short = QShortcut(QKeySequence(keys), self.list)
+            # In the list alone: in the filter Del deletes a letter.
             short.setContext(Qt.ShortcutContext.WidgetShortcut)
             short.activated.connect(lambda act=act: self._on_current(act))
 
@@ -219,6 +222,7 @@ class WelcomePage(QWidget):
         )
         self.list.clear()
         for path in recent:
+            # With an ellipsis in the second line: the row has its height before its file is read.
             item = self.list.add(
                 path, WelcomeRow(path.name, second="…", middle=folder_of(path), star=path in pinned)
             )
@@ -243,6 +247,7 @@ class WelcomePage(QWidget):
         if isinstance(found, str):
             self.list.show_row(item, replace(row, second=found, status=self.tr("cannot be read")))
             return
+        # The name in the file is shown only where it is not that of the file.
         name = found.name if found.name.casefold() != path.stem.casefold() else ""
         machine = [name, found.family_name, found.machine, " ".join(found.axes[:12])]
         status = "" if found.counts else self.tr("no findings")
@@ -291,12 +296,14 @@ class WelcomePage(QWidget):
     def hideEvent(self, event: QHideEvent) -> None:
         super().hideEvent(event)
         self._pause.stop()
+        # Nothing is read for a page that is hidden: the processor belongs to the file that was opened.
         self._summaries.want([])
 
     def _read(self) -> None:
         """Read in the background what is still to be known."""
         if not self.isVisible():
             return
+        # Families first: who has no files yet begins there, and the controls are listed by their names.
         if not self.families.count() and self._reading is None:
             self._reading = task = Task(lambda *_: (_all_families(), _worded_examples()))
             task.done.connect(self._show_facts)
@@ -388,6 +395,7 @@ class WelcomePage(QWidget):
         """Put both columns into one in a narrow window."""
         super().resizeEvent(event)
         narrow = self.width() < _NARROW
+        # From the bottom up, so that the right column, the recent files, is the upper one.
         wanted = QBoxLayout.Direction.BottomToTop if narrow else QBoxLayout.Direction.LeftToRight
         if self._columns.direction() != wanted:
             self._columns.setDirection(wanted)

@@ -229,7 +229,7 @@ def _message_json(page: MessagePage) -> dict[str, Any]:
 def _print(found: list[tuple[Hit, _Source]], named: bool) -> None:
     """Print the hits, the best first; one that is a message with its whole page."""
     best, source = found[0]
-    # An alarm is looked up at a machine that stands still: its whole page, not a line that leads to it.
+    # An alarm is looked up at a machine that has stopped: its whole page, not a line that leads to it.
     if best.kind == "message":
         print(_family_prefix(source, named) + best.title)
         print(*_page_lines(source.page(best), best), sep="\n")
