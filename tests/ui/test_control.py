@@ -50,7 +50,7 @@ def test_a_file_is_sent_read_back_and_read_again(
     assert count > 100
     assert not page.primary.isEnabled(), "what can be dangerous is not checked"
     page = sent(window, control.address, qtbot)
-    assert page.detail.text() == "", "no row is listed beside the proof"
+    assert page.row.detail.text() == "", "no row is listed beside the proof"
     (kept,) = window.workspace.path.parent.glob("mill.before-*.img")
     assert page.session.phase == "done"
     assert "complete and read back equal" in page.empty.text()
@@ -102,8 +102,8 @@ def test_a_value_of_the_control_is_kept_and_goes_back_unchanged(
     settled(window, qtbot)
     page = at_control(window, control.address, "send", qtbot)
     page.table.select(EXCESS)
-    assert page.keep.text() == "Keep 11 mm"
-    page.keep.click()
+    assert page.row.keep.text() == "Keep 11 mm"
+    page.row.keep.click()
     assert page.primary.text() == "Send 1 Value to the Control"
     page.checked.setChecked(True)
     page.press()
@@ -358,12 +358,18 @@ def test_one_value_is_written_now_where_the_control_takes_it_so(
     assert window.save()
     page = at_control(window, control.address, "send", qtbot)
     page.table.select(travel)
-    page.one.click()
+    page.row.one.click()
+    assert page.bar.text.text() == ("Write this value alone, now? $130 Maximum travel X: 200 mm → 301.5 mm.")
+    assert parameters.fetch_file(control.address).get(travel) == Value(200.0, "mm"), "it is asked first"
+    page.bar.buttons[0].click()
     settled(window, qtbot)
     content = parameters.fetch_file(control.address)
     assert content.get(travel) == Value(301.5, "mm")
     assert content.get(other) != Value(302.5, "mm")
     assert window.workspace.path.with_name("exchanges.jsonl").exists(), "it is recorded"
+    assert "Change complete and read back equal" in page.bar.text.text()
+    assert list(page.table.rows) == [other], "the rest is still to be sent"
+    assert page.primary.text() == "Send 1 Value to the Control"
 
 
 @pytest.fixture
@@ -604,7 +610,7 @@ def test_values_sent_from_another_page_are_sent_alone_and_what_to_mind_has_a_few
     assert page.primary.text() == "Send 1 Value to the Control"
     page.table.select(EXCESS)
     assert page.table.currentItem().text(REMARK) == "later stop when it fails"
-    assert "This limit guards against damage" in page.detail.text()
+    assert "This limit guards against damage" in page.row.detail.text()
     page.table.select(("servo.excess_error", "2"))
     page.table.take([("servo.excess_error", "2")], file=True)
     window.control.leave()

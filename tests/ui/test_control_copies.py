@@ -48,7 +48,7 @@ def test_nothing_of_a_control_can_be_kept_while_a_copy_goes_back_as_a_whole(
     user.chooses(kept)
     action(window, "Restore Control From Backup").trigger()
     row = page.table.rows[pitch]
-    assert (row.takes_file, row.is_fixed, page.keep.isHidden()) == (True, True, True)
+    assert (row.takes_file, row.is_fixed, page.row.keep.isHidden()) == (True, True, True)
     page.table.take([pitch], file=False)
     assert page.table.rows[pitch].takes_file
     assert "stay" not in page.counts.text()

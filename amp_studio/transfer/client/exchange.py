@@ -80,6 +80,7 @@ class Outcome:
     ``restart``     "not needed"; "done" (the image is current); "needed" (by hand); "missed" (not come back)
     ``sha256``      of the image, in hexadecimal
     ``text``        all of it in one sentence or two
+    ``content``     what was read back; empty where it was not
     """
 
     at_control: AtControl
@@ -89,6 +90,7 @@ class Outcome:
     restart: RestartState
     sha256: str
     text: str
+    content: bytes = b""
 
 
 def upload(driver: ControlDriver, exchange: Exchange = QUIET) -> bytes:
@@ -143,7 +145,7 @@ def download(
     old = _replaceable(driver, control, wanted, exchange)
     content = wanted.of(old)
     if content == old:
-        return _nothing_to_do(control, hashlib.sha256(content).hexdigest())
+        return _nothing_to_do(control, content)
     if control.notice:
         exchange.notify(control.notice)
     # From here on the old content may be lost: not a byte goes out before its copy is on the disk.
@@ -214,12 +216,13 @@ def _check_stop(control: ControlIdentity, wanted: WantedContent) -> None:
         raise NotInEmergencyStopError("please place the control in E-stop to download")
 
 
-def _nothing_to_do(control: ControlIdentity, digest: str) -> Outcome:
+def _nothing_to_do(control: ControlIdentity, content: bytes) -> Outcome:
     waiting = control.restart_needed
     text = "The control contains exactly this image already; nothing was written."
     if waiting:
         text += " Restart the control to make it current."
-    return Outcome("new", True, False, None, "needed" if waiting else "not needed", digest, text)
+    restart: RestartState = "needed" if waiting else "not needed"
+    return Outcome("new", True, False, None, restart, hashlib.sha256(content).hexdigest(), text, content)
 
 
 def _keep(keep: Keep, old: bytes) -> str:
@@ -264,7 +267,7 @@ class _Proof:
             if not self.driver.wait_restarted(self.receipt, restart_wait, exchange):
                 text = f"{self.what} complete, but the control has not come back from its restart "
                 text += f"within {restart_wait:g} s."
-                return self._ended("new", "missed", text + self._before(), is_verified=False)
+                return self._ended("new", "missed", text + self._before())
             restart = "done"
         fetched = self.driver.fetch(exchange, "verify")
         if where := self.driver.difference(self.content, fetched):
@@ -272,7 +275,7 @@ class _Proof:
         partly = self.driver.read_back if isinstance(self.driver, ReadsBackPartly) else ""
         proof = f"complete: {partly}" if partly else "complete and read back equal"
         text = f"{self.what} {proof}{_RESTART_TEXT[restart]}"
-        return self._ended("new", restart, text + self._before())
+        return self._ended("new", restart, text + self._before(), fetched, is_verified=True)
 
     def _differs(self, where: str, fetched: bytes, restart: RestartState) -> Outcome:
         is_whole = self.driver.abilities.all_or_nothing
@@ -280,11 +283,11 @@ class _Proof:
         # contradiction.
         if fetched == self.old and not is_whole:
             text = f"The control has taken nothing of it: {AT_CONTROL_TEXT['old']}."
-            return self._ended("old", restart, text, is_verified=False)
+            return self._ended("old", restart, text, fetched)
         rest = AT_CONTROL_TEXT["unknown"] if is_whole else "the rest is as it was sent"
         text = f"The control took the image, but what it contains differs {where}; {rest}."
         state: AtControl = "unknown" if is_whole else "mixed"
-        return self._ended(state, restart, text + self._before(), is_verified=False)
+        return self._ended(state, restart, text + self._before(), fetched)
 
     def _before(self) -> str:
         """Return what the user has to know, and where the old content is."""
@@ -292,7 +295,13 @@ class _Proof:
         return "".join(f" {text}" for text in (*self.receipt.notes, before))
 
     def _ended(
-        self, state: AtControl, restart: RestartState, text: str, *, is_verified: bool = True
+        self,
+        state: AtControl,
+        restart: RestartState,
+        text: str,
+        fetched: bytes = b"",
+        *,
+        is_verified: bool = False,
     ) -> Outcome:
         digest = hashlib.sha256(self.content).hexdigest()
-        return Outcome(state, is_verified, True, self.kept, restart, digest, text)
+        return Outcome(state, is_verified, True, self.kept, restart, digest, text, fetched)

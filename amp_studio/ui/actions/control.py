@@ -270,8 +270,12 @@ class ControlDesk(Translated):
         if session is None:
             session = self._sessions[key] = ControlSession(address, family, self.window)
             session.ended.connect(partial(self._ended_exchange, session))
+            session.progressed.connect(self._show_percent)
         self._workspace_of[session] = workspace
         return session
+
+    def _show_percent(self) -> None:
+        self.show_state(self.window.menus["control.page"])
 
     def _ended_exchange(self, session: ControlSession, verb: ControlVerb, reached: bool) -> None:
         """Remember how an exchange ended, and the values of the control beside those of the file."""
@@ -280,12 +284,11 @@ class ControlDesk(Translated):
         has_answered = reached or session.is_refused
         self.exchanges.remember_contact(session.address, verb, reached=has_answered, family=family, name=name)
         workspace = self._workspace_of[session]
-        if workspace is None or not is_alive(workspace) or not reached:
+        if workspace is None or not is_alive(workspace):
             return
-        # After a verified download the control contains this file: it need not be read again to be compared.
-        if verb == "download" and session.outcome is not None and session.outcome.verified:
-            self.exchanges.remember(workspace, workspace.file.copy())
-        elif (present := session.present(workspace.file)) is not None:
+        if session.is_seen_old:  # it broke off: what it contains now was not read
+            workspace.forget_control()
+        elif reached and (present := session.present(workspace.file)) is not None:
             self.exchanges.remember(workspace, present)
         if session.notes:
             self.window.show_status("; ".join(session.notes))
@@ -424,7 +427,7 @@ def state_in_words(session: ControlSession | None) -> tuple[str, bool]:
     """Return the state of a control in words, and whether it needs something."""
     if session is None:
         return tr("not connected"), False
-    if session.needs_password and session.seen is None:
+    if session.lacks_password:
         return tr("needs a password"), True
     if session.phase == "ready" and session.in_estop is False:
         return tr("not in E-stop"), True
@@ -432,9 +435,9 @@ def state_in_words(session: ControlSession | None) -> tuple[str, bool]:
         "away": _away(session),
         "connecting": tr("connecting"),
         "ready": tr("ready"),
-        "running": tr("sending"),
+        "running": f"{session.percent} %" if session.percent else tr("sending"),
         "done": tr("ready"),
-        "failed": tr("did not reach its end"),
+        "failed": tr("broke off"),
     }
     return words[session.phase], session.phase == "failed" or (
         session.phase == "away" and bool(session.error)

@@ -396,3 +396,8 @@ class Workspace(QObject):
         """Store the values of the control, to be shown beside the values of the file."""
         self.control = (dict(values), when)
         self.changed.emit([])
+
+    def forget_control(self) -> None:
+        """Show no values of the control any more: what it contains is not known."""
+        self.control = None
+        self.changed.emit([])

@@ -34,7 +34,7 @@ def conditions_of(session: ControlSession | None, file: ParameterFile) -> list[C
     ):  # what was asked before the line was lost is no longer known
         state = None if session is None or not session.error else False
         waits = [tr("Same machine"), tr("E-stop"), tr("Password")]
-        if session is not None and session.needs_password:
+        if session is not None and session.lacks_password:
             return [
                 ControlCondition(tr("Connected"), None),
                 *(ControlCondition(text, None) for text in waits[:2]),

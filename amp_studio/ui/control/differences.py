@@ -12,7 +12,7 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QFontMetrics, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QTreeWidget, QTreeWidgetItem
 
-from amp_studio.files import Difference, ParameterFile, describe, shown_axes
+from amp_studio.files import Difference, ParameterFile, shown_axes
 from amp_studio.report import Danger, dangers_of_change, takes_effect
 from amp_studio.schema import Address
 from amp_studio.ui.base.figures import show_value
@@ -268,13 +268,12 @@ class DifferenceTable(QTreeWidget):
         if row is None or self._file is None:
             return ""
         address, schema = row.difference.address, self._file.schema
-        name = " ".join(filter(None, (describe(self._file, address), short_place(self._file, address))))
         dangers = row.dangers if with_dangers else ()
         effect = takes_effect(schema, schema.parameters[address[0]])
         lines = [f"{each.says} ({self.tr('page {page}').format(page=each.page)})" for each in dangers]
         if not dangers:
             lines = [self.tr("Takes effect: {when}.").format(when=worded(effect))]
-        return f"<b>{html.escape(name)}</b><br>{html.escape(' '.join(lines))}"
+        return f"<b>{html.escape(self.name_of(row))}</b><br>{html.escape(' '.join(lines))}"
 
     def take(self, addresses: Iterable[Address], *, file: bool) -> None:
         """Take one side for some rows."""
@@ -341,16 +340,19 @@ class DifferenceTable(QTreeWidget):
         """Return the rows that take the file's side, or those that take the control's."""
         return [row for row in self.rows.values() if row.takes_file is file]
 
-    def changes_in_words(self) -> list[str]:
-        """Return a line for each value that the control gets: what it was there, what it is then."""
-        lines: list[str] = []
-        if self._file is None:
-            return lines
-        for row in self.rows_taking(file=True):
-            address, difference = row.difference.address, row.difference
-            old, new = (self.text_of(address, value) for value in (difference.b, difference.a))
-            lines.append(f"{describe(self._file, address)}: {old} → {new}")
-        return lines
+    def change_in_words(self, row: SideRow) -> str:
+        """Return what a value is at the control, and what it is then."""
+        assert self._file is not None
+        address, difference = row.difference.address, row.difference
+        old, new = (self.text_of(address, value) for value in (difference.b, difference.a))
+        return f"{self.name_of(row)}: {old} → {new}"
+
+    def name_of(self, row: SideRow) -> str:
+        """Return the number and the name of a value, and its axis."""
+        assert self._file is not None
+        address, schema = row.difference.address, self._file.machine_schema
+        name = schema.parameters[address[0]].name
+        return " ".join(filter(None, (schema.number(address), name, short_place(self._file, address))))
 
     def kept(self) -> list[SideRow]:
         """Return the rows whose value of the control stays, or goes into the file when it is read;

@@ -14,15 +14,16 @@ from amp_studio.ui.forms.message_bar import MessageKind
 
 from .conditions import conditions_of
 from .session import ControlSession
-from .session_words import ControlBackup, doubts_of, error_in_words, text_of_failure
+from .session_words import ControlBackup, doubts_of, error_in_words, text_of_failure, text_of_one
 
 if TYPE_CHECKING:
     from amp_studio.transfer import ControlIdentity
 
 ExchangeDirection = Literal["compare", "send", "read", "hand"]
 """What is done with the control; "hand" is the sheet of values that a person keys in at it."""
-BarAnswer = Literal["ask", "accept errors"]
-"""What a button of the message does: asks the control for its state, sends the file with its errors."""
+BarAnswer = Literal["ask", "accept errors", "write one"]
+"""What a button of the message does: asks the control for its state, sends the file with its errors, writes
+one value."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +68,8 @@ class PageState:
     is_checked: bool
     """Whether the user has confirmed that he checked those."""
     accepted_errors: bool
+    asks_one: str = ""
+    """What is to be known of a value that is to be written alone; empty while none is."""
 
 
 # -- the one button --------------------------------------------------------------------
@@ -78,10 +81,10 @@ def primary_button(state: PageState) -> PrimaryButton:
     if session is None or session.is_busy:
         return PrimaryButton()
     # With a password missing the field above tries again: the same without one would only fail once more.
-    if session.phase == "away" and session.error and not session.needs_password:
+    if session.phase == "away" and session.error and not session.lacks_password:
         return PrimaryButton(tr("Try Again"))
     if session.phase in ("away", "failed"):
-        return PrimaryButton(tr("Connect and Read"))
+        return PrimaryButton("" if session.lacks_password else tr("Connect and Read"))
     if session.phase == "done":
         return PrimaryButton(tr("Back to the Values"))
     if state.direction == "read":
@@ -122,7 +125,15 @@ def _differs_elsewhere(state: PageState, session: ControlSession) -> bool:
 
 
 def _why_not_sent(state: PageState, session: ControlSession) -> str:
-    """Return what is missing before something is sent, in the order of the conditions."""
+    """Return what is missing before all is sent."""
+    why = why_not_written(state, session)
+    if not why and state.has_dangers and not state.is_checked:
+        return tr("Waiting: what can be dangerous is not checked")
+    return why
+
+
+def why_not_written(state: PageState, session: ControlSession) -> str:
+    """Return what is missing before anything is written, in the order of the conditions."""
     workspace = state.workspace
     if state.file is not None:
         # What is not known (None) does not keep from sending: the driver asks it again before it writes.
@@ -133,8 +144,6 @@ def _why_not_sent(state: PageState, session: ControlSession) -> str:
     is_of_file = state.backup is None and workspace is not None
     if is_of_file and not state.accepted_errors and workspace.count("error"):
         return tr("Waiting: the file has errors")
-    if state.has_dangers and not state.is_checked:
-        return tr("Waiting: what can be dangerous is not checked")
     return ""
 
 
@@ -146,7 +155,7 @@ def bar_message(state: PageState) -> BarMessage | None:
     session = state.session
     if session is None or session.is_busy:
         return None
-    if session.phase == "away" and session.needs_password:
+    if session.lacks_password:
         return BarMessage(_about_password(session), "warning")
     if session.phase == "away" and session.error:
         return BarMessage(error_in_words(session), "warning")
@@ -160,6 +169,8 @@ def bar_message(state: PageState) -> BarMessage | None:
     if session.in_estop is False:
         text = tr("Press E-stop at the machine. While an axis can move, the control takes no parameters.")
         return BarMessage(text, "warning", ((tr("Ask Now"), "ask"),))
+    if state.asks_one:
+        return BarMessage(state.asks_one, "warning", ((tr("Write It Now"), "write one"),))
     return _message_of_content(state, session.seen.control)
 
 
@@ -173,6 +184,8 @@ def _message_of_content(state: PageState, control: ControlIdentity) -> BarMessag
         found = _message_of_file(workspace, state.accepted_errors) if workspace is not None else None
     if found is None and control.notice:
         return BarMessage(message_in_words(control.notice), "warning")
+    if found is None and state.session is not None and (text := text_of_one(state.session)):
+        return BarMessage(text, "advice")
     return found
 
 

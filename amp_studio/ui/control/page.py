@@ -11,17 +11,16 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QKeySequence, QShortcut
 
-from amp_studio.files import ParameterFile, describe
+from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value
 from amp_studio.ui.base.theme import scheme
 from amp_studio.ui.base.translated import message_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 
 from .conditions import conditions_of
-from .differences import SideRow
 from .next_step import BarAnswer, ExchangeDirection, PageState, bar_message, primary_button
 from .page_parts import ControlPageParts
-from .session import ControlSession
+from .session import ControlSession, SentChanges
 from .session_words import ControlBackup, text_of_cancel, text_of_content, text_of_proof
 
 if TYPE_CHECKING:
@@ -74,10 +73,9 @@ class ControlPage(ControlPageParts):
         self.password.returnPressed.connect(self._enter_password)
         self.filter.textChanged.connect(self.table.show_only)
         self.table.sides_changed.connect(self.refresh)
-        self.table.currentItemChanged.connect(lambda *_: self._show_detail())
+        self.table.currentItemChanged.connect(lambda *_: self._show_row())
         self.steps.chosen.connect(self.table.select)
-        self.keep.clicked.connect(self._keep_current)
-        self.one.clicked.connect(self._write_one)
+        self.row.asked.connect(self.refresh)
         self.checked.toggled.connect(self.refresh)
         self.cancel.clicked.connect(self._cancel)
         self.proof.clicked.connect(self._save_proof)
@@ -161,12 +159,13 @@ class ControlPage(ControlPageParts):
         if self.session is not None:
             # The one before may still be at work: its end must not be shown as that of the new one.
             self.session.changed.disconnect(self._follow)
-            self.session.progressed.disconnect(self.show_progress)
+            self.session.progressed.disconnect(self._follow_progress)
         self.session, self.name = session, name
         session.changed.connect(self._follow)
-        session.progressed.connect(self.show_progress)
+        session.progressed.connect(self._follow_progress)
         if session.phase == "away" and not session.is_busy:
             session.read()
+        session.go_on()  # what was proven there was read before the page was left
         self._fill()
 
     def show_backup(self, backup: ControlBackup) -> None:
@@ -209,6 +208,7 @@ class ControlPage(ControlPageParts):
             has_dangers=self.direction == "send" and bool(self.table.dangers()),
             is_checked=self.checked.isChecked(),
             accepted_errors=self._accepted_errors,
+            asks_one=self.row.question,
         )
 
     @property
@@ -228,7 +228,7 @@ class ControlPage(ControlPageParts):
         self._needs_sheet = False
         if session.phase == "ready":
             self.hand.control_requested.emit()
-        elif session.needs_password:
+        elif session.lacks_password:
             self.turn("compare")  # which has the field for it
         else:
             again = (self.tr("Try Again"), self.read_for_sheet)
@@ -251,6 +251,10 @@ class ControlPage(ControlPageParts):
         needs = session.phase == "ready" and session.in_estop is False and self.direction == "send"
         self._asking.start() if needs and self.isVisible() else self._asking.stop()
         self.state_changed.emit()
+
+    def _follow_progress(self, stage: str, done: int, total: int) -> None:
+        self.show_progress(stage, done, total)
+        self.cancel.setText(text_of_cancel(self.session))  # what it leaves is another thing after the commit
 
     def _ask_again(self) -> None:
         if self.session is not None:
@@ -300,10 +304,12 @@ class ControlPage(ControlPageParts):
         self._show_middle(message_in_words(found.summary()) if found else "")
         state = self._state()
         self._show_bar(state)
-        self._show_detail()
+        self._show_row()
         self._show_hint(state)
         dangers = self.table.dangers() if self.direction == "send" else ()
-        self.steps.show_plan(self.direction, session, state.to_send, dangers)
+        is_begun = session is not None and session.phase in ("running", "done", "failed")
+        count = len(session.sent.lines) if session is not None and is_begun else state.to_send
+        self.steps.show_plan(self.direction, session, count, dangers)
 
     def _show_counts(self, same: int, is_read: bool) -> None:
         differ = len(self.table.rows)
@@ -320,7 +326,7 @@ class ControlPage(ControlPageParts):
     def _show_middle(self, summary: str) -> None:
         session = self.session
         if session is not None and session.phase == "done":
-            self.show_text(text_of_proof(session, self.name, self._kept_names()), is_proof=True)
+            self.show_text(text_of_proof(session, self.name), is_proof=True)
             return
         if self.table.rows and session is not None and session.seen is not None:
             self.middle.setCurrentWidget(self.table)
@@ -333,16 +339,9 @@ class ControlPage(ControlPageParts):
             text += "\n\n" + self.tr("{only}: “By Hand” makes the sheet for that.").format(only=words)
         self.show_text(text.strip())
 
-    def _kept_names(self) -> list[str]:
-        """Return the values that the control keeps, by name."""
-        workspace = self.workspace
-        if workspace is None:
-            return []
-        return [describe(workspace.file, row.difference.address) for row in self.table.kept()]
-
     def _show_bar(self, state: PageState) -> None:
         session = self.session
-        is_needed = session is not None and session.needs_password and session.seen is None
+        is_needed = session is not None and session.lacks_password
         self.ask_password(needed=is_needed, is_busy=session is not None and session.is_busy)
         message = bar_message(state)
         if message is None:
@@ -352,6 +351,7 @@ class ControlPage(ControlPageParts):
             acts: dict[BarAnswer, Callable[[], object]] = {
                 "ask": self._ask_again,
                 "accept errors": self._accept_errors,
+                "write one": self._write_one,
             }
             answers = ((text, acts[answer]) for text, answer in message.answers)
             self.bar.say(message.text, message.kind, *answers)
@@ -360,29 +360,13 @@ class ControlPage(ControlPageParts):
         self._accepted_errors = True
         self.refresh()
 
-    def _show_detail(self) -> None:
-        """Show what the current row is about, and what can be done with it alone."""
-        row, session = self.table.current(), self.session
-        is_sending = self.direction == "send"
-        is_listed = self.middle.currentWidget() is self.table  # else no row is seen
-        self.detail.setText(self.table.current_in_words(with_dangers=is_sending) if is_listed else "")
-        is_ready = session is not None and session.phase == "ready"
-        self._show_row_buttons(row if is_sending and is_ready else None)
-        count = len(self.table.dangers()) if is_sending else 0
-        self.checked.setVisible(count > 0 and is_ready)
+    def _show_row(self) -> None:
+        """Show what the current row is about, and whether all that can be dangerous is checked."""
+        state, session = self._state(), self.session
+        self.row.show_state(state, is_listed=self.middle.currentWidget() is self.table)
+        count = len(self.table.dangers()) if state.direction == "send" else 0
+        self.checked.setVisible(count > 0 and session is not None and session.phase == "ready")
         self.checked.setText(self.tr("I have checked what can be dangerous: %n", "", count))
-
-    def _show_row_buttons(self, row: SideRow | None) -> None:
-        """Show what a value that would be sent offers: to keep the control's, to write this one alone."""
-        session = self.session
-        would_send = row is not None and session is not None and not session.is_busy and row.takes_file
-        can_keep = row is not None and would_send and not row.is_fixed
-        self.keep.setVisible(can_keep)
-        if row is not None and can_keep and self.file is not None:
-            value = self.table.text_of(row.difference.address, row.difference.b)
-            self.keep.setText(self.tr("Keep {value}").format(value=value))
-        seen = session.seen if session is not None else None
-        self.one.setVisible(would_send and self.backup is None and seen is not None and seen.takes_one)
 
     def _show_hint(self, state: PageState) -> None:
         session = self.session
@@ -428,8 +412,10 @@ class ControlPage(ControlPageParts):
     def _send(self) -> None:
         session, workspace = self.session, self.workspace
         assert session is not None
+        lines = map(self.table.change_in_words, self.table.rows_taking(file=True))
+        sent = SentChanges(tuple(lines), tuple(map(self.table.name_of, self.table.kept())))
         if self.backup is not None:
-            session.restore(self.backup.copy, self.backup.path)
+            session.restore(self.backup.copy, self.backup.path, sent)
             return
         assert workspace is not None
         if workspace.is_dirty and workspace.may_edit and not self._save():
@@ -440,12 +426,14 @@ class ControlPage(ControlPageParts):
         if kept:
             # Forced: what the control contains may lie outside the limits of the schema, and stays.
             file.set_checked(kept, force=self.tr("kept at the control"))
-        session.send(file, workspace.path)
+        session.send(file, workspace.path, sent)
 
     def _write_one(self) -> None:
         row, session, workspace = self.table.current(), self.session, self.workspace
+        self.row.ask(wanted=False)
         if row is not None and session is not None and workspace is not None:
-            session.write_one(row.difference.address, workspace.file.copy(), workspace.path)
+            line = self.table.change_in_words(row)
+            session.write_one(row.difference.address, workspace.file.copy(), workspace.path, line)
 
     def _accept_values(self) -> None:
         workspace, session = self.workspace, self.session
@@ -465,12 +453,8 @@ class ControlPage(ControlPageParts):
         session, workspace = self.session, self.workspace
         if session is None or session.outcome is None or workspace is None:
             return
-        lines = [text_of_proof(session, self.name, self._kept_names()), "", *self.table.changes_in_words()]
+        lines = [text_of_proof(session, self.name), "", *session.sent.lines]
         self.write_proof(workspace.path.with_name(f"{workspace.path.stem}-proof.txt"), lines)
-
-    def _keep_current(self) -> None:
-        if (row := self.table.current()) is not None:
-            self.table.take([row.difference.address], file=False)
 
     def _cancel(self) -> None:
         if self.session is not None:
@@ -484,6 +468,8 @@ class ControlPage(ControlPageParts):
             self.several.stop_all()
         elif self.session is not None and self.session.phase == "running":
             self._cancel()
+        elif self.row.question:
+            self.row.ask(wanted=False)
         else:
             self.left.emit()
 

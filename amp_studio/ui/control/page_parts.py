@@ -33,6 +33,7 @@ from amp_studio.ui.forms.message_bar import MessageBar
 from amp_studio.ui.forms.segment import Segment
 
 from .conditions import ConditionLine
+from .current_row import CurrentRow
 from .differences import DifferenceTable
 from .hand_sheet import HandSheet
 from .heading import ControlHeading
@@ -94,15 +95,8 @@ class ControlPageParts(QWidget):
         self.steps_line.setContentsMargins(GAP3, 0, GAP3, 0)
         self.steps_line.hide()
         self.steps.line_changed.connect(self.steps_line.setText)
-        self.detail = QLabel()
-        self.detail.setWordWrap(True)
-        self.detail.setTextFormat(Qt.TextFormat.RichText)
-        self.detail.setAlignment(Qt.AlignmentFlag.AlignTop)
-        self.detail.setFixedHeight(84)  # four lines and the name: a long danger in a small window
-        self.detail.setContentsMargins(GAP3, GAP2, GAP3, 0)
-        self.keep = QPushButton()
-        self.one = QPushButton(tr("Write This One Now"))
         self.checked = QCheckBox()
+        self.row = CurrentRow(self.table, self.checked)
         self.hint = ElidedLabel()
         self.progress = QProgressBar()
         self.progress.setMaximumWidth(200)
@@ -111,7 +105,7 @@ class ControlPageParts(QWidget):
         self.again = QPushButton(tr("Read Again"))
         self.primary = QPushButton()
         self.primary.setProperty("primary", True)
-        for button in (self.keep, self.one, self.cancel, self.proof, self.again, self.primary):
+        for button in (self.cancel, self.proof, self.again, self.primary):
             button.setAutoDefault(False)
         self._lay_out()
 
@@ -130,8 +124,7 @@ class ControlPageParts(QWidget):
             self.password,
             side_by_side(HEAD, self.counts, None, self.filter),
             parts,
-            self.detail,
-            side_by_side(0, self.keep, self.one, None, self.checked),
+            self.row,
             self.steps_line,
             side_by_side(
                 FOOT, self.hint, None, self.progress, self.cancel, self.proof, self.again, self.primary

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 BackupReturn = Literal["whole", "its values"]
 """What a backup replaces: all that the control contains, or the values that are in it alone."""
+SILENT = ("silent", "cut")
+"""Stages in which an exchange waits: the one that was under way still is."""
 SessionPhase = Literal["away", "connecting", "ready", "running", "done", "failed"]
 """Not connected; being read; read; something is sent; it was sent and read back; it did not reach its end."""
 
@@ -44,6 +46,18 @@ class ReadControl:
     file: ParameterFile | None
     why_unreadable: str
     when: datetime = field(default_factory=lambda: datetime.now(UTC).astimezone())
+
+
+@dataclass(frozen=True, slots=True)
+class SentChanges:
+    """What an exchange puts into a control, in words, as it was when it began: a line for each value, and the
+    names of those that the control keeps.
+    """
+
+    lines: tuple[str, ...] = ()
+    kept: tuple[str, ...] = ()
+    is_one: bool = False
+    """Whether it is a value alone, which leaves the others as they were."""
 
 
 class ControlSession(QObject):
@@ -69,6 +83,9 @@ class ControlSession(QObject):
         self.failure: TransferError | None = None
         """Why the last download or restore did not reach its end."""
         self.outcome: Outcome | None = None
+        self.sent = SentChanges()
+        self.replaced = b""
+        """What the control contained before the last exchange."""
         self.backup_name = ""
         """The backup that was put back last; empty where a file or a value was sent."""
         self.has_answered = self.is_refused = False
@@ -77,6 +94,8 @@ class ControlSession(QObject):
         self.has_password = False
         """Whether one was entered for it here."""
         self.notes: list[str] = []
+        self.stage, self.percent = "", 0
+        """What an exchange is doing, and how much of that is done."""
         self._task: Task | None = None
         self._compared: tuple[object, ImageComparison] | None = None
         """The last comparison, after all that it was made of."""
@@ -86,12 +105,23 @@ class ControlSession(QObject):
         """Whether an exchange is under way."""
         return self._task is not None
 
+    @property
+    def lacks_password(self) -> bool:
+        """Whether it is not reached because it asks for a password."""
+        return self.needs_password and self.phase in ("away", "connecting")
+
     # -- reading -----------------------------------------------------------------
 
     def read(self) -> None:
         """Connect and read all that the control contains."""
         self.error, self.failure, self.outcome, self.is_refused = "", None, None, False
         self._begin("connecting", self._read_control, self._take_seen, self._not_reached)
+
+    def go_on(self) -> None:
+        """Be ready for the next exchange after one that was read back."""
+        if self.phase == "done":
+            self.phase, self.outcome = "ready", None
+            self.ask()
 
     def ask(self) -> None:
         """Ask the control for its state again; nothing is read or changed."""
@@ -120,22 +150,26 @@ class ControlSession(QObject):
         return open_driver_at(self.address, self.family, exchange)
 
     def _read_control(self, exchange: Exchange) -> ReadControl:
-        from amp_studio.transfer import ImageError, TakesLiveValues, decode_content
+        from amp_studio.transfer import TakesLiveValues
         from amp_studio.transfer.client import look_at
 
         with closing(self._driver(exchange)) as driver:
             control, content, _ = look_at(driver, exchange)
-            file, why = None, ""
-            try:
-                file = decode_content(content) if content else None
-            except ImageError as error:
-                why = str(error)
             takes_one = isinstance(driver, TakesLiveValues)
-            return ReadControl(control, driver.abilities, takes_one, content, file, why)
+            return ReadControl(control, driver.abilities, takes_one, content, *_decoded(content))
 
     def _identify(self, exchange: Exchange) -> ControlIdentity:
         with closing(self._driver(exchange)) as driver:
             return driver.identify(exchange)
+
+    def _take_content(self, content: bytes) -> None:
+        """Take it that the control contains what was read back."""
+        file, why = _decoded(content)
+        if self.seen is not None:
+            self.seen = replace(
+                self.seen, content=content, file=file, why_unreadable=why, when=datetime.now(UTC).astimezone()
+            )
+            self.is_seen_old = False
 
     def _take_seen(self, seen: ReadControl) -> None:
         self.seen, self.phase, self.is_seen_old = seen, "ready", False
@@ -185,10 +219,10 @@ class ControlSession(QObject):
         return by_schema(present, file.schema)
 
     def comparison(self, file: ParameterFile) -> ImageComparison | None:
-        """Return the file compared with what the control contains; None before it was read."""
+        """Return the file compared with what the control contains; None if that is not known."""
         from amp_studio.transfer.client import verify_content
 
-        if self.seen is None:
+        if self.seen is None or (self.is_seen_old and self.phase == "failed"):
             return None
         state = self.seen.content, _content_of(file)
         # A page asks for it at every change, and a comparison of a whole file lasts.
@@ -198,7 +232,7 @@ class ControlSession(QObject):
 
     # -- writing -----------------------------------------------------------------
 
-    def send(self, file: ParameterFile, path: Path) -> None:
+    def send(self, file: ParameterFile, path: Path, sent: SentChanges) -> None:
         """Put a file into the control; only what was read before may be replaced,
         and it is kept beside ``path``.
         """
@@ -212,7 +246,7 @@ class ControlSession(QObject):
             expected = sha256(seen.content)
             return download_file(file, self.address, exchange, expected=expected, known=seen.content)
 
-        self._write("download", work, path)
+        self._write("download", work, path, sent)
 
     def backup_return(self) -> BackupReturn | None:
         """Return what a backup would replace; None before the control was read."""
@@ -220,7 +254,7 @@ class ControlSession(QObject):
             return None
         return "whole" if self.seen.abilities.all_or_nothing else "its values"
 
-    def restore(self, copy: Copy, path: Path) -> None:
+    def restore(self, copy: Copy, path: Path, sent: SentChanges) -> None:
         """Put back what a control contained, byte for byte."""
         seen = self.seen
         assert seen is not None
@@ -230,54 +264,52 @@ class ControlSession(QObject):
 
             return restore_copy(copy, self.address, exchange, expected=sha256(seen.content))
 
-        self._write("restore", work, path, backup_name=path.name)
+        self._write("restore", work, path, sent, backup_name=path.name)
 
-    def write_one(self, address: Address, file: ParameterFile, path: Path) -> None:
+    def write_one(self, address: Address, file: ParameterFile, path: Path, line: str = "") -> None:
         """Write one value of a file into the control now; it is read back and recorded."""
-        found: list[tuple[bytes, ParameterFile | None]] = []
 
         def work(exchange: Exchange) -> Outcome:
             from amp_studio.transfer.client import LiveTuning
 
             with closing(LiveTuning(self._driver(exchange), path, address=self.address, record=path)) as live:
                 live.look(exchange)
-                outcome = live.set({address: file.get(address)}, exchange)
-                found.append((live.content, live.file))
-                return outcome
-
-        def take() -> None:
-            if self.seen is not None:  # all that it contains was read back
-                (content, present), now = found[0], datetime.now(UTC).astimezone()
-                self.seen = replace(self.seen, content=content, file=present, when=now)
-                self.is_seen_old = False
+                return live.set({address: file.get(address)}, exchange)
 
         # Not as a download: the control does not contain the file now.
-        self._write("verify", work, path, first=take, then=lambda: self.value_written.emit(address))
+        sent = SentChanges((line,), is_one=True)
+        self._write("verify", work, path, sent, then=lambda: self.value_written.emit(address))
 
     def _write(
         self,
         verb: str,
         work: Callable[[Exchange], Outcome],
         path: Path,
-        first: Callable[[], None] = lambda: None,
+        sent: SentChanges,
         then: Callable[[], None] = lambda: None,
         backup_name: str = "",
     ) -> None:
         self.outcome, self.failure, self.error, self.notes = None, None, "", []
-        self.backup_name = backup_name
+        self.backup_name, self.sent = backup_name, sent
+        self.replaced = self.seen.content if self.seen is not None else b""
         self.is_seen_old = True
 
         def done(outcome: Outcome) -> None:
-            self.outcome, self.phase = outcome, "done" if outcome.verified else "failed"
-            first()
+            self.outcome, self.phase = outcome, "failed"
+            if outcome.verified:
+                # The rest of the file is still to be sent after one value.
+                self.phase = "ready" if sent.is_one else "done"
+                self._take_content(outcome.content)
             self.ended.emit(verb, True)
             then()
 
         def failed(error: Exception) -> None:
-            from amp_studio.transfer import TransferError
+            from amp_studio.transfer import ImageChangedError, TransferError
 
             self.failure = error if isinstance(error, TransferError) else None
             self.error, self.phase = str(error), "failed"
+            is_untouched = self.failure is None or self.failure.at_control in ("old", "")
+            self.is_seen_old = not is_untouched or isinstance(error, ImageChangedError)
             self.ended.emit(verb, False)
 
         self._begin("running", work, done, failed, path)
@@ -299,7 +331,7 @@ class ControlSession(QObject):
     ) -> None:
         if self._task is not None:
             return
-        self.phase = phase
+        self.phase, self.stage, self.percent = phase, "", 0
 
         def run(progress: TaskProgress, cancel: threading.Event) -> Any:
             from amp_studio.transfer import Exchange
@@ -312,16 +344,31 @@ class ControlSession(QObject):
         results: list[Callable[[], None]] = []
         task.done.connect(lambda result: results.append(lambda: done(result)))
         task.failed.connect(lambda error: results.append(lambda: failed(error)))
-        task.progressed.connect(self.progressed)
+        task.progressed.connect(self._follow_stage)
         task.finished.connect(lambda: self._finish(results))
         task.begin()
         self.changed.emit()
+
+    def _follow_stage(self, stage: str, done: int, total: int) -> None:
+        if stage not in SILENT:
+            self.stage, self.percent = stage, 100 * done // total if total > 0 else 0
+        self.progressed.emit(stage, done, total)
 
     def _finish(self, results: Iterable[Callable[[], None]]) -> None:
         self._task = None
         for take in results:
             take()
         self.changed.emit()
+
+
+def _decoded(content: bytes) -> tuple[ParameterFile | None, str]:
+    """Return what a control contains as a file, or why it cannot be read."""
+    from amp_studio.transfer import ImageError, decode_content
+
+    try:
+        return decode_content(content) if content else None, ""
+    except ImageError as error:
+        return None, str(error)
 
 
 def _content_of(file: ParameterFile) -> tuple[object, ...]:

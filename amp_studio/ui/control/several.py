@@ -30,12 +30,12 @@ from amp_studio.ui.forms.message_bar import MessageBar
 from .exchange import stages
 from .known_list import ListedControl
 from .rows import FOOT, side_by_side
+from .session import SILENT
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client import ExchangeOf, FleetRow
 
 _CONTROL, _ADDRESS, _RESULT, _DIGEST, _ENDING = range(5)
-_SILENT = ("silent", "cut")
 
 
 class SeveralControls(QWidget):
@@ -211,7 +211,7 @@ class SeveralControls(QWidget):
             def exchange(address: str) -> Exchange:
                 def show(stage: str, done: int, total: int) -> None:
                     # They would take the place of the stage that the row was in, which is still under way.
-                    if stage not in _SILENT:
+                    if stage not in SILENT:
                         progress(f"{stage} {address}", done, total)
 
                 return Exchange(show, cancel, keep=path, record=path)
