@@ -1,5 +1,5 @@
-"""What the page at the control states of an exchange is what happened: of a file that is edited meanwhile, of a
-value alone, of a stop after the commit, of a password that is asked for later.
+"""What the page at the control states of an exchange is what happened: of a file that is edited meanwhile, of
+a value alone, of a stop after the commit, of a password that is asked for later.
 """
 
 from collections.abc import Callable
