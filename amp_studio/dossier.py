@@ -131,12 +131,31 @@ def motion_figures(
 
     Without ``drawings`` or ``data`` they have none, for a format that prints none.
     """
-    from amp_studio.sim import SimulationError, law_of, plot_svg, simulate
+    from amp_studio.sim import plot_svg
+
+    made = _simulated(file)
+    traces = [each for each in made if not isinstance(each, str)]
+    for trace in traces:
+        drawn = plot_svg(trace, width=_WIDTH, unit=_UNIT, small_print=False) if drawings else ""
+        letter = "" if trace.letter in ("", trace.axis) else f" ({trace.letter})"
+        title = f"{trace.scenario.capitalize()}, axis {trace.axis}{letter}"
+        yield PrintedFigure(title, drawn, (), _run(trace) if data else None)
+    if failed := tuple(dict.fromkeys(each for each in made if isinstance(each, str))):
+        yield PrintedFigure("Not simulated", "", failed)
+    if assumed := tuple(dict.fromkeys(note for each in traces for note in each.assumptions)):
+        yield PrintedFigure("What was assumed", "", assumed)
+
+
+def _simulated(file: ParameterFile) -> list[Trace | str]:
+    """Return the printed scenarios of each axis, or why one cannot be simulated; nothing for a family
+    without a law.
+    """
+    from amp_studio.sim import SimulationError, law_of, simulate
 
     try:
         law = law_of(file.schema.family.family)
     except SimulationError:
-        return
+        return []
     axes, scenarios = tuple(law.axes(file)), [each for each in _SCENARIOS if each in law.motion.scenarios]
     runs: dict[tuple[str, str], Trace | str] = {}
     # Frequency responses first: what they need, the machine code, is then there for the moves too.
@@ -146,20 +165,7 @@ def motion_figures(
                 runs[axis, scenario] = simulate(file, scenario, axis, advise=False)
             except SimulationError as error:
                 runs[axis, scenario] = str(error)
-    made = [runs[axis, scenario] for axis in axes for scenario in scenarios]
-    for trace in made:
-        if isinstance(trace, str):
-            continue
-        drawn = plot_svg(trace, width=_WIDTH, unit=_UNIT, small_print=False) if drawings else ""
-        letter = "" if trace.letter in ("", trace.axis) else f" ({trace.letter})"
-        title = f"{trace.scenario.capitalize()}, axis {trace.axis}{letter}"
-        yield PrintedFigure(title, drawn, (), _run(trace) if data else None)
-    if failed := tuple(dict.fromkeys(each for each in made if isinstance(each, str))):
-        yield PrintedFigure("Not simulated", "", failed)
-    if assumed := tuple(
-        dict.fromkeys(note for each in made if not isinstance(each, str) for note in each.assumptions)
-    ):
-        yield PrintedFigure("What was assumed", "", assumed)
+    return [runs[axis, scenario] for axis in axes for scenario in scenarios]
 
 
 def _run(trace: Trace) -> dict[str, Any]:

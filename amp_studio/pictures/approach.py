@@ -141,15 +141,9 @@ def draw_approach(
         lines.append(Polyline((way.start, past or stop), "now"))
         dots.append(Dot(stop, "point", "now"))
         if past is not None:
-            is_hit = hard is not None and _gap(stop, past) >= hard
-            sort: ShapeSort = "error" if is_hit else "output"
-            lines.append(Polyline((past, stop), sort))
-            long = base.x.high - base.x.low
-            words = f"{value_text(_gap(stop, past), base.x.unit, 3)} past"
-            words = words if _gap(stop, past) > SEEN * long else "stops at the limit"
-            texts.append(
-                Text(stop, f"{words}, meets the hard stop" if is_hit else words, "", "left", None, sort)
-            )
+            beyond, words = _past_limit(base, stop, past, hard)
+            lines.append(beyond)
+            texts.append(words)
         if trace is not None and (feed := trace.result.get("feedrate", (None, ""))[0]) is not None:
             speed = value_text(feed, trace.result["feedrate"][1])
             texts.append(Text(_between(way.start, stop), speed, "", "right", None, "now"))
@@ -164,6 +158,22 @@ def draw_approach(
         notes=tuple(notes),
         handles=(),
     )
+
+
+def _past_limit(base: Scene, stop: Point, past: Point, hard: float | None) -> tuple[Polyline, Text]:
+    """Return the piece of a way behind the limit that it passed, and how long it is; as an error where it
+    meets a hard stop.
+    """
+    gap = _gap(stop, past)
+    is_hit = hard is not None and gap >= hard
+    sort: ShapeSort = "error" if is_hit else "output"
+    words = (
+        f"{value_text(gap, base.x.unit, 3)} past"
+        if gap > SEEN * (base.x.high - base.x.low)
+        else "stops at the limit"
+    )
+    text = f"{words}, meets the hard stop" if is_hit else words
+    return Polyline((past, stop), sort), Text(stop, text, "", "left", None, sort)
 
 
 def _wider(scale: Scale) -> Scale:

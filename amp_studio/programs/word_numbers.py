@@ -74,17 +74,7 @@ class WordNumbers:
             if reading.place < 0 and not reading.role and text[:1] in ("P", "#"):
                 continue  # a value for the card, which moves no axis
             value = self._number(letter, text, reading) * reading.scale
-            if reading.role == "feed" and value < 0.0:
-                raise BlockError(f"{letter}{text[:20]} is no feed: it must be above 0", "negative")
-            if reading.role == "spindle" and value < 0.0:
-                raise BlockError(
-                    f"{letter}{text[:20]} is no speed: a spindle turns back by its code", "negative"
-                )
-            if reading.bounds and not reading.bounds[0] <= value <= reading.bounds[1]:
-                low, high = reading.bounds
-                raise BlockError(f"{letter}{text[:20]}: {low:g} to {high:g} are printed", "out-of-range")
-            if not -LARGEST < value < LARGEST:
-                raise BlockError(f"{letter}{text[:20]} is beyond every machine", "out-of-range")
+            _check_value(f"{letter}{text[:20]}", value, reading)
             words.put(letter, value, reading)
         return words
 
@@ -157,3 +147,16 @@ class WordNumbers:
             # In the unit in which the number then is: the printed bounds are in that of the word.
             bounds=use.bounds and (scale * use.bounds[0], scale * use.bounds[1]),
         )
+
+
+def _check_value(word: str, value: float, reading: WordReading) -> None:
+    """Raise BlockError for a number that the control refuses in its place."""
+    if reading.role == "feed" and value < 0.0:
+        raise BlockError(f"{word} is no feed: it must be above 0", "negative")
+    if reading.role == "spindle" and value < 0.0:
+        raise BlockError(f"{word} is no speed: a spindle turns back by its code", "negative")
+    if reading.bounds and not reading.bounds[0] <= value <= reading.bounds[1]:
+        low, high = reading.bounds
+        raise BlockError(f"{word}: {low:g} to {high:g} are printed", "out-of-range")
+    if not -LARGEST < value < LARGEST:
+        raise BlockError(f"{word} is beyond every machine", "out-of-range")

@@ -178,11 +178,9 @@ def _judged(
     verdict, why, decided = max(found, key=lambda each: WORSE.index(each[0]))
     stops_at = bind_axis(file, law, instance).stops_at if instance else ""
     loops = Loops(bind_axis(file, law, decided.axis)) if scenario.name in SHOWN_BY else None
-    if verdict == "good" and loops is not None:
-        verdict, why = _of_loops(loops, scenario.name)
-    if verdict == "good" and scenario.name == "home":
-        verdict, why = _of_direction(bind_axis(file, law, instance), decided)
-    if scenario.opposite and len(runs) == 1 and verdict == "good":
+    if verdict == "good":
+        verdict, why = _seen_from_outside(file, law, scenario, instance, decided, loops)
+    if verdict == "good" and scenario.opposite and len(runs) == 1:
         verdict, why = "doubtful", ONE_END
     if verdict == "bad" and scenario.programmed:
         verdict = "doubtful"  # the speed is the program's: another one may be good
@@ -207,6 +205,16 @@ def _judged(
         _use_of_loops(loops, scenario.name) if loops else _use(decided, stops_at),
         decided,
     )
+
+
+def _seen_from_outside(
+    file: ParameterFile, law: Law, scenario: Scenario, axis: str, trace: Trace, loops: Loops | None
+) -> tuple[Verdict, str]:
+    """Return what is wrong with a motion that is good by itself: in its loops, or in its direction."""
+    verdict, why = _of_loops(loops, scenario.name) if loops is not None else ("good", "")
+    if verdict == "good" and scenario.name == "home":
+        return _of_direction(bind_axis(file, law, axis), trace)
+    return verdict, why
 
 
 def _headline(scenario: Scenario, figures: dict[str, Figure]) -> str:

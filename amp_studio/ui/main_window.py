@@ -36,6 +36,7 @@ from .page.left_panel import as_side
 from .project.files import ProjectFiles
 from .project.tree import ProjectTree
 from .welcome.page import WelcomePage
+from .window.action import Needs
 from .window.disk_watch import DiskWatch
 from .window.menus import Menus
 from .window.status_line import StatusBar, StatusLine
@@ -215,26 +216,7 @@ class MainWindow(PartsWindow):
     def enable(self, *_: object) -> None:
         """Update actions, title and status bar."""
         workspace = self.workspace
-        may_edit = workspace is not None and workspace.may_edit
-        has_axes = workspace is not None and bool(axis_instances(workspace.file))
-        stack = workspace.undo_stack if workspace is not None and may_edit else None
-        running = self.control.emulated.is_running
-        self.menus.enable(
-            {
-                "": True,
-                "seen": self.page is not None and not self.page.turned_to and not self.control.is_shown,
-                "file": workspace is not None,
-                "edit": may_edit,
-                "axes": may_edit and has_axes,
-                "units": workspace is not None and len(workspace.file.schema.family.units) > 1,
-                "project": self.project is not None,
-                "undo": stack is not None and stack.canUndo(),
-                "redo": stack is not None and stack.canRedo(),
-                "emulated": running,
-                "emulated estop": self.control.emulated.has_estop,
-                "no emulated": workspace is not None and not running,
-            }
-        )
+        self.menus.enable(self._what_there_is(workspace))
         self.tools.show_units()
         self.status.show_file(workspace)
         self._show_control()
@@ -244,9 +226,30 @@ class MainWindow(PartsWindow):
             return
         name = project.name_of(self, workspace.path)
         place = f"{name} — " if name else ""
-        only_seen = "" if may_edit else f" [{self.tr('read-only')}]"
+        only_seen = "" if workspace.may_edit else f" [{self.tr('read-only')}]"
         self.setWindowTitle(f"{workspace.path.name}[*]{only_seen} — {place}AMP Studio")
         self.setWindowModified(workspace.is_dirty)
+
+    def _what_there_is(self, workspace: Workspace | None) -> dict[Needs, bool]:
+        """Return what actions can need (``Action.needs``), and whether it is there."""
+        may_edit = workspace is not None and workspace.may_edit
+        has_axes = workspace is not None and bool(axis_instances(workspace.file))
+        stack = workspace.undo_stack if workspace is not None and may_edit else None
+        running = self.control.emulated.is_running
+        return {
+            "": True,
+            "seen": self.page is not None and not self.page.turned_to and not self.control.is_shown,
+            "file": workspace is not None,
+            "edit": may_edit,
+            "axes": may_edit and has_axes,
+            "units": workspace is not None and len(workspace.file.schema.family.units) > 1,
+            "project": self.project is not None,
+            "undo": stack is not None and stack.canUndo(),
+            "redo": stack is not None and stack.canRedo(),
+            "emulated": running,
+            "emulated estop": self.control.emulated.has_estop,
+            "no emulated": workspace is not None and not running,
+        }
 
     def _show_control(self) -> None:
         """Show the state of the control of the file in front in the status line."""

@@ -200,10 +200,7 @@ def _heads(lines: _Lines) -> tuple[dict[str, int], list[tuple[str, str]], str, _
         separator = _separator_of(line)
         cells = _cells(line, separator, n)
         names = [_name_and_unit(cell) for cell in cells]
-        found = _kinds([name for name, _ in names])
-        if "position" not in found or re.fullmatch(_SIDES["load"], names[found["position"]][0]):
-            motor = [n for n, (name, _) in enumerate(names) if re.fullmatch(_SIDES["motor"], name)]
-            found.update({"position": motor[0]} if motor else {})
+        found = _with_motor(_kinds([name for name, _ in names]), names)
         if not {"time", "torque"} <= found.keys() or not {"velocity", "position"} & found.keys():
             continue
         rest = lines[place + 1 :]
@@ -212,6 +209,14 @@ def _heads(lines: _Lines) -> tuple[dict[str, int], list[tuple[str, str]], str, _
             rest = rest[1:]
         return found, names, separator, rest
     raise SimulationError(f"No line names the columns. Write it above the numbers, with units: {_EXAMPLE}")
+
+
+def _with_motor(found: dict[str, int], names: Sequence[tuple[str, str]]) -> dict[str, int]:
+    """Return the columns with the position of the motor where that of the load, or none, was found."""
+    if "position" in found and not re.fullmatch(_SIDES["load"], names[found["position"]][0]):
+        return found
+    motor = [n for n, (name, _) in enumerate(names) if re.fullmatch(_SIDES["motor"], name)]
+    return found | ({"position": motor[0]} if motor else {})
 
 
 def named_columns(text: str, wanted: Mapping[str, str]) -> dict[str, tuple[int, str]]:

@@ -57,11 +57,7 @@ class BlockReceiver:
         while tries < TRIES and line.now() < end:
             came = self._next(patience.ask if is_first else patience.answer)
             if isinstance(came, tuple):
-                if came[0] not in (number, number - 1 & 0xFF):
-                    raise PlainFileError(
-                        f"block {came[0]} has come, and block {number} was to come: one is lost"
-                    )
-                line.put(bytes([ACK]))  # of the block before once more: its acknowledgement was lost
+                self._acknowledge(came[0], number)
                 if came[0] == number:
                     return came[1]
                 if is_first:
@@ -82,6 +78,14 @@ class BlockReceiver:
         if is_first:
             raise PlainFileError(f"the other end has not begun within {patience.start:g} s")
         raise PlainFileError(f"block {number} has not come whole")
+
+    def _acknowledge(self, came: int, number: int) -> None:
+        """Acknowledge a block, also the one before ``number`` once more: its acknowledgement was lost. Raises
+        PlainFileError for any other.
+        """
+        if came not in (number, number - 1 & 0xFF):
+            raise PlainFileError(f"block {came} has come, and block {number} was to come: one is lost")
+        self._line.put(bytes([ACK]))
 
     def finish(self) -> None:
         """Acknowledge the last message again where it is repeated: its acknowledgement was disturbed."""

@@ -267,12 +267,7 @@ class Plot(QWidget):
             self._paint_below_each_other(painter, [*fewer[:-1], last])
             return
         room = max(room, 10.0)
-        if self.left_out:
-            names = ", ".join(self.left_out)
-            painter.setFont(caption_fonts()[0])
-            painter.setPen(colour("dim"))
-            text = self.tr("without room: {names}").format(names=names)
-            painter.drawText(QPointF(LEFT, self.height() - 4.0), text)
+        self._paint_left_out(painter)
         top = 0.0
         for scene, pieces, head, share in zip(scenes, headings, heads, shares, strict=True):
             height = room * share / sum(shares)
@@ -281,16 +276,20 @@ class Plot(QWidget):
             ScenePainter(painter, frame, QSizeF(self.width(), self.height())).paint()
             painter.restore()
             paint_heading(painter, pieces, frame.top)
-            is_above = scene is self.picture.above
-            if is_above and (scene.cells is not None or self._is_pointed):
-                self._map = frame
-            elif not is_above:
+            top += head + height
+            if scene is not self.picture.above:
                 self._frames.append(frame)
-            top += (
-                head
-                + height
-                + (2.4 * line if scene is self.picture.above and _has_figures_below(scene) else 0.0)
-            )
+                continue
+            self._map = frame if scene.cells is not None or self._is_pointed else self._map
+            top += 2.4 * line if _has_figures_below(scene) else 0.0
+
+    def _paint_left_out(self, painter: QPainter) -> None:
+        """Name the panels that have no room, in the last line."""
+        if self.left_out:
+            painter.setFont(caption_fonts()[0])
+            painter.setPen(colour("dim"))
+            text = self.tr("without room: {names}").format(names=", ".join(self.left_out))
+            painter.drawText(QPointF(LEFT, self.height() - 4.0), text)
 
     def _paint_cursors(self, painter: QPainter) -> None:
         painter.setFont(caption_fonts()[0])

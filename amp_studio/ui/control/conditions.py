@@ -29,32 +29,15 @@ class ControlCondition:
 def conditions_of(session: ControlSession | None, file: ParameterFile) -> list[ControlCondition]:
     """Return the conditions in their fixed order."""
     seen = session.seen if session else None
-    if (
-        session is None or seen is None or session.error
-    ):  # what was asked before the line was lost is no longer known
-        state = None if session is None or not session.error else False
-        waits = [tr("Same machine"), tr("E-stop"), tr("Password")]
-        if session is not None and session.lacks_password:
-            return [
-                ControlCondition(tr("Connected"), None),
-                *(ControlCondition(text, None) for text in waits[:2]),
-                ControlCondition(tr("Needs a password"), False),
-            ]
-        return [
-            ControlCondition(tr("Not connected"), state),
-            *(ControlCondition(text, None) for text in waits),
-        ]
-    conditions = [ControlCondition(tr("Connected"), True, worded(seen.control.revision))]
-    conditions.append(_same_machine(session, file))
-    age = _age(session.asked_at)
-    if session.in_estop is None:
-        conditions.append(ControlCondition(tr("No E-stop needed"), True))
-    else:
-        text = tr("E-stop is pressed") if session.in_estop else tr("E-stop is not pressed")
-        conditions.append(ControlCondition(text, session.in_estop, age))
-    conditions.append(
-        ControlCondition(tr("Password accepted") if session.has_password else tr("No password needed"), True)
-    )
+    # What was asked before the line was lost is no longer known.
+    if session is None or seen is None or session.error:
+        return _not_connected(session)
+    conditions = [
+        ControlCondition(tr("Connected"), True, worded(seen.control.revision)),
+        _same_machine(session, file),
+        _estop(session),
+        ControlCondition(tr("Password accepted") if session.has_password else tr("No password needed"), True),
+    ]
     if seen.abilities.lasting_states:
         conditions.append(
             ControlCondition(
@@ -65,6 +48,23 @@ def conditions_of(session: ControlSession | None, file: ParameterFile) -> list[C
             )
         )
     return conditions
+
+
+def _not_connected(session: ControlSession | None) -> list[ControlCondition]:
+    """Return the conditions of a control that has not answered, or does not any more."""
+    waits = [ControlCondition(text, None) for text in (tr("Same machine"), tr("E-stop"), tr("Password"))]
+    if session is not None and session.lacks_password:
+        needs = ControlCondition(tr("Needs a password"), False)
+        return [ControlCondition(tr("Connected"), None), *waits[:2], needs]
+    is_lost = session is not None and session.error
+    return [ControlCondition(tr("Not connected"), False if is_lost else None), *waits]
+
+
+def _estop(session: ControlSession) -> ControlCondition:
+    if session.in_estop is None:
+        return ControlCondition(tr("No E-stop needed"), True)
+    text = tr("E-stop is pressed") if session.in_estop else tr("E-stop is not pressed")
+    return ControlCondition(text, session.in_estop, _age(session.asked_at))
 
 
 def _same_machine(session: ControlSession, file: ParameterFile) -> ControlCondition:

@@ -197,11 +197,7 @@ class LiveRecording(QWidget):
         figures = axis.signals()
         self._missing = tuple(name for name in ("following_error", "velocity") if figures[name][0] is None)
         if self._recorder is None:
-            self._count += 1
-            is_due = self._count % DRAWN_EVERY == 0 or last is None
-            if self.record is None and is_due and (picture := self._recent.picture()):
-                self._show(picture)
-                self._show_footer()
+            self._show_recent(is_first=last is None)
             return
         self._recorder.add(seconds, figures)
         if not self._recorder.has_fired and self._fires(last, axis, is_fault):
@@ -213,6 +209,14 @@ class LiveRecording(QWidget):
         elif self._recorder.count > 1:
             self._show(record_picture(self._recorder.recording(axis.axis), self._recorder.fired_after))
             self._show_state()
+
+    def _show_recent(self, *, is_first: bool) -> None:
+        """Show the last readings while no record is made or kept; not each one, which would only paint."""
+        self._count += 1
+        is_due = self._count % DRAWN_EVERY == 0 or is_first
+        if self.record is None and is_due and (picture := self._recent.picture()):
+            self._show(picture)
+            self._show_footer()
 
     def _fires(self, last: AxisStatus | None, axis: AxisStatus, is_fault: bool) -> bool:
         match self.trigger.currentData():

@@ -27,6 +27,7 @@ from amp_studio.calibration import (
     CalibrationError,
     CalibrationTable,
     Compensation,
+    TableForm,
     axes_of,
     compensation_of,
     deleted,
@@ -189,7 +190,6 @@ class CalibrationPage(TuningPart):
         form, axis = offered.table, self.axis.currentData()
         family = file.schema.family.family
         assert form is not None
-        assert self.target is not None
         try:
             table = self.present()
             fault = " ".join(form.remarks(file, axis, table))
@@ -208,23 +208,30 @@ class CalibrationPage(TuningPart):
         self.plot.show_errors(
             (ErrorTrace(self.tr("error that the table takes away"), table.curve, "now"),), table.unit
         )
-        has, state = bool(table.points), file.evaluation.state((form.parameter, axis))
+        self._enable_changes(file, form, table)
+        state = file.evaluation.state((form.parameter, axis))
+        if not state.is_active:
+            self.fault.setText(worded(state.why, family))
+            self.fault.show()
+
+    def _enable_changes(self, file: ParameterFile, form: TableForm, table: CalibrationTable) -> None:
+        """Switch on what can be done with the table of the axis."""
+        assert self.target is not None
+        address = form.parameter, self.axis.currentData()
+        has, state = bool(table.points), file.evaluation.state(address)
         may = self.target.may_edit and state.is_active
         self.insert.setEnabled(may and not (form.is_even and has))
         self.insert.setText(self.tr("&New Table") if form.is_even else self.tr("&Insert Point…"))
         self.delete.setVisible(not form.is_even)
         for button in (self.replace, self.delete):
             button.setEnabled(may and has)
-        self.clear.setEnabled(may and file.get((form.parameter, axis)) is not None)
+        self.clear.setEnabled(may and file.get(address) is not None)
         for box, present in ((self.input, table.input), (self.start, table.start)):
             box.setEnabled(may and not has)
             box.setToolTip(
                 self.tr("Can be chosen again when all points are deleted (page 36-6)") if has else ""
             )
             box.setCurrentIndex(max(0, box.findData(present)))
-        if not state.is_active:
-            self.fault.setText(worded(state.why, family))
-            self.fault.show()
 
     def _fill(self, table: CalibrationTable) -> None:
         form = self._offered(self.target.file).table if self.target else None

@@ -391,13 +391,7 @@ class TuningSteps(QWidget):
             )
             for name in trace.over
         ]
-        figures = {name: trace.columns[name][row] for name in _FIGURES if name in trace.columns}
-        there = {name: None if np.isnan(each) else float(each) for name, each in figures.items()}
-        result = {name: (each, trace.units.get(name, "")) for name, each in there.items()}
-        # The figures of the file are not those of a cell near it.
-        known = self.tuned.result if self.tuned else {}
-        result |= {f"{name}_before": known[f"{name}_before"] for name in there if f"{name}_before" in known}
-        text = self._figures_text(replace(trace, result=result))
+        text = self._figures_text(replace(trace, result=self._figures_of_row(trace, row)))
         if any(each.startswith(_OTHERS_TUNED) for each in trace.assumptions):
             # The map is of the axis with its other gains as tune has them: they belong to the point.
             is_known = self.tuned is not None and self._aim == "normal"
@@ -405,6 +399,16 @@ class TuningSteps(QWidget):
             found += [each for each in others if each.parameter not in trace.over]
             text = text if is_known else ""
         self._propose(found, text)
+
+    def _figures_of_row(self, trace: Trace, row: int) -> dict[str, tuple[float | None, str]]:
+        """Return the figures of a point of the map, each with that of the file as it is."""
+        figures = {name: trace.columns[name][row] for name in _FIGURES if name in trace.columns}
+        there = {name: None if np.isnan(each) else float(each) for name, each in figures.items()}
+        result = {name: (each, trace.units.get(name, "")) for name, each in there.items()}
+        # The figures of the file are not those of a cell near it.
+        known = self.tuned.result if self.tuned else {}
+        before = [f"{name}_before" for name in there]
+        return result | {name: known[name] for name in before if name in known}
 
     def _settable(self, parameter: str, value: float) -> float:
         """Return a gain as it can be set: whole where it is, else with three digits."""
