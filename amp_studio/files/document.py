@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -73,6 +74,8 @@ class Document:
         self._only_viewed = False
         self._lock = EditLock(path)
         self._journal_is_ours = False
+        self._history: tuple[object, bytes] = None, b""
+        """The state of the history on disk when it was last read, and its content."""
         self.notes: list[str] = []
         """What the last save could not keep or do, each in one sentence for the person at work."""
 
@@ -240,18 +243,28 @@ class Document:
         """Return what was saved before, newest first; of one address, or of all.
         A line that is none is left out.
         """
-        try:
-            # No link is followed: another user may have put it there. Of a long history the end is read.
-            content = read_file(self.history_path, follow=False, tail=True)
-        except OSError:
-            return []
-        found = []
-        for line in content.decode("utf-8", "replace").split("\n"):
+        content, found = self._history_content(), []
+        lines = (
+            content.split(b"\n") if address is None else _lines_with(content, json.dumps(written(address)))
+        )
+        for line in lines:
             with contextlib.suppress(ValueError, RecursionError):
-                entry = json.loads(line)
+                entry = json.loads(line.decode("utf-8", "replace"))
                 if isinstance(entry, list) and len(entry) == 6 and all(isinstance(e, str) for e in entry):
                     found.append(self._masked(HistoryEntry(*entry)))
         return [e for e in reversed(found) if address is None or e.param == written(address)]
+
+    def _history_content(self) -> bytes:
+        """Return the history on disk, read when it is another one: the window asks with every key."""
+        try:
+            there = self.history_path.stat(follow_symlinks=False)
+            state = there.st_ino, there.st_size, there.st_mtime_ns
+            if state != self._history[0]:
+                # No link is followed: another user may have put it there. Of a long history the end is read.
+                self._history = state, read_file(self.history_path, follow=False, tail=True)
+        except OSError:
+            return b""
+        return self._history[1]
 
     def _masked(self, entry: HistoryEntry) -> HistoryEntry:
         """Return an entry without its secret, which was written in clear before secrets were marked."""
@@ -281,18 +294,25 @@ class Document:
         """Write the unsaved work beside the file, so that a killed program loses none; no change removes
         it.
         """
+        self.unsaved_writer()()
+
+    def unsaved_writer(self) -> Callable[[], None]:
+        """Return what writes the unsaved work of this moment beside the file; another thread may call it."""
         changes, header = self.unsaved_changes(), self._unsaved_header()
         if not changes and not header:
-            self._drop_journal()
-            return
+            return self._drop_journal
         entries = [
             [written(c.address), None if c.new is None else self._text(c.address, c.new)] for c in changes
         ]
         left = {"when": now(), "who": user(), "digest": self.digest, "changes": entries, "header": header}
-        content = json.dumps(left)
-        # No backup: of a journal only the newest state is of use.
-        write_atomic(self.journal_path, content.encode(), keep_backup=False, companion_of=self.path)
-        self._journal_is_ours = True
+
+        def write() -> None:
+            content = json.dumps(left).encode()
+            # No backup: of a journal only the newest state is of use.
+            write_atomic(self.journal_path, content, keep_backup=False, companion_of=self.path)
+            self._journal_is_ours = True
+
+        return write
 
     def _unsaved_header(self) -> dict[str, str | dict[str, str]]:
         """Return the header entries that differ from the file on disk."""
@@ -354,6 +374,15 @@ class Document:
     def discard_unsaved(self) -> None:
         """Throw away the work a killed program left."""
         self.journal_path.unlink(missing_ok=True)
+
+
+def _lines_with(content: bytes, text: str) -> Iterator[bytes]:
+    """Yield the lines that have a text in them."""
+    wanted, end = text.encode(), 0
+    while (place := content.find(wanted, end)) >= 0:
+        end = content.find(b"\n", place)
+        end = len(content) if end < 0 else end
+        yield content[content.rfind(b"\n", 0, place) + 1 : end]
 
 
 def _is_entry(entry: tuple[str, object]) -> bool:

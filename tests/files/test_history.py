@@ -1,7 +1,10 @@
 """Every save is in the history of the file, without secrets; a history that cannot be written is a note."""
 
 import getpass
+import json
 from pathlib import Path
+
+import pytest
 
 from amp_studio.files import Document, ParameterFile, backup_path, open_file
 from amp_studio.schema import Value
@@ -32,6 +35,25 @@ def test_every_value_a_save_replaced_is_in_the_history_newest_first(on_disk: Pat
         assert [entry.new for entry in document.history(CALIBRATION)] == ["", "2 mm", "1 mm"]
         assert {getpass.getuser()} == {entry.who for entry in document.history()}
     assert [entry.new for entry in Document.view(on_disk).history(CALIBRATION)] == ["", "2 mm", "1 mm"]
+
+
+def test_of_a_long_history_the_lines_of_one_value_alone_are_taken_apart(
+    on_disk: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The window asks with every key: 20,000 lines took 190 ms each time."""
+    taken: list[object] = []
+    loads = json.loads
+    with Document.open(on_disk) as document:
+        line = ["2020-01-01T00", "me", "edit", "home.position@1", "0 mm", "1 mm"]
+        own = [*line[:3], "home.calibration@1", "1 mm", "2 mm"]
+        lines = [own, *[line] * 500, own]
+        document.history_path.write_text("".join(json.dumps(each) + "\n" for each in lines))
+        monkeypatch.setattr(json, "loads", lambda text: taken.append(text) or loads(text))
+        assert [entry.new for entry in document.history(CALIBRATION)] == ["2 mm", "2 mm"]
+        assert len(taken) == 2
+        document.file.set(CALIBRATION, Value(3.0, "mm"))
+        document.save()
+        assert [entry.new for entry in document.history(CALIBRATION)] == ["3 mm", "2 mm", "2 mm"]
 
 
 def test_a_new_file_begins_without_a_history(tmp_path: Path, mill: ParameterFile) -> None:

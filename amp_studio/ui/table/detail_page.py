@@ -33,6 +33,8 @@ download, calculate, show a message of the control."""
 
 _RULES = 4
 """Rules that are met and shown before the user asks for all."""
+_CHANGES = 10
+"""Saved changes that are shown before the user asks for all."""
 
 
 def hex_text(word: int) -> str:
@@ -307,12 +309,17 @@ class DetailPage(Translated):
         return ", ".join(texts)
 
     def _history(self, address: Address) -> str:
+        entries = self._workspace.document.history(address)
+        shown = entries if "history" in self.opened else entries[:_CHANGES]
         lines = [
             f"<p><small>{stored_in_words(entry.when)}, {html.escape(entry.who)},"
             f" {html.escape(entry.how)}</small><br>{html.escape(entry.old or self.tr('not set'))} →"
             f" {html.escape(entry.new or self.tr('not set'))}</p>"
-            for entry in self._workspace.document.history(address)
+            for entry in shown
         ]
+        if len(shown) < len(entries):
+            more = self.tr("{number} earlier").format(number=len(entries) - len(shown))
+            lines.append(f'<p><a href="{FOLD}history">{more}</a></p>')
         label = html.escape(self._workspace.file.machine_schema.label(address))
         return "".join(lines) or f"<p>{self.tr('No saved changes of {name} yet.').format(name=label)}</p>"
 
