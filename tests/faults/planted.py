@@ -342,7 +342,7 @@ def _write_only(driver: Any, register: int, word: int) -> None:
 
 JOURNAL = "the journal is not written"
 _IN_PROCESSES: dict[str, Plant] = {
-    JOURNAL: lambda: _patched(("amp_studio.files.document.Document.keep_unsaved", lambda _: None)),
+    JOURNAL: lambda: _patched(("amp_studio.files.document.Document.unsaved_writer", lambda _: lambda: None)),
     "backup skipped": _no_backup,
 }
 """The defects that are planted in a separate process, by name."""

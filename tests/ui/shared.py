@@ -56,7 +56,9 @@ def put_back(window: MainWindow, first: First) -> None:
     page.table_view.finish()
     workspace.undo_stack.setIndex(0)
     workspace.undo_stack.clear()
+    workspace._end_keeping()
     workspace._keep_unsaved()  # no change: it goes
+    workspace._end_keeping()
     workspace._journal.stop()
     if (workspace.as_entered, workspace.file.header.units) != (False, first.header["units"]):
         workspace.show_in(str(first.header["units"]))

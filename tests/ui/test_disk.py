@@ -1,14 +1,16 @@
 """Disks that are full or write-protected: the user knows before the work is done, and none of it is lost."""
 
 import os
+import threading
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import pytest
 from pytestqt.qtbot import QtBot
 
-from amp_studio.files import Document
+from amp_studio.files import document
 from amp_studio.ui.actions.project import new
 from amp_studio.ui.base.translated import speak
 from amp_studio.ui.dialogs.file_dialogs import ProjectDialog
@@ -39,22 +41,46 @@ def test_unsaved_work_that_a_full_disk_cannot_keep_is_reported_once(
     """A program that was killed then lost what nobody knew to be at risk."""
     workspace, bar = window.workspace, window.page_in_front.bar
 
-    def fail(_: Document) -> None:
+    def fail(*_: object, **__: object) -> None:
         raise OSError(28, "No space left on device")
 
+    def keep(*, is_full: bool) -> None:
+        with monkeypatch.context() as disk:
+            if is_full:
+                disk.setattr("amp_studio.files.document.write_atomic", fail)
+            workspace._keep_unsaved()
+            workspace._end_keeping()
+
     window.edits.commit(EXCESS, "3 mm")
-    monkeypatch.setattr(Document, "keep_unsaved", fail)
-    workspace._keep_unsaved()
+    keep(is_full=True)
     assert "cannot be kept beside it (No space left on device)" in bar.text.text()
     bar.hide()
-    workspace._keep_unsaved()
+    keep(is_full=True)
     assert bar.isHidden(), "said twice"
-    monkeypatch.undo()
-    workspace._keep_unsaved()
-    monkeypatch.setattr(Document, "keep_unsaved", fail)
-    workspace._keep_unsaved()
+    keep(is_full=False)
+    keep(is_full=True)
     assert not bar.isHidden(), "there was room in between"
     bar.hide()
+
+
+def test_a_slow_disk_keeps_no_key_waiting(window: MainWindow, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The journal was written by the window, which stood still for two waits for the disk."""
+    workspace, threads = window.workspace, list[int]()
+    write = document.write_atomic
+
+    def slow(*given: Any, **named: Any) -> str:
+        threads.append(threading.get_ident())
+        return write(*given, **named)
+
+    monkeypatch.setattr(document, "write_atomic", slow)
+    window.edits.commit(EXCESS, "3 mm")
+    workspace._keep_unsaved()
+    workspace._keep_unsaved()
+    assert workspace._journal.isActive(), "it writes again when it has written"
+    workspace._end_keeping()
+    assert workspace.document.journal_path.exists()
+    assert len(threads) == 1
+    assert threading.get_ident() not in threads
 
 
 def test_a_note_that_is_too_long_stays_in_its_form(window: MainWindow, qtbot: QtBot) -> None:

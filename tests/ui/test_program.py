@@ -137,6 +137,7 @@ def test_closing_asks_about_unsaved_changes(window: MainWindow, path: Path, user
 def test_discarded_work_is_not_offered_again(window: MainWindow, path: Path, user: User, open_window) -> None:
     window.edits.commit(EXCESS, "3 mm")
     window.workspace._keep_unsaved()
+    window.workspace._end_keeping()
     assert window.workspace.document.journal_path.exists()
     user.answers("Discard")
     assert window.close()

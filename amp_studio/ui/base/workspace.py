@@ -37,6 +37,7 @@ from amp_studio.validate import (
     rules_beside,
 )
 
+from .task import Task
 from .translated import worded
 
 JOURNAL_MS = 500
@@ -122,6 +123,8 @@ class Workspace(QObject):
         self.is_saving = False
         self._saved = (HeaderSnapshot.of(document.file), document.file.header.units)
         self._is_at_risk = False
+        self._keeping: Task | None = None
+        """Writes the journal."""
         self._journal = QTimer(self)
         self._journal.setSingleShot(True)
         self._journal.timeout.connect(self._keep_unsaved)
@@ -274,6 +277,7 @@ class Workspace(QObject):
 
     def save(self, run: Callable[[Callable[[], None]], None] = lambda work: work()) -> None:
         """Save in place, through ``run`` (a thread); raises ChangedOnDiskError, SaveError, InUseError."""
+        self._end_keeping()
         self._journal.stop()
         self.is_saving = True
         try:
@@ -313,19 +317,33 @@ class Workspace(QObject):
         return None if digest == self.document.digest else digest or "removed"
 
     def _keep_unsaved(self) -> None:
-        if self.may_edit:
-            try:
-                self.document.keep_unsaved()
-            except OSError as error:
-                self._journal.start(10_000)  # a full disk may have room again later
-                if not self._is_at_risk:
-                    self.unsaved_at_risk.emit(error.strerror or str(error))
-                self._is_at_risk = True
-            else:
-                self._is_at_risk = False
+        """Write the journal in a thread: a disk takes as long for it as the window for several keys."""
+        if self._keeping is not None:
+            self._journal.start(JOURNAL_MS)
+        elif self.may_edit:
+            write = self.document.unsaved_writer()
+            self._keeping = Task(lambda *_: write())
+            self._keeping.finished.connect(self._end_keeping)
+            self._keeping.begin()
+
+    def _end_keeping(self) -> None:
+        """Wait until the journal is written, and report where it could not be."""
+        task, self._keeping = self._keeping, None
+        if task is None:
+            return
+        try:
+            task.outcome()
+        except OSError as error:
+            self._journal.start(10_000)  # a full disk may have room again later
+            if not self._is_at_risk:
+                self.unsaved_at_risk.emit(error.strerror or str(error))
+            self._is_at_risk = True
+        else:
+            self._is_at_risk = False
 
     def close(self) -> None:
         """Close the file."""
+        self._end_keeping()
         self._journal.stop()
         self.document.close()
         self.closed.emit()
