@@ -80,6 +80,8 @@ class ParameterTable(QAbstractTableModel):
         self._filter: RowFilter | None = None
         self._unfiltered: list[list[Address]] | None = None
         """What ``unfiltered`` returns, until rows or columns may be others."""
+        self._places: dict[Address, tuple[int, int]] | None = None
+        """Where ``index_of`` finds each address, until rows or columns are others."""
         self.fact_columns: list[FactColumn] = []
         """The columns behind the values: those in which rows differ."""
         self._axis_heads: dict[str, tuple[str, str]] = {}
@@ -136,8 +138,13 @@ class ParameterTable(QAbstractTableModel):
     def outline(self, addresses: frozenset[Address], severity: str) -> None:
         """Outline the cells of the selected finding, in the colour of its severity."""
         if (addresses, severity) != (self.outlined, self.outline_severity):
+            others = (
+                self.outlined ^ addresses if severity == self.outline_severity else self.outlined | addresses
+            )
             self.outlined, self.outline_severity = addresses, severity
-            self._repaint()
+            for index in map(self.index_of, others):
+                if index.isValid():
+                    self.dataChanged.emit(index, index)
 
     @property
     def count(self) -> int:
@@ -148,6 +155,7 @@ class ParameterTable(QAbstractTableModel):
         self.beginResetModel()
         self.columns = columns
         self.rows = self._rows(columns) if rows is None else rows
+        self._places = None
         self.fact_columns = [c for c in FACT_COLUMNS if self.columns and len(self._facts(c)) > 1]
         self._forget_heads()
         self._axis_heads.clear()
@@ -260,12 +268,12 @@ class ParameterTable(QAbstractTableModel):
 
     def index_of(self, address: Address) -> QModelIndex:
         """Return the cell of an address, invalid when it is not shown."""
-        for n, row in enumerate(self.rows):
-            if row.cells and row.parameter.id == address[0]:
-                for column, cell in row.cells.items():
-                    if cell == address and column in self.columns:
-                        return self.index(n, self.columns.index(column))
-        return QModelIndex()
+        if self._places is None:
+            columns = {name: n for n, name in enumerate(self.columns)}
+            cells = ((n, c, a) for n, row in enumerate(self.rows) for c, a in row.cells.items())
+            self._places = {a: (n, columns[c]) for n, c, a in cells if c in columns}
+        place = self._places.get(address)
+        return QModelIndex() if place is None else self.index(*place)
 
     def first_of(self, row: int) -> QModelIndex:
         """Return the first cell of a row whose value exists, invalid when none does."""

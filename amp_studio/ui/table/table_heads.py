@@ -4,7 +4,7 @@ and the letter of each axis.
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QRect, QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QModelIndex, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QFontMetrics, QMouseEvent, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QHeaderView, QLabel, QTableView, QWidget
 
@@ -47,6 +47,13 @@ class RowHeads(QHeaderView):
         self.setHighlightSections(False)
         self.setAccessibleName(self.tr("Parameters"))
         self.setMouseTracking(True)
+        table.dataChanged.connect(self._follow)
+
+    def _follow(self, first: QModelIndex, last: QModelIndex) -> None:
+        """Paint the heads of rows with other values again: a head has the unit of its values."""
+        top = self.sectionViewportPosition(first.row())
+        end = self.sectionViewportPosition(last.row()) + self.sectionSize(last.row())
+        self.viewport().update(0, top, self.viewport().width(), end - top)
 
     def sizeHint(self) -> QSize:
         """Return the width that the view has set: Qt would measure a thousand heads after each change."""

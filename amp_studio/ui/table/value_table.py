@@ -428,8 +428,10 @@ class ValueTable(QTableView):
         self._is_fitting = True
         heads, names = self.horizontalHeader(), self.verticalHeader()
         assert isinstance(names, RowHeads)
-        self._delegate.painter.unit_slots = widths.slots
-        self._delegate.number_room = widths.block
+        painter = self._delegate.painter
+        if (painter.unit_slots, self._delegate.number_room) != (widths.slots, widths.block):
+            painter.unit_slots, self._delegate.number_room = widths.slots, widths.block
+            self.viewport().update()  # numbers of rows that have not changed move too
         for column, width in enumerate(widths.columns):
             heads.resizeSection(column, width)
         names.number_width = self._corner.number_width = widths.number

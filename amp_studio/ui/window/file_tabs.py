@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import partial
 
-from PySide6.QtCore import QPoint, Qt, Signal
+from PySide6.QtCore import QEvent, QPoint, Qt, Signal
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QMenu, QSplitter, QStackedWidget, QTabBar, QTabWidget, QWidget
 
@@ -19,6 +19,25 @@ _RIGHT = QTabBar.ButtonPosition.RightSide
 
 _LONGEST_NAME = 28
 """Characters of a name that a tab shows."""
+
+
+class _Side(QTabWidget):
+    """One row of tabs with its pages. Whenever anything in a page has another size, Qt lays a tab widget out
+    and paints all of it: here only where its own parts have another size.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._laid_out: object = None
+
+    def event(self, event: QEvent) -> bool:
+        if event.type() == QEvent.Type.LayoutRequest:
+            corner = self.cornerWidget()
+            sizes = (self.minimumSizeHint(), self.tabBar().sizeHint(), corner and corner.sizeHint())
+            if sizes == self._laid_out:
+                return True
+            self._laid_out = sizes
+        return super().event(event)
 
 
 class FileTabs(QSplitter):
@@ -41,7 +60,7 @@ class FileTabs(QSplitter):
         QApplication.instance().focusChanged.connect(self._follow_focus)
 
     def _side(self, name: str) -> QTabWidget:
-        side = QTabWidget()
+        side = _Side()
         side.setDocumentMode(True)
         side.setMovable(True)
         side.setElideMode(Qt.TextElideMode.ElideNone)  # Qt would leave nothing of a name; the row scrolls

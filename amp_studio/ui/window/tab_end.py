@@ -15,6 +15,9 @@ class _Dot(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.setFixedSize(8, 16)
+        policy = self.sizePolicy()
+        policy.setRetainSizeWhenHidden(True)
+        self.setSizePolicy(policy)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)
@@ -52,7 +55,4 @@ class TabEnd(QWidget):
 
     def show_unsaved(self, is_unsaved: bool) -> None:
         """Show or hide the dot; its place stays, so that no tab moves."""
-        policy = self.dot.sizePolicy()
-        policy.setRetainSizeWhenHidden(True)
-        self.dot.setSizePolicy(policy)
         self.dot.setVisible(is_unsaved)
