@@ -83,6 +83,8 @@ class Answers:
     states: dict[StatePlan, StateInfo] = field(default_factory=dict)
     by_address: dict[Address, StateInfo] = field(default_factory=dict)
     """The same states, so that they are quick to look up."""
+    turning: dict[Address, bool] = field(default_factory=dict)
+    """Whether the length of an address is an angle, for those that were asked."""
     active: dict[int, tuple[StateGroups, tuple[Address, ...]]] = field(default_factory=dict)
     """Groups of addresses that were asked for, by their identity, and those of them that are active."""
 

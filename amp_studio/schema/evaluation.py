@@ -236,9 +236,13 @@ class Evaluation:
 
         What belongs to no axis (a motor) has an angle only by the condition that its parameter names.
         """
-        parameter, scope = self.schema.parameters[address[0]], self.scope(address)
-        name = self.schema.angular_when(parameter) if scope == "axis" else parameter.angular_when
-        return bool(name and self.is_true(name, address[1], scope))
+        known = (self._answers or self._present()).turning
+        found = known.get(address)
+        if found is None:
+            parameter, scope = self.schema.parameters[address[0]], self.scope(address)
+            name = self.schema.angular_when(parameter) if scope == "axis" else parameter.angular_when
+            found = known[address] = bool(name and self.is_true(name, address[1], scope))
+        return found
 
     def unit(self, address: Address, system: str) -> str:
         """Return the unit of entry of an instance in a unit system."""

@@ -2,8 +2,11 @@
 
 from pathlib import Path
 
+import pytest
 from PySide6.QtCore import QUrl
 
+from amp_studio.files import Document
+from amp_studio.files.document import HistoryEntry
 from amp_studio.schema import Value
 from amp_studio.ui.base.theme import colour
 from amp_studio.ui.main_window import MainWindow
@@ -52,6 +55,18 @@ def test_history_has_what_was_saved(window: MainWindow) -> None:
     assert "11 mm → 3 mm" in page(window)
     assert "studio" in page(window)
     assert "today " in page(window)
+
+
+def test_of_many_saved_changes_the_newest_are_shown_until_all_are_wanted(
+    window: MainWindow, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    entries = [HistoryEntry("2020-01-01T00:00", "me", "edit", "", f"{n} mm", "") for n in range(25)]
+    monkeypatch.setattr(Document, "history", lambda *_: entries)
+    window.go_to(EXCESS)
+    assert page(window).count(" mm → not set") == 10
+    assert "15 earlier" in page(window)
+    window.detail.page.anchorClicked.emit(QUrl("fold:history"))
+    assert page(window).count(" mm → not set") == 25
 
 
 def test_the_bar_has_the_range_and_what_the_rules_allow(window: MainWindow, qtbot) -> None:
@@ -150,13 +165,20 @@ def test_a_link_leads_to_the_parameter_on_the_same_axis(window: MainWindow) -> N
     assert window.selected() == ("servo.gain_break_point", "3")
 
 
-def test_a_page_that_does_not_change_stays_where_it_was_scrolled(window: MainWindow) -> None:
+def test_a_page_of_one_value_stays_where_it_was_scrolled(window: MainWindow) -> None:
     window.go_to(EXCESS)
     bar = window.detail.page.verticalScrollBar()
     bar.setValue(bar.maximum())
     assert bar.value() > 0
     window.workspace.edit("elsewhere", {("home.calibration", "2"): Value(1.0, "mm")})
     assert bar.value() == bar.maximum()
+    bar.setValue(100)
+    before = page(window)
+    window.edits.commit(EXCESS, "3 mm")
+    assert page(window) != before
+    assert bar.value() == 100
+    window.go_to(("servo.gain_break_point", "1"))
+    assert bar.value() == 0
 
 
 def test_formulas_have_their_titles_and_no_names_of_functions(window: MainWindow) -> None:

@@ -52,6 +52,8 @@ class DetailPanel(QWidget):
         self._workspace, self._commit = workspace, commit
         self._address: Address | None = None
         self._is_stale = False
+        self._written: tuple[Address | None, str] = None, ""
+        """What the page is about, and its text."""
         self._writer = DetailPage(workspace)
         self.head = self._make_head()
         self.axes = Segment(self.tr("Axis"), is_tight=True)
@@ -166,7 +168,7 @@ class DetailPanel(QWidget):
             self.axes.hide()
             self.bar.show_range(None)
             self.page.clear()
-            self.page.setProperty("written", "")
+            self._written = None, ""
             return
         number = file.machine_schema.number(address)
         self.number.setText(number or "")
@@ -185,10 +187,22 @@ class DetailPanel(QWidget):
         if self.bar.isVisibleTo(self):
             self._pause.start()
         self._writer.may_have_download = real_path(self._workspace.path).with_name(RECORD).exists()
-        text = self._writer.write(address)
-        if self.page.property("written") != text:  # a page that did not change stays where it was scrolled to
-            self.page.setProperty("written", text)
-            self.page.setHtml(text)
+        self._put(address, self._writer.write(address))
+
+    def _put(self, address: Address, text: str) -> None:
+        """Show a page; one of the same value stays where it was scrolled to."""
+        (before, written), self._written = self._written, (address, text)
+        if text == written:
+            return
+        page, bar, policies = self.page, self.page.verticalScrollBar(), Qt.ScrollBarPolicy
+        place = bar.value() if address == before else 0
+        # A page is empty for a moment: where the bar went and came again, each would be laid out three times.
+        page.setVerticalScrollBarPolicy(
+            policies.ScrollBarAlwaysOn if bar.isVisible() else policies.ScrollBarAsNeeded
+        )
+        page.setHtml(text)
+        page.setVerticalScrollBarPolicy(policies.ScrollBarAsNeeded)
+        bar.setValue(place)
 
     def _show_axes(self, address: Address) -> None:
         file = self._workspace.file

@@ -103,8 +103,7 @@ class Menus(Mapping[str, QAction], Generic[W]):
 
     def _enable(self, row: Action[W], action: QAction, able: bool) -> None:
         """Enable one action, unless the file in front has a reason against it, and show its state."""
-        workspace = self._window.workspace
-        if row.why_not is not None and workspace is not None:
+        if row.why_not is not None and (workspace := self._window.workspace) is not None:
             reason = row.why_not(workspace)
             able = able and not reason
             action.setToolTip(reason or tip_of(action))
