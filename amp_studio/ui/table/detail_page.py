@@ -310,15 +310,15 @@ class DetailPage(Translated):
 
     def _history(self, address: Address) -> str:
         entries = self._workspace.document.history(address)
-        shown = entries if "history" in self.opened else entries[:_CHANGES]
+        newest = entries if "history" in self.opened else entries[:_CHANGES]
         lines = [
             f"<p><small>{stored_in_words(entry.when)}, {html.escape(entry.who)},"
             f" {html.escape(entry.how)}</small><br>{html.escape(entry.old or self.tr('not set'))} →"
             f" {html.escape(entry.new or self.tr('not set'))}</p>"
-            for entry in shown
+            for entry in newest
         ]
-        if len(shown) < len(entries):
-            more = self.tr("{number} earlier").format(number=len(entries) - len(shown))
+        if len(newest) < len(entries):
+            more = self.tr("{number} earlier").format(number=len(entries) - len(newest))
             lines.append(f'<p><a href="{FOLD}history">{more}</a></p>')
         label = html.escape(self._workspace.file.machine_schema.label(address))
         return "".join(lines) or f"<p>{self.tr('No saved changes of {name} yet.').format(name=label)}</p>"
