@@ -1,15 +1,13 @@
 """Three full NUM files in the window that compares and merges: until it is painted, and until a filter is."""
 
-import os
 import shutil
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from itertools import cycle
 from pathlib import Path
 
+from desktop import until_painted
 from measure import Measure, timed
-
-os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 OPEN, CHOICE = 0.150, 0.050
 """Seconds until three full files are compared and painted, or filtered; and a choice with its findings."""
@@ -54,13 +52,6 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
     shown.resize(1440, 900)
     shown.show()
     application.processEvents()
-
-    def until_painted(act: Callable[[], object]) -> Callable[[], None]:
-        def call() -> None:
-            act()
-            application.processEvents()
-
-        return call
 
     def checked() -> None:
         end = time.monotonic() + 30.0

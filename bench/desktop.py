@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -38,3 +38,38 @@ def window_with(path: Path) -> Iterator[MainWindow]:
     yield window
     window.may_leave = lambda *_: True
     window.close()
+
+
+def until_painted(act: Callable[[], object]) -> Callable[[], None]:
+    """Return what does something and what follows from it, until all of it is painted."""
+
+    def call() -> None:
+        from PySide6.QtCore import QCoreApplication
+
+        act()
+        QCoreApplication.processEvents()
+
+    return call
+
+
+def painted_table(window: MainWindow, path: Path) -> None:
+    """Open a file in a window, until its table is painted: it is read in a thread."""
+    from PySide6.QtCore import QCoreApplication, QEvent, QObject
+
+    class Ear(QObject):
+        heard = False
+
+        def eventFilter(self, _: QObject, event: QEvent) -> bool:  # noqa: N802  # Qt's own name
+            self.heard = self.heard or event.type() == QEvent.Type.Paint
+            return False
+
+    window.open_path(path)
+    end = time.monotonic() + 10.0
+    while window.workspace_in_front.path != path and time.monotonic() < end:
+        QCoreApplication.processEvents()
+    ear = Ear()
+    window.page_in_front.table_view.viewport().installEventFilter(ear)
+    while not ear.heard and time.monotonic() < end:
+        QCoreApplication.processEvents()
+    assert ear.heard, "the table is painted"
+    window.page_in_front.table_view.viewport().removeEventFilter(ear)

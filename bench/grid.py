@@ -5,13 +5,13 @@ The slowest of many counts.
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from itertools import cycle
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from desktop import window_with
-from measure import Measure, timed
+from desktop import until_painted, window_with
+from measure import Measure, timed, worst
 
 if TYPE_CHECKING:
     from amp_studio.ui.main_window import MainWindow
@@ -34,13 +34,6 @@ def _used(window: MainWindow, times: int) -> Iterator[Measure]:
 
     table, view, workspace = window.page.table, window.page.table_view, window.page.workspace
     every = list(workspace.file.schema.parameters.values())
-
-    def until_painted(act: Callable[[], object]) -> Callable[[], None]:
-        def call() -> None:
-            act()
-            QCoreApplication.processEvents()
-
-        return call
 
     few, lists = every[:20], cycle([every, every[:20]])
     table.show_parameters(few)
@@ -87,11 +80,6 @@ def _used(window: MainWindow, times: int) -> Iterator[Measure]:
         KEYSTROKE,
         timed(until_painted(lambda: QTest.keyClick(field, next(letters))), 4 * times),
     )
-
-
-def worst(name: str, target: float, seconds: tuple[float, ...]) -> Measure:
-    """Return the slowest of some times as the one figure."""
-    return Measure(f"{name}, at worst", (max(seconds),), target)
 
 
 def _number(table: Any) -> tuple[str, str]:

@@ -30,6 +30,11 @@ class Measure:
         return "pass" if median(self.figures) < self.target else "over"
 
 
+def worst(name: str, target: float, seconds: Sequence[float]) -> Measure:
+    """Return the slowest of some times as the one figure that counts."""
+    return Measure(f"{name}, at worst", (max(seconds),), target)
+
+
 def timed(
     call: Callable[[], object], times: int, before: Callable[[], object] | None = None, warm: int = 1
 ) -> tuple[float, ...]:

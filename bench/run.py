@@ -87,7 +87,7 @@ def measures(folder: Path, times: int, groups: Collection[str]) -> Iterator[Meas
         "published": published.measures,
         "sim": lambda: sim.measures(folder, times),
         "laws": lambda: sim_laws.measures(times),
-        "screen": lambda: screen.measures(full, times),
+        "screen": lambda: screen.measures(full, example, times),
         "grid": lambda: grid.measures(folder, times),
         "comparing": lambda: comparing.measures(folder, times),
         "drag": lambda: drag.measures(folder, times),

@@ -40,6 +40,12 @@ TARGETS = {
     "the loaded schema in memory",
     "open and validate",
     "keystroke in the find box, painted",
+    "edit of a value, painted, at worst",
+    "edit of a value, 165 findings more and less, painted, at worst",
+    "edit of the type of an axis, painted, at worst",
+    "page of all parameters scrolled, painted, at worst",
+    "theme, painted",
+    "a full file opened in a running window, painted",
 }
 
 
