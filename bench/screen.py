@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from amp_studio.ui.main_window import MainWindow
 
 KEYSTROKE, EDIT, FRAME, SWITCH = 0.030, 0.030, 0.016, 0.100
-"""Seconds until all is painted: a key in the find box; an edit and a page of the table, at worst; another file
-in front, or another theme."""
+"""Seconds until all is painted: a key in the find box; an edit and a page of the table, at worst; another
+file in front, or another theme."""
 EDITS = (
     ("a value", ("servo.excess_error", "1"), ("12 mm", "11 mm")),
     ("a value, 165 findings more and less", ("feedrate.rapid", "1"), ("1 mm/min", "10000 mm/min")),

@@ -64,7 +64,7 @@ def test_unsaved_work_that_a_full_disk_cannot_keep_is_reported_once(
 
 
 def test_a_slow_disk_keeps_no_key_waiting(window: MainWindow, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The journal was written by the window, which stood still for two waits for the disk."""
+    """The journal was written by the window, which waited twice for the disk."""
     workspace, threads = window.workspace, list[int]()
     write = document.write_atomic
 

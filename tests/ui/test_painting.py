@@ -33,7 +33,7 @@ def on_screen(window: MainWindow) -> QImage:
     return window.screen().grabWindow(window.winId()).toImage()
 
 
-def painted_anew(window: MainWindow) -> QImage:
+def new_painting(window: MainWindow) -> QImage:
     """Return what a painting of the whole window shows, with nothing of a cell remembered."""
     assert window.table is not None
     window.table._looks.clear()
@@ -43,7 +43,7 @@ def painted_anew(window: MainWindow) -> QImage:
 def is_up_to_date(window: MainWindow) -> bool:
     """Return whether the screen has what a painting of everything shows; what comes later may still come."""
     paint(window)
-    return on_screen(window) == painted_anew(window)
+    return on_screen(window) == new_painting(window)
 
 
 @pytest.fixture
@@ -107,8 +107,8 @@ def test_the_screen_has_after_any_edits_what_a_new_painting_shows(window: MainWi
     addresses = [a for a in workspace.file.addresses() if texts_for(window, a)]
     made = 0
     while made < EDITS:
-        shown = [a for row in window.page_in_front.table.unfiltered() for a in row if texts_for(window, a)]
-        address = chance.choice(shown or addresses)
+        here = [a for row in window.page_in_front.table.unfiltered() for a in row if texts_for(window, a)]
+        address = chance.choice(here or addresses)
         if chance.random() < 0.3:
             window.page_in_front.select(chance.choice(addresses))
         if chance.random() < 0.2:
