@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from amp_studio.files import document
 from amp_studio.ui.actions.project import new
-from amp_studio.ui.base.translated import speak
+from amp_studio.ui.base.translated import set_language
 from amp_studio.ui.dialogs.file_dialogs import ProjectDialog
 from amp_studio.ui.dialogs.note_dialog import NoteDialog
 from amp_studio.ui.main_window import MainWindow
@@ -111,10 +111,10 @@ def test_a_folder_that_cannot_be_made_is_a_sentence_without_the_number_of_its_er
     accept(ProjectDialog, lambda dialog: dialog.form.set_answer("name", "Line 4"))
     user.chooses(tmp_path / "line")
     monkeypatch.setattr(Path, "mkdir", refuse)
-    speak(language)
+    set_language(language)
     try:
         window.guarded(partial(new, window), "New Project")
     finally:
-        speak("en")
+        set_language("en")
     why = {"en": "Permission denied", "de": "keine Berechtigung"}[language]
     assert user.reads() == f"{tmp_path / 'line'}: {why}"
