@@ -8,6 +8,7 @@ the models. An error in a fact is reported with file and line.
 from __future__ import annotations
 
 import hashlib
+import logging
 from collections.abc import Callable, Collection, Iterable
 from functools import cache, partial
 from itertools import chain, count, repeat
@@ -50,6 +51,7 @@ from .yaml_reader import KeyPath, YamlDocument
 
 T = TypeVar("T", bound=Model)
 D = TypeVar("D", bound=Model | None)
+_log = logging.getLogger(__name__)
 _MAX_RULES = 2**20
 """Bytes of a file of rules; the largest of our own has 37,000."""
 _MAX_FAULTS_LISTED = 9
@@ -99,7 +101,18 @@ class Compiled(Model):
 
 def family_ids() -> tuple[str, ...]:
     """Return the families that have a folder of facts, in alphabetical order."""
-    return tuple(sorted({*_own_ids(), *added_facts()}))
+    return tuple(sorted({*_own_ids(), *filter(_can_be_loaded, added_facts())}))
+
+
+@cache
+def _can_be_loaded(family_id: str) -> bool:
+    """Return whether the facts of another package can be loaded; a fault is reported, so the others work."""
+    try:
+        load_compiled(family_id)
+    except DatabaseError as fault:
+        _log.warning("The family %s of another package cannot be used: %s", family_id, fault)
+        return False
+    return True
 
 
 def _own_ids() -> set[str]:

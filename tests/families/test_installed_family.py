@@ -103,6 +103,20 @@ def test_packages_that_cannot_be_loaded_are_named_and_left_out(site: Path) -> No
         assert reason in line
 
 
+def test_a_family_with_a_fault_in_its_facts_is_named_and_left_out(site: Path, tmp_path: Path) -> None:
+    """None of the others could be listed, and the window made no new file."""
+    path = site / "facts" / "family.yaml"
+    path.write_text(path.read_text("utf-8").replace("machines:", "machnes:", 1), "utf-8")
+    done = program(site, "families")
+    assert done.returncode == 0
+    assert "Stepper control" not in done.stdout
+    assert {line.split()[0] for line in done.stdout.splitlines()} == {*family_ids()}
+    assert "The family steps of another package cannot be used: " in done.stderr
+    done = program(site, "new", "steps", tmp_path / "bench.amp")
+    assert done.returncode == 2
+    assert done.stderr.endswith(f"{path}, line 8: machnes: there is no such key, did you mean 'machines'?\n")
+
+
 def test_a_package_cannot_replace_a_family_of_the_program(site: Path, tmp_path: Path) -> None:
     own, *_ = family_ids()
     install(site, "other", "raise OSError('loaded')", f"{own} = other:REGISTRATION")

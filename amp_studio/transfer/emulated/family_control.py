@@ -62,7 +62,7 @@ def emulate(listen: Endpoint | str, options: EmulatedOptions) -> int:
     offered = emulators_of(options.family)
     if not offered:
         raise ValueError(
-            f"There is no emulated control of {options.family}: its facts list no way to a control (see"
+            f"There is no emulated control of {options.family}: its facts list no line and no gateway (see"
             " 'ways' in family.yaml)"
         )
     name = place.protocol or next(iter(offered))
