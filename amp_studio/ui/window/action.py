@@ -42,7 +42,7 @@ class Action(Generic[W]):
     """One thing that a person can ask for, by menu, key, tool bar or find box."""
 
     key: str
-    """By which code names it, ``file.save``; the keys that a person has chosen are stored under it."""
+    """By which code names it, ``file.save``."""
     text: str
     """Its name in the menu, with an Alt letter; ``…`` where it asks something first."""
     does: Callable[[W], object]
