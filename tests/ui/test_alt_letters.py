@@ -1,5 +1,6 @@
-"""No two controls that are seen together have the same Alt letter: menus one by one,
-dialogs and the window as a whole.
+"""No two controls that are seen together have the same Alt letter: dialogs and the window as a whole.
+
+The entries of each menu are in ``test_commands.py`` and, in German, in ``test_translations.py``.
 """
 
 import ast
@@ -12,7 +13,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from PySide6.QtWidgets import QDialog, QMenu
+from PySide6.QtWidgets import QDialog
 
 import amp_studio.ui
 from amp_studio.files import Project, ProjectInfo, compare, new_file
@@ -21,25 +22,7 @@ from tests.source_trees import nodes_of
 
 from .alt_letters import doubled, texts_of
 
-
-def menus_of(menu: QMenu) -> Iterator[QMenu]:
-    """Yield a menu and all below it."""
-    yield menu
-    for action in menu.actions():
-        if isinstance(action.menu(), QMenu):
-            yield from menus_of(action.menu())
-
-
 # -- the window
-
-
-def test_every_menu_has_each_letter_once(window: MainWindow) -> None:
-    bar = window.menuBar()
-    assert doubled([a.text() for a in bar.actions() if a.isVisible()]) == {}
-    for action in bar.actions():
-        for menu in menus_of(action.menu()):
-            displayed = [a.text() for a in menu.actions() if a.isVisible()]
-            assert (menu.title(), doubled(displayed)) == (menu.title(), {})
 
 
 @pytest.mark.parametrize("has_file", [True, False], ids=["with a file", "without a file"])
