@@ -450,3 +450,14 @@ def test_a_changed_value_is_drawn_over_the_same_move_with_the_one_of_the_file(
     assert ">before</text>" in (tmp_path / "a.svg").read_text(encoding="utf-8")
     write(after, tmp_path / "plain.svg", before=None)
     assert ">before</text>" not in (tmp_path / "plain.svg").read_text(encoding="utf-8")
+
+
+def test_a_parameter_whose_id_begins_like_a_setting_is_tried_by_its_id(amp) -> None:
+    """``cam`` is a group of the 57C422B and of settings: by its number the parameter was taken already."""
+    press = Path(__file__).parents[2] / "examples" / "57c422b-label-press" / "LABEL_PRESS.amp"
+    by_number, by_id = (
+        amp("simulate", press, "cam", "--axis", "Y", "--set", f"{name}=25 ms", "--json").json["result"]
+        for name in ("R2177", "cam.time@Y")
+    )
+    assert by_id == by_number
+    assert by_id != amp("simulate", press, "cam", "--axis", "Y", "--json").json["result"]

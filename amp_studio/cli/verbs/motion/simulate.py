@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
@@ -188,7 +188,7 @@ HAVE_OPTIONS = {"speed": ("spindle", "tap", "probe"), "pitch": ("tap",)}
 """Option -> the scenarios that it belongs to."""
 
 SETTING_GROUPS = ("move", "model", "tune", "sweep", "gear", "cam")
-"""First words of settings that are no parameters."""
+"""First words of settings. A parameter whose id begins so, as ``cam.time`` of the 57C422B, is no setting."""
 
 
 def run(options: Options) -> int:
@@ -223,7 +223,7 @@ def _simulated(options: Options, machine: MachineParameters) -> tuple[ParameterF
     """Return the file with the values to try, its trace, and for a picture that of the file as it is."""
     from amp_studio.sim import laid_over, machine_for, read_machine
 
-    settings, own = _settings_and_assignments(options)
+    settings, own = _settings_and_assignments(options, machine.schema.parameters)
     messages: list[str] = []
     tried = machine.with_values(assignments(own), notify=messages.append)
     axis = _axis(options, tried)
@@ -290,7 +290,7 @@ def _given_machine(options: Options) -> list[tuple[str, str, str]]:
     return list((found | {name: (name, text, "--set") for name, text in own}).values())
 
 
-def _settings_and_assignments(options: Options) -> tuple[dict[str, Any], list[str]]:
+def _settings_and_assignments(options: Options, known: Container[str]) -> tuple[dict[str, Any], list[str]]:
     """Return the settings of the scenario and the machine, and the assignments of parameters."""
     if options.trigger and not options.against:
         raise UsageError("--trigger belongs to --against")
@@ -299,7 +299,7 @@ def _settings_and_assignments(options: Options) -> tuple[dict[str, Any], list[st
         raise UsageError(f"a record and its scale belong to {IDENTIFY}, not to {options.scenario}")
     if options.chart and options.scenario != "frequency":
         raise UsageError(f"--chart belongs to frequency, not to {options.scenario}")
-    named, own = _settings(options.assignments)
+    named, own = _settings(options.assignments, known)
     settings: dict[str, Any] = {**of_options, **named}
     if options.aim:
         if options.scenario != "tune":
@@ -419,12 +419,14 @@ def _earlier(machine: MachineParameters, trace: Trace, settings: dict[str, Any],
         return None
 
 
-def _settings(texts: Sequence[str]) -> tuple[dict[str, float | str], list[str]]:
-    """Part the settings of the scenario and its model (``move.feedrate=3000``) from parameters."""
+def _settings(texts: Sequence[str], known: Container[str]) -> tuple[dict[str, float | str], list[str]]:
+    """Part the settings of the scenario and its model (``move.feedrate=3000``) from parameters, of which
+    ``known`` has the ids.
+    """
     settings: dict[str, float | str] = {}
     own = []
     for param, text in assignments(texts):
-        if param.partition(".")[0] in SETTING_GROUPS:
+        if param.partition(".")[0] in SETTING_GROUPS and param.partition("@")[0] not in known:
             settings[param] = text
         else:
             own.append(f"{param}={text}")
