@@ -69,6 +69,7 @@ class FindSearch(Translated):
         file = page.workspace.file
         self._finders[page] = Finder(file.schema, file.machine, file)
         page.workspace.changed.connect(lambda *_: self._changed(page))
+        # The page is the key: without this every file that was closed would stay in memory with its index.
         page.destroyed.connect(lambda: self._finders.pop(page, None))
         page.detail.message_requested.connect(
             lambda message: self._show_message(page.workspace.file.schema, message, page)
@@ -149,6 +150,7 @@ class FindSearch(Translated):
         instance = here[1] if here is not None and here[1] in instances else instances[0]
         address = hit.address or (hit.key, instance)
         found = file.get(address)
+        # A list of points has lines; a row has one.
         value = tr("not set") if found is None else " ".join(page.table.values.text(address, found).split())
         if hit.kind == "value":
             return replace(hit, title=value)
@@ -173,6 +175,7 @@ class FindSearch(Translated):
         which is asked again then.
         """
         if self._families is None:
+            # Empty at once: the next key must not begin the same work again.
             self._families = ()
             task = Task(lambda *_: _every_family())
             task.done.connect(self._take_families)
@@ -212,6 +215,7 @@ class FindSearch(Translated):
         ids = tuple(
             dict.fromkeys(hit.key for hit in hits if hit.kind in ("parameter", "value", "choice", "note"))
         )
+        # One parameter alone is what Enter on its row shows.
         if len(ids) < 2:
             return []
         text = self.box.tr("Show %n parameters in the table", "", len(ids))
@@ -249,6 +253,7 @@ class FindSearch(Translated):
     # -- going there -----------------------------------------------------------------------
 
     def _trigger(self, action: QAction) -> None:
+        # A menu that is filled when it opens deletes its old actions.
         if not is_alive(action):
             self.box.search()  # its menu was filled again
             return

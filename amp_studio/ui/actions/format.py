@@ -82,6 +82,7 @@ class TextFormats(Translated):
             return True
         if len(offer.listings) > 1:
             places = [f"{n}: {place}" for n, place in enumerate(offer.listings, 1)]
+            # The last one is offered: in a log it is the newest.
             chosen = self._item(self.tr("Listing:"), places, len(places) - 1)
             if chosen is None:
                 return False
@@ -109,6 +110,7 @@ class TextFormats(Translated):
         from amp_studio.formats import FamilyNotGivenError, FormatError
 
         try:
+            # First without keeping anything: most texts are understood whole, and nothing is asked.
             file = self._import(path, None, False)
         except FamilyNotGivenError:
             family = self._family()
@@ -140,6 +142,7 @@ class TextFormats(Translated):
         try:
             file = self._import(path, family, True)
         except FormatError:
+            # The first error: it is about the text as it is, not about what was kept of it.
             raise error from None
         listed = "\n".join(list(file.unknown)[:_SHOWN])
         question = self.tr(
@@ -216,8 +219,10 @@ class TextFormats(Translated):
             return
         found = filters.get(chosen)
         path = Path(text)
+        # An ending that was typed has precedence over the kind that was chosen.
         path = path if path.suffix or found is None else path.with_suffix(found.ending)
         check_output(path, workspace.path)
+        # A copy: it is written in a thread, and the file may be edited meanwhile.
         file, key = workspace.file.copy(), found.key if found else None
         secrets = workspace.secrets
         export = in_background(

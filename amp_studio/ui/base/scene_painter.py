@@ -81,6 +81,7 @@ class ScenePainter:
         self._painter, self._place, self._scene = painter, place, place.scene
         self._caption, self._strong = caption_fonts()
         self.labels = painted_labels(place, size)
+        # Qt strokes wide lines in software: a long path would take ten times as long for half a point more.
         self._is_fine = sum(len(line.points) for line in place.scene.lines if not line.wide) > MAX_WIDE_POINTS
         self.named: list[tuple[QRectF, Address]] = []
         """Where a name is that leads to its parameter."""
@@ -98,6 +99,7 @@ class ScenePainter:
         for line in self._scene.lines:
             self._line(line)
         self._across()
+        # Over areas, lines and levels, and below the dots: a measured curve is never hidden by a limit.
         for curve in self._scene.curves:
             self._curve(curve)
         for dot in self._scene.dots:
@@ -106,6 +108,7 @@ class ScenePainter:
         for label in self.labels.placed:
             if label.leader is not None:
                 painter.drawLine(QPointF(*label.leader[0]), QPointF(*label.leader[1]))
+        # Texts last, over everything that is drawn.
         for label in self.labels.placed:
             self._label(label)
 
@@ -154,6 +157,7 @@ class ScenePainter:
         painter, shade = self._painter, colour(TOKENS[curve.sort])
         line, band = strokes_of(self._place, curve)
         painter.save()
+        # A point more than the frame: half of a line along its edge would be cut off.
         painter.setClipRect(self._inner().adjusted(-1, -1, 1, 1))
         if curve.dots:
             paint_values(painter, _polygon(line), shade)
@@ -175,6 +179,7 @@ class ScenePainter:
         from amp_studio.drawing import cell_boxes  # numpy, see above
 
         painter, place = self._painter, self._place
+        # Smoothed edges of cells beside each other leave a light grid.
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
         for left, top, width, height, share, is_safe in cell_boxes(place, cells):
             shade = _mixed(share)
@@ -182,6 +187,7 @@ class ScenePainter:
             painter.fillRect(QRectF(left, top, width, height), shade)
         left, step = place.left + place.width + 22.0, place.height / BAR_STEPS
         for n in range(BAR_STEPS):
+            # Half a point over the next one, so that no gap is seen between the steps.
             box = QRectF(left, place.top + place.height - (n + 1) * step, BAR, step + 0.5)
             painter.fillRect(box, _mixed((n + 0.5) / BAR_STEPS))
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -209,6 +215,7 @@ class ScenePainter:
         if line.sort == "rail":
             shade.setAlphaF(0.5)
         pen = QPen(shade, 4.0 if line.wide else 1.0 if self._is_fine else width)
+        # A round end would reach half its width beyond the place where the line ends.
         pen.setCapStyle(Qt.PenCapStyle.FlatCap)
         pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
         if line.dashed or line.dotted:
@@ -258,6 +265,7 @@ class ScenePainter:
             return
         if label.strong or label.over:
             background = colour("base")
+            # Not quite covered: a line below a text is still seen to go on.
             background.setAlphaF(0.8)
             painter.fillRect(box, background)
         named = self._strong if label.strong else self._caption

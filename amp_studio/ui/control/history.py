@@ -86,6 +86,7 @@ class ExchangeHistory(QWidget):
                     _ending(each.text),
                 ]
             )
+            # In one column: rows of a tree are as high as their highest cell.
             item.setSizeHint(6, QSize(0, ROW))
             kept = self.tr("\nKept copy: {kept}").format(kept=each.kept) if each.kept else ""
             item.setToolTip(6, _ending(each.text) + kept)
@@ -107,8 +108,10 @@ class ExchangeHistory(QWidget):
     def _backup(self) -> str:
         """Return the path of the backup of the selected exchange; empty for none that is still there."""
         item = self.tree.currentItem()
+        # A changed parameter is below its exchange, whose backup it is.
         item = item.parent() or item if item is not None else None
         kept: str = item.data(0, _KEPT) or "" if item is not None else ""
+        # It may have been deleted since: the button is off then.
         return kept if kept and Path(kept).is_file() else ""
 
     def _follow(self, *_: object) -> None:

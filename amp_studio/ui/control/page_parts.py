@@ -168,6 +168,7 @@ class ControlPageParts(QWidget):
         else:
             is_new, had_focus = needed and self.password.isHidden(), self.password.hasFocus()
             self.password.setReadOnly(False)
+            # Before it is hidden: Qt would give the focus to the next field, with what is typed on.
             if had_focus and not needed:
                 self.middle.currentWidget().setFocus()
             self.password.setVisible(needed)
@@ -200,6 +201,7 @@ class ControlPageParts(QWidget):
         self.empty.setAlignment(align.AlignTop | align.AlignLeft if is_proof else align.AlignCenter)
         if is_proof:
             head, *rest = map(escape, text.split("\n\n"))
+            # Escaped above: names of files and controls are no markup.
             text = "".join((f"<p><b>{head}</b></p>", *(f"<p>{each}</p>" for each in rest)))
         self.empty.setTextFormat(Qt.TextFormat.RichText if is_proof else Qt.TextFormat.PlainText)
         self.empty.setText(text)
@@ -220,6 +222,7 @@ class ControlPageParts(QWidget):
     def show_progress(self, stage: str, done: int, total: int) -> None:
         """Show how far an exchange is."""
         self.cancel.setEnabled(True)
+        # A range without an end moves: nothing is known of how much there is.
         self.progress.setRange(0, max(total, 0))
         self.progress.setValue(done)
         self.steps.show_stage(stage, done, total)

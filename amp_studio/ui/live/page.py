@@ -121,9 +121,11 @@ class LiveView(LivePageParts):
             self.turned.clear()
             self._asked.clear()
             self.happened = EventReadings()
+            # Nothing of another control may be read as this one's.
             self._status = self._answers.last = None
             self.panel.show_nothing("")
         self.session, self.name = session, name
+        # Readings from the same address go on: a control may take one client only.
         if self.readings is None or seen != self._seen:
             self._take_readings(readings or StatusReadings(seen, self._family))
             self._seen = seen
@@ -154,6 +156,7 @@ class LiveView(LivePageParts):
         letter = axis_letter(self._workspace.file, axis) or axis
         if not self.axes.buttons:
             file = self._workspace.file
+            # Of the file, until the control itself names its axes.
             names = [axis_letter(file, each) or each for each in axis_instances(file)]
             self._offer_axes(names[:8], letter)
         elif letter in self.axes.buttons:
@@ -305,6 +308,7 @@ class LiveView(LivePageParts):
         if names := [axis.axis for axis in status.axes]:
             self._offer_axes(names, self.axes.choice or names[0])
         is_new = self.happened.take(status)
+        # Limits and values are looked up again where something has happened, not five times a second.
         if is_first or is_new:
             self._choose_axis()
         self._show_axis(status)
@@ -313,6 +317,7 @@ class LiveView(LivePageParts):
         self.panel.show_happened(self.happened)
         self._answers.show_age()
         states = (status.state, tuple(axis.states for axis in status.axes), tuple(status.faults))
+        # The state in which it refused has ended: it may take the value now.
         if states != self._refused_in:
             self._refused_in = states
             self.frame.allow()

@@ -202,6 +202,7 @@ class LiveRecording(QWidget):
         self._recorder.add(seconds, figures)
         if not self._recorder.has_fired and self._fires(last, axis, is_fault):
             self._recorder.fire(seconds)
+        # The stop of the axis after a fault belongs to the record, which then ends by itself.
         if is_fault and self._recorder.has_fired and self._ends_at is None:
             self._ends_at = seconds + AFTER_FAULT
         if self._recorder.is_done or (self._ends_at is not None and seconds >= self._ends_at):
@@ -221,6 +222,7 @@ class LiveRecording(QWidget):
     def _fires(self, last: AxisStatus | None, axis: AxisStatus, is_fault: bool) -> bool:
         match self.trigger.currentData():
             case "move":
+                # Of a control that reports no speed the position alone shows that it moves.
                 moved = last is not None and axis.position is not None and axis.position != last.position
                 return bool(axis.velocity) or moved
             case "error":
@@ -242,6 +244,7 @@ class LiveRecording(QWidget):
             return
         try:
             self._level()
+            # Read before the record begins: a typing error in a field must not cost the move.
             before = read_number(self.before.text().strip() or "0")[0]
         except ValueError as error:
             self._problem = sentenced(str(error))
@@ -256,6 +259,7 @@ class LiveRecording(QWidget):
     def stop(self) -> None:
         """End a record that is made and keep it; one reading is none."""
         recorder, self._recorder = self._recorder, None
+        # A record that only waited for its trigger has nothing of the move.
         if recorder is not None and recorder.count > 1 and recorder.has_fired:
             self.record, self._fired = recorder.recording(self._axis), recorder.fired_after
             self._begin_with_record()
@@ -296,6 +300,7 @@ class LiveRecording(QWidget):
         """Simulate the move that the record shows, in a thread."""
         assert self.record is not None
         present, record = self._present(), self.record
+        # With what the control contains if it is known: with that the machine has moved, not with the file.
         file = (present or self._workspace.file).copy()
         try:
             zeroed, settings, words = move_of(file, record)
@@ -307,6 +312,7 @@ class LiveRecording(QWidget):
         )
         self._remark = f"{words}, {whose}"
         asked = AskedMotion("step", self._instance(file), settings, file, None, None, zeroed)
+        # Of two runs the later one counts.
         self._abandon_run()
         self._task = Task(partial(run_motion, asked))
         self._task.done.connect(self._simulated)
@@ -407,6 +413,7 @@ class LiveRecording(QWidget):
         parts = [self.tr("A to B {time} s").format(time=written(f"{abs(b - a):.3f}"))]
         for signal in signals_of(record):
             values, unit = record.signals[signal], unit_in_words(record.units.get(signal, ""))
+            # The nearest reading, not one between two: nothing is known there.
             one, two = (float(values[int(np.argmin(np.abs(record.time - at)))]) for at in (a, b))
             words = worded(signal.replace("_", " "))
             parts.append(f"{words} {written(f'{one:.5g}')} → {written(f'{two:.5g}')} {unit}")

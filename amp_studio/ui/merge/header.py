@@ -36,6 +36,7 @@ class SourceButton(QToolButton):
         self.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         menu = QMenu(self)
+        # Filled when it opens: files are opened and copies are made meanwhile.
         menu.aboutToShow.connect(self.fill)
         self.setMenu(menu)
         self.show_source(None)
@@ -87,6 +88,7 @@ class SourceButton(QToolButton):
         two_lines(
             painter, room, source.title if source else self.tr("Choose…"), source.detail if source else ""
         )
+        # By hand, as all of the button: the style has no part in it.
         if self.hasFocus():
             painter.setPen(colour("sel"))
             painter.setBrush(Qt.BrushStyle.NoBrush)

@@ -58,6 +58,7 @@ class _Machine:
     def read(self) -> None:
         """Read it again where it is open, and once where it is on disk."""
         if self.workspace is not None:
+            # A copy each time: it is compared in a thread, with what is unsaved in the window.
             self.file = self.workspace.file.copy()
         elif self.file is None and not self.fault:
             try:
@@ -195,6 +196,7 @@ class MachinesDialog(QDialog):
         elif not chosen:
             family = machine.file.schema.family
             item.setText(f"{machine.path.stem} ({family.short or family.name})")
+        # Adding an entry is no choice: each would compare all machines again.
         self.list.blockSignals(True)
         self.list.addItem(item)
         self.list.blockSignals(False)
@@ -256,6 +258,7 @@ class MachinesDialog(QDialog):
         self._same = same
         room = self.stack.width() - _ROW_HEAD - GAP3
         head, mode = self.table.horizontalHeader(), QHeaderView.ResizeMode
+        # Few machines fill the width; many keep theirs and scroll.
         head.setSectionResizeMode(mode.Stretch if room >= _COLUMN * len(chosen) else mode.Interactive)
         self.empty.setText(self.tr("Nothing differs."))
         self.stack.setCurrentWidget(self.table if lines else self.empty)
@@ -291,6 +294,7 @@ class MachinesDialog(QDialog):
     def changeEvent(self, event: QEvent) -> None:
         """Compare again when one comes back from an edit."""
         super().changeEvent(event)
+        # Not at each edit: the table would change under the hand in the other window.
         if event.type() == QEvent.Type.ActivationChange and self.isActiveWindow() and self._is_stale:
             self.compare()
 

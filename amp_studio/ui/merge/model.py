@@ -115,6 +115,7 @@ class MergeModel(QAbstractItemModel):
         words = self._words.get(row.id)
         if words is None:
             words = f"{self.number(row)} {self.name(row)} {self.axis(row)} {row.address[0]}".casefold()
+            # Once a row: the filter asks at every key.
             self._words[row.id] = words
         return words
 
@@ -217,6 +218,7 @@ class MergeModel(QAbstractItemModel):
     def _unit_of(self, row: Row) -> str:
         """Return the unit in which a row is shown, which is meant by a number without one."""
         usual = self.merge.a.evaluation.unit(row.address, self.units or self.merge.a.header.units)
+        # A unit system that was chosen has precedence; else the unit of the values that are there.
         if self.units is not None:
             return usual
         return next(
@@ -230,14 +232,19 @@ class MergeModel(QAbstractItemModel):
         those that are the same have nothing to choose.
         """
         changed = [
-            row for row in rows if row.kind != "same" and (choice != "base" or self.merge.base is not None)
+            # Without a base there is nothing of it to take.
+            row
+            for row in rows
+            if row.kind != "same" and (choice != "base" or self.merge.base is not None)
         ]
         for row in changed:
             self.merge.choose(row, choice)
             self._cells.pop(row.id, None)
+        # A choice may change more than its row: the values of an axis that begins to turn get other units.
         others = self._make_result() - {row.id for row in changed}
         is_one = len(changed) == 1 and not others
         first = self.index_of(changed[0].id, NAME) if is_one else QModelIndex()
+        # One row is painted again, not the tree: choosing with the keys goes through hundreds.
         if first.isValid():
             self.dataChanged.emit(first, first.siblingAtColumn(RESULT))
         else:
@@ -286,6 +293,7 @@ class MergeModel(QAbstractItemModel):
     def index(self, row: int, column: int, parent: ModelIndex = QModelIndex()) -> QModelIndex:  # noqa: B008  # Qt's own signature
         if not self.hasIndex(row, column, parent):
             return QModelIndex()
+        # The number is that of the group, from 1: 0 is the head of a group itself.
         return self.createIndex(row, column, parent.row() + 1 if parent.isValid() else 0)
 
     def parent(self, index: ModelIndex = QModelIndex()) -> QModelIndex:  # type: ignore[override]  # noqa: B008  # Qt's own signature

@@ -91,6 +91,7 @@ class MergeSources(QObject):
         """Return the file as it is, with what is not saved."""
         changes = len(self._workspace.document.unsaved_changes())
         detail = self.tr("this file, %n unsaved changes", "", changes) if changes else self.tr("this file")
+        # A copy: the file is edited on while it is compared.
         return MergeSource(self._name, detail, self._file.copy(), is_now=True)
 
     def as_saved(self) -> MergeSource:
@@ -132,6 +133,7 @@ class MergeSources(QObject):
         n = 0
         while n < len(entries) and len(found) < _NEWEST:
             when = entries[n].when
+            # All entries of one save have its time.
             while n < len(entries) and entries[n].when == when:
                 n += 1
             found.append(entries[:n])
@@ -183,6 +185,7 @@ class MergeSources(QObject):
         if copy.file is None:
             raise CopyError(self.tr("{file} cannot be shown: {why}").format(file=path.name, why=copy.fault))
         content = self._fitting(copy.file, path.name)
+        # Completed by this file: a control does not contain its notes, ticks and header.
         return MergeSource(self.tr("Kept copy"), _stamp(path), completed(content, copy.image, file))
 
     def of_content(self, file: ParameterFile, image: bytes, address: str) -> MergeSource:
@@ -212,6 +215,7 @@ class MergeSources(QObject):
     def copies(self) -> list[Path]:
         """Return the newest kept copies of what controls contained before this file was downloaded."""
         place = real_path(self._workspace.path)
+        # A name may contain the characters of a pattern.
         stem = "".join(f"[{c}]" if c in "*?[" else c for c in place.stem)
         return sorted(place.parent.glob(f"{stem}.before-*.img"), reverse=True)[:_NEWEST]
 
@@ -223,6 +227,7 @@ class MergeSources(QObject):
                 "{file} is for {other} and {this} is for {family}: only files of one family can be compared."
             )
             raise ValueError(text.format(file=name, other=found.name, this=self._name, family=wanted.name))
+        # One schema for all sources: rows are compared by address.
         return by_schema(file, self._file.schema)
 
     # -- what is offered -----------------------------------------------------------
@@ -272,6 +277,7 @@ class MergeSources(QObject):
         yield Offer(
             self.tr("On &Disk"), lambda: lambda _progress, _cancel: self.on_disk(open_file(path).file)
         )
+        # Asked each time the menu opens: the first save makes it.
         if backup_path(path).is_file():
             yield Offer(self.tr("&Backup"), self.backup)
         if saves := self._saves():

@@ -72,6 +72,7 @@ def _rows(trace: Trace, before: Trace | None, before_name: str) -> list[str]:
     head = "".join(f'<td align=right style="color:{dim}">{words}</td>' for words in heads)
     rows = [f"<tr><td></td><td></td>{head}</tr>"] if heads else []
     for name, (value, unit) in trace.result.items():
+        # It is in a column of the figure that it belongs to.
         if _is_beside(name, others, trace.result):
             continue
         cells = [trace.result.get(f"{kind}{name}", (None, ""))[0] for kind in others]
@@ -131,6 +132,7 @@ class RecommendationsPage(QScrollArea):
 
     def _frame(self, schema: Schema, each: Recommendation, usable: bool) -> QWidget:
         frame = QWidget()
+        # Not higher than its text: with few recommendations they would be spread over the page.
         frame.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
         column = QVBoxLayout(frame)
         column.setContentsMargins(0, 0, 0, 0)
@@ -157,6 +159,7 @@ class RecommendationsPage(QScrollArea):
 
     def _button(self, text: str, found: Sequence[Recommendation]) -> QPushButton:
         button = QPushButton(text)
+        # Every frame has a button "Apply": heard alone they would be the same.
         button.setAccessibleName(f"{text}: {', '.join(each.parameter for each in found)}")
         button.clicked.connect(lambda: self._apply(found))
         self.buttons.append(button)

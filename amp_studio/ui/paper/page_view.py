@@ -87,8 +87,10 @@ class PageView(QAbstractScrollArea):
 
     def show_pages(self, pages: Sequence[bytes], ppi: int, spot: Spot | None = None) -> None:
         """Show other pages at the same spot, or at another one. Places stay until they are known again."""
+        # A report that is made again stays where it is read, also with other pages.
         spot = spot or self.spot()
         self.pages, self._ppi = pages, ppi
+        # By the heads of the images: decoding all pages would take seconds before the first is seen.
         self._sizes = [_size(page, ppi) for page in pages]
         for n in [n for n in self._drawn if n >= len(pages)]:
             del self._drawn[n]
@@ -113,6 +115,7 @@ class PageView(QAbstractScrollArea):
         """The page that is read, counted from 1: it is not the one that ends at the top.
         0 while there is none.
         """
+        # A third down: the page that ends at the top is read no more.
         middle = self.verticalScrollBar().value() + self.viewport().height() // 3
         return max((n for n, at in enumerate(self._tops, 1) if at <= middle), default=min(len(self._tops), 1))
 
@@ -131,6 +134,7 @@ class PageView(QAbstractScrollArea):
         if scroll:
             band = self._band(place)
             bar, height = self.verticalScrollBar(), self.viewport().height()
+            # What is seen already does not move under the eye.
             if not (bar.value() <= band.top() and band.bottom() <= bar.value() + height):
                 bar.setValue(int(band.center().y() - height / 3))
             across = self.horizontalScrollBar()
@@ -227,6 +231,7 @@ class PageView(QAbstractScrollArea):
         lines = [p.y for p, _ in here if p.y - _LINE_ABOVE <= y <= p.y + _REACH]
         if not lines:
             return None
+        # The lowest of the lines in reach: the one just above the point.
         row = sorted((p.x, a) for p, a in here if p.y == max(lines))
         return max((each for each in row if each[0] <= x + GAP), default=row[0])[1]
 
@@ -252,6 +257,7 @@ class PageView(QAbstractScrollArea):
             drawn = self._drawn.get(n)
             if drawn is not None:
                 painter.drawPixmap(rect, drawn[2])
+            # An old picture of the page, in another size, is better than none until the new one is decoded.
             missing = missing or not self._is_drawn(n)
         place = self.places.get(self._marked) if self._marked is not None else None
         if place is not None and place.page <= len(self.pages):
@@ -290,6 +296,7 @@ class PageView(QAbstractScrollArea):
         size, ratio = self._of(missing), self.devicePixelRatioF()
         smooth = Qt.TransformationMode.SmoothTransformation
         image, wanted = QImage.fromData(self.pages[missing]), size * ratio
+        # Above that the painter scales the page as it is: a pixmap of that size may not fit into memory.
         if not image.isNull() and wanted.width() * wanted.height() <= _MAX_PIXELS:
             image = image.scaled(wanted, Qt.AspectRatioMode.IgnoreAspectRatio, smooth)
             image.setDevicePixelRatio(ratio)

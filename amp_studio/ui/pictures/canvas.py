@@ -98,6 +98,7 @@ class PictureCanvas(QWidget):
     def draw_again(self) -> None:
         """Follow the file."""
         chosen = self._dragged or self.handle
+        # On the scales of the scene in which a drag began: else the picture would move under the pointer.
         self.scene = self._drawn(self._start)
         if chosen is not None:
             self._active = self._place_of(chosen)
@@ -135,11 +136,13 @@ class PictureCanvas(QWidget):
         while len(self._spots) > len(handles):
             self._spots.pop().deleteLater()
         while len(self._spots) < len(handles):
+            # A widget on each handle, though it paints nothing: Tab and screen readers know widgets only.
             self._spots.append(self._new_spot(len(self._spots)))
         for spot, handle in zip(self._spots, handles, strict=True):
             x, y = self.place.at(handle.at)
             spot.move(int(x - REACH), int(y - REACH))
             name = f"{handle.label}: {handle.value}"
+            # Only where it is another one: Qt announces each change, and a drag has hundreds.
             if spot.accessibleName() != name:
                 spot.setAccessibleName(name)
         title = f"{self.scene.title}, {self.scene.subtitle}"
@@ -175,6 +178,7 @@ class PictureCanvas(QWidget):
         shapes.paint()
         self._names, self._left_out = list(shapes.named), shapes.labels.left_out
         chosen = self.handle
+        # The chosen one over the others.
         corners_last = sorted(self.scene.handles, key=lambda handle: handle is chosen)
         found = ((handle, self._finding(handle, self._causes)) for handle in corners_last)
         paint_handles(
@@ -282,6 +286,7 @@ class PictureCanvas(QWidget):
             x, y = self.place.at(handle.at)
             far = ((x - at.x()) ** 2 + (y - at.y()) ** 2) ** 0.5
             if far <= REACH:
+                # At one place the handle that moves more values comes first: a corner before its edges.
                 found.append((round(far), -len(handle.drags), n))
         found.sort()
         return [n for far, _, n in found if far <= found[0][0] + TOGETHER]
@@ -310,8 +315,10 @@ class PictureCanvas(QWidget):
             self.update()
             return
         self._start, self._dragged = self.scene, handle
+        # The handle does not jump to the pointer: pressing alone changes no value.
         self._offset = QPointF(*self.place.at(handle.at)) - event.position()
         self._drag = ValueDrag(self._workspace, tuple(drag.address for drag in handle.drags))
+        # So that Escape ends the drag, whatever has the focus.
         self.grabKeyboard()
         self.notified.emit(self.tr("Dragging {name}: one undo step").format(name=handle.label))
 
@@ -348,6 +355,7 @@ class PictureCanvas(QWidget):
         if event.button() == Qt.MouseButton.LeftButton and self._drag is not None:
             self.end_drag()
             found = self._within_reach(event.position())
+            # A second click without a drag goes on to the next of the handles that lie on each other.
             if self._again and not self._moved and self._active in found:
                 self.choose(found[(found.index(self._active) + 1) % len(found)])
                 self.focus_handle()

@@ -84,6 +84,7 @@ class RowHeads(QHeaderView):
         if unit := table.unit_of_row(section):
             wide = self._fonts["dim"][1].horizontalAdvance(unit)
             self._write(painter, QRect(name.right() - wide, name.top(), wide + 1, name.height()), unit, "dim")
+            # The unit is written whole: without it the figures of the row have no meaning.
             name.setRight(name.right() - wide - GAP3)
         self._write(painter, name, table.row_name(section), "text")
 
@@ -103,6 +104,7 @@ class RowHeads(QHeaderView):
         self._point_at(-1)
 
     def _point_at(self, row: int) -> None:
+        # Painted again only when the pointer changes its row, not with each of its moves.
         if row != self._pointed:
             self._pointed = row
             self.viewport().update()
@@ -110,6 +112,7 @@ class RowHeads(QHeaderView):
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Offer the way back at the mark of a row; elsewhere the row is selected."""
         place = event.position().toPoint()
+        # Within the margin that has the mark: a click on a name selects its row.
         row = self.logicalIndexAt(place) if place.x() < GAP3 and self._table.workspace.may_edit else -1
         is_click = event.button() == Qt.MouseButton.LeftButton and row >= 0
         if is_click and (found := self._table.off_default(row)):

@@ -126,6 +126,7 @@ class WelcomeControls(QWidget):
 
     def _connect(self, control: KnownControl) -> None:
         """Ask the control who it is; nothing is read from it or changed."""
+        # First: after an error the old state must not be shown as the present one.
         self._states.pop(control.address, None)
         found = self._control.exchanges.identify(control.address, control.family)
         state = {True: self.tr("in E-stop"), False: self.tr("not in E-stop"), None: ""}[found.in_estop]
@@ -138,6 +139,7 @@ class WelcomeControls(QWidget):
         self._window.show_status(text)
 
     def _upload_current(self) -> None:
+        # Without a control in the list Upload asks for an address.
         item = self.list.currentItem() if self.list.count() else None
         address = item.data(KEY).address if item is not None else None
         self._window.guarded(partial(self._control.upload, address), self.tr("Upload"))
