@@ -65,7 +65,7 @@ def test_the_chapter_compares_gains_with_the_file(tuned: Path, checkout: Path) -
         text = written(tuned, ending).read_text("utf-8")
         assert "warm machine" in text
         assert "another in the file" in text
-    assert "EINSTELLPROTOKOLL" in written(tuned, "txt", language="de").read_text("utf-8")
+    assert "ABSTIMMPROTOKOLL" in written(tuned, "txt", language="de").read_text("utf-8")
 
 
 @pytest.mark.skipif(not which("pdftotext"), reason="there is no pdftotext")
@@ -112,7 +112,7 @@ def test_a_german_chapter_is_german_and_a_note_ends_before_the_next_tuning(tuned
     add_tuning(tuned, replace(read_tunings(tuned)[0], axis="Y", note="kalt"))
     made = written(tuned, "pdf", language="de")
     printed = subprocess.run(["pdftotext", "-layout", made, "-"], capture_output=True, text=True, check=True)
-    chapter = printed.stdout[printed.stdout.rindex("Einstellprotokoll") :]
+    chapter = printed.stdout[printed.stdout.rindex("Abstimmprotokoll") :]
     assert "==" not in chapter
     assert [line.strip() for line in chapter.splitlines() if "warm machine" in line] == ["warm machine"]
     assert "angenommen: " in chapter

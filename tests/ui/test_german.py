@@ -90,7 +90,7 @@ def test_why_a_family_has_no_such_axis_and_what_a_build_needs_is_german(german: 
         (
             "1300 Home Calibration is 25.4 mm, 25.4 times the 1 mm in the backup. Is it meant?",
             (
-                "1300 Home Calibration ist 25,4 mm, war 1 mm in der Sicherung (das 25,4-fache). Ist das so"
+                "1300 Home Calibration ist 25,4 mm, war 1 mm in der Sicherung (das 25,4-Fache). Ist das so"
                 " gewollt?"
             ),
         ),

@@ -1,0 +1,96 @@
+"""One German word for one thing, in every text that a person reads: of the program, and of the families' facts."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, get_args
+
+import pytest
+import yaml
+
+from amp_studio.languages.catalogue import TextSection
+from amp_studio.schema import program_texts
+
+FACTS = Path(__file__).resolve().parents[2] / "parameter_db"
+
+
+def leaves(part: Any) -> Iterator[str]:
+    """Yield every text of a document."""
+    if isinstance(part, str):
+        yield part
+    elif isinstance(part, dict):
+        for value in part.values():
+            yield from leaves(value)
+
+
+def program_pairs() -> list[tuple[str, str]]:
+    """Return every English text of the program with its German one, each form of those with a number."""
+    return [
+        (english, form)
+        for section in get_args(TextSection)
+        for english, own in program_texts("de", section).items()
+        for form in ([own] if isinstance(own, str) else own)
+    ]
+
+
+def pairs() -> list[tuple[str, str]]:
+    """Return English and German of every text; where the English one is elsewhere, it is empty."""
+    found = [(english.replace("&", ""), own.replace("&", "")) for english, own in program_pairs()]
+    for path in sorted(FACTS.glob("*/de/**/*.yaml")):
+        document = yaml.safe_load(path.read_text("utf-8"))
+        phrases = document.pop("phrases", {})
+        found += phrases.items()
+        found += [("", text) for text in leaves(document)]
+    return found
+
+
+@pytest.mark.parametrize(
+    ("english", "german"),
+    [
+        (r"\b[Ss]av(e|ed|ing)\b", r"\b[Ss]icher[nt]\b|gesichert"),  # Sicherung is a backup
+        (r"\b[Ee]xchanges?\b", "Austausch"),
+        ("", r"Gangstufe|Kennwort|Software-Endlage|Umkehrfehler|Dualgruppe|Ablesung der|referiert\b"),
+        ("", r"\bEnter\b(?! Second)|\bEscape\b|Ctrl|Shift\+"),
+        ("", r"\d in(?=[,.;:)/]|$)|\binch(es)?\b"),
+    ],
+)
+def test_a_german_text_has_no_other_word_than_the_one_of_its_thing(english: str, german: str) -> None:
+    allowed = re.compile(r"austauschen|\{[A-Z ,&]+\}|\[ENTER\]")
+    wrong = [
+        (source, own) for source, own in pairs() if re.search(english, source) and re.search(german, own)
+    ]
+    assert [pair for pair in wrong if not allowed.search(pair[1])] == []
+
+
+def test_tuning_is_one_word() -> None:
+    """It was Abgleichen, Abstimmen and Einstellen, which is what is done to every value."""
+    tuning = [pair for pair in pairs() if re.search(r"\btun(e|ed|ing)\b", pair[0], re.IGNORECASE)]
+    own = re.compile(r"[Aa]b(ge|zu)?stimm|Regler|\btune\b|^Tune ")
+    assert [pair for pair in tuning if not own.search(pair[1])] == []
+
+
+def test_the_default_alone_is_a_vorgabe() -> None:
+    """The command of a move was one too."""
+    wrong = [pair for pair in program_pairs() if "Vorgabe" in pair[1].replace("&", "")]
+    assert [pair for pair in wrong if "efault" not in pair[0].replace("&", "")] == []
+
+
+def test_an_order_of_the_program_has_no_sie() -> None:
+    """Most orders had none, and one window had both ways."""
+    asks = re.compile(r"\b\w+en Sie\b")
+    assert [own for _, own in program_pairs() if asks.search(own.replace("&", ""))] == []
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        r"\"\w|(?<!--scale )(?<!--turn )(?<!install )'[^' ]\S*'",  # „…“, but what is typed at a shell
+        r"(?<![=+-])\b\d+%",
+        r"\b(das|dem|vom|zum) [^.;]*-fachen?\b",
+        r"(?<!  ) — ",
+        r"(?<![\w)\]=+-])-\d(?![\d.]*%)",
+    ],
+    ids=["quotes", "per cent", "times", "dash", "minus"],
+)
+def test_german_signs(wrong: str) -> None:
+    assert [own for _, own in pairs() if re.search(wrong, own)] == []
