@@ -43,6 +43,23 @@ def test_the_names_of_both_sides_are_read_whole_where_there_is_room(qtbot: QtBot
         assert table.columnWidth(CONTROL) == table.columnWidth(FILE)
 
 
+def test_a_value_is_whole_while_the_last_column_has_room_to_spare(qtbot: QtBot) -> None:
+    """``Belongs to no gro…`` was beside 900 pixels of white on a large screen."""
+    file, other = new_file("9pc", "mill", ["X"]), new_file("9pc", "mill", ["X"])
+    file.set(("zone.group", "1"), Value("none"))
+    other.set(("zone.group", "1"), Value("g1"))
+    table = DifferenceTable()
+    qtbot.addWidget(table)
+    table.resize(1900, 300)
+    found = compare(file.schema, file.values, other.values).differences
+    table.show_differences(file, found, to_control=True, secrets=False)
+    table.show()
+    row = table.topLevelItem(0).child(0)
+    assert row.text(FILE) == "Belongs to no groups"
+    wide = table.fontMetrics().horizontalAdvance(row.text(FILE))
+    assert table.columnWidth(FILE) >= wide + 32, "with its mark and the margins"
+
+
 def test_conditions_leave_their_details_out_before_a_word_is_cut(qtbot: QtBot) -> None:
     line = ConditionLine()
     qtbot.addWidget(line)

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QApplication
 from amp_studio.report import language_of
 from amp_studio.schema import Limits, Value, program_texts, unit_named, unit_text
 from amp_studio.schema.units import UNITS
-from amp_studio.ui.base.figures import range_in_words, sentence, written
+from amp_studio.ui.base.figures import range_in_words, sentence, with_measures, written
 from amp_studio.ui.base.time_words import in_words, stored_in_words
 from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.motion.tuning_page import TuningView
@@ -117,9 +117,29 @@ def test_a_finding_and_the_allowed_range_are_german_in_the_window_and_in_the_rep
     address = ("servo.excess_error", "1")
     window.workspace.edit("rapid", {("feedrate.rapid", "1"): Value(100.5, "mm/s")})
     texts = [window.findings.model.text_of(window.findings.model.index(n, 0)) for n in range(3)]
-    assert any("100,5 mm/s bei X und 10000 mm/min bei Y; in 64 anderen" in text for text in texts), texts
+    assert any("100,5 mm/s bei X und 10\u202f000 mm/min bei Y; in 64 anderen" in text for text in texts), (
+        texts
+    )
     assert not any("100.5" in text for text in texts), "a rule has the words of its facts and the comma too"
     assert allowed_text(window.workspace, address) == "0 bis 214,1 mm"
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        (
+            "1750 ist 10000 mm/min: üblich 5e-08 bis 3e-05 mm",
+            "1750 ist 10 000 mm/min: üblich 5 × 10⁻⁸ bis 3 × 10⁻⁵ mm",
+        ),
+        ("12345 Home ist -20000 bis 30000,5 mm", "12345 Home ist -20 000 bis 30 000,5 mm"),
+        ("P9N10000 und $10000 in 10.0.21, 20000 Werte", "P9N10000 und $10000 in 10.0.21, 20000 Werte"),
+    ],
+)
+def test_quantities_of_a_finding_are_in_groups_and_powers_and_no_address_is(
+    german: None, text: str, shown: str
+) -> None:
+    """A finding had 10000 mm/min beside the cell with 10 000, and 5e-08 mm."""
+    assert with_measures(text) == re.sub(r"(?<=\d) (?=\d{3}\b)| (?=×)|(?<=×) ", "\u202f", shown)
 
 
 def test_the_report_has_the_language_of_the_window_until_another_is_chosen(window) -> None:

@@ -9,6 +9,7 @@ from pytestqt.qtbot import QtBot
 
 from amp_studio.files import ParameterFile, open_file
 from amp_studio.ui.base.task import Task
+from amp_studio.ui.base.translated import speak
 from amp_studio.ui.migration.rows import meanings
 from amp_studio.ui.migration.window import MigrationWindow
 
@@ -137,3 +138,24 @@ def test_two_axes_of_one_letter_are_asked_about_apart(qtbot: QtBot) -> None:
     window.migrate()
     assert window.migration.written.answered["letter.X1"] == "Y"
     assert window.migration.written.answered["letter.X2"] == "U"
+
+
+def test_what_a_parameter_means_is_whole_on_a_large_screen_and_its_value_german(
+    qtbot: QtBot, followed: list[str]
+) -> None:
+    speak("de")
+    try:
+        made = MigrationWindow(lambda: open_file(MILL).file, MILL, followed.append)
+        qtbot.addWidget(made)
+        made.target.set_answer("to", "grblhal")
+        made.migrate()
+        made.resize(2560, 1440)
+        made.show()
+    finally:
+        speak("en")
+    rows = [head.child(n) for head in made.tree._heads() for n in range(head.childCount())]
+    old = {row.text(0) for row in rows}
+    assert "1590 Lead Screw Thread Pitch: 12,7 mm" in old
+    assert any(text.endswith(": −420 mm") for text in old)
+    meaning = max((row.text(1) for row in rows), key=made.fontMetrics().horizontalAdvance)
+    assert made.tree.columnWidth(1) > made.fontMetrics().horizontalAdvance(meaning)

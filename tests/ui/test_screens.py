@@ -19,8 +19,11 @@ from PySide6.QtWidgets import (
     QGridLayout,
     QHeaderView,
     QLabel,
+    QLineEdit,
     QListView,
+    QTableView,
     QToolButton,
+    QTreeView,
     QWidget,
 )
 
@@ -166,6 +169,32 @@ def texts(window: MainWindow) -> Iterator[tuple[QWidget, str]]:
             yield widget, widget.text()
 
 
+def is_hint_cut(field: QLineEdit) -> bool:
+    """Whether an empty field has no room for what it is for."""
+    wide = field.fontMetrics().horizontalAdvance(field.placeholderText())
+    return (
+        bool(wide) and not field.text() and wide > field.width() - 2 * max(8, field.cursorRect().center().x())
+    )
+
+
+def squeezed(window: MainWindow) -> Iterator[tuple[str, str]]:
+    """Yield each column that has less room than its texts while others, or none, have it to spare."""
+    for view in window.findChildren(QAbstractItemView):
+        head = view.horizontalHeader() if isinstance(view, QTableView) else None
+        head = view.header() if isinstance(view, QTreeView) else head
+        if head is None or not view.isVisible():
+            continue
+        shown = [n for n in range(head.count()) if not head.isSectionHidden(n)]
+        needs = {n: max(view.sizeHintForColumn(n), head.sectionSizeHint(n)) for n in shown}
+        spare = sum(max(0, head.sectionSize(n) - needs[n]) for n in shown)
+        spare += max(0, view.viewport().width() - head.length())
+        for n in shown:
+            missing = needs[n] - head.sectionSize(n)
+            if 0 < missing <= spare:
+                title = head.model().headerData(n, Qt.Orientation.Horizontal)
+                yield type(view).__name__, f"{title}: {missing} of {spare} to spare"
+
+
 def is_broken(table: QLabel) -> bool:
     """Whether a word of a table, as a unit, goes on in the next line, or the table needs more room."""
     document = QTextDocument()
@@ -267,7 +296,12 @@ def test_no_text_of_a_page_is_cut_and_nothing_overlaps_on_any_screen(
             if (window.width(), window.height()) != screen:
                 found.append((name, screen, f"needs {window.width()} x {window.height()}"))
             cut = [(type(w).__name__, text) for w, text in texts(window) if is_cut(w)]
-            painted = (*heads(window), *cells(window))
+            painted = (*heads(window), *cells(window), *squeezed(window))
+            cut += [
+                ("hint", field.placeholderText())
+                for field in window.findChildren(QLineEdit)
+                if field.isVisible() and is_hint_cut(field)
+            ]
             found += [(name, screen, each) for each in (*cut, *painted, *overlaps(window))]
     assert found == [], "\n".join(map(str, found))
 

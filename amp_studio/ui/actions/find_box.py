@@ -32,6 +32,8 @@ _WIDE, _SHARE = 640, 0.7
 """Width of the list, and the part of the window that it may be high."""
 _KEY_ROOM = 110
 """Room in pixels for the icon and the key beside the words of an empty box."""
+_ICON_ROOM = 72
+"""Room in pixels beside the words alone."""
 _STEPS = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1, Qt.Key.Key_PageUp: -8, Qt.Key.Key_PageDown: 8}
 
 
@@ -49,7 +51,7 @@ class FindBox(QLineEdit):
         """Return a box of a window; ``ask`` gives the rows of a question."""
         super().__init__()
         self._ask = ask
-        self.setPlaceholderText(self.tr("Find a parameter, value, message or command"))
+        self._show_hint()
         self.setAccessibleName(self.tr("Find"))
         self.setAccessibleDescription(
             self.tr("Type a number, a name, a value or a message of the control; > lists commands")
@@ -225,8 +227,15 @@ class FindBox(QLineEdit):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Keep the list below the box, which changes its size with the window."""
         super().resizeEvent(event)
+        self._show_hint()
         if self.is_open:
             self._place()
+
+    def _show_hint(self) -> None:
+        """Show what can be found here, in one word where there is room for no more."""
+        hint = self.tr("Find a parameter, value, message or command")
+        is_wide = self.fontMetrics().horizontalAdvance(hint) + _ICON_ROOM <= self.width()
+        self.setPlaceholderText(hint if is_wide else self.tr("Find"))
 
     def sizeHint(self) -> QSize:
         return QSize(320, super().sizeHint().height())

@@ -7,11 +7,13 @@ from __future__ import annotations
 
 import re
 import textwrap
+from functools import cache
 
 from amp_studio import schema
-from amp_studio.schema import Limits, Parameter, Value
+from amp_studio.schema import UNITS, Limits, Parameter, Value
+from amp_studio.validate import Finding
 
-from .translated import message_in_words, tr, unit_in_words
+from .translated import message_in_words, tr, unit_in_words, worded_finding
 
 THIN = "\u202f"
 """A narrow space that no line breaks at, between groups of three digits on the screen."""
@@ -20,6 +22,7 @@ _NUMBER = re.compile(r"(?<![\w.$@])(?<!figure )[-−]?\d+\.\d+(?![\w]|\.\d)")
 _POINT = re.compile(r"(?<=\d)\.(?=\d)")
 _MINUS = re.compile(r"^-(?=\d)")
 _POWER = re.compile(r"(?<=\d)e([+-]?)0*(\d+)")
+_EXPONENT = re.compile(r"(?<![\w.,])\d+(?:[.,]\d+)?e[-+]?\d+(?!\w)")
 _WHOLE = re.compile(r"([-−]?)([0-9]{5,})(.*)")
 _FIGURE = re.compile(r"(?<![^\s(])[-−]?\d+(?:\.\d+)?(?:e[+-]?\d+)?(?![\w.]*\w)")
 """A number in a text that has no address: a range, or the value beside the name of a parameter."""
@@ -65,7 +68,29 @@ def sentence(text: str) -> str:
     """Return a message that was made below the window (what is allowed, why a value is refused)
     with its numbers as the language writes them.
     """
-    return with_figures(message_in_words(text))
+    return with_measures(with_figures(message_in_words(text)))
+
+
+def finding_in_words(finding: Finding) -> str:
+    """Return the message of a finding in the language of the window, with its figures."""
+    return with_measures(worded_finding(finding))
+
+
+def with_measures(text: str) -> str:
+    """Return a sentence with its quantities in groups, and powers as a person writes them; numbers of
+    parameters, blocks and registers have no unit and stay.
+    """
+    text = _EXPONENT.sub(lambda found: written(found[0]), text)
+    return _quantities(frozenset(map(unit_in_words, UNITS))).sub(lambda found: grouped(found[0]), text)
+
+
+@cache
+def _quantities(units: frozenset[str]) -> re.Pattern[str]:
+    """Return what finds numbers of five digits or more before a unit, or before the end of its range."""
+    spelled = "|".join(map(re.escape, sorted(units - {""}, key=len, reverse=True)))
+    unit = rf"[ {THIN}]?(?:{spelled})(?![\w/])"
+    number = r"\d+(?:[.,]\d+)?"
+    return re.compile(rf"(?<![\w.,@$/-])[-−]?\d{{5,}}(?:[.,]\d+)?(?={unit}| (?:to|bis) [-−]?{number}{unit})")
 
 
 def with_figures(text: str) -> str:

@@ -79,8 +79,8 @@ def facts_in_words(schema: Schema) -> Language:
     return language_of(_spoken, schema.family.family)
 
 
-def finding_in_words(finding: Finding) -> str:
-    """Return the message of a finding in the language of the window, with its figures."""
+def worded_finding(finding: Finding) -> str:
+    """Return the message of a finding in the language of the window."""
     if _spoken == "en":
         return finding.message
     return language_of(_spoken, family_of_rule(finding.rule)).finding(finding)

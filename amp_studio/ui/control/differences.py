@@ -171,12 +171,14 @@ class DifferenceTable(QTreeWidget):
         words = {item.text(REMARK) for item in self._items.values()}
         needed = SMALL_ICON + 2 * GAP2 + max(map(metrics.horizontalAdvance, words), default=0)
         remark = max(_MIN_SIDE, self.header().sectionSizeHint(REMARK), min(needed, _MAX_REMARK, room // 3))
-        for column, width in (
-            (NAME, max(_MIN_NAME, min(_NAME, room - 2 * side - remark))),
-            (CONTROL, side),
-            (FILE, side),
-        ):
-            self.setColumnWidth(column, width)
+        widths = {NAME: max(_MIN_NAME, min(_NAME, room - 2 * side - remark)), CONTROL: side, FILE: side}
+        spare = max(0, room - remark - sum(widths.values()))
+        for column in (FILE, CONTROL, NAME):  # what is to spare goes to texts that would be cut
+            own = {item.text(column) for item in self._items.values()}
+            wide = SMALL_ICON + 2 * GAP3 + max(map(metrics.horizontalAdvance, own), default=0)
+            more = min(spare, max(0, wide - widths[column]))
+            spare -= more
+            self.setColumnWidth(column, widths[column] + more)
 
     def _block_of(self, address: Address, screen_text: set[str] | None) -> str:
         """Return the title of the block of a value; those that begin with a NUL are folded, at the end."""

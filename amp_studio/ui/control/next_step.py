@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 from amp_studio.files import ParameterFile
-from amp_studio.ui.base.translated import finding_in_words, message_in_words, tr
+from amp_studio.ui.base.figures import finding_in_words
+from amp_studio.ui.base.translated import message_in_words, tr
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.message_bar import MessageKind
 

@@ -80,6 +80,8 @@ class ControlPageParts(QWidget):
         self.filter = QLineEdit()
         self.filter.setPlaceholderText(tr("Name or number"))
         self.filter.setAccessibleName(tr("Filter the differences"))
+        hint = self.filter.fontMetrics().horizontalAdvance(self.filter.placeholderText())
+        self.filter.setMinimumWidth(hint + 2 * GAP3)
         self.filter.setMaximumWidth(220)
         self.table = DifferenceTable()
         self.empty = QLabel()

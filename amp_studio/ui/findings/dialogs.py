@@ -19,8 +19,9 @@ from PySide6.QtWidgets import (
 
 from amp_studio.report import FindingGroup, finding_groups, fix_lines, severity_name, why_parts
 from amp_studio.schema import Address, written
+from amp_studio.ui.base.figures import finding_in_words
 from amp_studio.ui.base.theme import severity_html, severity_icon
-from amp_studio.ui.base.translated import finding_in_words, tr, worded
+from amp_studio.ui.base.translated import tr, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.form import Field, FormDialog
 from amp_studio.validate import Finding, explain

@@ -8,8 +8,9 @@ from typing import Any
 from PySide6.QtCore import QAbstractItemModel, QModelIndex, Qt
 
 from amp_studio.report import FindingGroup, finding_axes, finding_groups, fix_text, severity_name
+from amp_studio.ui.base.figures import finding_in_words
 from amp_studio.ui.base.model_index import ModelIndex
-from amp_studio.ui.base.translated import finding_in_words, worded
+from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.validate import Finding
 

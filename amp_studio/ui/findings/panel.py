@@ -24,10 +24,11 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.report import delivered_text, finding_axes
+from amp_studio.ui.base.figures import finding_in_words
 from amp_studio.ui.base.modal import pop_up
 from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.base.theme import FINDING_ROW, GAP2, colour, font, icon, paint_icon, scheme, severity_icon
-from amp_studio.ui.base.translated import counted, finding_in_words, worded
+from amp_studio.ui.base.translated import counted, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.forms.segment import Segment, chip

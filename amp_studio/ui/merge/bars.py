@@ -21,8 +21,9 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.report import severity_name
+from amp_studio.ui.base.figures import finding_in_words
 from amp_studio.ui.base.theme import ICON, MESSAGE, STATUS, TOOLS, font, icon, scheme, severity_icon
-from amp_studio.ui.base.translated import finding_in_words, worded
+from amp_studio.ui.base.translated import worded
 from amp_studio.validate import Finding
 
 _NARROW, _NARROWER = 1240, 1120

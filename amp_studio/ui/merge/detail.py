@@ -23,8 +23,8 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.files import MergeChoice, Row, Side, Typed
+from amp_studio.ui.base.figures import finding_in_words
 from amp_studio.ui.base.theme import Token, colour, font, icon, scheme
-from amp_studio.ui.base.translated import finding_in_words
 from amp_studio.ui.motion.tuning_target import effect_words
 from amp_studio.validate import SEVERITIES, Finding
 

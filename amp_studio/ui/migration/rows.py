@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QTreeWidget, QTreeWidgetItem, QWidget
 
 from amp_studio.meaning import MigratedParameter, Migration
@@ -13,9 +15,11 @@ from amp_studio.ui.base.theme import Token, font, icon
 from amp_studio.ui.base.translated import tr
 
 _MAX_OLD, _MAX_MEANING, _MIN_COLUMN = 460, 280, 120
-"""Widths of the columns as the window opens: at most, and at least."""
+"""Widths of the columns in a window without room for their texts: at most, and at least."""
 _AS_WRITTEN = ("key", "value", "raw", "id", "page", "answer")
 """Facts of an entry that are no words: they stay as file and control have them."""
+_QUANTITY = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?: \S+|°)?")
+"""A number with its unit, which each language writes in its way."""
 
 
 @dataclass(frozen=True)
@@ -93,7 +97,8 @@ def rows_of(
         concepts = dict.fromkeys(f"{letter} {words[concept]}".strip() for letter, concept in entry.meanings)
         key, value = facts.get("key", ""), facts.get("value", "")
         new = f"{key} = {value}" if key else facts.get("answer", "")
-        old = facts.get("raw") or facts.get("old", "")
+        raw = facts.get("raw", "")
+        old = (sentence(raw) if _QUANTITY.fullmatch(raw) else raw) or facts.get("old", "")
         yield MigrationRow(
             entry.address[0], f"{label(entry)}: {old}", ", ".join(concepts), new, _why(entry, facts)
         )
@@ -122,7 +127,8 @@ class MigrationTree(QTreeWidget):
         self.setUniformRowHeights(True)
         self.setAlternatingRowColors(True)
         self._folded = {"exact", "old_hardware"}
-        self._is_sized = False
+        self._widths: list[int] = []
+        """Of old and meaning, as they were given here."""
 
     def show_migration(
         self, migration: Migration, label: Callable[[MigratedParameter], str], sentence: Callable[[str], str]
@@ -138,12 +144,26 @@ class MigrationTree(QTreeWidget):
             own = [row for entry, row in rows if entry.outcome == outcome]
             if own:
                 self._add(outcome, f"{title} ({len(own)})", mark, shade, own)
-        if not self._is_sized and rows:
-            self._is_sized = True  # once: what a person has made of the columns stays
-            for column, most in ((0, _MAX_OLD), (1, _MAX_MEANING)):
-                self.resizeColumnToContents(column)
-                self.setColumnWidth(column, min(most, max(_MIN_COLUMN, self.columnWidth(column))))
+        self._share_room()
         self.verticalScrollBar().setValue(place)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._share_room()
+
+    def _share_room(self) -> None:
+        """Give old and meaning the width of their texts, less where the tree has no room for that; what a
+        person has made of the columns stays.
+        """
+        if self._widths != [self.columnWidth(column) for column in (0, 1)] and self._widths:
+            return
+        for column in (0, 1):
+            self.resizeColumnToContents(column)
+        whole = [max(_MIN_COLUMN, self.columnWidth(column)) for column in (0, 1)]
+        is_wide = sum(whole) + max(_MIN_COLUMN, self.sizeHintForColumn(2)) <= self.viewport().width()
+        self._widths = whole if is_wide else list(map(min, whole, (_MAX_OLD, _MAX_MEANING)))
+        for column, width in enumerate(self._widths):
+            self.setColumnWidth(column, width)
 
     def _heads(self) -> Iterator[QTreeWidgetItem]:
         for n in range(self.topLevelItemCount()):

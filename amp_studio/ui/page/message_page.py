@@ -12,8 +12,9 @@ from PySide6.QtWidgets import QDialog, QTextBrowser, QVBoxLayout, QWidget
 
 from amp_studio.find import LinkedParameter, LinkedRule, MessagePage, message_page
 from amp_studio.schema import Address, Schema
+from amp_studio.ui.base.figures import finding_in_words
 from amp_studio.ui.base.theme import GAP3, colour, scheme
-from amp_studio.ui.base.translated import finding_in_words, worded
+from amp_studio.ui.base.translated import worded
 
 from .file_page import FilePage
 

@@ -14,9 +14,9 @@ from amp_studio.drawing import Handle, Placement, Scene
 from amp_studio.files import RangeError
 from amp_studio.pictures import dragged, stepped
 from amp_studio.schema import Address, Value
+from amp_studio.ui.base.figures import finding_in_words
 from amp_studio.ui.base.scene_painter import ScenePainter
 from amp_studio.ui.base.theme import colour
-from amp_studio.ui.base.translated import finding_in_words
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.handle_spot import REACH, HandleSpot
 from amp_studio.ui.table.value_drag import ValueDrag

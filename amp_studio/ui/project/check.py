@@ -14,10 +14,11 @@ from PySide6.QtWidgets import QDialog, QHeaderView, QLabel, QTreeWidget, QTreeWi
 from amp_studio.files import ParameterFileError, open_file
 from amp_studio.guide import found_in
 from amp_studio.schema import Address
+from amp_studio.ui.base.figures import finding_in_words
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import TaskProgress
 from amp_studio.ui.base.theme import severity_colour, severity_icon
-from amp_studio.ui.base.translated import counted, finding_in_words, worded
+from amp_studio.ui.base.translated import counted, worded
 from amp_studio.validate import SEVERITIES, Finding, validator_of
 
 _GOES_TO = Qt.ItemDataRole.UserRole

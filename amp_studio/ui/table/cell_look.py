@@ -25,8 +25,8 @@ from amp_studio.schema import (
     labels_of_word,
     write_value,
 )
-from amp_studio.ui.base.figures import grouped, show_value
-from amp_studio.ui.base.translated import Translated, finding_in_words, tr, unit_in_words, worded
+from amp_studio.ui.base.figures import finding_in_words, grouped, show_value
+from amp_studio.ui.base.translated import Translated, tr, unit_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.validate import NOT_SET
 

@@ -10,18 +10,11 @@ from collections.abc import Callable, Iterable, Iterator
 from amp_studio.files import axis_letter, group_note, storage_text, value_note, with_days_and_times
 from amp_studio.report import GRADES, facts, help_parts, severity_name, state_name, tables_of
 from amp_studio.schema import Address, Parameter, Value, labels_of_word, limits, real_value, same_value
-from amp_studio.ui.base.figures import range_in_words, show_value
+from amp_studio.ui.base.figures import finding_in_words, range_in_words, show_value
 from amp_studio.ui.base.hazard import hazard_html
 from amp_studio.ui.base.theme import colour, icon_html, severity_html
 from amp_studio.ui.base.time_words import stored_in_words
-from amp_studio.ui.base.translated import (
-    Translated,
-    facts_in_words,
-    finding_in_words,
-    help_language,
-    unit_in_words,
-    worded,
-)
+from amp_studio.ui.base.translated import Translated, facts_in_words, help_language, unit_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.pages import drawn, link
 from amp_studio.validate import NOT_SET, Finding, calculators, family_of_rule, rule_title
