@@ -8,8 +8,10 @@ from typing import Any, get_args
 import pytest
 import yaml
 
+from amp_studio.files import new_file
 from amp_studio.languages.catalogue import TextSection
-from amp_studio.schema import program_texts
+from amp_studio.report import language_of
+from amp_studio.schema import family_ids, load_schema, program_texts
 
 FACTS = Path(__file__).resolve().parents[2] / "parameter_db"
 
@@ -94,3 +96,13 @@ def test_an_order_of_the_program_has_no_sie() -> None:
 )
 def test_german_signs(wrong: str) -> None:
     assert [own for _, own in pairs() if re.search(wrong, own)] == []
+
+
+@pytest.mark.parametrize("family", family_ids())
+def test_every_place_of_a_value_has_its_german_name(family: str) -> None:
+    """A German form had columns with the heads network number and port number."""
+    words = language_of("de", family)
+    machines = (new_file(family, name).machine_schema for name in load_schema(family).machines)
+    places = {machine.instance_label(address) for machine in machines for address in machine.places}
+    named = {place.rstrip(" 0123456789") for place in places if words.text(place) == place}
+    assert {name for name in named if re.search("[a-z]{2}", name)} <= {"Skip", "Interrupt"}

@@ -45,5 +45,5 @@ def test_a_row_of_the_findings_is_read_with_its_severity_and_axes(window: MainWi
     window.edits.commit(("servo.excess_error", "1"), "5 mm")
     window.findings.show_all()
     text = window.findings.model.index(0, 0).data(Qt.ItemDataRole.AccessibleTextRole)
-    assert text.startswith("error: At rapid 10000 mm/min")
+    assert text.startswith("error: At rapid 10\u202f000 mm/min")
     assert text.endswith("(X)")

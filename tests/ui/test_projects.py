@@ -187,7 +187,7 @@ def test_all_files_are_checked_and_a_finding_is_shown_in_its_file(
     (leaf,) = (
         leaf
         for leaf in map(branches["second.amp"].child, range(branches["second.amp"].childCount()))
-        if "Excess Error 1000000000 mm is outside" in leaf.text(4)
+        if "Excess Error 1\u202f000\u202f000\u202f000 mm is outside" in leaf.text(4)
     )
     dialog.tree.itemActivated.emit(leaf, 0)
     assert (window.workspace.path, window.selected()) == (project.path("second"), EXCESS)
