@@ -6,7 +6,7 @@ from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from amp_studio.errors import AmpStudioError
-from amp_studio.files import Difference, ParameterFile, by_schema, compare
+from amp_studio.files import Difference, ParameterFile, axis_letter, by_schema, compare
 from amp_studio.schema import Address, show_value
 from amp_studio.validate import NO_RULES, BuilderRules, Finding, Interim, NewValue
 
@@ -276,18 +276,27 @@ def _warnings(
     lines: Sequence[_Line], present: ParameterFile, own: BuilderRules, message: Callable[[Finding], str]
 ) -> tuple[str, ...]:
     """Return the errors that the control has when all is keyed in; those of the file itself are among
-    them.
+    them. One of several axes is one line.
     """
-    after = _broken_after(lines, present, own)
-    before = Interim(present, own).broken
-    errors = [(key, finding) for key, finding in after.items() if finding.severity == "error"]
+    before, final = Interim(present, own).broken, _final(lines, present)
+    errors: dict[tuple[str, str], dict[str, None]] = {}
+    for key, finding in Interim(final, own).broken.items():
+        if finding.severity == "error":
+            when = "Error as before" if key in before else "Error when all is keyed in"
+            errors.setdefault((when, message(finding)), {}).update(_axes(final, finding))
     return (
         *(fault.message for fault in own.faults),
         *(
-            f"Error {'as before' if key in before else 'when all is keyed in'}: {message(finding)}"
-            for key, finding in errors
+            f"{when} ({', '.join(axes)}): {text}" if axes else f"{when}: {text}"
+            for (when, text), axes in errors.items()
         ),
     )
+
+
+def _axes(file: ParameterFile, finding: Finding) -> dict[str, None]:
+    """Return the letters of the axes that are wrong, in their order."""
+    places = (place for place in finding.causes if file.evaluation.scope(place) == "axis")
+    return dict.fromkeys(axis_letter(file, axis) or axis for _, axis in places)
 
 
 def _entry(line: _Line, wanted: ParameterFile, secrets: bool) -> SheetEntry:

@@ -131,3 +131,15 @@ def test_errors_that_are_there_afterwards_are_reported_though_patch_amp_does_not
     assert amp("set", sides[0], "1740=not-set", "1750=1 mm").code == 0
     message = amp("sheet", sides[0], "--against", sides[1])
     assert "Error when all is keyed in" in message.err
+
+
+def test_an_error_of_several_axes_is_one_line_with_their_letters(amp, tmp_path: Path) -> None:
+    """It was a line for each axis, and none had the axis."""
+    file = tmp_path / "new.amp"
+    assert amp("new", "9pc", file, "--axes", "X,Y,Z").code == 0
+    shutil.copy(file, present := tmp_path / "present.amp")
+    lines = amp("sheet", file, "--against", present).err.splitlines()
+    assert len(lines) == len(set(lines)) > 0
+    assert [line for line in lines if not line.startswith("Error as before (X, Y, Z): The axis")] == []
+    german = amp("sheet", file, "--against", present, "--language", "de").err
+    assert german.startswith("Fehler wie zuvor (X, Y, Z): Die Achse")

@@ -125,7 +125,7 @@ def test_a_finding_and_the_allowed_range_are_german_in_the_window_and_in_the_rep
 
 
 @pytest.mark.parametrize(
-    ("text", "shown"),
+    ("text", "written"),
     [
         (
             "1750 ist 10000 mm/min: üblich 5e-08 bis 3e-05 mm",
@@ -136,10 +136,10 @@ def test_a_finding_and_the_allowed_range_are_german_in_the_window_and_in_the_rep
     ],
 )
 def test_quantities_of_a_finding_are_in_groups_and_powers_and_no_address_is(
-    german: None, text: str, shown: str
+    german: None, text: str, written: str
 ) -> None:
     """A finding had 10000 mm/min beside the cell with 10 000, and 5e-08 mm."""
-    assert with_measures(text) == re.sub(r"(?<=\d) (?=\d{3}\b)| (?=×)|(?<=×) ", "\u202f", shown)
+    assert with_measures(text) == re.sub(r"(?<=\d) (?=\d{3}\b)| (?=×)|(?<=×) ", "\u202f", written)
 
 
 def test_the_report_has_the_language_of_the_window_until_another_is_chosen(window) -> None:

@@ -184,11 +184,11 @@ def squeezed(window: MainWindow) -> Iterator[tuple[str, str]]:
         head = view.header() if isinstance(view, QTreeView) else head
         if head is None or not view.isVisible():
             continue
-        shown = [n for n in range(head.count()) if not head.isSectionHidden(n)]
-        needs = {n: max(view.sizeHintForColumn(n), head.sectionSizeHint(n)) for n in shown}
-        spare = sum(max(0, head.sectionSize(n) - needs[n]) for n in shown)
+        columns = [n for n in range(head.count()) if not head.isSectionHidden(n)]
+        needs = {n: max(view.sizeHintForColumn(n), head.sectionSizeHint(n)) for n in columns}
+        spare = sum(max(0, head.sectionSize(n) - needs[n]) for n in columns)
         spare += max(0, view.viewport().width() - head.length())
-        for n in shown:
+        for n in columns:
             missing = needs[n] - head.sectionSize(n)
             if 0 < missing <= spare:
                 title = head.model().headerData(n, Qt.Orientation.Horizontal)
