@@ -8,12 +8,15 @@ from typing import Any, get_args
 import pytest
 import yaml
 
-from amp_studio.files import new_file
+from amp_studio.files import new_file, open_file
 from amp_studio.languages.catalogue import TextSection
 from amp_studio.report import language_of
 from amp_studio.schema import family_ids, load_schema, program_texts
+from amp_studio.sim import listing
+from amp_studio.sim.unit_system import described
 
-FACTS = Path(__file__).resolve().parents[2] / "parameter_db"
+ROOT = Path(__file__).resolve().parents[2]
+FACTS = ROOT / "parameter_db"
 
 
 def leaves(part: Any) -> Iterator[str]:
@@ -106,3 +109,18 @@ def test_every_place_of_a_value_has_its_german_name(family: str) -> None:
     places = {machine.instance_label(address) for machine in machines for address in machine.places}
     named = {place.rstrip(" 0123456789") for place in places if words.text(place) == place}
     assert {name for name in named if re.search("[a-z]{2}", name)} <= {"Skip", "Interrupt"}
+
+
+@pytest.mark.parametrize("length", ["mm", "in"])
+@pytest.mark.parametrize("example", sorted(path.name for path in (ROOT / "examples").iterdir()))
+def test_every_setting_of_a_simulation_is_described_in_german(example: str, length: str) -> None:
+    """Those of a machine in inches were English."""
+    file = open_file(next((ROOT / "examples" / example).glob("*.amp"))).file
+    found, words = listing(file), language_of("de", file.schema.family.family)
+    settings = {**found.model, **{n: m for each in found.scenarios for n, m in each.settings.items()}}
+    own = {
+        described(meaning, length): words.sentence(described(meaning, length))
+        for meaning in settings.values()
+    }
+    english = re.compile(r"\b(default|or|the|of|with)\b")
+    assert [pair for pair in own.items() if english.search(pair[1])] == []

@@ -486,7 +486,7 @@ def test_why_an_emulated_control_refused_is_german(window: MainWindow) -> None:
     try:
         window.control.emulated.line_shown.emit("refused: the registers of this axis make none that can move")
         assert window.statusBar().currentMessage() == (
-            "Nachgebildete Steuerung: abgelehnt: mit den Registern dieser Achse kann sich keine bewegen"
+            "Nachgebildete Steuerung: abgelehnt: mit diesen Registern kann sich die Achse nicht bewegen"
         )
     finally:
         set_language("en")

@@ -10,7 +10,7 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from amp_studio.schema import Value
+from amp_studio.schema import Value, load_schema
 from amp_studio.ui.actions import find
 from amp_studio.ui.actions.find_box import FindBox
 from amp_studio.ui.base.workspace import Workspace
@@ -247,6 +247,19 @@ def test_the_panel_of_a_parameter_leads_to_the_messages_that_name_it(window: Mai
     assert "EXCESS FOLLOWING ERROR" in window.detail.page.toPlainText()
     window.detail.page.anchorClicked.emit(QUrl("message:excess-following-error"))
     assert window.findChild(MessageWindow).windowTitle() == "EXCESS FOLLOWING ERROR"
+
+
+def test_a_symptom_is_german_in_its_window_and_in_the_list_of_another_family(
+    german: None, window: MainWindow, box: FindBox, qtbot: QtBot
+) -> None:
+    """The title of the window and the list of other families were English, scenarios were their ids."""
+    symptom = MessageWindow(window, load_schema("9pc"), "symptom-oscillates")
+    assert symptom.windowTitle() == "Eine Achse schwingt, brummt oder pfeift"
+    assert "Frequenzgang" in symptom.text.toPlainText()
+    symptom.close()
+    box.begin("alarm:2 soft limit")
+    qtbot.waitUntil(lambda: any("ALARM:2 " in row.text for row in box.model.rows), timeout=WAIT_MS)
+    assert [row.text for row in box.model.rows if "Soft limit" in row.text] == []
 
 
 @pytest.mark.own_window

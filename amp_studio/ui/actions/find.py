@@ -24,7 +24,7 @@ from amp_studio.validate import Validator
 from amp_studio.version import __version__
 
 from .find_box import COMMANDS, FindBox
-from .find_rows import FindRow, rows_of
+from .find_rows import FindRow, rows_of, title_in_words
 
 _SOON_MS = 1_000
 """Milliseconds after a file was opened until its family is indexed, so that it is painted first."""
@@ -232,7 +232,8 @@ class FindSearch(Translated):
         own = self.window.workspace.file.schema.family.family if self.window.workspace is not None else ""
         others = [finder for finder in self._every_finder() if finder.schema.family.family != own]
         for schema, hit in elsewhere(query, others):
-            text = self.box.tr("In {family}: {title}").format(family=schema.family.name, title=hit.title)
+            title = title_in_words(hit, schema.family.family)
+            text = self.box.tr("In {family}: {title}").format(family=schema.family.name, title=title)
             rows.append(FindRow(text, icon="cpu", hit=hit, family=schema.family.family))
         if self.window.page is not None:
             every = tuple(self.window.page.workspace.file.schema.parameters)

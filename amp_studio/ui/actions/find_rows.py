@@ -11,8 +11,9 @@ from PySide6.QtGui import QAction, QFontMetrics, QKeySequence, QPainter
 from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem
 
 from amp_studio.find import Hit, HitKind
+from amp_studio.schema import load_schema
 from amp_studio.ui.base.theme import FINDING_ROW, GAP, GAP2, ROW, SMALL_ICON, colour, font, paint_icon
-from amp_studio.ui.base.translated import tr, worded
+from amp_studio.ui.base.translated import control_message, tr, worded
 
 _ICONS: dict[HitKind, str] = {
     "parameter": "hash",
@@ -98,8 +99,16 @@ def _row(hit: Hit, action: QAction | None, family: str) -> FindRow:
         return FindRow(mark + hit.title, "", keys, _ICONS["command"], hit, action)
     reasons = [_in_words(reason) for reason in hit.why.split(", ") if reason not in _PLAIN]
     detail = _PAGE.sub(lambda found: worded(found[0]), hit.detail)
-    title = worded(hit.title, family) if hit.kind == "message" else hit.title
-    return FindRow(title, detail, ", ".join(reasons), _ICONS[hit.kind], hit)
+    return FindRow(title_in_words(hit, family), detail, ", ".join(reasons), _ICONS[hit.kind], hit)
+
+
+def title_in_words(hit: Hit, family: str) -> str:
+    """Return what was found in the language of the window; names of parameters stay."""
+    if hit.kind != "message":
+        return hit.title
+    # Without a file the key has the family before it.
+    own, _, message = hit.key.rpartition(":")
+    return control_message(load_schema(own or family).messages[message], own or family)
 
 
 def _in_words(reason: str) -> str:

@@ -17,7 +17,7 @@ from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 from amp_studio.languages import language_codes, name_of_language
 from amp_studio.report import Language, language_of
 from amp_studio.report import counted as english_count
-from amp_studio.schema import Schema, program_texts, unit_text
+from amp_studio.schema import ControlMessage, Schema, program_texts, unit_text
 from amp_studio.validate import Finding, family_of_rule
 
 LANGUAGES: Final = {code: name_of_language(code) for code in language_codes()}
@@ -62,6 +62,13 @@ def help_language() -> str:
 def scenario_in_words(name: str) -> str:
     """Return the name of a scenario of the simulator in the language of the window."""
     return language_of(_spoken).scenario(name)
+
+
+def control_message(message: ControlMessage, family: str) -> str:
+    """Return a message of the control by its code and its text there; where the manual prints none, what the
+    program calls it is in the language of the window.
+    """
+    return " ".join(filter(None, (message.code, message.text or worded(message.title, family))))
 
 
 def unit_in_words(unit: str) -> str:

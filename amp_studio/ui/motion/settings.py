@@ -59,19 +59,24 @@ class SettingsForm(FieldForm):
         }
         self.offer(
             [
-                Field(name, _title(name), "choice", "", choices[name], sentenced(meaning, family))
+                Field(name, _title(name), "choice", "", choices[name], words)
                 if name in choices
-                else Field(name, _title(name), tip=sentenced(meaning, family), hint=self._hint(name, meaning))
+                else Field(name, _title(name), tip=words, hint=self._hint(name, meaning, words))
                 for name, meaning in settings.items()
+                for words in [sentenced(meaning, family)]
             ],
             keep=True,
         )
 
-    def _hint(self, name: str, meaning: str) -> str:
+    def _hint(self, name: str, meaning: str, words: str) -> str:
+        """Return the unit and what is taken where the field is empty; ``words``: what it is, as the window
+        has it.
+        """
         unit = self._unit(name)
-        default = meaning.partition("default: ")[2] or "automatic"
-        unit = unit or ("" if name in (*LENGTHS, FEEDRATE) else meaning.partition(" (")[2].partition(")")[0])
-        empty = f"{self.tr('empty:')} {sentenced(default)}"
+        if not unit and name not in (*LENGTHS, FEEDRATE) and " (" in meaning:
+            unit = words.partition(" (")[2].partition(")")[0]
+        default = words.partition(f"{self.tr('default:')} ")[2] or self.tr("automatic")
+        empty = f"{self.tr('empty:')} {default}"
         return f"{unit_in_words(unit)}, {empty}" if unit else empty
 
     def _unit(self, name: str) -> str:

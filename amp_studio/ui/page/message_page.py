@@ -14,7 +14,7 @@ from amp_studio.find import LinkedParameter, LinkedRule, MessagePage, message_pa
 from amp_studio.schema import Address, Schema
 from amp_studio.ui.base.figures import finding_in_words
 from amp_studio.ui.base.theme import GAP3, colour, scheme
-from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.translated import control_message, scenario_in_words, worded
 
 from .file_page import FilePage
 
@@ -29,7 +29,8 @@ class MessageWindow(QDialog):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._page, self._schema, self._message = page, schema, schema.messages[message]
-        self.setWindowTitle(self._message.name)
+        self._name = control_message(self._message, schema.family.family)
+        self.setWindowTitle(self._name)
         self.resize(420, 520)
         self.text = QTextBrowser()
         self.text.setAccessibleName(self.tr("Message of the control"))
@@ -63,8 +64,7 @@ class MessageWindow(QDialog):
         def own(text: str) -> str:
             return escape(worded(text, family))
 
-        name = own(message.title) if message.title else escape(message.name)
-        parts = [f"<p style='font-size:large; font-weight:600'>{name}</p>"]
+        parts = [f"<p style='font-size:large; font-weight:600'>{escape(self._name)}</p>"]
         if self._page is None:
             parts.append(f"<p>{escape(self._schema.family.name)}</p>")
         if message.title and message.reaction != "symptom":
@@ -73,7 +73,7 @@ class MessageWindow(QDialog):
         parts += self._broken(page.broken)
         parts += self._listed(self.tr("How to find the cause"), [*map(own, message.causes)])
         parts += self._listed(self.tr("What helps"), [*map(own, message.cures)])
-        parts += self._listed(self.tr("Scenarios that show it"), list(message.scenarios))
+        parts += self._listed(self.tr("Scenarios that show it"), [*map(scenario_in_words, message.scenarios)])
         parts += self._listed(self.tr("Parameters to look at"), [*map(self._parameter, page.parameters)])
         rest = [own(linked.rule.title) for linked in page.rules if not linked.findings]
         title = self.tr("Rules that find it") if self._page is None else self.tr("Rules that are met here")

@@ -14,7 +14,14 @@ from amp_studio.ui.base.figures import finding_in_words, range_in_words, show_va
 from amp_studio.ui.base.hazard import hazard_html
 from amp_studio.ui.base.theme import colour, icon_html, severity_html
 from amp_studio.ui.base.time_words import stored_in_words
-from amp_studio.ui.base.translated import Translated, facts_in_words, help_language, unit_in_words, worded
+from amp_studio.ui.base.translated import (
+    Translated,
+    control_message,
+    facts_in_words,
+    help_language,
+    unit_in_words,
+    worded,
+)
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.pages import drawn, link
 from amp_studio.validate import NOT_SET, Finding, calculators, family_of_rule, rule_title
@@ -222,8 +229,7 @@ class DetailPage(Translated):
         if messages := schema.messages_of(parameter.id):
             family = schema.family.family
             names = (
-                f'<a href="{MESSAGE}{m.id}">{html.escape(worded(m.name, family) if m.title else m.name)}</a>'
-                for m in messages
+                f'<a href="{MESSAGE}{m.id}">{html.escape(control_message(m, family))}</a>' for m in messages
             )
             lines.append(f"<p><b>{self.tr('Messages of the control')}</b><br>{'<br>'.join(names)}</p>")
         if parameter.formulas:
