@@ -1,4 +1,4 @@
-"""One German word for one thing, in every text that a person reads: of the program, and of the families' facts."""
+"""One German word for one thing, in every text that a person reads: of the program and of the facts."""
 
 import re
 from collections.abc import Iterator

@@ -91,7 +91,7 @@ def test_rules_that_are_not_met_come_first_and_are_counted(window: MainWindow) -
     window.go_to(EXCESS)
     text = page(window)
     assert "3 of 13 not met" in text  # one of them is that the like axes have another value
-    assert text.index("Error: At rapid 10\u202f000 mm/min") < text.index("Reserve of excess error")
+    assert text.index("Error: At rapid 10 000 mm/min") < text.index("Reserve of excess error")
 
 
 def test_a_calculated_value_is_taken_by_a_link_and_nothing_else(window: MainWindow) -> None:

@@ -249,17 +249,20 @@ def test_the_panel_of_a_parameter_leads_to_the_messages_that_name_it(window: Mai
     assert window.findChild(MessageWindow).windowTitle() == "EXCESS FOLLOWING ERROR"
 
 
-def test_a_symptom_is_german_in_its_window_and_in_the_list_of_another_family(
-    german: None, window: MainWindow, box: FindBox, qtbot: QtBot
+def test_a_message_is_german_in_its_window_and_in_a_list_without_a_file(
+    german: None, open_window: Callable[..., MainWindow], qtbot: QtBot
 ) -> None:
-    """The title of the window and the list of other families were English, scenarios were their ids."""
+    """The title of the window and the list were English, scenarios were their ids."""
+    window = open_window()
+    box = window.finder.box
     symptom = MessageWindow(window, load_schema("9pc"), "symptom-oscillates")
     assert symptom.windowTitle() == "Eine Achse schwingt, brummt oder pfeift"
     assert "Frequenzgang" in symptom.text.toPlainText()
     symptom.close()
     box.begin("alarm:2 soft limit")
     qtbot.waitUntil(lambda: any("ALARM:2 " in row.text for row in box.model.rows), timeout=WAIT_MS)
-    assert [row.text for row in box.model.rows if "Soft limit" in row.text] == []
+    (row,) = (row.text for row in box.model.rows if row.text.startswith("ALARM:2 "))
+    assert row == "ALARM:2 Softwareendlage"
 
 
 @pytest.mark.own_window
