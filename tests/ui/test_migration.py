@@ -9,7 +9,7 @@ from pytestqt.qtbot import QtBot
 
 from amp_studio.files import ParameterFile, open_file
 from amp_studio.ui.base.task import Task
-from amp_studio.ui.base.translated import speak
+from amp_studio.ui.base.translated import set_language
 from amp_studio.ui.migration.rows import meanings
 from amp_studio.ui.migration.window import MigrationWindow
 
@@ -143,7 +143,7 @@ def test_two_axes_of_one_letter_are_asked_about_apart(qtbot: QtBot) -> None:
 def test_what_a_parameter_means_is_whole_on_a_large_screen_and_its_value_german(
     qtbot: QtBot, followed: list[str]
 ) -> None:
-    speak("de")
+    set_language("de")
     try:
         made = MigrationWindow(lambda: open_file(MILL).file, MILL, followed.append)
         qtbot.addWidget(made)
@@ -152,7 +152,7 @@ def test_what_a_parameter_means_is_whole_on_a_large_screen_and_its_value_german(
         made.resize(2560, 1440)
         made.show()
     finally:
-        speak("en")
+        set_language("en")
     rows = [head.child(n) for head in made.tree._heads() for n in range(head.childCount())]
     old = {row.text(0) for row in rows}
     assert "1590 Lead Screw Thread Pitch: 12,7 mm" in old
