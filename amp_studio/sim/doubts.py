@@ -44,6 +44,7 @@ def _errors(findings: Iterable[Finding]) -> list[Finding]:
 
 
 def _states(file: ParameterFile, addresses: Iterable[Address]) -> Iterator[str]:
+    """Yield what was read and is inactive, then what is not set."""
     not_set = []
     for address in addresses:
         name = file.machine_schema.named(address)

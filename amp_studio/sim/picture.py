@@ -123,6 +123,7 @@ _TIME = ("time", "s")
 
 
 def _motion(trace: Trace, before: Trace | None) -> Picture:
+    """Return the picture of a move over its time, with the curves of the move before."""
     alarms = tuple(NamedPlace("", alarm.time_s, "error") for alarm in trace.alarms)
     panels = [
         _panel(trace, before, alarms, "position", ("recorded_position", "command_position", "position"), 0.9),
@@ -181,6 +182,7 @@ def _panel(
     levels: Sequence[NamedPlace] = (),
     subtitle: str = "",
 ) -> Scene | None:
+    """Return a panel with those of some columns that the trace has; None without one."""
     present = [name for name in names if name in trace.columns]
     if not present:
         return None
@@ -190,6 +192,7 @@ def _panel(
 
 
 def _curve(trace: Trace, name: str) -> Curve:
+    """Return a column as a curve, without the times at which it has no value."""
     words, sort = _WORDS.get(name, (name.replace("_", " "), "outside"))
     known = np.isfinite(trace.columns[name])  # a record does not cover all of the move
     return Curve(

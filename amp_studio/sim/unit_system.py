@@ -108,6 +108,7 @@ def _area(area: PlaneArea) -> PlaneArea:
 
 
 def _course(course: HomingCourse, length: str) -> HomingCourse:
+    """Return the course of a homing in another unit of length."""
     factor = _factor(course.unit, length)
     switch, marker, home = course.switch, course.marker, course.home
     return replace(
@@ -134,6 +135,7 @@ def _figure(figure: Figure, length: str) -> Figure:
 
 
 def _recommendation(each: Recommendation, length: str) -> Recommendation:
+    """Return a recommendation in another unit of length, its sentences too."""
     unit = own_unit(each.unit, length)
     value = each.value
     if unit != each.unit:

@@ -169,6 +169,7 @@ def _split(image: bytes) -> tuple[dict[str, str], list[tuple[str, str]]]:
 
 
 def _schema(head: dict[str, str]) -> Schema:
+    """Return the schema that an image was made for; raises ImageError where this program has another."""
     family = head["family"]
     if family not in family_ids():  # what a control sends is never looked up as a path
         raise ImageError(f"the control image is for the family '{_short(family)}', which is not known here")

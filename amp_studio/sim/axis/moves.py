@@ -87,6 +87,7 @@ def move_of(axis: AxisLaw, settings: ScenarioSettings) -> Move:
 
 
 def _overrides(settings: ScenarioSettings) -> list[Override]:
+    """Return when the override of the feed changes in a move; raises SimulationError."""
     share, start = number(settings, "move.override"), number(settings, "move.override_time")
     resumed = number(settings, "move.resume_time")
     if share is None and start is None and resumed is None:

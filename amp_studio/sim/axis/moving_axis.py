@@ -278,6 +278,7 @@ class MovingAxis:
             )
 
     def _resting(self, order: StopOrder | MoveOrder | PauseOrder) -> tuple[list[Piece], float]:
+        """Return the pieces of an order that begins, or ends, at rest, and its direction."""
         if isinstance(order, PauseOrder):
             return [Piece(order.time)], 1.0
         if isinstance(order, MoveOrder):
@@ -397,6 +398,7 @@ class MovingAxis:
         return found
 
     def _call(self) -> None:
+        """Run the kernel until its rows are full or the motion ends; an alarm takes the drive away."""
         law = self.axis.position_sample, self.axis.velocity_sample
         wanted = self._engine == "compiled" or (self._engine == "auto" and pays_off(*law, self._last_steps))
         if not self._is_compiled and wanted and can_compile():

@@ -310,6 +310,7 @@ class SimulatedAxis:
             self._offset, self._marker_waited = position - passed, None
 
     def _settle(self) -> None:
+        """Take over how a homing has ended, once its motion is over."""
         homed = self._homed
         if homed is None or self._moving.is_busy:
             return

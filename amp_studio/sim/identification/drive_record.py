@@ -348,6 +348,7 @@ def read_number_table(text: str, used: Sequence[int]) -> list[Series]:
 
 
 def _cells(line: str, separator: str, number: int) -> list[str]:
+    """Return the cells of a line; raises SimulationError for what is no line of a table."""
     if len(line) > _LONGEST_LINE:
         raise SimulationError(f"line {number}: it has more than {_LONGEST_LINE} characters")
     try:

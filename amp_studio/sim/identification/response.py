@@ -161,6 +161,7 @@ def _is_in_radians(phase: Series, unit: str) -> bool:
 
 
 def _size(gain: Series, unit: str) -> Series:
+    """Return gains as absolute ones; raises SimulationError for a unit that cannot be."""
     # An absolute gain is above 0, so that a column that goes below is in dB.
     if unit == "db" or (not unit and (gain <= 0.0).any()):
         if (np.abs(gain) > _DECIBELS).any():

@@ -60,6 +60,7 @@ def moment_in(plan: ProgramPlan, time: float) -> PathMoment | None:
 
 
 def _place(plan: ProgramPlan, row: int, share: float) -> PathRows:
+    """Return the place on a piece, (axes,): on a straight line, or turned about the center of its arc."""
     geometry, path = plan.geometry, plan.path
     place: PathRows = geometry.begins[row] + share * (geometry.ends[row] - geometry.begins[row])
     if geometry.is_arc[row]:

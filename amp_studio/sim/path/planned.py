@@ -104,6 +104,7 @@ class PlannedProgram:
         self._firsts = [(float(entry[0]), int(by[0])) if len(entry) else (0.0, -1) for entry, by in firsts]
 
     def _bounds(self, n: int) -> StretchBounds:
+        """Return what bounds the rows of a stretch, with the speeds that an earlier pass has shaped."""
         width = len(self.path.columns)
         columns = self._rows[n]
         path = self.path.with_columns(columns[:width])

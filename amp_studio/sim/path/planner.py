@@ -337,6 +337,7 @@ def _accelerations(
     is_rapid: npt.NDArray[np.bool_],
     of_axes: Mapping[str, PathLimit],
 ) -> tuple[PathRows, Causes]:
+    """Return the acceleration that each piece may have, u/s², and which limit it is."""
     count = len(geometry.length)
     value, by = np.full(count, math.inf), np.zeros(count, np.int16)
     for limits, where in ((rules.feed_acceleration, ~is_rapid), (rules.rapid_acceleration, is_rapid)):

@@ -106,6 +106,7 @@ def joined_rows(one: ProgramPlan, other: ProgramPlan) -> ProgramPlan:
 
 
 def _joined(one: ProgramPlan, other: ProgramPlan) -> ProgramPlan:
+    """Return two stretches that follow each other as one."""
     *columns, start = one.path.columns
     pairs = zip(columns, other.path.columns[:-1], strict=True)
     path = other.path.with_columns([*map(np.concatenate, pairs), start])
@@ -178,6 +179,7 @@ class LineTimes:
         self._causes = np.zeros(1, np.uint32)
 
     def _extend(self, last: int) -> None:
+        """Make the lists of blocks long enough for a block."""
         # In leaps: a short program needs little, and a long one few copies.
         more = min(max(last + 1, 2 * len(self._time)), LISTED + 1) - len(self._time)
         if last < len(self._time):

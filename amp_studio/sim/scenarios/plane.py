@@ -112,6 +112,7 @@ def _numbered(zones: Sequence[Zone], number: str) -> list[Zone]:
 
 
 def _limits(machine: BoundMachine, axes: Mapping[str, AxisLaw]) -> Iterator[Zone]:
+    """Yield the travel limits of the axes as zones that the tool must stay inside of."""
     for name, axis in axes.items():
         if axis.travel is None:
             continue
@@ -304,6 +305,7 @@ def _unit(axes: Mapping[str, AxisLaw]) -> str:
 
 
 def _feedrate(axes: Mapping[str, AxisLaw], ways: AxisPoint, far: float, settings: ScenarioSettings) -> float:
+    """Return the feedrate on the path, u/s: the one that is given, else the rapid of the slowest axis."""
     given = above_zero(settings, "move.feedrate")
     if given is not None:
         return given / 60.0

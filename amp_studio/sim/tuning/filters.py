@@ -102,6 +102,7 @@ class Filters:
 
 
 def _unknowns(trial: Tried) -> Iterator[FilterUnknown]:
+    """Yield the filters of an axis that a parameter sets, each with what the control takes."""
     axis: AxisLaw = trial.axis
     for each in axis.filters:
         source, width = axis.sources.get(each.frequency), axis.sources.get(each.width)

@@ -380,6 +380,7 @@ def velocity_model(axis: AxisLaw, law: LawMatrices | None = None) -> LinearModel
 
 
 def _places(axis: AxisLaw) -> Places:
+    """Return where the signals are in the state of the linear loop: behind those of the law."""
     first = axis.state_size
     names = {
         "command": signals.COMMAND,

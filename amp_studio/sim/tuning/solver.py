@@ -125,6 +125,7 @@ class Search:
         return self._best[key]
 
     def _sought(self, levels: Sequence[Level], level: int) -> GainPoint | None:
+        """Return the stiffest gains of those that keep a level; None where none do."""
         points: list[GainPoint] = []
         self._outwards((), levels, level, points)
         if not points:

@@ -87,6 +87,9 @@ class ComposedAxes:
         return self._sure[key]
 
     def _together(self, point: Sequence[float]) -> AxisLaw | None:
+        """Return the axis of a point, composed of what each figure alone changes, or bound where that
+        fails.
+        """
         if self._base is None:
             return self._bind(point)
         together: _Parts = {}
@@ -118,6 +121,7 @@ class ComposedAxes:
         return self._changes[key]
 
     def _with(self, base: AxisLaw, changed: Mapping[tuple[str, object], Any]) -> AxisLaw:
+        """Return an axis with changed parts: of itself, of its vectors or of its machine."""
         new: dict[str, Any] = {}
         machine: dict[str, float] = {}
         for (place, name), each in changed.items():

@@ -82,6 +82,7 @@ def figures_of(job: SweepJob, points: Matrix) -> Matrix:
 
 
 def _chunk(job: SweepJob, points: Matrix) -> Matrix:
+    """Return the figures of some points, (points, columns); NaN for a machine that cannot be."""
     found = np.full((len(points), len(job.columns)), np.nan)
     bound = [(n, *each) for n, each in enumerate(axes_of(job).all(points.tolist())) if each is not None]
     if job.motion:
@@ -181,6 +182,7 @@ class Axes:
         return None
 
     def _one(self, point: Sequence[float]) -> _Bound:
+        """Return the axis of one point, bound again with the values of the file that it varies."""
         varied, own = list(zip(self.job.varied, point, strict=True)), self._own(point)
         given = {each.name: number for each, number in varied if not each.address}
         model = self.model | {name: number for name, number in given.items() if name.startswith("model.")}

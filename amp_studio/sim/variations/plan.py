@@ -95,6 +95,7 @@ def read_varied(file: ParameterFile, axis: str, text: str) -> Varied:
 
 
 def _number(name: str, text: str) -> float:
+    """Return a number without a unit; raises SimulationError."""
     try:
         number, rest = read_number(text.strip())
     except ValueError as error:

@@ -175,6 +175,7 @@ def _figure(settings: ScenarioSettings) -> str | None:
 
 
 def _varied(trial: Trial, text: str) -> tuple[Varied, ...]:
+    """Return what a text varies, each name once; raises SimulationError for an unknown one."""
     wanted = [part for part in text.split(";") if part.strip()]
     found = tuple(read_varied(trial.file, trial.axis.axis, part) for part in wanted)
     names = [each.name for each in found]
@@ -261,6 +262,7 @@ def _note(job: SweepJob) -> str:
 
 
 def _units(axis: AxisLaw) -> dict[str, str]:
+    """Return the unit of each figure of a sweep."""
     u, torque = axis.unit, torque_unit(axis)
     return {
         "stop": "",

@@ -278,6 +278,7 @@ class _Proof:
         return self._ended("new", restart, text + self._before(), fetched, is_verified=True)
 
     def _differs(self, where: str, fetched: bytes, restart: RestartState) -> Outcome:
+        """Return the outcome of a download after which the control contains something else."""
         is_whole = self.driver.abilities.all_or_nothing
         # A control that commits all or nothing has answered that it did: the old content then is a
         # contradiction.
@@ -303,5 +304,6 @@ class _Proof:
         *,
         is_verified: bool = False,
     ) -> Outcome:
+        """Return the outcome of a download that has reached the control."""
         digest = hashlib.sha256(self.content).hexdigest()
         return Outcome(state, is_verified, True, self.kept, restart, digest, text, fetched)

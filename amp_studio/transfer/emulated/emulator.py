@@ -183,6 +183,7 @@ class Emulator:
             self._show(f"a client was cut off: {type(error).__name__}: {_line(str(error))}")
 
     def _answer(self, caller: Caller, data: bytes) -> None:
+        """Answer the frames of a caller; the control is of one at a time, until that one is silent."""
         for frame in caller.responder.frames(data):
             caller.last_frame = now = self._clock()
             holder = self._holder

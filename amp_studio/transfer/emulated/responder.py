@@ -76,6 +76,7 @@ class Responder:
             )
 
     def _do(self, request: Message) -> Message:
+        """Return the answer to a request; raises RefusalError."""
         match request:
             case Hello():
                 return self._welcome(request)
@@ -126,6 +127,7 @@ class Responder:
         return Ready(offset)
 
     def _data(self, data: Data) -> Message:
+        """Stage a piece, or keep one that came early; the answer is up to where the image is whole."""
         if self._transfer is None:
             raise RefusalError(Code.UNKNOWN_TRANSFER, "no download is open on this line")
         staged = self.control.staged_size

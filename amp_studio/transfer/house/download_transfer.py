@@ -143,6 +143,9 @@ class DownloadTransfer:
         return self._commit(transaction)
 
     def _commit(self, transaction: Transaction) -> Committed:
+        """Have the control replace its image by what it has staged; ``at_control`` is unknown until it
+        answers.
+        """
         cancel = self._line.cancel
         if self.at_control == "old":
             # The last moment at which a stop costs nothing.

@@ -73,6 +73,7 @@ class FrameDecoder:
         return frames
 
     def _end(self, piece: bytes) -> Frame | None:
+        """Return the frame that ends with a piece; None for an empty or damaged one, which is counted."""
         encoded, self._buffer = self._buffer + piece, b""
         if self._skipping or len(encoded) > MAX_ENCODED:
             self._skipping = False

@@ -289,6 +289,8 @@ def _number(form: str) -> tuple[Callable[[Any], bytes], Callable[[bytes, int], t
 
 
 def _fixed(length: int) -> tuple[Callable[[Any], bytes], Callable[[bytes, int], tuple[Any, int]]]:
+    """Return what packs and unpacks a field of so many bytes."""
+
     def pack_bytes(value: bytes) -> bytes:
         if len(value) != length:
             raise ValueError(f"{len(value)} bytes where {length} belong")

@@ -106,6 +106,7 @@ class Transaction:
         raise NoAnswerError
 
     def _answer(self, number: int, kind: type[AnyMessage], timeout: float) -> AnyMessage | None:
+        """Return the answer to a request; None for anything else that comes, or nothing."""
         received = self.receive(timeout)
         if received is None:
             return None

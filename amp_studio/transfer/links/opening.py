@@ -97,6 +97,7 @@ def listen(endpoint: Endpoint) -> Listener:
 
 
 def _listener(endpoint: Endpoint) -> TcpListener | SecuredListener | PortListener | PtyListener:
+    """Return what listens at an endpoint; raises LinkError for one that can only be connected to."""
     if endpoint.kind in ("tcp", "tls"):
         return _network_listener(endpoint)
     if endpoint.security is not None and endpoint.security.password:

@@ -93,6 +93,7 @@ def connect_tls(
 
 
 def _connected(endpoint: Endpoint, timeout: float) -> ssl.SSLSocket:
+    """Return a connection whose certificate is checked, by an authority or by its fingerprint."""
     context = client_context(endpoint)
     plain = socket.create_connection((endpoint.host, endpoint.port), timeout=timeout)
     try:
