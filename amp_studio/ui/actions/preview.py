@@ -29,11 +29,13 @@ class ReportPreview(QObject):
         """Show the preview beside the table and go to it, or hide it."""
         dock = self.window.docks.preview
         if not dock.isHidden():
+            # Asked before it is hidden: Qt moves the focus then.
             had_focus = dock.isAncestorOf(self.window.focusWidget())
             self.window.docks.show_preview(False)
             if had_focus and self.window.page is not None:
                 self.window.page.setFocus()
             return
+        # Only if the user asked for it: a preview that opens by itself leaves the keyboard to the table.
         self._takes_focus = True
         self.window.docks.show_preview(True)
 

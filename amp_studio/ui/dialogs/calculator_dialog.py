@@ -39,6 +39,7 @@ class CalculatorDialog(QDialog):
         self._known = calculators(self._family)
         self._titles = facts_in_words(workspace.file.schema).of_formula
         own = workspace.file.schema.parameters[address[0]].formulas if address else ()
+        # The formulas of the parameter come first, as its page names them; then all others by title.
         others = sorted((self._titles(each), name) for name, each in self._known.items() if name not in own)
         formulas = [(name, self._titles(self._known[name])) for name in (*own, *(name for _, name in others))]
         self._above = (
@@ -78,6 +79,7 @@ class CalculatorDialog(QDialog):
     def _work_out(self) -> None:
         arguments = self._formula.arguments
         texts = {a.name: self.form.answer(f"argument.{a.name}") for a in arguments}
+        # Off until there is a result: the one before was of other arguments.
         self.use.setEnabled(False)
         self.use.setText(self.tr("Use the result as a value"))
         missing = [self._titles(a) for a in arguments if a.default is None and not texts[a.name]]
@@ -90,6 +92,7 @@ class CalculatorDialog(QDialog):
             self.form.set_answer("outcome", self._titled(str(error)))
             return
         self.form.set_answer("outcome", sentenced(shown_result(result)))
+        # True is an int in Python, and no figure.
         if self._address and isinstance(result, (int, float)) and not isinstance(result, bool):
             self._offer_as_value(self._address)
 

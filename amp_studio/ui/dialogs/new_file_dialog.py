@@ -111,6 +111,7 @@ class NewFileDialog(FormDialog):
             text, _ = QFileDialog.getOpenFileName(self, self.tr("Like which file"), "", f"(*{ENDING})")
             if text:
                 self._recent.append(Path(text))
+            # Nothing chosen goes back to the defaults: "Another file" itself is no source.
             self.form.offer_choices("like", self._likes(), Path(text) if text else None)
         self._show_like()
 
@@ -156,6 +157,7 @@ class NewFileDialog(FormDialog):
         and for a file that cannot be read.
         """
         name, source = self.form.answer("name"), self.source()
+        # Its own facts decide: axes and machine type of the form are off.
         if source is not None:
             like = open_file(source).file
             if like.schema.family.family != self.form.answer("family"):
@@ -187,6 +189,7 @@ class NewFileDialog(FormDialog):
         return path
 
     def _axes(self) -> list[str]:
+        # What was typed before a family with fixed axes was chosen does not count.
         if not self.form.editors["axes"].isEnabled():
             return []
         return [axis.strip() for axis in self.form.answer("axes").split(",") if axis.strip()]

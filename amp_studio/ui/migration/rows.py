@@ -136,6 +136,7 @@ class MigrationTree(QTreeWidget):
         """List a migration; what was folded, and the place in the list, stay."""
         for item in self._heads():
             outcome = item.data(0, Qt.ItemDataRole.UserRole)
+            # Each answer makes the list again: what was folded by hand stays folded.
             (self._folded.discard if item.isExpanded() else self._folded.add)(outcome)
         place = self.verticalScrollBar().value()
         self.clear()

@@ -150,6 +150,7 @@ class CalibrationPage(TuningPart):
             return
         file, self._filling = self.target.file, True
         axes = axes_of(file)
+        # Filled again only for other axes: the choice of the user stays.
         if [self.axis.itemData(n) for n in range(self.axis.count())] != list(axes):
             self.axis.clear()
             for axis in axes:
@@ -251,6 +252,7 @@ class CalibrationPage(TuningPart):
                 item = QTableWidgetItem(_figure(number / size))
                 item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
                 flags = Qt.ItemFlag.ItemIsSelectable | Qt.ItemFlag.ItemIsEnabled
+                # A position is changed by deleting its point and inserting another.
                 item.setFlags(flags | Qt.ItemFlag.ItemIsEditable if column == _FIGURE else flags)
                 item.setForeground(colour("text" if column == _FIGURE else "dim"))
                 self.table.setItem(n, column, item)
@@ -266,6 +268,7 @@ class CalibrationPage(TuningPart):
         offered = self._offered(file)
         assert offered.table is not None
         table = present_table(file, offered, axis)
+        # A table of fixed positions has points only once it is made.
         if table is None and offered.table.is_even:
             return CalibrationTable("mm", ())
         return offered.table.empty(file, axis, *self._chosen) if table is None else table
@@ -276,6 +279,7 @@ class CalibrationPage(TuningPart):
         form = self._offered(file).table
         assert form is not None
         text = form.write(file, axis, table)
+        # A table without points is not set.
         value = Value(text) if text else None
         self.target.set(f"{what} {_axis_text(file, axis)}", {(form.parameter, axis): value})
 

@@ -264,6 +264,7 @@ class CheckPage(PageOfFile):
     def event(self, event: QEvent) -> bool:
         """Take F9, which shows the motion elsewhere."""
         is_taken = event.type() == QEvent.Type.ShortcutOverride and _is_run(event)
+        # Accepted here, F9 comes as a key of this page instead of the action of the window.
         if is_taken:
             event.accept()
         return is_taken or super().event(event)
@@ -291,6 +292,7 @@ class CheckPage(PageOfFile):
         self._is_stale = False
         self._begun = time.monotonic()
         self.rows.file = self._workspace.file
+        # The old verdicts go at once: they are of another file.
         self.rows.show_checks((), self.rows.wanted)
         self._show_detail()
         checking = self._checking = _Checking(self._workspace.file.copy())
@@ -330,6 +332,7 @@ class CheckPage(PageOfFile):
     def show_check(self, check: MotionCheck) -> None:
         """Add one check in its place."""
         self.rows.add(check)
+        # The row that was chosen before the file was edited is chosen again as soon as it is there.
         if (check.scenario, check.axis) == self._chosen:
             self.choose(*self._chosen)
         self._show_summary()
@@ -345,6 +348,7 @@ class CheckPage(PageOfFile):
         counts = counts_of(self.checks)
         for verdict, button in self.chips.items():
             button.setText(str(counts[verdict]))
+            # A filter that is on stays: without its button it could not be switched off.
             button.setVisible(bool(counts[verdict]) or button.isChecked())
         if self._task is not None:
             self.summary.setText(self.tr("checking …"))
@@ -359,6 +363,7 @@ class CheckPage(PageOfFile):
         own = [n for n, row in rows.items() if (row.scenario, row.axis) == (scenario, axis)]
         order = list(MARKS)
         worst = sorted(rows, key=lambda n: order.index(rows[n].verdict))
+        # Without the row of before: the worst one, which needs work first.
         for at in (*own, *worst)[:1]:
             self.list.setCurrentIndex(self.rows.index(at))
 
@@ -405,6 +410,7 @@ class CheckPage(PageOfFile):
             self.card.show_reason("")
             return
         self._show(check)
+        # Recommendations take as long as the check again: only for what is not good, and once all is checked.
         if check.verdict in ("bad", "doubtful") and self._task is None:
             self._ask_again(check, None)
 
@@ -433,6 +439,7 @@ class CheckPage(PageOfFile):
             yield html.escape(figures)
         if check.params:
             shade, named = colour("sel").name(), list(dict.fromkeys(check.params))
+            # Each parameter once, though several limits may name it.
             links = [
                 f'<a href="{each}" style="color:{shade}">'
                 f"{html.escape(name_of(self._workspace.file.schema, each))}</a>"
@@ -465,6 +472,7 @@ class CheckPage(PageOfFile):
         check = self.check
         if not isinstance(found, MotionCheck) or check is None:
             return
+        # Another row has been chosen while it was computed.
         if (found.scenario, found.axis) != (check.scenario, check.axis):
             return
         self._show(found)

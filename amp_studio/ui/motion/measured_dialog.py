@@ -161,6 +161,7 @@ class MeasuredDialog(QDialog):
             return present_table(self._file, self._offered, self._axis) is not None or bool(
                 lost_motion(self._file, self._offered, self._axis)
             )
+        # A table that cannot be read may still be active in the control: asked about, not left out.
         except CalibrationError:
             return True
 
@@ -193,6 +194,7 @@ class MeasuredDialog(QDialog):
     def _work(self, answers: MeasurementAnswers, request: ProposalRequest) -> tuple[Measurement, Proposal]:
         unit = base_unit(self._file, self._offered, self._axis)
         measurement = read_measured_file(self._path, answers, unit)
+        # Known only from the points: the field for the axis of a circle appears after the first reading.
         self._is_circle = measurement.is_circle
         return measurement, propose(self._file, self._axis, measurement, request)
 
@@ -283,6 +285,7 @@ class MeasuredDialog(QDialog):
         lines = []
         for address, value in proposal.settings.items():
             parameter = self._file.schema.parameters[address[0]]
+            # A table is stored as one long text: how many points it has is what can be compared.
             if parameter.type == "text" and proposal.table is not None:
                 new = self.tr("{count} points").format(count=len(proposal.table.points))
             else:

@@ -125,9 +125,11 @@ class MachineTestsPage(PageOfFile):
         self._is_filling = False
         ids = [test.id for test in self.tests]
         if self.tests:
+            # By its id: an edit may add tests before it, or take them away.
             row = ids.index(before.id) if before and before.id in ids else 0
             self.list.setCurrentIndex(self.list.model().index(row, TEST))
         done = sum(bool(test.ticked) for test in self.tests)
+        # A refused test cannot be done, and is not counted.
         total = sum(not test.refusal for test in self.tests)
         self.summary.setText(
             self.tr("{done} of {total} tests done").format(done=done, total=total)

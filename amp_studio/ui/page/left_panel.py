@@ -57,6 +57,7 @@ class LeftPanel(QWidget):
         self.groups.chosen.connect(self.chosen)
         self.head = self._head()
         """What the dock shows above the panel."""
+        # An unfinished machine is set up by its steps; a finished one is looked up by groups.
         self.show_side("steps" if workspace.progress.set < workspace.progress.total else "groups")
 
     @cached_property
@@ -112,6 +113,7 @@ class LeftPanel(QWidget):
         side = as_side(key)
         assert side is not None
         self.show_side(side)
+        # Files of the project leave the table as it is.
         if side != "project":
             self.choose()
         self.turned.emit(side)

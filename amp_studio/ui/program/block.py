@@ -56,6 +56,7 @@ def found_line(lines: Sequence[str], text: str) -> int:
         return 0
     if not number[1]:
         return int(number[2]) if 1 <= int(number[2]) <= len(lines) else 0
+    # N0150 and N150 are one block, N1500 and N150.5 are others.
     own = re.compile(rf"[ \t/%]*N\s*0*{number[2]}(?![0-9.])", re.IGNORECASE)
     return next((n for n, line in enumerate(lines, 1) if own.match(line)), 0)
 
@@ -78,6 +79,7 @@ def error_now(run: ProgramRun, time: float, length: str) -> str:
     contour = run.contour
     if contour is None or not len(contour.time):
         return ""
+    # The time bar may be a hair behind the last sample.
     at = min(int(np.searchsorted(contour.time, time)), len(contour.time) - 1)
     return tr("now {error}").format(error=sentenced(path_error_text(float(contour.error[at]), length)))
 

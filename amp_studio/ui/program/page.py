@@ -176,6 +176,7 @@ class ProgramPage(PageOfFile):
 
     def _show_only(self, letter: str) -> None:
         """Show one limit, or what is not good, alone, in the list and on the path; all of them for ""."""
+        # Kept over the filter: the same block stays in sight.
         line = self.lines.line()
         self.lines.blocks.show_only(letter)
         self.lines.show_line(line, is_asked=False)
@@ -210,6 +211,7 @@ class ProgramPage(PageOfFile):
     def _go_to_line(self, line: int) -> None:
         """Show a line in the list, and the moment at which it begins."""
         if not self.lines.show_line(line):
+            # The filter may leave it out: a line that is asked for by its number is shown in any case.
             self.path.filter.choose(0)
             if not self.lines.show_line(line):
                 self.say(self.tr("Only the first {count} blocks are listed.").format(count=MAX_LISTED))
@@ -274,6 +276,7 @@ class ProgramPage(PageOfFile):
     def _take_limit(self, text: str) -> None:
         """Judge the contour error by another limit; by none where the text is empty."""
         try:
+            # No limit of one's own is none that is ever passed.
             limit = typed_error(text, self.file) if text.strip() else math.inf
         except SimulationError as error:
             self.say(self.worded(str(error)))
@@ -313,6 +316,7 @@ class ProgramPage(PageOfFile):
 
     def open_program(self, path: Path) -> None:
         """Run a program from a file."""
+        # The picture of another program is not shown under the name of this one.
         self.outcome = None
         self.begin(
             lambda _show: ProgramJob(read_program(path, self.file)), lambda job: self.start(job, path.name)
@@ -331,6 +335,7 @@ class ProgramPage(PageOfFile):
             return
         self.job, self._name = replace(job, zero=zero), name
         job = self.job
+        # A long program shows its beginning at once; one that is run again has its whole picture already.
         if self.outcome is None and len(job.lines) > FIRST:
             self.begin(lambda show: self._beginning(job, show), self._run_all)
         else:
@@ -339,6 +344,7 @@ class ProgramPage(PageOfFile):
     def _beginning(self, job: ProgramJob, show: JobProgress) -> ProgramRun | None:
         """Return the beginning of a long program; None where it cannot be run without the rest."""
         try:
+            # Without the contour error, for which the loops of all axes are simulated.
             return replace(job, lines=job.lines[:FIRST], with_contour=False).run(self.file, show)
         except (ProgramBlockError, SimulationError):
             return None
@@ -377,6 +383,7 @@ class ProgramPage(PageOfFile):
         task.progressed.connect(lambda what, done, _of: self.say(f"{self.worded(what)} {done} %"))
         task.done.connect(show)
         task.failed.connect(
+            # That it was stopped is what was asked for.
             lambda error: self.say("" if isinstance(error, StoppedError) else self.worded(str(error)))
         )
         task.begin()
@@ -411,6 +418,7 @@ class ProgramPage(PageOfFile):
         self.path.title.setText(", ".join(words))
         alarms = [
             f"{self.tr('Line')} {each.line}: {self.worded(alarm_text(self.file, each))}"
+            # Two fill the line; the list marks the others.
             for each in run.alarms[:2]
         ]
         self.say("; ".join(alarms))
@@ -425,6 +433,7 @@ class ProgramPage(PageOfFile):
         text = self.tr("Cutter radius compensation and the tool are not simulated. Assumed: {count}")
         parts = [text.format(count=len(run.assumptions))]
         if (fault := run.plan.path.fault) is not None:
+            # The control refuses the block of the fault, and runs nothing after it.
             left = len(self.job.lines) - fault.line + 1
             parts.insert(0, self.tr("Blocks that are not run: {count}.").format(count=left))
         self.missing.setText(" ".join(parts))
@@ -451,6 +460,7 @@ class ProgramPage(PageOfFile):
             return
         lines = self.lines.blocks.rows.lines
         self.path.show_moment(moment, self.play.moment, lines[moment.line - 1])
+        # Only when the block is another one: a moment passes many times in each.
         if self.lines.show_line(moment.line, is_asked=False):
             letter = str(self.lines.blocks.rows.letters[moment.line])
             for row in range(self.limits.rowCount()):

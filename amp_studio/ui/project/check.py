@@ -46,6 +46,7 @@ def check_files(paths: list[Path], progress: TaskProgress, cancelled: threading.
     """
     checked = []
     for n, path in enumerate(paths):
+        # Between files: the check of one is not interrupted.
         if cancelled.is_set():
             break
         progress(path.name, n, len(paths))
