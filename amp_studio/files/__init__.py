@@ -105,6 +105,7 @@ if TYPE_CHECKING:
         is_of_machine,
         is_there,
         is_write_protected,
+        parameter_files_in,
         real_path,
         same_file,
         text_of_name,

@@ -47,6 +47,11 @@ def is_of_machine(name: str) -> bool:
     return name.endswith(ENDING) and BEFORE not in name
 
 
+def parameter_files_in(folder: Path) -> list[Path]:
+    """Return the parameter files of the machines in a folder, by name."""
+    return sorted(path for path in folder.glob(f"*{ENDING}") if is_of_machine(path.name))
+
+
 def is_there(path: Path) -> bool:
     """Return whether a name is taken, by a file, a link that leads nowhere, or anything else;
     raises OSError if this cannot be found out.

@@ -28,7 +28,7 @@ from amp_studio.schema import (
 from .atomic import SaveError, digest_of, write_atomic
 from .document import recover_backup
 from .lock import EditLock
-from .paths import ENDING, backup_path, hidden_path, history_path, is_link, is_of_machine, is_there
+from .paths import ENDING, backup_path, hidden_path, history_path, is_link, is_there, parameter_files_in
 from .reading import ParameterFileError, file_content, read_content
 from .yaml_text import amended, new_text, without_stray_tabs
 
@@ -132,7 +132,7 @@ class Project:
 
     def files(self) -> list[Path]:
         """Return the parameter files, by name, without the copies of what controls contained."""
-        return sorted(p for p in self.folder.glob(f"*{ENDING}") if is_of_machine(p.name))
+        return parameter_files_in(self.folder)
 
     def backups(self) -> list[Path]:
         """Return the files that have a backup."""

@@ -170,6 +170,17 @@ def test_a_broken_project_file_does_not_hide_the_parameters(open_window, path: P
     assert window.project is None
 
 
+def test_a_folder_that_is_no_project_opens_its_machine(
+    open_window, path: Path, tmp_path: Path, user: User
+) -> None:
+    """``amp-studio FOLDER``: it was "project.yaml: cannot be read: No such file or directory"."""
+    assert open_window(path.parent).workspace.path == path
+    empty = tmp_path / "empty"
+    empty.mkdir()
+    assert open_window(empty).workspace is None
+    assert user.reads() == f"{empty} has no parameter files and is no project."
+
+
 def test_all_files_are_checked_and_a_finding_is_shown_in_its_file(
     window: MainWindow, project: Project
 ) -> None:

@@ -13,15 +13,14 @@ from pathlib import Path
 from typing import Literal
 
 from amp_studio.files import (
-    ENDING,
     RECORD,
     ParameterFile,
     ParameterFileError,
     Project,
-    is_of_machine,
     is_there,
     local_time,
     open_file,
+    parameter_files_in,
 )
 from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.links import parse_endpoint
@@ -111,7 +110,7 @@ def _controls_of(folder: Path) -> Iterator[ControlWithFile]:
             yield _with_file(known, folder / file_of_exchange(put))
     for key, address in named.items():
         known = ControlWithFile(address, folder, exchanges=tuple(by_address.get(key, ())))
-        files = sorted(p for p in folder.glob(f"*{ENDING}") if is_of_machine(p.name))
+        files = parameter_files_in(folder)
         if len(files) == 1:
             yield _with_file(known, files[0])
         else:

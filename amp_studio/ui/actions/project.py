@@ -8,7 +8,7 @@ from pathlib import Path
 
 from PySide6.QtWidgets import QFileDialog, QInputDialog
 
-from amp_studio.files import ParameterFileError, Project
+from amp_studio.files import ParameterFileError, Project, is_there, parameter_files_in
 from amp_studio.schema import Address
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask
@@ -71,13 +71,14 @@ def open_project(window: StudioWindow) -> None:
 
 
 def open_folder(window: StudioWindow, folder: Path) -> None:
-    """Open a project and choose one of its files. Raises ParameterFileError."""
-    _show(window, Project.open(folder))
-    files = _the_project(window).files()
-    if len(files) == 1:
-        window.open_path(files[0])
-    elif files:
-        open_file(window)
+    """Open a project, or a folder that is none, and choose one of its files. Raises ParameterFileError."""
+    if is_there(folder / "project.yaml"):
+        _show(window, Project.open(folder))
+    files = parameter_files_in(folder)
+    if not files and not is_there(folder / "project.yaml"):
+        raise ValueError(tr("{folder} has no parameter files and is no project.").format(folder=folder))
+    if files and (path := files[0] if len(files) == 1 else _choose(window, tr("Open"), files)):
+        window.open_path(path)
 
 
 def change(window: StudioWindow) -> None:

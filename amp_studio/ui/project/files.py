@@ -18,8 +18,8 @@ from amp_studio.files import (
     ParameterFileError,
     Project,
     file_content,
-    is_of_machine,
     is_there,
+    parameter_files_in,
     read_content,
     same_file,
     write_atomic,
@@ -100,7 +100,7 @@ class ProjectFiles(QObject):
 
     def check(self, folder: Path) -> None:
         """Check every file of a folder as it is on disk, and list the findings."""
-        paths = sorted(p for p in folder.glob(f"*{ENDING}") if is_of_machine(p.name))
+        paths = parameter_files_in(folder)
         found = run_with_progress(
             self.tr("Check all files"),
             lambda progress, cancelled: check_files(paths, progress, cancelled),
