@@ -48,6 +48,26 @@ def test_back_leaves_the_page_at_the_control_first(window: MainWindow) -> None:
     assert (window.control.is_shown, window.selected()) == (False, RAPID)
 
 
+@pytest.mark.own_window
+def test_back_and_forward_go_through_the_pages_too(window: MainWindow) -> None:
+    """From Motion back chose another group in the table behind it, and showed Motion still."""
+    window.go_to(EXCESS)
+    window.go_to(RAPID)
+    for name in ("view.motion", "view.tuning"):
+        window.menus[name].trigger()
+    back, forward = window.menus["view.back"], window.menus["view.forward"]
+    seen = []
+    for action in (back, back, back, forward, forward):
+        action.trigger()
+        seen.append((window.page_in_front.turned_to, window.selected()))
+    assert seen == [("motion", RAPID), ("", RAPID), ("", EXCESS), ("", RAPID), ("motion", RAPID)]
+    window.visited.menu.aboutToShow.emit()
+    assert [action.text() for action in window.visited.menu.actions()][:2] == [
+        "&1 mill: Tuning",
+        "&2 mill: Motion",
+    ]
+
+
 def test_the_manual_has_its_pages_with_links_and_a_search(manual: ManualWindow) -> None:
     assert manual.text.toPlainText().startswith("A first mill to zero errors")
     manual.search.setText("lost motion")

@@ -24,10 +24,14 @@ class _Visit:
     parameters: list[Parameter]
     """What the table showed."""
     address: Address
+    turned_to: str
+    """The page that was in the place of the values; empty for these."""
 
 
 class VisitedPlaces(Translated):
-    """A place is what a table showed, with the last cell there; moving within it is no new place."""
+    """A place is a page, or what the table showed, with the last cell there; moving within it is no new
+    place.
+    """
 
     def __init__(self, window: StudioWindow) -> None:
         self._window = window
@@ -39,8 +43,9 @@ class VisitedPlaces(Translated):
         window.tabs.current_changed.connect(self._remember)
 
     def add(self, page: FilePage) -> None:
-        """Follow the selection of a page."""
+        """Follow the selection of a page, and what is shown in its place."""
         page.selected.connect(lambda *_: self._remember(page))
+        page.turned.connect(lambda: self._remember(page))
 
     def forget(self, page: FilePage) -> None:
         """Drop the places of a page that closes: they, and the menu, would keep its whole file."""
@@ -55,7 +60,7 @@ class VisitedPlaces(Translated):
         address = page.table_view.address()
         if address is None:
             return
-        place = _Visit(page, page.listed_title, page.table.asked, address)
+        place = _Visit(page, page.listed_title, page.table.asked, address, page.turned_to)
         if self._at >= 0 and self._is_same(place, self._places[self._at]):
             self._places[self._at] = replace(self._places[self._at], address=address)
             return
@@ -65,7 +70,10 @@ class VisitedPlaces(Translated):
 
     @staticmethod
     def _is_same(one: _Visit, other: _Visit) -> bool:
-        return one.page is other.page and one.parameters == other.parameters
+        is_list = not one.turned_to
+        return (one.page, one.turned_to) == (other.page, other.turned_to) and (
+            not is_list or one.parameters == other.parameters
+        )
 
     def go(self, step: int) -> None:
         """Go one place back (-1) or forward (1); from the page at the control back to the values."""
@@ -80,11 +88,15 @@ class VisitedPlaces(Translated):
             self._window.show_status(self.tr("This is the place that was visited last."))
 
     def _go_to(self, place: _Visit) -> None:
-        self._at = self._places.index(place)
         self._is_going = True
         try:
             self._window.tabs.bring(place.page)
-            place.page.show_list(place.title, place.parameters, place.address)
+            place.page.show_page(place.turned_to)
+            if place.page.turned_to != place.turned_to:
+                return  # a page with work that would be lost stays
+            if not place.turned_to:
+                place.page.show_list(place.title, place.parameters, place.address)
+            self._at = self._places.index(place)
         finally:
             self._is_going = False
 
@@ -112,4 +124,7 @@ class VisitedPlaces(Translated):
     @staticmethod
     def _name_of(place: _Visit) -> str:
         file = place.page.workspace.file
+        if place.turned_to:
+            shown = place.page.pages[place.turned_to]
+            return f"{place.page.workspace.path.stem}: {shown.accessibleName()}"
         return f"{place.page.workspace.path.stem}: {place.title}, {describe(file, place.address)}"
