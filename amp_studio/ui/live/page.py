@@ -17,6 +17,7 @@ from amp_studio.files import Difference, ParameterFile, RangeError, axis_instanc
 from amp_studio.pictures import LiveLimits, axis_limits
 from amp_studio.report import dangers_of_change
 from amp_studio.schema import Address, Group, Parameter, Value, same_value
+from amp_studio.transfer.links import PasswordError
 from amp_studio.ui.base.figures import sentence, show_value
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.translated import facts_in_words, message_in_words
@@ -267,7 +268,10 @@ class LiveView(LivePageParts):
             return
         if isinstance(error, Exception):  # of an exchange without what the control contains: this reads only
             text = _sentence_of(getattr(error, "what", "") or str(error))
-            self.bar.say(text, "error", (self.tr("Try Again"), self.start), self._to_control())
+            ways = [(self.tr("Try Again"), self.start), self._to_control()]
+            if isinstance(error.__cause__, PasswordError):
+                text, ways = self.tr("The control asks for its password, which is entered there."), ways[1:]
+            self.bar.say(text, "error", *ways)
             self.frame.refuse(text)
             self._refused_in = None  # the next reading allows it
         elif self._why and not self._is_away:
