@@ -125,6 +125,6 @@ class VisitedPlaces(Translated):
     def _name_of(place: _Visit) -> str:
         file = place.page.workspace.file
         if place.turned_to:
-            shown = place.page.pages[place.turned_to]
-            return f"{place.page.workspace.path.stem}: {shown.accessibleName()}"
+            front = place.page.pages[place.turned_to]
+            return f"{place.page.workspace.path.stem}: {front.accessibleName()}"
         return f"{place.page.workspace.path.stem}: {place.title}, {describe(file, place.address)}"
