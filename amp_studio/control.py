@@ -103,6 +103,7 @@ class ConnectedControl:
         """Return what the control shows of itself now: positions, following errors, states and faults;
         nothing is written.
         """
+        # Closed with the line: a control may take one client only.
         with closing(self.watch()) as seen:
             return next(seen)
 
@@ -132,6 +133,7 @@ class ConnectedControl:
         family = machine.schema.family.family
         found, fetched = verify_at(self.address, machine.file, self.exchange, family)
         self.sha256 = sha256(fetched).hexdigest()
+        # The record is beside the file of the machine; one without a file has none.
         exchange = replace(self.exchange, record=machine.source)
         record_look("verify", exchange, family, self.address, fetched, found.summary())
         return found
@@ -152,6 +154,7 @@ class ConnectedControl:
         machine's file, where it is left out. A machine with errors is refused
         with MachineError unless they are accepted. Raises DigestError, ImageError.
         """
+        # First: a machine with errors opens no line.
         if not accept_errors:
             _refuse_errors(machine)
         source = machine.source
@@ -160,6 +163,7 @@ class ConnectedControl:
                 "a machine that was never saved needs the folder for the copy of the control: keep=FOLDER"
             )
         named = source or Path(f"{machine.file.header.name or 'machine'}.amp")
+        # A name near which the copy is kept, with the time in it; this file itself is not written.
         kept = Path(keep) / named.name if keep is not None else named
         exchange = replace(self.exchange, keep=kept, record=source)
         return download_file(machine.file, self.address, exchange, expected=expect)
@@ -176,6 +180,7 @@ class ConnectedControl:
         contained it, is refused with MachineError. Raises CopyError, ParameterFileError, DigestError.
         """
         found = copy if isinstance(copy, Copy) else open_copy(Path(copy))
+        # What a control has contained goes back even with errors: it ran with them before.
         if found.file is not None and not found.is_kept:
             _refuse_errors(MachineParameters(found.file, found.path))
         kept = Path(keep) / found.path.name if keep is not None else found.path
@@ -187,6 +192,7 @@ def _refuse_errors(machine: MachineParameters) -> None:
     """Raise MachineError for a machine with errors."""
     from amp_studio.report import counted
 
+    # Findings of steps that were not reached count here: the control gets all values.
     errors = [finding for finding in machine.check(as_delivered=True) if finding.severity == "error"]
     if errors:
         number = counted(len(errors), "error")

@@ -110,6 +110,7 @@ def check_drawings(file: ParameterFile, checks: Sequence[MotionCheck]) -> dict[i
             continue
         if check.trace.course is not None:
             found[n] = (_check_drawing(draw_homing(file, check.trace)),)
+        # The plan is of pairs of axes: once for all checks of the travel.
         elif check.scenario == "travel" and "travel" in pictures and not is_planned:
             is_planned = True
             plans = pictures["travel"]
@@ -121,6 +122,7 @@ def check_drawings(file: ParameterFile, checks: Sequence[MotionCheck]) -> dict[i
 
 
 def _check_drawing(scene: Scene) -> CheckDrawing:
+    # Several plans have one title: the pair of axes parts them.
     where = scene.subtitle.partition(",")[0] if scene.name == "travel" else ""
     return CheckDrawing(
         f"{scene.title} {where}".rstrip(),
@@ -136,6 +138,7 @@ def checked_motion(check: MotionCheck) -> CheckedMotion:
         for name, (value, unit) in check.figures.items()
         if value is not None
     )
+    # The reason often is the message of the alarm: printed once.
     alarms = tuple((each.code, each.message) for each in check.alarms if each.message != check.why)
     return CheckedMotion(check.verdict, check.scenario, check.letter, figures, check.why, alarms)
 
@@ -200,6 +203,7 @@ def _tables(
     )
     if trace.scenario == "identify":
         yield PaperTable("Figures", ("Figure", "Value"), tuple(figure_rows(trace)), (1.0, 1.0))
+    # A scenario that changes values has its figures before and after: side by side.
     elif any(each.endswith(_BEFORE) for each in trace.result):
         heads = ("Figure", "In the file", "Recommended")
         yield PaperTable("Figures", heads, tuple(_before_and_after(trace)), (1.0, 1.0, 1.0))
@@ -220,6 +224,7 @@ def _recommended(file: ParameterFile, trace: Trace, words: Language) -> Iterator
         yield (
             named_parameter(file, each.parameter, trace.axis),
             known.name if known else each.parameter,
+            # Nine digits, as it is set: the paper is what is keyed in again.
             "not set" if present is None else value_text(float(present.value), present.unit, 9),
             value_text(each.value, each.unit, 9),
             " ".join(words.sentence(text) for text in (each.why, each.price) if text),

@@ -137,9 +137,11 @@ def _listed(file: ParameterFile, each: StepProgress, words: Language) -> ListedS
         f"{len(each.open)} not set": each.open,
         f"{each.own} set": each.own,
         f"{defaults} at {'its' if defaults == 1 else 'their'} default: check": defaults,
+        # What is 0 is left out below.
         **{counted(each.count(severity), severity): each.count(severity) for severity in SEVERITIES},
         f"ticked {with_local_times(each.ticked)}": each.ticked,
     }
+    # Errors alone are printed: the list is worked through with a pen.
     errors = tuple(dict.fromkeys(words.finding(f) for f in each.findings if f.severity == "error"))
     values = tuple(open_value(file, address, words) for address in each.open)
     title, what = words.title(each.step.title), words.sentence(each.step.what)
@@ -151,6 +153,7 @@ def _listed(file: ParameterFile, each: StepProgress, words: Language) -> ListedS
 def open_value(file: ParameterFile, address: Address, words: Language = ENGLISH) -> OpenValue:
     """Return what is printed about a value that is not set."""
     here, parameter = file.machine_schema, file.schema.parameters[address[0]]
+    # A printed number that belongs to another parameter would lead there: the name alone.
     number = here.number(address) if not here.is_disputed(address[0]) else None
     unit = file.evaluation.unit(address, file.header.units)
     allowed = ""
@@ -212,6 +215,7 @@ def _test_lines(test: PrintedTest, words: Language) -> Iterator[str]:
     if test.refusal:
         yield from _wrapped(test.refusal, " " * 8)
         return
+    # Not wrapped: a block of a program is one line.
     yield from (f"{'':12}{printable(line)}" for line in test.lines)
     for do, see in test.steps:
         yield from _wrapped(do, "        [ ] ")

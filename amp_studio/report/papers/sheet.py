@@ -98,6 +98,7 @@ class PrintedSheet:
         screen_text = dict(self.screen_text)
         run: list[Step] = []
         for at, entry in enumerate(self.sheet.entries, 1):
+            # The order of keying in decides: a stage may come again.
             if run and run[-1].entry.stage != entry.stage:
                 yield self.sheet.stages[run[-1].entry.stage], tuple(run)
                 run = []
@@ -213,6 +214,7 @@ def render_sheet_csv(printed: PrintedSheet) -> bytes:
                 step.screen_text,
                 " ".join(step.notes),
             )
+            # A cell that begins as a formula is kept from being one: names come from files of others.
             table.writerow(map(text_cell, row))
     return stream.getvalue().encode("utf-8-sig")
 
