@@ -257,7 +257,7 @@ class MachineParameters:
     @checked_types
     def diff(self, other: MachineParameters | str | Path) -> tuple[Difference, ...]:
         """Return what differs from another machine of the same family, or from a file; raises
-        MachineError.
+        MachineError, ParameterFileError.
         """
         return self.compare(
             other if isinstance(other, MachineParameters) else open_machine(other)
@@ -297,7 +297,7 @@ class MachineParameters:
 
         ``units`` (``metric``, ``inch``) is the system of settings and trace, None for that of the file;
         ``like`` a trace whose move is made again; ``way`` the cores or the cluster of a sweep.
-        Raises SimulationError.
+        Raises SimulationError, and MachineError for an empty axis.
         """
         from amp_studio.scenarios import setting_of_keyword
         from amp_studio.sim import simulate, sweep
@@ -310,13 +310,12 @@ class MachineParameters:
 
     @checked_types
     def check_motion(self, axis: str | None = None) -> tuple[MotionCheck, ...]:
-        """Run every scenario that the machine allows, on one axis or on all, and return the verdicts;
-        raises SimulationError.
+        """Run every scenario that the machine allows, on one axis, by itself or its letter, or on all, and
+        return the verdicts; raises UnknownParameterError, SimulationError.
         """
         from amp_studio.sim import check_motion
 
-        need_name(axis)
-        return tuple(check_motion(self.file, axis))
+        return tuple(check_motion(self.file, None if axis is None else self.axis(axis)))
 
     @checked_types
     def report(self, path: str | Path, *, notify: Notify = lambda _note: None, **contents: Any) -> bool:
@@ -371,8 +370,8 @@ class MachineParameters:
 
     @checked_types
     def save_new(self, path: str | Path) -> None:
-        """Save under a name that no file has, which the machine is called by from then on; raises as
-        ``save`` does.
+        """Save under a name that no file has, which the machine is called by from then on; raises
+        MachineError and SaveError.
         """
         from amp_studio.files import text_of_name
 
@@ -485,7 +484,8 @@ def import_text(
 
     ``machine`` is the machine type where the text shall not decide, ``listing`` which of several listings in
     the text, counted from 1 (0 is the last one); ``notify`` is called with what a person should know of a
-    text that was taken. Raises FormatError, UnknownFamilyError.
+    text that was taken. Raises FormatError, UnknownFamilyError, and MachineError for a file that cannot be
+    read.
     """
     from amp_studio.formats import import_file
 

@@ -27,7 +27,7 @@ from .catalog import Schema
 from .conditions import StateInfo
 from .machine_schema import MachineSchema
 from .model import Parameter, Scope
-from .nearest import close_matches
+from .nearest import close_matches, unknown_name
 from .quoting import quoted, short
 from .values import label_of
 
@@ -220,7 +220,9 @@ def resolve_axis(evaluation: FileState, instances: tuple[str, ...], text: str) -
         raise UnknownParameterError(
             f"the axes {' and '.join(found)} are all named {text.upper()}; give it by number"
         )
-    raise UnknownParameterError(f"there is no axis {quoted(text)}")
+    fitted = [axis for axis in instances if is_fitted(evaluation, axis)]
+    names = [axis_name(evaluation, axis) or axis for axis in fitted or instances]
+    raise UnknownParameterError(unknown_name("axis", text, names))
 
 
 def axis_name(evaluation: FileState, axis: str) -> str:

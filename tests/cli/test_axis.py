@@ -53,7 +53,7 @@ def test_axes_are_named_added_swapped_and_removed(amp, num: Path) -> None:
         (["list", "X"], "axis list takes no argument"),
         (["add"], "axis add takes 1 or 2 arguments"),
         (["copy", "X", "B"], "axis 0 is linear and axis 2 is rotary"),
-        (["remove", "W"], "there is no axis 'W'"),
+        (["remove", "W"], "Unknown axis 'W'. Known: X, Y, "),
         (["type", "X", "rotary"], "has no types of axes"),
         (["name", "X", "Y"], "would both be named Y"),
         (["turn", "X"], "turn"),

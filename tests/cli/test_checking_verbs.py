@@ -408,7 +408,7 @@ def test_a_simulation_has_the_promised_shape(amp, mill: Path, folder) -> None:
     ("arguments", "message"),
     [
         (("juggle",), "juggle"),
-        (("step", "--axis", "Q"), "there is no axis 'Q'"),
+        (("step", "--axis", "Q"), "Unknown axis 'Q'. Known: "),
         (("step", "--set", "9999=1"), "Unknown parameter '9999'"),
         (("step", "--set", "1300"), "'1300' is not PARAM=VALUE"),
     ],

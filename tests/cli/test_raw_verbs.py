@@ -80,7 +80,7 @@ REFUSED = (
     "No test program is printed",
     "No axis is fitted",
     "no axis of the file is fitted",
-    "there is no axis",
+    "Unknown axis",
     "is not set for axis",
     "the soft limits of the axis are not set",
     "neither a calibration table nor a reversal error",

@@ -34,7 +34,7 @@ def run(options: Options) -> int:
             raise UsageError(f"{options.output}: a check is written as {' or '.join(PAPERS)}")
     machine = opened(options.path, options)
     file = machine.file
-    checks = machine.check_motion(machine.axis(options.axis) if options.axis else None)
+    checks = machine.check_motion(options.axis)
     if options.output:
         write_check_paper(
             file, options.path.name, checks, options.output, print_remark, language=options.language
