@@ -67,7 +67,7 @@ def test_a_frequency_response_gives_its_resonance_and_the_notch_for_it(qtbot: Qt
     assert dialog.trace.result["resonance"][0] == pytest.approx(figures["resonance"], rel=0.03)
     assert {"resonance", "delay"} <= set(figures_of(dialog))
     assert "notch" in dialog.message.text()
-    assert dialog.chirp.isHidden()
+    assert dialog.form.editors["chirp"].isHidden()
     assert dialog.use.isEnabled()
     assert doubled(texts_of(dialog)) == {}
 

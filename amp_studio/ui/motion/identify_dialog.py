@@ -64,14 +64,19 @@ class IdentifyDialog(QDialog):
             tip=self.tr("Travel of the axis for one turn of the motor"),
             hint=self.tr("only for a record in rpm: 10 mm"),
         )
-        self.form = FieldForm((scale, turn))
+        # A table over the frequency is nothing else; a record may be one of moves or of a chirp.
+        is_response = _is_table_of_response(path)
+        chirp = Field(
+            "chirp",
+            self.tr("Reco&rd of a chirp: find resonance and delay too"),
+            "check",
+            is_response,
+            visible=lambda _answers: not is_response,
+        )
+        self.form = FieldForm((scale, turn, chirp))
         for name in ("scale", "turn"):
             self.form.editor(name, QLineEdit).editingFinished.connect(self.refresh)
-        # A table over the frequency is nothing else; a record may be one of moves or of a chirp.
-        self._is_response = _is_table_of_response(path)
-        self.chirp = QCheckBox(self.tr("Reco&rd of a chirp: find resonance and delay too"))
-        self.chirp.setVisible(not self._is_response)
-        self.chirp.toggled.connect(self.refresh)
+        self.form.editor("chirp", QCheckBox).toggled.connect(self.refresh)
         self.message = QLabel()
         self.message.setWordWrap(True)
         self.message.setTextFormat(Qt.TextFormat.PlainText)
@@ -91,7 +96,6 @@ class IdentifyDialog(QDialog):
     def _arrange(self, cancel: QPushButton) -> None:
         left = QVBoxLayout()
         left.addWidget(self.form)
-        left.addWidget(self.chirp)
         left.addSpacing(GAP2)
         left.addLayout(self.figures)
         left.addWidget(self.message)
@@ -112,7 +116,7 @@ class IdentifyDialog(QDialog):
     def refresh(self) -> None:
         """Fit the record again with the scale that is given."""
         scale, turn = self.form.answer("scale") or None, self.form.answer("turn") or None
-        by_response = self._is_response or self.chirp.isChecked()
+        by_response = self.form.answer("chirp")
 
         def work() -> Trace:
             if by_response:
