@@ -11,6 +11,8 @@ import contextlib
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import compress, filterfalse
+from operator import is_not
 from pathlib import Path
 
 from amp_studio.schema import (
@@ -168,11 +170,22 @@ class Document:
         file.unknown.update(unknown)
         return file
 
+    def unsaved_addresses(self) -> list[Address]:
+        """Return whose values differ from the file on disk."""
+        saved, values = self.saved, self.file.values
+        # What was not changed is the same object: the few others alone are compared.
+        present = [*map(values.get, saved)]
+        others = compress(
+            zip(saved, present, saved.values(), strict=True), map(is_not, present, saved.values())
+        )
+        changed = [address for address, now, old in others if now != old]
+        return [*changed, *filterfalse(saved.__contains__, values)]
+
     def unsaved_changes(self) -> list[Change]:
         """Return what a save would change, in the manual's order."""
-        addresses = dict.fromkeys([*self.file.addresses(), *self.saved, *self.file.values])
-        pairs = ((a, self.saved.get(a), self.file.values.get(a)) for a in addresses)
-        return [Change(a, old, new) for a, old, new in pairs if old != new]
+        places, values = self.file.machine_schema.places, self.file.values
+        found = sorted(self.unsaved_addresses(), key=lambda address: places.get(address, len(places)))
+        return [Change(a, self.saved.get(a), values.get(a)) for a in found]
 
     def save(self, how: str = "edit") -> None:
         """Save in place; the previous file becomes the backup; ``notes`` lists what could not be kept.

@@ -78,6 +78,24 @@ def test_a_saved_change_is_on_disk_and_the_document_is_clean(on_disk: Path) -> N
     assert set() == hidden(on_disk.parent)
 
 
+def test_what_is_unsaved_is_known_without_comparing_every_value(
+    on_disk: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The window counts it after each key."""
+    compared, equal = list[Value](), Value.__eq__
+    with Document.open(on_disk) as document:
+        new = next(a for a in document.file.addresses() if a not in document.file.values)
+        same = next(a for a, value in document.saved.items() if value.unit == "mm" and a[0] != CALIBRATION[0])
+        document.file.values[same] = Value(document.saved[same].value, "mm")
+        document.file.set(CALIBRATION, Value(7.5, "mm"))
+        document.file.set(POSITION, None)
+        document.file.values[new] = Value(1)
+        monkeypatch.setattr(Value, "__eq__", lambda a, b: compared.append(a) or equal(a, b))
+        assert set(document.unsaved_addresses()) == {CALIBRATION, POSITION, new}
+        assert len(compared) <= 2
+        assert {change.address for change in document.unsaved_changes()} == {CALIBRATION, POSITION, new}
+
+
 def test_what_is_changed_and_changed_back_is_not_dirty(on_disk: Path) -> None:
     with Document.open(on_disk) as document:
         change = document.file.set(CALIBRATION, Value(2.0, "mm"))

@@ -394,10 +394,7 @@ class Workspace(QObject):
 
     def changes(self) -> int:
         """Return how many values differ from those on disk, as far as this program knows them."""
-        saved, present = self.document.saved, self.file.values
-        # What was not changed is the same object, which is known sooner than that it is equal.
-        changed = sum((now := present.get(a)) is not value and now != value for a, value in saved.items())
-        return changed + sum(a not in saved for a in present)
+        return len(self.document.unsaved_addresses())
 
     def typed_unit(self, address: Address) -> str:
         """Return the unit of a number typed without one: the unit in which the value is shown."""
