@@ -264,13 +264,11 @@ class MainWindow(PartsWindow):
     # -- leaving ---------------------------------------------------------------
 
     def closeEvent(self, event: QCloseEvent) -> None:
-        if self.control.is_sending and ask(
-            self,
-            self.tr("Sending"),
-            self.tr("Values are being sent to a control. Closing stops at the next safe point."),
-            self.tr("&Stop and Close"),
-            self.tr("Cancel"),
-        ) != self.tr("&Stop and Close"):
+        if self.control.is_sending:
+            stop = self.tr("&Stop and Close")
+            text = self.tr("Values are being sent to a control. Closing stops at the next safe point.")
+            if ask(self, self.tr("Sending"), text, stop, self.tr("Cancel")) == stop:
+                self.control.stop_sending(then=self.close)
             event.ignore()
             return
         if not all(self.may_leave(page) for page in self.tabs.pages()):

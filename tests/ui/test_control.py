@@ -148,7 +148,7 @@ def test_a_change_at_the_control_after_it_was_read_is_not_overwritten(
     page.press()
     settled(window, qtbot)
     assert page.session.phase == "failed"
-    assert page.bar.text.text().startswith("The control contains all old values.")
+    assert page.bar.text.text().startswith("Nothing was sent to the control.")
     assert "something else than what was approved" in page.bar.text.text()
     assert page.primary.text() == "Connect and Read"
     assert parameters.fetch_file(control.address).values == other.values

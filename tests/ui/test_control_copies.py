@@ -69,7 +69,7 @@ def test_the_end_of_a_restore_names_the_copy_and_calls_no_old_value_new(
     page.checked.setChecked(True)
     page.press()
     settled(window, qtbot)
-    assert page.bar.text.text().startswith("The control contains what it contained before.")
+    assert page.bar.text.text().startswith("Nothing was sent to the control.")
 
 
 def test_garbage_that_was_kept_is_shown_to_be_so_before_it_goes_back(

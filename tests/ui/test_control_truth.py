@@ -2,6 +2,7 @@
 a value alone, of a stop after the commit, of a password that is asked for later.
 """
 
+import socket
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,10 +12,13 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
+from amp_studio.files import content_of, new_file
 from amp_studio.schema import Value
 from amp_studio.transfer.client import parameters
 from amp_studio.transfer.errors import Confirmed, TransferError
 from amp_studio.transfer.links import enter_password, parse_endpoint
+from amp_studio.ui.base.translated import message_in_words
+from amp_studio.ui.control.differences import REMARK
 from amp_studio.ui.control.session import ControlSession, SentChanges
 from amp_studio.ui.control.session_words import text_of_failure
 from amp_studio.ui.main_window import MainWindow
@@ -160,7 +164,8 @@ def test_stopping_after_the_commit_does_not_promise_the_old_values(
             ),
         ),
         (TransferError("stopped", "new"), True, "The control contains the new value. Stopped."),
-        (TransferError("refused"), True, "The control contains the old value. Refused."),
+        (TransferError("refused"), True, "Nothing was sent to the control. Refused."),
+        (TransferError("refused", "old", "a.img"), True, "The control contains the old value. Refused."),
     ],
 )
 def test_how_an_exchange_failed_is_stated_once(error: TransferError, is_one: bool, text: str) -> None:
@@ -187,3 +192,167 @@ def test_a_password_that_is_asked_for_later_has_its_field_too(
     settled(window, qtbot)
     assert not page.password.isHidden()
     assert page.primary.isHidden(), "the same without a password would fail once more"
+    page.password.setText("open cesame")
+    page._enter_password()
+    settled(window, qtbot)
+    page.password.setText("open sesame")
+    page._enter_password()
+    settled(window, qtbot)
+    assert "too many wrong passwords" in page.bar.text.text()
+    assert page.primary.text() == "Try Again", "it may be right: it need not be typed once more"
+
+
+def test_a_control_of_another_family_is_recognised_and_a_silent_one_gets_a_question(
+    window: MainWindow, start_control: Start, qtbot: QtBot
+) -> None:
+    """Both were "The control does not answer", with no way on but to try the same again."""
+    other = start_control(family="grblhal", machine="grblhal").address.partition("?")[0]
+    page = at_control(window, other, "compare", qtbot)
+    assert page.bar.text.text() == (
+        "The control does not answer. What answers there speaks grbl: another file or another address is"
+        " needed."
+    )
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        page = at_control(window, f"tcp://127.0.0.1:{silent.getsockname()[1]}", "compare", qtbot)
+    assert page.bar.text.text().startswith("The control does not answer. Is it switched on, and are cable")
+
+
+def test_reading_takes_what_the_control_contains_unless_another_side_is_chosen(
+    window: MainWindow, start_control: Start, qtbot: QtBot
+) -> None:
+    """Each value had to be taken one by one; without that the button saved a new file."""
+    page = at_control(window, start_control(file=nearly(window)).address, "read", qtbot)
+    assert page.primary.text() == "Take 3 Values into mill"
+    assert not page.as_new.isHidden()
+    assert page.table.currentItem().text(REMARK) == ""
+    page.table.take([EXCESS], file=True)
+    assert page.table.currentItem().text(REMARK) == "the file's value stays"
+    assert page.primary.text() == "Take 2 Values into mill"
+    page.turn("send")
+    assert page.primary.text() == "Send 3 Values to the Control"
+    page.turn("read")
+    page.press()
+    assert window.workspace.file.get(OTHER) == Value(10.0, "mm")
+    assert window.workspace.file.get(EXCESS) == Value(11.0, "mm")
+
+
+def test_a_window_that_is_closed_while_sending_shows_what_the_control_contains(
+    start_control: Start, open_window, path: Path, monkeypatch, user: User, qtbot: QtBot
+) -> None:
+    """It was gone, and only the record had how the exchange ended."""
+    window = open_window(path)
+    control = start_control(file=nearly(window))
+    page = at_control(window, control.address, "send", qtbot)
+    page.checked.setChecked(True)
+    sending = slowed(monkeypatch, lambda exchange: exchange.cancel.wait(WAIT_MS / 1000))
+    page.press()
+    qtbot.waitUntil(sending.is_set, timeout=WAIT_MS)
+    user.answers("Stop and Close")
+    window.close()
+    assert window.isVisible(), "until it is known"
+    qtbot.waitUntil(lambda: not window.isVisible(), timeout=WAIT_MS)
+    assert user.reads() == "CNC_1: The control contains all old values. Stopped."
+
+
+def test_a_tick_is_for_the_dangers_that_were_shown_and_for_no_other(
+    window: MainWindow, start_control: Start, qtbot: QtBot
+) -> None:
+    """Ticked once, it was for every value after that, and at every control."""
+    control = start_control(file=nearly(window))
+    page = at_control(window, control.address, "send", qtbot)
+    page.checked.setChecked(True)
+    page.table.take([EXCESS], file=False)
+    assert page.checked.isChecked(), "less than was checked"
+    page.again.click()
+    settled(window, qtbot)
+    assert page.checked.isChecked(), "the same as was checked"
+    window.workspace.edit("wider", {OTHER: Value(12.5, "mm")})
+    page.connect_again()
+    settled(window, qtbot)
+    assert not page.checked.isChecked()
+    assert page.hint.text() == "Waiting: what can be dangerous is not checked"
+
+
+def test_the_sides_chosen_at_one_control_are_not_those_of_another(
+    window: MainWindow, start_control: Start, qtbot: QtBot
+) -> None:
+    """A value kept at one was kept at the next, and its dangers were listed before that was read."""
+    page = at_control(window, start_control(file=nearly(window)).address, "send", qtbot)
+    page.table.take([EXCESS], file=False)
+    page = at_control(window, "tcp://127.0.0.1:1", "send", qtbot)
+    assert page.steps.list.count() == 0
+    page = at_control(window, start_control(file=nearly(window)).address, "send", qtbot)
+    assert page.primary.text() == "Send 3 Values to the Control"
+
+
+def test_what_a_control_does_not_have_is_shown_before_the_rest_is_sent(
+    window_with: Callable[..., MainWindow], start_control: Start, qtbot: QtBot
+) -> None:
+    """Only the proof named the values of an axis that the control does not have."""
+    control = start_control(family="grblhal", machine="grblhal")
+    window = window_with(content_of(new_file("grblhal", "grblhal", list("XYZA"))))
+    page = at_control(window, control.address, "send", qtbot)
+    assert not page.primary.isEnabled(), "0 values could be sent"
+    window.workspace.edit("travel", {window.workspace.file.find("$130"): Value(301.5, "mm")})
+    page.turn("send")
+    assert page.primary.text() == "Save and Send 1 Value to the Control"
+    assert page.bar.text.text() == (
+        "A part of the file is not sent: the control does not have $47, $103, $113, $123, $133, $538, $701."
+    )
+
+
+def test_what_was_read_before_the_line_was_lost_has_its_time(
+    window: MainWindow, start_control: Start, qtbot: QtBot
+) -> None:
+    """How many differ was there as before, though the control was off."""
+    control = start_control(file=nearly(window))
+    page = at_control(window, control.address, "compare", qtbot)
+    assert page.counts.text().startswith("3 differ, ")
+    control.stop()
+    page.connect_again()
+    settled(window, qtbot)
+    assert page.counts.text().startswith("Read at today ")
+    assert ": 3 differ, " in page.counts.text()
+
+
+@pytest.mark.usefixtures("german")
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("the control has not answered for 8 s", "die Steuerung hat nicht geantwortet (seit 8 s)"),
+        (
+            "no connection to the control (serial:/dev/ttyS0: another program has this port open)",
+            (
+                "keine Verbindung zur Steuerung (serial:/dev/ttyS0: ein anderes Programm hat diesen Anschluss"
+                " geöffnet)"
+            ),
+        ),
+        (
+            "what the control contains could not be kept (a.sha256: No space left on device)",
+            "was die Steuerung enthält, ließ sich nicht aufbewahren (a.sha256: No space left on device)",
+        ),
+        (
+            (
+                "the control contains something else than what was approved to be replaced (sha256 22…,"
+                " approved 45…)"
+            ),
+            "die Steuerung enthält etwas anderes als das, was gezeigt wurde (SHA-256 22…, gezeigt 45…)",
+        ),
+        (
+            "the control refuses $20=1 (Soft limits enable) (error 10); 4 of 5 values were confirmed",
+            "die Steuerung lehnt $20=1 (Soft limits enable) ab (Fehler 10); 4 von 5 Werten sind bestätigt",
+        ),
+        (
+            (
+                "Change complete and read back equal. What it contained before is kept in a b.img. Not sent:"
+                " the control does not have $47."
+            ),
+            (
+                "Geändert und zurückgelesen: gleich. Was sie vorher enthielt, liegt in a b.img. Nicht"
+                " gesendet: die Steuerung hat nicht: $47."
+            ),
+        ),
+    ],
+)
+def test_how_an_exchange_ends_is_german_in_a_german_window(text: str, words: str) -> None:
+    assert message_in_words(text) == words

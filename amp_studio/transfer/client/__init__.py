@@ -6,7 +6,7 @@ from amp_studio.front_pages import front_page
 
 if TYPE_CHECKING:
     from .drift import Drift, drift_of_all, known_controls
-    from .drivers import open_driver, open_driver_at, protocols_of
+    from .drivers import open_driver, open_driver_at, protocols_of, who_answers
     from .exchange import Outcome, look_at
     from .fleet import (
         HEADS,

@@ -78,6 +78,16 @@ def open_driver_at(address: str, family: str = "", exchange: Exchange = QUIET) -
     return open_driver(place, family)
 
 
+def who_answers(address: str, exchange: Exchange = QUIET) -> str:
+    """Return the protocol of what answers at an address, if it is known by its answer, else "". Only what
+    does nothing to any machine is sent. Raises EndpointError, CancelledError.
+    """
+    try:
+        return _recognise(parse_endpoint(address), exchange)
+    except LinkError:
+        return ""
+
+
 def _recognise(place: Endpoint, exchange: Exchange) -> str:
     """Return the protocol of a control that is known by its answer; "" for any other. Raises LinkError,
     CancelledError.

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from .endpoint import Endpoint, EndpointError, is_endpoint, parse_endpoint
     from .link import Link, LinkError, Listener
     from .opening import connect, listen
-    from .password import PasswordError
+    from .password import PasswordError, TooManyWrongError
     from .passwords import ask_with, enter_password, forget_password, kept_password
     from .pseudo_terminal import PtyLink
     from .security import Security, can_others_read, exposure, read_password

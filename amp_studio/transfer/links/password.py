@@ -36,6 +36,10 @@ class PasswordError(LinkError):
     """The other end asks for a password, does not know it, or does not take it."""
 
 
+class TooManyWrongError(PasswordError):
+    """Others were wrong just before: the same password may be right a little later."""
+
+
 def key_of(password: str, salt: bytes) -> bytes:
     """Return what proofs are made with."""
     return hashlib.pbkdf2_hmac("sha256", password.encode(), salt, ROUNDS)
@@ -71,7 +75,7 @@ def prove(
             str(place), "it does not know the password itself: it is not the control it should be"
         )
     if later := LATER.fullmatch(answer):
-        raise PasswordError(str(place), f"too many wrong passwords: try again in {int(later[1])} s")
+        raise TooManyWrongError(str(place), f"too many wrong passwords: try again in {int(later[1])} s")
     raise PasswordError(str(place), "the password is wrong")
 
 

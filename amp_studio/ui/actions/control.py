@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QFileDialog, QStackedWidget
 
@@ -41,6 +41,8 @@ _REFUSED = "refused: "
 """Begins the line of an emulated control that took no word."""
 STATE_ROOM = 152
 """Of the button in the tool bar for the name of a control and its state, in logical pixels."""
+STOPPING_MS = 50
+"""Milliseconds after which it is looked again whether an exchange has stopped."""
 COPIES = "Backups of a control (*.img *.before-*.amp);;All files (*)"
 
 
@@ -363,6 +365,31 @@ class ControlDesk(Translated):
         """Whether something is being written to a control."""
         several = self._page is not None and self._page.several.is_sending
         return several or any(session.phase == "running" for session in self._sessions.values())
+
+    def stop_sending(self, then: Callable[[], object]) -> None:
+        """Stop what is being sent; what each control contains then is shown, and ``then`` is done."""
+        from amp_studio.ui.control.session_words import text_of_end
+
+        running = [session for session in self._sessions.values() if session.phase == "running"]
+        several = self._page.several if self._page is not None and self._page.several.is_sending else None
+        for each in running:
+            each.cancel()
+        if several is not None:
+            several.stop_all()
+
+        def look() -> None:
+            if self.is_sending:
+                QTimer.singleShot(STOPPING_MS, self.window, look)
+                return
+            ends = [
+                f"{self._name_of(each.address)}: {text_of_end(each, self._name_of(each.address))}"
+                for each in running
+            ]
+            ends += several.ends() if several is not None else []
+            show_message(self.window, self.tr("Sending"), "\n\n".join(ends))
+            then()
+
+        look()
 
     def restore(self) -> None:
         """Ask for a backup and offer to put it back;

@@ -56,6 +56,9 @@ def _not_connected(session: ControlSession | None) -> list[ControlCondition]:
     if session is not None and session.lacks_password:
         needs = ControlCondition(tr("Needs a password"), False)
         return [ControlCondition(tr("Connected"), None), *waits[:2], needs]
+    # After an exchange that broke off it may be connected: nothing has asked since.
+    if session is not None and session.phase == "failed":
+        return [ControlCondition(tr("Connected"), None), *waits]
     is_lost = session is not None and session.error
     return [ControlCondition(tr("Not connected"), False if is_lost else None), *waits]
 

@@ -42,6 +42,8 @@ class SideRow:
     """Whether there is no choice: the control's value stays where the file does not set it, and a backup is
     put back with all its values.
     """
+    is_chosen: bool = False
+    """Whether the side was taken by hand."""
 
     @property
     def stays(self) -> bool:
@@ -71,6 +73,7 @@ class DifferenceTable(QTreeWidget):
         self._items: dict[Address, QTreeWidgetItem] = {}
         self._file: ParameterFile | None = None
         self._secrets = self._is_narrow = False
+        self._to_control = True
         self._wanted: frozenset[Address] | None = None
         self.itemClicked.connect(self._click)
         self.header().setStretchLastSection(True)
@@ -117,15 +120,15 @@ class DifferenceTable(QTreeWidget):
         secrets: bool,
         returns: BackupReturn | None = None,
     ) -> None:
-        """List what differs; the file's side is taken, unless it does not set the value,
+        """List what differs; the side that gives is taken, unless it does not have the value,
         and a choice made before stays. There is no choice where a backup ``returns``: all of it is put back.
         """
-        is_chosen = returns is None
-        # A choice is kept over a new reading; rows that had none would bring their forced side into it.
+        has_choice = returns is None
+        # A choice is kept over a new reading and in another direction.
         before = {
-            address: row.takes_file for address, row in self.rows.items() if not row.is_fixed and is_chosen
+            address: row.takes_file for address, row in self.rows.items() if row.is_chosen and has_choice
         }
-        self._file, self._secrets = file, secrets
+        self._file, self._secrets, self._to_control = file, secrets, to_control
         found = list(differences)
         self.show_nothing()
         schema = file.schema
@@ -135,9 +138,11 @@ class DifferenceTable(QTreeWidget):
             only = difference.a is None if to_control else difference.b is None
             only = only and returns != "whole"
             dangers = dangers_of_change(file, [difference], facts_in_words(file.schema))
-            begun = self._wanted is None or difference.address in self._wanted
+            begun = to_control and (self._wanted is None or difference.address in self._wanted)
             takes = not only and before.get(difference.address, begun)
-            self.rows[difference.address] = SideRow(difference, takes, dangers, only or not is_chosen)
+            self.rows[difference.address] = SideRow(
+                difference, takes, dangers, only or not has_choice, difference.address in before
+            )
         screen_text = set(shown_axes(file)) if schema.family.fits_axes else None
         blocks: dict[str, list[Address]] = {}
         for address in self.rows:
@@ -237,12 +242,19 @@ class DifferenceTable(QTreeWidget):
             item.setIcon(column, icon("check-circle-fill", "sel") if is_taken else left)
             item.setFont(column, font("text", own=is_taken))
             item.setForeground(column, colour("text" if is_taken else "dim"))
+        # What is read goes the other way: the side that gives needs no remark.
+        is_given = row.takes_file is self._to_control
         if row.stays:
             item.setText(REMARK, self._by_width(self.tr("stays"), self.tr("stays as it is")))
-        elif not row.takes_file:
-            item.setText(REMARK, self._by_width(self.tr("kept"), self.tr("the control's value stays")))
+        elif not is_given:
+            stays = (
+                self.tr("the control's value stays")
+                if self._to_control
+                else self.tr("the file's value stays")
+            )
+            item.setText(REMARK, self._by_width(self.tr("kept"), stays))
             item.setIcon(REMARK, icon("circle", "panel"))
-        elif row.dangers:
+        elif row.dangers and self._to_control:
             danger = row.dangers[0]
             item.setText(REMARK, danger.brief or self.tr("danger, page {page}").format(page=danger.page))
             item.setToolTip(REMARK, "\n".join(each.says for each in row.dangers))
@@ -282,7 +294,7 @@ class DifferenceTable(QTreeWidget):
         for address in addresses:
             row = self.rows[address]
             if not row.is_fixed:
-                row.takes_file = file
+                row.takes_file, row.is_chosen = file, True
                 self._show_side(address)
         self.sides_changed.emit()
 
@@ -361,6 +373,11 @@ class DifferenceTable(QTreeWidget):
         without those that the control does not contain, which stay as they are in the file.
         """
         return [row for row in self.rows_taking(file=False) if not row.is_fixed]
+
+    def dangerous_changes(self) -> frozenset[object]:
+        """Return the changes that would be sent and can be dangerous, with both values."""
+        rows = (row.difference for row in self.rows_taking(file=True) if row.dangers)
+        return frozenset((each.address, each.a, each.b) for each in rows)
 
     def dangers(self) -> tuple[Danger, ...]:
         """Return what the manual calls dangerous about the values that change, each statement once."""

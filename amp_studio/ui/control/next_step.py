@@ -4,6 +4,7 @@ message above the table states, with its answers. Only read here; the page acts.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
@@ -85,7 +86,9 @@ def primary_button(state: PageState) -> PrimaryButton:
     if session.phase == "away" and session.error and not session.lacks_password:
         return PrimaryButton(tr("Try Again"))
     if session.phase in ("away", "failed"):
-        return PrimaryButton("" if session.lacks_password else tr("Connect and Read"))
+        if session.lacks_password:
+            return PrimaryButton(tr("Try Again") if session.must_wait else "")
+        return PrimaryButton(tr("Connect and Read"))
     if session.phase == "done":
         return PrimaryButton(tr("Back to the Values"))
     if state.direction == "read":
@@ -122,7 +125,9 @@ def _button_of_reading(state: PageState, session: ControlSession) -> PrimaryButt
 def _differs_elsewhere(state: PageState, session: ControlSession) -> bool:
     """Return whether the content differs though no value does: in its header, for instance."""
     comparison = session.comparison(state.file) if state.file is not None else None
-    return comparison is not None and not comparison.is_same and not state.has_rows
+    if comparison is None or comparison.missing:  # what a control does not have is not sent
+        return False
+    return not comparison.is_same and not state.has_rows
 
 
 def _why_not_sent(state: PageState, session: ControlSession) -> str:
@@ -159,7 +164,7 @@ def bar_message(state: PageState) -> BarMessage | None:
     if session.lacks_password:
         return BarMessage(_about_password(session), "warning")
     if session.phase == "away" and session.error:
-        return BarMessage(error_in_words(session), "warning")
+        return BarMessage(" ".join(_about_reaching(session)), "warning")
     if session.phase == "failed":
         return BarMessage(text_of_failure(session), "error")
     if session.phase == "done":
@@ -183,11 +188,27 @@ def _message_of_content(state: PageState, control: ControlIdentity) -> BarMessag
     else:
         workspace = state.workspace
         found = _message_of_file(workspace, state.accepted_errors) if workspace is not None else None
-    if found is None and control.notice:
+    if found is not None or state.session is None:
+        return found
+    if control.notice:
         return BarMessage(message_in_words(control.notice), "warning")
-    if found is None and state.session is not None and (text := text_of_one(state.session)):
+    if text := text_of_one(state.session):
         return BarMessage(text, "advice")
-    return found
+    comparison = state.session.comparison(state.file) if state.file is not None else None
+    if comparison is not None and comparison.missing and state.to_send:
+        why = message_in_words(comparison.missing)
+        return BarMessage(tr("A part of the file is not sent: {why}.").format(why=why), "warning")
+    return None
+
+
+def _about_reaching(session: ControlSession) -> Iterator[str]:
+    """Yield why a control was not reached, and what to look at where nothing answers."""
+    yield f"{error_in_words(session).rstrip('.')}."
+    if session.answers:
+        text = tr("What answers there speaks {protocol}: another file or another address is needed.")
+        yield text.format(protocol=session.answers)
+    elif session.is_silent:
+        yield tr("Is it switched on, and are cable, address and, on a serial line, the baud rate right?")
 
 
 def _about_password(session: ControlSession) -> str:

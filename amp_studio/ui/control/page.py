@@ -21,7 +21,7 @@ from .conditions import conditions_of
 from .next_step import BarAnswer, ExchangeDirection, PageState, bar_message, primary_button
 from .page_parts import ControlPageParts
 from .session import ControlSession, SentChanges
-from .session_words import ControlBackup, text_of_cancel, text_of_content, text_of_proof
+from .session_words import ControlBackup, text_of_cancel, text_of_content, text_of_proof, text_of_reading
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client import ImageComparison
@@ -80,6 +80,7 @@ class ControlPage(ControlPageParts):
         self.cancel.clicked.connect(self._cancel)
         self.proof.clicked.connect(self._save_proof)
         self.again.clicked.connect(self.connect_again)
+        self.as_new.clicked.connect(self._save_as_new)
         self.primary.clicked.connect(self._act)
         self.back.clicked.connect(self.left)
         self.past.clicked.connect(self.show_history)
@@ -156,6 +157,8 @@ class ControlPage(ControlPageParts):
         """Take another control, which is read at once."""
         self.known.several.setChecked(False)
         self._show_state()
+        if self.session is not session:
+            self.table.show_nothing()  # its rows and the sides chosen there are of another control
         if self.session is not None:
             # The one before may still be at work: its end must not be shown as that of the new one.
             self.session.changed.disconnect(self._follow)
@@ -302,6 +305,7 @@ class ControlPage(ControlPageParts):
         is_listed = found is not None and session is not None and session.phase != "done"
         self._show_counts(found.values.same if found else 0, is_listed)
         self._show_middle(message_in_words(found.summary()) if found else "")
+        self.checked.forget_others()
         state = self._state()
         self._show_bar(state)
         self._show_row()
@@ -320,7 +324,10 @@ class ControlPage(ControlPageParts):
         fixed = sum(row.stays for row in self.table.rows.values())
         if fixed:  # else what differs and what the button counts would contradict each other
             parts.append(self.tr("%n on one side only: stay", "", fixed))
-        self.counts.setText(", ".join(parts) if is_read else "")
+        session, text = self.session, ", ".join(parts)
+        if session is not None and session.seen is not None and session.phase == "away":
+            text = f"{text_of_reading(session.seen.when)}: {text}"  # it may contain something else by now
+        self.counts.setText(text if is_read else "")
         self.filter.setVisible(differ > 0 and is_read)
 
     def _show_middle(self, summary: str) -> None:
@@ -365,8 +372,7 @@ class ControlPage(ControlPageParts):
         state, session = self._state(), self.session
         self.row.show_state(state, is_listed=self.middle.currentWidget() is self.table)
         count = len(self.table.dangers()) if state.direction == "send" else 0
-        self.checked.setVisible(count > 0 and session is not None and session.phase == "ready")
-        self.checked.setText(self.tr("I have checked what can be dangerous: %n", "", count))
+        self.checked.show_count(count, can_send=session is not None and session.phase == "ready")
 
     def _show_hint(self, state: PageState) -> None:
         session = self.session
@@ -379,6 +385,8 @@ class ControlPage(ControlPageParts):
         self.proof.setVisible(phase == "done")
         self.again.setVisible(not is_busy and phase in ("ready", "done"))
         button = primary_button(state)
+        takes = self.direction == "read" and phase == "ready" and state.kept > 0 and not is_busy
+        self.as_new.setVisible(takes and state.workspace is not None)
         self.primary.setVisible(bool(button.text))
         self.primary.setText(button.text)
         self.primary.setEnabled(not button.why_off)
@@ -440,13 +448,17 @@ class ControlPage(ControlPageParts):
         assert session is not None
         rows = self.table.kept() if workspace is not None else []
         if workspace is None or session.present(workspace.file) is None or not rows:
-            self.read_requested.emit(session.seen.file.copy() if session.seen and session.seen.file else None)
+            self._save_as_new()
             return
         values: dict[tuple[str, str], Value | None] = {
             row.difference.address: row.difference.b for row in rows
         }
         workspace.edit(self.tr("Read from {name}").format(name=self.name), values)
         self._fill()
+
+    def _save_as_new(self) -> None:
+        seen = self.session.seen if self.session is not None else None
+        self.read_requested.emit(seen.file.copy() if seen is not None and seen.file is not None else None)
 
     def _save_proof(self) -> None:
         """Write what the control contains, by what that is proven, and each value that was sent."""

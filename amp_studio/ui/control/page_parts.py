@@ -10,7 +10,6 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QApplication,
-    QCheckBox,
     QFileDialog,
     QHBoxLayout,
     QLabel,
@@ -34,6 +33,7 @@ from amp_studio.ui.forms.segment import Segment
 
 from .conditions import ConditionLine
 from .current_row import CurrentRow
+from .danger_check import DangerCheck
 from .differences import DifferenceTable
 from .hand_sheet import HandSheet
 from .heading import ControlHeading
@@ -97,7 +97,7 @@ class ControlPageParts(QWidget):
         self.steps_line.setContentsMargins(GAP3, 0, GAP3, 0)
         self.steps_line.hide()
         self.steps.line_changed.connect(self.steps_line.setText)
-        self.checked = QCheckBox()
+        self.checked = DangerCheck(self.table)
         self.row = CurrentRow(self.table, self.checked)
         self.hint = ElidedLabel()
         self.progress = QProgressBar()
@@ -105,9 +105,10 @@ class ControlPageParts(QWidget):
         self.cancel = QPushButton()
         self.proof = QPushButton(tr("Save Proof…"))
         self.again = QPushButton(tr("Read Again"))
+        self.as_new = QPushButton(tr("Save as a New File…"))
         self.primary = QPushButton()
         self.primary.setProperty("primary", True)
-        for button in (self.cancel, self.proof, self.again, self.primary):
+        for button in (self.cancel, self.proof, self.again, self.as_new, self.primary):
             button.setAutoDefault(False)
         self._lay_out()
 
@@ -129,7 +130,15 @@ class ControlPageParts(QWidget):
             self.row,
             self.steps_line,
             side_by_side(
-                FOOT, self.hint, None, self.progress, self.cancel, self.proof, self.again, self.primary
+                FOOT,
+                self.hint,
+                None,
+                self.progress,
+                self.cancel,
+                self.proof,
+                self.again,
+                self.as_new,
+                self.primary,
             ),
         )
         self.states = QStackedWidget()

@@ -28,6 +28,8 @@ BackupReturn = Literal["whole", "its values"]
 """What a backup replaces: all that the control contains, or the values that are in it alone."""
 SILENT = ("silent", "cut")
 """Stages in which an exchange waits: the one that was under way still is."""
+WRITING = ("download", "commit", "restart", "verify")
+"""Stages in which something has been written."""
 SessionPhase = Literal["away", "connecting", "ready", "running", "done", "failed"]
 """Not connected; being read; read; something is sent; it was sent and read back; it did not reach its end."""
 
@@ -88,6 +90,12 @@ class ControlSession(QObject):
         """What the control contained before the last exchange."""
         self.backup_name = ""
         """The backup that was put back last; empty where a file or a value was sent."""
+        self.is_silent, self.answers = False, ""
+        """Whether nothing has answered in the way of the family; and the protocol of what is there, where it
+        is known.
+        """
+        self.must_wait = False
+        """Whether a password was refused because others were wrong just before."""
         self.has_answered = self.is_refused = False
         """Whether it ever answered; and whether the last answer was that it moves and cannot be read."""
         self.needs_password = False
@@ -106,6 +114,11 @@ class ControlSession(QObject):
         return self._task is not None
 
     @property
+    def has_sent(self) -> bool:
+        """Whether the last exchange came as far as writing."""
+        return self.stage in WRITING or (self.failure is not None and bool(self.failure.kept))
+
+    @property
     def lacks_password(self) -> bool:
         """Whether it is not reached because it asks for a password."""
         return self.needs_password and self.phase in ("away", "connecting")
@@ -115,6 +128,7 @@ class ControlSession(QObject):
     def read(self) -> None:
         """Connect and read all that the control contains."""
         self.error, self.failure, self.outcome, self.is_refused = "", None, None, False
+        self.is_silent, self.answers = False, ""
         self._begin("connecting", self._read_control, self._take_seen, self._not_reached)
 
     def go_on(self) -> None:
@@ -150,11 +164,16 @@ class ControlSession(QObject):
         return open_driver_at(self.address, self.family, exchange)
 
     def _read_control(self, exchange: Exchange) -> ReadControl:
-        from amp_studio.transfer import TakesLiveValues
-        from amp_studio.transfer.client import look_at
+        from amp_studio.transfer import ControlSilentError, TakesLiveValues
+        from amp_studio.transfer.client import look_at, who_answers
 
         with closing(self._driver(exchange)) as driver:
-            control, content, _ = look_at(driver, exchange)
+            try:
+                control, content, _ = look_at(driver, exchange)
+            except ControlSilentError:
+                driver.close()  # a control has one client
+                self.answers = who_answers(self.address, exchange)
+                raise
             takes_one = isinstance(driver, TakesLiveValues)
             return ReadControl(control, driver.abilities, takes_one, content, *_decoded(content))
 
@@ -199,12 +218,14 @@ class ControlSession(QObject):
         self.in_estop, self.asked_at = control.in_estop, datetime.now(UTC).astimezone()
 
     def _not_reached(self, error: Exception) -> None:
-        from amp_studio.transfer import MovingError
-        from amp_studio.transfer.links import PasswordError
+        from amp_studio.transfer import ControlSilentError, MovingError
+        from amp_studio.transfer.links import PasswordError, TooManyWrongError
 
         self.error, self.phase = str(error), "away"
         self.is_refused = isinstance(error, MovingError)
         self.has_answered |= self.is_refused
+        self.is_silent = isinstance(error, ControlSilentError)
+        self.must_wait = isinstance(error.__cause__, TooManyWrongError)
         if isinstance(error.__cause__, PasswordError):
             self.needs_password = True  # a wrong one is asked for again
         self.ended.emit("connect", False)

@@ -48,8 +48,12 @@ def text_of_content(session: ControlSession | None, name: str, summary: str) -> 
         return message_in_words(session.seen.why_unreadable)
     if not session.seen.content:
         return tr("The control contains no parameters.")
-    now = datetime.now(UTC).astimezone()
-    return summary or tr("Read at {time}").format(time=in_words(session.seen.when, now))
+    return summary or text_of_reading(session.seen.when)
+
+
+def text_of_reading(when: datetime) -> str:
+    """Return when a control was read."""
+    return tr("Read at {time}").format(time=in_words(when, datetime.now(UTC).astimezone()))
 
 
 def error_in_words(session: ControlSession) -> str:
@@ -74,6 +78,13 @@ def text_of_proof(session: ControlSession, name: str) -> str:
     return "\n\n".join(lines)
 
 
+def text_of_end(session: ControlSession, name: str) -> str:
+    """Return what a control contains after an exchange, however that ended."""
+    if session.phase == "failed":
+        return text_of_failure(session)
+    return text_of_one(session) or text_of_proof(session, name)
+
+
 def text_of_failure(session: ControlSession) -> str:
     """Return one of four sentences about what the control contains, and why."""
     if session.outcome is not None:
@@ -82,7 +93,9 @@ def text_of_failure(session: ControlSession) -> str:
     # Without a failure of the transfer it broke before anything was sent.
     state = failure.at_control or "old" if failure is not None else "old"
     head = _heads(session.backup_name).get(state, tr("It is not known what the control contains."))
-    if session.sent.is_one:
+    if state == "old" and not session.has_sent:
+        head = tr("Nothing was sent to the control.")
+    elif session.sent.is_one:
         head = _heads_of_one().get(state, head)
     # Some of both, or not known: gains and limits may not fit each other.
     danger = "" if state in ("old", "new") else tr("Do not move the machine before it was read.")

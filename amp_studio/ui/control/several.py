@@ -264,6 +264,10 @@ class SeveralControls(QWidget):
             "information" if well == len(rows) else "warning",
         )
 
+    def ends(self) -> list[str]:
+        """Return how the last exchange with each control ended, in words."""
+        return [f"{row.address}: {worded(row.text)}" for row in self.rows]
+
     def stop_all(self) -> None:
         """Break off what is under way, each exchange at its next safe point."""
         if self._task is not None:
