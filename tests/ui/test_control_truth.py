@@ -163,7 +163,11 @@ def test_stopping_after_the_commit_does_not_promise_the_old_values(
                 " it was read. It is silent."
             ),
         ),
-        (TransferError("stopped", "new"), True, "The control contains the new value. Stopped."),
+        (
+            TransferError("stopped", "new"),
+            True,
+            "The control contains the new value. Stopped. It was not read back.",
+        ),
         (TransferError("refused"), True, "Nothing was sent to the control. Refused."),
         (TransferError("refused", "old", "a.img"), True, "The control contains the old value. Refused."),
     ],

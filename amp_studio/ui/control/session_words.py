@@ -115,7 +115,9 @@ def _details(failure: TransferError | None, state: str) -> Iterator[str]:
     """Yield which values are new where some are, and where what the control contained before is kept."""
     if failure is None or state == "old":
         return
-    if failure.new and state != "new":
+    if state == "new" and not failure.new:
+        yield tr("It was not read back.")
+    elif failure.new and state != "new":
         yield tr("New, as far as is known: {names}.").format(names=", ".join(map(visible, failure.new)))
     if failure.kept:
         yield tr("What it contained before is kept in {kept}.").format(kept=failure.kept)
@@ -125,7 +127,7 @@ def text_of_one(session: ControlSession) -> str:
     """Return that a value alone was written, and by what that is proven; empty where none was."""
     if session.outcome is None or not session.sent.is_one:
         return ""
-    return ". ".join((*session.sent.lines, message_in_words(session.outcome.text)))
+    return ". ".join(filter(None, (*session.sent.lines, message_in_words(session.outcome.text))))
 
 
 def _heads_of_one() -> dict[str, str]:
