@@ -265,11 +265,13 @@ def delete_axis(file: ParameterFile, axis: str) -> list[Change]:
     """Make an axis unfitted and put its values back to their printed defaults;
     a value without one is not set.
 
-    Raises AxisError for an axis that the machine must have,
+    Raises AxisError for an axis that is not fitted or that the machine must have,
     and for one that is not the last where they are counted.
     """
     known_axis(file, axis)
     _may_choose(file)
+    if axis not in fitted_axes(file):
+        raise AxisError(f"axis {axis} is not fitted")
     declared = file.schema.family.declared_axes
     with file.step() as changes:
         if profile := file.schema.family.axes:
@@ -293,8 +295,6 @@ def _remove(file: ParameterFile, declared: AxisDeclaration, axis: str) -> None:
     rest.
     """
     fitted = fitted_axes(file)
-    if axis not in fitted:
-        raise AxisError(f"axis {axis} is not there")
     if declared.flags:
         _unfit(file, declared, axis)
         return

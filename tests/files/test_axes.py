@@ -125,6 +125,8 @@ def test_a_deleted_axis_is_unfitted_and_back_at_its_defaults(mill: ParameterFile
     assert mill.get(("axis.rollover", "3")) is None, "a value without a printed default is unset"
     others = [a for a in mill.addresses() if a[1] == "3" and a[0] not in ("axis.type", "axis.name")]
     assert all(mill.is_default(a) for a in others)
+    with pytest.raises(AxisError, match="axis 3 is not fitted"):  # its values went to their defaults again
+        delete_axis(mill, "3")
     assert before == taken_back(mill, changes)
 
 

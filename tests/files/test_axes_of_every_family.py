@@ -184,7 +184,7 @@ def test_an_address_that_is_taken_is_named() -> None:
         add_axis(file, "Z", "24")
     with pytest.raises(AxisError, match="would both be named Y"):
         add_axis(file, "Y")
-    with pytest.raises(AxisError, match="axis 5 is not there"):
+    with pytest.raises(AxisError, match="axis 5 is not fitted"):
         delete_axis(file, "5")
     assert file.values == before
 
