@@ -153,9 +153,12 @@ NAME_WORDS = {
     *("told", "tell", "tells", "said", "says", "held", "holds", "stands", "unset", "absent", "wants", "anew"),
     *("meant", "dress", "wear", "ink", "inks", "ground", "incarnation", "nobody", "somebody", "person"),
     *("born", "situation", "conversation", "fetching", "hang"),
+    *("obey", "deaf", "hopeless", "restless", "wish", "wished", "unheld", "lingers"),
 }
 """Words that no identifier has as a part: what is defined with one was renamed after the field's word."""
 NAME_PARTS = ("answer_once", "no_more")
+NAME_STARTS = ("MOST_", "LEAST_", "FEWEST_")
+"""A bound is MAX_ or MIN_."""
 WHOLE_NAMES = {"shown", "set_many", "all_axes", "Index", "Place", "Cell", "Setting"}
 """No identifier has one of these as its whole name: each had several meanings."""
 FUNCTION_NAMES = {"take", "look", "leave"}
@@ -202,6 +205,7 @@ def is_banned(name: str, *, is_function: bool = True) -> bool:
     words = {word.casefold() for word in re.findall("[A-Z]?[a-z0-9]+|[A-Z]+", name)}
     is_private = is_function and name.startswith("_") and name.strip("_") in FUNCTION_NAMES
     is_vague = is_private or name.strip("_") in WHOLE_NAMES
+    is_vague = is_vague or name.strip("_").startswith(NAME_STARTS)
     return is_vague or not words.isdisjoint(NAME_WORDS) or any(part in name for part in NAME_PARTS)
 
 
@@ -251,6 +255,7 @@ def test_a_test_uses_the_words_of_the_field_for_its_names() -> None:
         ("class Place: ...", {"Place"}),
         ("for _shown, is_shown in rows: ...", {"_shown"}),
         ("self._ink, take = 1, 2", {"_ink"}),
+        ("MOST_ROWS = _LEAST_WIDTH = 1", {"MOST_ROWS", "_LEAST_WIDTH"}),
         ("why_not = taken('what is meant')", set()),
     ],
 )

@@ -224,7 +224,7 @@ def _broken_after(
 
 def _explain(
     order: Sequence[_Line],
-    wished: Sequence[_Line],
+    wanted_lines: Sequence[_Line],
     wanted: ParameterFile,
     present: ParameterFile,
     own: BuilderRules,
@@ -235,14 +235,16 @@ def _explain(
     and it shows why a line waits and what is broken on the way.
     """
     interim = Interim(present, own)
-    wish = {line.step: n for n, line in enumerate(wished)}
+    wanted_place = {line.step: n for n, line in enumerate(wanted_lines)}
     read_by = {line.step: interim.checks_of(line.step.address) for line in order}
     open_from: dict[Hashable, tuple[_Line, Finding]] = {}
     for n, line in enumerate(order):
         for late in order[n + 1 :]:
-            # Only of a line that was wished earlier, and that a check reads together with this one, is
+            # Only of a line that was wanted earlier, and that a check reads together with this one, is
             # there a reason to ask for.
-            if wish[late.step] < wish[line.step] and not read_by[late.step].isdisjoint(read_by[line.step]):
+            if wanted_place[late.step] < wanted_place[line.step] and not read_by[late.step].isdisjoint(
+                read_by[line.step]
+            ):
                 _ask_why(late, line, interim, wanted, allowed, message)
         new = bad(interim.set(line.step), allowed, ("error", "warning"))
         broken = interim.broken

@@ -118,9 +118,9 @@ class Emulated:
         """Give an operator's command and return the control's answer."""
         self.process.stdin.write(line + "\n")
         self.process.stdin.flush()
-        return self.hear()
+        return self.next_line()
 
-    def hear(self) -> str:
+    def next_line(self) -> str:
         return self.process.stdout.readline().strip()
 
     @property
@@ -142,7 +142,7 @@ def emulate() -> Iterator[Callable[..., Emulated]]:
         process = start_program(address, folder, json.dumps(options), script=emulated_control)
         started.append(process)
         emulated = Emulated(process, "")
-        message = emulated.hear()
+        message = emulated.next_line()
         assert message.startswith("listening on "), f"the emulator said {message!r}"
         emulated.address = message.removeprefix("listening on ")
         return emulated

@@ -84,7 +84,7 @@ class HostileControl:
             [(), (), ("Commit",), ("Data",), ("Read",), ("Hello",), ("OpenDownload",)]
         )
         self.window, self.chunk = chance.choice([(16, 512), (1, 1), (255, 4_096), (255, 1), (4, 7)])
-        self.heard_commit = False
+        self.received_commit = False
         self.answers: set[bytes] = set()
         self.answered_at = 0.0
 
@@ -112,7 +112,7 @@ class HostileLink:
             raise LinkError("hostile", "cut")
         for frame in self._decoder.feed(data):
             request = unpack(frame)
-            self._hostile.heard_commit |= isinstance(request, Commit)
+            self._hostile.received_commit |= isinstance(request, Commit)
             self._out += self._answers(request, frame.sequence, self._responder.receive(encode_frame(frame)))
 
     def read(self, timeout: float) -> bytes:
@@ -245,7 +245,7 @@ def exchange_with_hostile_control(seed: int, folder: Path) -> list[str]:
     truth = {OLD: "old", NEW: "new"}[hostile.control.image]
     if LIES.isdisjoint(hostile.tricks) and at_control not in {truth, "unknown"}:
         faults.append(f"said {at_control}, and it is {truth}: {text}")
-    if at_control == "unknown" and not hostile.heard_commit:
+    if at_control == "unknown" and not hostile.received_commit:
         faults.append("said it is not known, and no commit was asked for")
     if not text.replace("\n", "").isprintable() or len(text) > 1_500:
         faults.append(f"control characters or too much text: {text[:200]!r}")

@@ -44,7 +44,7 @@ ASK = 1.0
 QUIET = 0.15  # seconds without a byte after which nothing more comes of what was asked before
 ANSWER = 8.0  # seconds without a byte of an answer
 ANSWER_ENDS = 60.0  # seconds for the whole answer
-LINGER = 0.15  # seconds a command that writes is seen through after a stop was asked for
+STOP_GRACE = 0.15  # seconds a command that writes is seen through after a stop was asked for
 LONGEST_LINE = 8_192  # bytes
 LONGEST_ANSWER = 1 << 20  # bytes
 MESSAGES = 100  # pushed lines that are remembered
@@ -97,7 +97,7 @@ class GrblLine:
         # refusals and ``ok`` of first lines that may still come, before any other answer
         self._pending = self._pending_oks = 0
         # Opening is bounded too: a port that opens and never answers would be waited for without an end.
-        self._begin(START, lingers=False)
+        self._begin(START, finishes=False)
         try:
             self._link = open_link(self.look)
         except LinkError as error:
@@ -110,7 +110,7 @@ class GrblLine:
 
     def wait(self, seconds: float) -> None:
         """Wait; raises CancelledError."""
-        self._begin(seconds + ANSWER, lingers=False)
+        self._begin(seconds + ANSWER, finishes=False)
         end = self._clock() + seconds
         while (left := end - self._clock()) > 0:
             self.look()
@@ -122,7 +122,7 @@ class GrblLine:
 
     def check_cancel(self) -> None:
         """Raise CancelledError where a stop was asked for before anything more is sent."""
-        self._begin(ANSWER_ENDS, lingers=False)
+        self._begin(ANSWER_ENDS, finishes=False)
         self.look()
 
     def ask(self, command: str, *, writes: bool = False) -> list[str]:
@@ -137,7 +137,7 @@ class GrblLine:
             self._erase()  # it may read lines again
         if self._suspended:
             raise ControlSuspendedError(self._suspended)
-        self._begin(ANSWER_ENDS, lingers=writes)
+        self._begin(ANSWER_ENDS, finishes=writes)
         self._link.write(command.encode() + b"\n")
         answer: list[str] = []
         size = 0
@@ -179,7 +179,7 @@ class GrblLine:
     def report(self) -> str:
         """Return the whole report of its state, as ``?`` brings it; raises as ``ask``."""
         self.check_cancel()
-        self._begin(ANSWER, lingers=False)
+        self._begin(ANSWER, finishes=False)
         self._link.write(b"?")
         while True:
             line = self._line(ANSWER)
@@ -196,7 +196,7 @@ class GrblLine:
         """Erase what a lost client may have left of a line,
         and read all that is still to come of earlier commands.
         """
-        self._begin(START, lingers=False)
+        self._begin(START, finishes=False)
         self._link.write(b"?")
         first = self._next(ASK, self._clock()) or ""
         self._is_refusal(first)
@@ -308,9 +308,9 @@ class GrblLine:
 
     # -- patience ------------------------------------------------------------------------------------
 
-    def _begin(self, seconds: float, *, lingers: bool) -> None:
+    def _begin(self, seconds: float, *, finishes: bool) -> None:
         self._until = self._clock() + seconds
-        self._lingers = lingers
+        self._finishes = finishes
         self._stopped_at: float | None = None
         self._waiting.note_answer()
 
@@ -324,7 +324,7 @@ class GrblLine:
         except CancelledError:
             self._stopped_at = now if self._stopped_at is None else self._stopped_at
             # A setting that is under way gets its answer, so that it is known whether it was taken.
-            if not self._lingers or now - self._stopped_at >= LINGER:
+            if not self._finishes or now - self._stopped_at >= STOP_GRACE:
                 raise
         if now >= self._until:
             raise ControlSilentError("the control has not finished its answer in time")

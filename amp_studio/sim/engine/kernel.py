@@ -108,7 +108,7 @@ ENDED, ALARM_ROW = 0, 1
 """Of a run: sample at which the command ended and row of the alarm, both -1 before."""
 PLANT = 2
 """State of the plant: the first of the seven figures of `plant.State`."""
-SAMPLE, RESTLESS, PIECE, MOMENT, SHARE = 9, 10, 11, 12, 13
+SAMPLE, LAST_MOVED, PIECE, MOMENT, SHARE = 9, 10, 11, 12, 13
 """Where the run is: servo sample, that of the last motion, piece and moment of the command,
 share of the feedrate."""
 SLOT, SINCE, COASTING = 14, 15, 16
@@ -195,7 +195,7 @@ def run(
     row, since, coasting = 0, int(x[SINCE]), x[COASTING]
     most, last = int(timing[DRIVEN_ROWS]), len(profile) // WIDTH - 1
     # Servo samples since the start, that of the last motion, that of the end of the command (-1 before).
-    sample, restless, ended = int(x[SAMPLE]), int(x[RESTLESS]), int(x[ENDED])
+    sample, last_moved, ended = int(x[SAMPLE]), int(x[LAST_MOVED]), int(x[ENDED])
     piece, moment, share = int(x[PIECE]), x[MOMENT], x[SHARE]
     weight, pushed = m[GRAVITY], len(push)
     while True:
@@ -222,7 +222,12 @@ def run(
             # there.
             x[PLANT], x[PLANT + 1], x[PLANT + 2] = motor_position, motor, load_position
             x[PLANT + 3], x[PLANT + 4], x[PLANT + 5], x[PLANT + 6] = load, torque, error_sum, against
-            x[SAMPLE], x[RESTLESS], x[PIECE], x[MOMENT] = float(sample), float(restless), float(piece), begun
+            x[SAMPLE], x[LAST_MOVED], x[PIECE], x[MOMENT] = (
+                float(sample),
+                float(last_moved),
+                float(piece),
+                begun,
+            )
             x[SHARE], x[SLOT], x[SINCE], x[COASTING] = share, float(slot), float(since), coasting
             x[SEEN] = float(passed_by)
             return row
@@ -239,12 +244,12 @@ def run(
             error = abs(io[COMMAND] - io[REFERENCE_LAG] - io[POSITION])
             # An axis that waits in the middle of its command is not at its end, however still it is.
             if piece < last or error > timing[REST_BAND]:
-                restless = sample
+                last_moved = sample
             if piece == last:
                 if ended < 0:
                     ended = sample
                     x[ENDED] = float(ended)
-                if (sample - restless) * period > timing[REST_TIME]:
+                if (sample - last_moved) * period > timing[REST_TIME]:
                     return row
                 if (sample - ended) * period > timing[SETTLE_TIME]:
                     return row

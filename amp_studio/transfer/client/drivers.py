@@ -106,15 +106,15 @@ def _recognise(place: Endpoint, exchange: Exchange) -> str:
 
 def _answered_protocol(link: Link, waiting: Waiting, known: Sequence[Recognised], end: float) -> str:
     """Return the protocol whose question is answered on a line until a moment; "" where none is."""
-    heard = b""
-    while (left := end - waiting.now()) > 0 and len(heard) < LONGEST_GREETING:
+    received = b""
+    while (left := end - waiting.now()) > 0 and len(received) < LONGEST_GREETING:
         waiting.look()
-        if not heard or heard.endswith(b"\n"):
+        if not received or received.endswith(b"\n"):
             for each in known:
                 link.write(each.question)
-        heard += link.read(min(left, ASK_AGAIN))
+        received += link.read(min(left, ASK_AGAIN))
         for each in known:
-            if each.answer.search(heard):
+            if each.answer.search(received):
                 return each.protocol
     return ""
 

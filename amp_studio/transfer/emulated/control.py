@@ -154,25 +154,25 @@ class Control:
 
     # -- requests ----------------------------------------------------------------------------------
 
-    def open_download(self, wish: OpenDownload) -> int:
+    def open_download(self, request: OpenDownload) -> int:
         """Begin a download or take it up again; return the offset to go on from."""
         # The answer to the commit was lost: the client goes on to it and gets it again, with nothing to
         # send.
-        if self._record.answer_to(wish.transfer, wish.sha256) is not None:
-            return wish.size
-        if wish.signature != self.identity.signature and not self._record.has_contained(wish.sha256):
+        if self._record.answer_to(request.transfer, request.sha256) is not None:
+            return request.size
+        if request.signature != self.identity.signature and not self._record.has_contained(request.sha256):
             raise RefusalError(
                 Code.SIGNATURE,
                 "the control numbers its parameters by another schema and has not contained this image",
             )
         self._need_estop("download")
-        self._need_expected(wish.expected)
-        if wish.size > self._capacity:
+        self._need_expected(request.expected)
+        if request.size > self._capacity:
             raise RefusalError(
                 Code.TOO_LARGE,
-                f"the image has {wish.size} bytes, and the control has room for {self._capacity}",
+                f"the image has {request.size} bytes, and the control has room for {self._capacity}",
             )
-        pending = PendingDownload(wish.transfer, wish.size, wish.sha256, wish.expected)
+        pending = PendingDownload(request.transfer, request.size, request.sha256, request.expected)
         begun = self._staging.pending
         if begun != pending:
             # Half of one image and half of another would have the right length.

@@ -120,9 +120,9 @@ class Responder:
             self._chunk,
         )
 
-    def _open_download(self, wish: OpenDownload) -> Ready:
-        offset = self.control.open_download(wish)
-        self._transfer, self._size = wish.transfer, wish.size
+    def _open_download(self, request: OpenDownload) -> Ready:
+        offset = self.control.open_download(request)
+        self._transfer, self._size = request.transfer, request.size
         self._early.clear()
         return Ready(offset)
 
@@ -159,14 +159,14 @@ class Responder:
             self.restart_due = True
         return committed
 
-    def _read(self, wish: Read) -> Data:
+    def _read(self, request: Read) -> Data:
         if self._copy is None:
             raise RefusalError(Code.NO_UPLOAD, "no upload is open on this line")
-        if wish.length > self._chunk or wish.offset + wish.length > len(self._copy):
+        if request.length > self._chunk or request.offset + request.length > len(self._copy):
             raise RefusalError(
                 Code.OUT_OF_RANGE, f"the image has {len(self._copy)} bytes, and a piece {self._chunk}"
             )
-        return Data(wish.offset, self._copy[wish.offset : wish.offset + wish.length])
+        return Data(request.offset, self._copy[request.offset : request.offset + request.length])
 
     def _forget(self) -> None:
         self._transfer = None

@@ -33,7 +33,7 @@ LONGEST_PAUSE = 2.0  # up to this
 SLICE = 0.1  # seconds a pause may last before the cancel event is read again
 SILENT_AFTER = 1.8  # seconds without an answer until the waiting caller is notified
 SILENT_EVERY = 1.0  # seconds until he is notified again
-LINGER = 5.0  # seconds a commit is seen through after a stop was asked for
+STOP_GRACE = 5.0  # seconds a commit is seen through after a stop was asked for
 
 ACTS_ON_GRBL = frozenset((0x03, 0x14, 0x18, 0x19, *b"!%~", *range(0x80, 0x100)))
 """Bytes that a Grbl or grblHAL obeys wherever they come, a reset and a cycle start among them (its grbl.h,
@@ -268,7 +268,7 @@ class Connection:
             raise CancelledError("stopped")
         if self._stopped_at is None:
             self._stopped_at = now
-        if now - self._stopped_at >= LINGER or (isinstance(cancel, Stop) and cancel.is_urgent):
+        if now - self._stopped_at >= STOP_GRACE or (isinstance(cancel, Stop) and cancel.is_urgent):
             raise OutOfTimeError
 
     def _timeout_error(self, cause: Exception) -> TransferError:

@@ -128,8 +128,8 @@ class SecuredListener:
         while True:
             try:
                 connection.do_handshake()
-            except (ssl.SSLWantReadError, ssl.SSLWantWriteError) as wish:
-                if not is_ready(connection, wish, 0):
+            except (ssl.SSLWantReadError, ssl.SSLWantWriteError) as request:
+                if not is_ready(connection, request, 0):
                     yield
             else:
                 return

@@ -28,9 +28,9 @@ class TlsLink(TcpLink):
         while True:
             try:
                 data = self._socket.recv(READ_SIZE)
-            except (ssl.SSLWantReadError, ssl.SSLWantWriteError) as wish:
+            except (ssl.SSLWantReadError, ssl.SSLWantWriteError) as request:
                 left = max(0.0, end - time.monotonic())
-                if not self._is_ready(wish, left):
+                if not self._is_ready(request, left):
                     return b""
                 continue
             except (OSError, ValueError) as error:
@@ -46,8 +46,8 @@ class TlsLink(TcpLink):
             try:
                 rest = rest[self._socket.send(rest) :]
                 continue
-            except (ssl.SSLWantReadError, ssl.SSLWantWriteError) as wish:
-                if self._is_ready(wish, SLICE):
+            except (ssl.SSLWantReadError, ssl.SSLWantWriteError) as request:
+                if self._is_ready(request, SLICE):
                     continue
             except (OSError, ValueError) as error:
                 raise LinkError(self._endpoint, tls_message(error)) from None
@@ -60,16 +60,16 @@ class TlsLink(TcpLink):
             self._socket.unwrap()
         super().close()
 
-    def _is_ready(self, wish: ssl.SSLError, seconds: float) -> bool:
+    def _is_ready(self, request: ssl.SSLError, seconds: float) -> bool:
         try:
-            return is_ready(self._socket, wish, seconds)
+            return is_ready(self._socket, request, seconds)
         except (OSError, ValueError) as error:
             raise LinkError(self._endpoint, tls_message(error)) from None
 
 
-def is_ready(connection: ssl.SSLSocket, wish: ssl.SSLError, seconds: float) -> bool:
+def is_ready(connection: ssl.SSLSocket, request: ssl.SSLError, seconds: float) -> bool:
     """Wait for what TLS needs of its socket, up to so long; returns whether it is there."""
-    is_write = isinstance(wish, ssl.SSLWantWriteError)
+    is_write = isinstance(request, ssl.SSLWantWriteError)
     ready = select.select([] if is_write else [connection], [connection] if is_write else [], [], seconds)
     return bool(ready[0] or ready[1])
 

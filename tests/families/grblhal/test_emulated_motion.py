@@ -151,7 +151,7 @@ def test_a_critical_alarm_is_ended_by_a_reset_alone(bench: Bench, alarm: str, an
     assert bench.status()[0] == "Idle"
 
 
-def test_a_grbl_1_1_is_deaf_after_a_critical_alarm_until_its_reset(tmp_path: Path) -> None:
+def test_a_grbl_1_1_takes_nothing_after_a_critical_alarm_until_its_reset(tmp_path: Path) -> None:
     """protocol.c of Grbl 1.1 waits for the reset in a loop that reads no line and reports nothing."""
     bench = Bench(tmp_path, "grbl-1.1")
     bench.firmware.operate("alarm 2")

@@ -58,11 +58,11 @@ def test_a_control_that_contains_something_else_after_its_restart_is_read_whole_
 ) -> None:
     restart = slow.control.restart
 
-    def spoilt() -> None:
+    def corrupted() -> None:
         slow.control._activate(NEW.replace(b"001500 old", b"001500 odd"))
         restart()
 
-    monkeypatch.setattr(slow.control, "restart", spoilt)
+    monkeypatch.setattr(slow.control, "restart", corrupted)
     outcome, seconds = exchanged(slow)
     assert (outcome.at_control, outcome.verified) == ("unknown", False)
     assert "differs from byte" in outcome.text

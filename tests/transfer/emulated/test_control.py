@@ -61,16 +61,18 @@ def test_a_download_is_taken_up_after_a_restart(make: Callable[..., Control]) ->
 
 
 @pytest.mark.parametrize(
-    ("wish", "code"),
+    ("asked_for", "code"),
     [
         (opening(signature="s2"), Code.SIGNATURE),
         (opening(old=b"another"), Code.IMAGE_CHANGED),
         (OpenDownload(TRANSFER, 1 << 30, sha(NEW), sha(OLD), "s1"), Code.TOO_LARGE),
     ],
 )
-def test_what_a_download_is_refused_for(make: Callable[..., Control], wish: OpenDownload, code: Code) -> None:
+def test_what_a_download_is_refused_for(
+    make: Callable[..., Control], asked_for: OpenDownload, code: Code
+) -> None:
     with pytest.raises(RefusalError) as caught:
-        make().open_download(wish)
+        make().open_download(asked_for)
     assert caught.value.code == code
 
 

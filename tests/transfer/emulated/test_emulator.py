@@ -81,7 +81,7 @@ def test_the_whole_exchange_over_a_real_line(emulate: Callable[..., Any], tmp_pa
         outcome = download(HouseDriver(session), WantedContent(NEW, "s1"), keep)
         assert (outcome.at_control, outcome.verified, outcome.restart) == ("new", True, "done")
         assert upload(HouseDriver(session)) == NEW
-    assert emulated.hear() == "restarted 2"
+    assert emulated.next_line() == "restarted 2"
     assert emulated.operate("quit") == "bye"
     assert emulated.process.wait(60) == 0
     assert (tmp_path / "previous.img").read_bytes() == OLD
@@ -194,7 +194,7 @@ def test_estop_is_what_the_operator_shows(emulate: Callable[..., Any], tmp_path:
         outcome = download(HouseDriver(session), WantedContent(NEW, "s1"), keep)
         assert (outcome.verified, outcome.restart) == (True, "needed")
         assert emulated.operate("restart") == "restarting"
-        assert emulated.hear() == "restarted 2"
+        assert emulated.next_line() == "restarted 2"
         assert not session_at(emulated.address).hello().flags & Flags.RESTART_NEEDED
 
 
@@ -363,5 +363,5 @@ def test_while_a_control_restarts_no_client_gets_through(emulate: Callable[..., 
     emulated.operate("restart")
     with pytest.raises((NoConnectionError, ControlSilentError)):
         session_at(emulated.address).hello()
-    assert emulated.hear() == "restarted 2"
+    assert emulated.next_line() == "restarted 2"
     assert session_at(emulated.address).hello().incarnation == 2

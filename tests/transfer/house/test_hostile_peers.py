@@ -324,7 +324,7 @@ def test_open_lines_are_counted(tmp_path: Path) -> None:
 
 def test_an_error_of_the_control_itself_costs_one_client_its_line(tmp_path: Path) -> None:
     room = Room(tmp_path, [])
-    room.control.open_download = lambda wish: 1 // 0
+    room.control.open_download = lambda request: 1 // 0
     wire, other = room.call(), room.call()
     wire.to_control.append(encode_frame(pack(OpenDownload(bytes(16), 1, bytes(32), bytes(32), "s1"), 1)))
     for _ in range(3):

@@ -175,7 +175,7 @@ def test_the_numbers_of_the_page_are_those_of_the_program(page: str) -> None:
         download_transfer.ABORT_WAIT,
         patience,
         patience,
-        connection.LINGER,
+        connection.STOP_GRACE,
         download_transfer.COMMIT_WAIT * (2**download_transfer.COMMIT_TRIES - 1),
         math.ceil(connection.SILENT_AFTER),
         RESTART_WAIT,
@@ -269,6 +269,6 @@ def test_a_client_written_from_the_page_alone_downloads(emulate: Callable[..., A
         assert (kind, reached) == (0x84, struct.pack("<I", min(start + chunk, len(new))))
     kind, committed = client.ask(0x05, transfer + target)
     assert (kind, committed) == (0x86, transfer + target + struct.pack("<I?", incarnation, True))
-    assert emulated.hear() == "restarted 2"
+    assert emulated.next_line() == "restarted 2"
     assert (tmp_path / "active.img").read_bytes() == new
     client.socket.close()

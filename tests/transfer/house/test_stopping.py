@@ -112,8 +112,8 @@ class NoAnswerToCommit(Responder):
         if frame.type == Commit.TYPE:
             if self.does_it:
                 super().answer(frame)
-            self.is_deaf = True
-        return b"" if getattr(self, "is_deaf", False) else super().answer(frame)
+            self.is_unresponsive = True
+        return b"" if getattr(self, "is_unresponsive", False) else super().answer(frame)
 
     def receive(self, data: bytes) -> bytes:
         self.restart_due = False
@@ -123,7 +123,7 @@ class NoAnswerToCommit(Responder):
 
 
 @pytest.fixture
-def deaf(
+def unresponsive(
     rig: Callable[..., Any], control: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
 ) -> Callable[..., Any]:
     """Give a function that connects with a control that never answers to a commit."""
@@ -139,10 +139,10 @@ def deaf(
 @pytest.mark.parametrize("does_it", [False, True])
 @pytest.mark.parametrize("lines", [1, 2, 1_000_000])
 def test_an_unanswered_commit_is_given_up_within_20_seconds(
-    deaf: Callable[..., Any], does_it: bool, lines: int
+    unresponsive: Callable[..., Any], does_it: bool, lines: int
 ) -> None:
     """It took 68.8 s: the timeouts of the commit alone add up to 62."""
-    made = deaf(does_it=does_it, lines=lines)
+    made = unresponsive(does_it=does_it, lines=lines)
     asked: list[float] = []
 
     def note(stage: str, done: int, total: int) -> None:
@@ -160,9 +160,9 @@ def test_an_unanswered_commit_is_given_up_within_20_seconds(
 
 @pytest.mark.parametrize(("twice", "least", "most"), [(False, 4.9, 5.2), (True, 0.0, 0.2)])
 def test_who_stops_while_the_commit_is_not_answered_waits_5_seconds_and_not_at_all_if_asked_twice(
-    deaf: Callable[..., Any], twice: bool, least: float, most: float
+    unresponsive: Callable[..., Any], twice: bool, least: float, most: float
 ) -> None:
-    made = deaf(does_it=True)
+    made = unresponsive(does_it=True)
     cancel = Stop()
     stopped_at: list[float] = []
 

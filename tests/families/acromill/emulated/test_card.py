@@ -83,7 +83,7 @@ def test_a_command_sets_and_its_word_without_a_figure_shows(
         ("P99999=1", "Number out of range\r\n"),
     ],
 )
-def test_what_the_card_does_not_obey_it_answers_in_words(
+def test_what_the_card_does_not_execute_it_answers_in_words(
     terminal: Terminal, line: str, displayed: str
 ) -> None:
     assert terminal.execute(line) == displayed

@@ -205,11 +205,11 @@ def test_registers_that_differ_are_named_either_way(bench: RackBench) -> None:
 
 def test_who_stops_in_the_handshake_leaves_no_command_behind(bench: RackBench) -> None:
     cancel = threading.Event()
-    obey = bench.rack.module._execute
+    execute = bench.rack.module._execute
 
     def stop(axis: int) -> None:
         cancel.set()
-        obey(axis)
+        execute(axis)
 
     bench.rack.module._execute = stop
     with pytest.raises(CancelledError) as caught:
