@@ -24,6 +24,7 @@ from amp_studio.files import (
     text_of_name,
 )
 from amp_studio.report import (
+    Additions,
     CheckedMotion,
     Contents,
     ExchangeLine,
@@ -85,11 +86,7 @@ def write_report(
         date=date,
         own=own,
         notify=notify,
-        motion=moved,
-        exchanges=() if "exchanges" in contents.without or source is None else tuple(exchanges_of(source)),
-        tunings=() if "tuning" in contents.without or source is None else tuple(tunings_of(file, source)),
-        checks=tuple(checks_of(file)) if contents.check else (),
-        programs=tuple(programs_of(file, contents.programs)),
+        added=_added(file, contents, source, moved),
     )
 
 
@@ -115,9 +112,18 @@ def set_dossier(
         source=source,
         own=own,
         notify=notify,
+        added=_added(file, contents, source, motion),
+    )
+
+
+def _added(
+    file: ParameterFile, contents: Contents, source: Path | None, motion: Iterable[PrintedFigure]
+) -> Additions:
+    """Return what the documentation of a file has beside its values; a chapter left out is not made."""
+    return Additions(
         motion=motion,
-        exchanges=() if "exchanges" in contents.without else tuple(exchanges_of(source)),
-        tunings=() if "tuning" in contents.without else tuple(tunings_of(file, source)),
+        exchanges=() if "exchanges" in contents.without or source is None else tuple(exchanges_of(source)),
+        tunings=() if "tuning" in contents.without or source is None else tuple(tunings_of(file, source)),
         checks=tuple(checks_of(file)) if contents.check else (),
         programs=tuple(programs_of(file, contents.programs)),
     )

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from .findings.by_rule import FindingGroup, finding_axes, finding_groups, fix_lines, fix_text
     from .findings.lines import finding_json, finding_parts, finding_text, suppressed_text
     from .language import Language, language_of
-    from .model import PrintedFigure
+    from .model import Additions, PrintedFigure
     from .output.pdf import PrintedPlace, SetReport, typeset
     from .papers.check_list import OpenValue, build_check_list, open_value, write_check_list
     from .papers.differences import (

@@ -34,13 +34,13 @@ from amp_studio.validate import NO_RULES, BuilderRules, Finding, validator_of
 from amp_studio.version import __version__
 
 from .axes import printed_axes, scope_of
-from .chapters import CheckedMotion, ExchangeLine, PrintedProgram, ProgramState, TuningLine
+from .chapters import ProgramState
 from .contents import SORTS, UNIT_CHOICES, Contents
 from .dangers import dangers_of
 from .drawings import drawings
 from .findings.alike import printed_findings, printed_suppressed
 from .language import Language, language_of
-from .model import PrintedFigure, Report, ReportRow
+from .model import NOTHING_ADDED, Additions, PrintedFigure, Report, ReportRow
 from .parameter.manual_page import help_parts
 from .rows import Rows, row_of, rows_of
 from .sections import numbers_of, sections_of
@@ -59,18 +59,12 @@ def build_report(
     project: ProjectInfo | None = None,
     date: datetime | None = None,
     own: BuilderRules = NO_RULES,
-    motion: Iterable[PrintedFigure] = (),
-    exchanges: Sequence[ExchangeLine] = (),
-    tunings: Sequence[TuningLine] = (),
-    checks: Sequence[CheckedMotion] = (),
-    programs: Sequence[PrintedProgram] = (),
+    added: Additions = NOTHING_ADDED,
 ) -> Report:
     """Return the report of a file as it is in memory; secrets are masked.
 
     ``source`` is its path on disk, ``project`` what its project has about the machine; ``date`` is printed,
-    the present time if left out. ``motion`` are drawings of the simulator,
-    ``exchanges`` and ``tunings`` what the records have of this file, ``checks`` what every scenario found,
-    ``programs`` part programs under it.
+    the present time if left out.
     """
     contents = contents or Contents()
     language = language_of(contents.language, file.schema.family.family)
@@ -115,10 +109,10 @@ def build_report(
         not_set=tuple(_not_set(found.rows)),
         sections=sections_of(file, printed, contents.sort, language),
         power_up=with_part("power-up", lambda: _power_up(file, language)),
-        exchanges=with_part("exchanges", lambda: exchanges),
-        tunings=with_part("tuning", lambda: tunings),
-        checks=tuple(checks),
-        programs=tuple(programs),
+        exchanges=with_part("exchanges", lambda: added.exchanges),
+        tunings=with_part("tuning", lambda: added.tunings),
+        checks=tuple(added.checks),
+        programs=tuple(added.programs),
         family_id=family.family,
         file_data=_file_data(file, source, content),
         totals=_totals(file, found, now),
@@ -126,7 +120,7 @@ def build_report(
         help={i: tuple(_help(file.schema, i, language)) for i in _ids_of(printed)},
         # Last, as they are made beside all this.
         pictures=tuple(pictures),
-        motion=Awaited(_in_words(figure, language) for figure in motion)
+        motion=Awaited(_in_words(figure, language) for figure in added.motion)
         if "motion" not in contents.without
         else (),
     )

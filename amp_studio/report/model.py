@@ -290,6 +290,24 @@ class PrintedFigure:
 
 
 @dataclass(frozen=True, slots=True)
+class Additions:
+    """What the simulator and the records add to the report of a file."""
+
+    motion: Iterable[PrintedFigure] = ()
+    """Drawings of the simulator."""
+    exchanges: Sequence[ExchangeLine] = ()
+    tunings: Sequence[TuningLine] = ()
+    """What the records have of the file."""
+    checks: Sequence[CheckedMotion] = ()
+    """What every scenario found."""
+    programs: Sequence[PrintedProgram] = ()
+    """Part programs under the file."""
+
+
+NOTHING_ADDED = Additions()
+
+
+@dataclass(frozen=True, slots=True)
 class Section:
     """One chapter of the report."""
 

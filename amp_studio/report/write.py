@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
@@ -12,9 +12,8 @@ from amp_studio.validate import NO_RULES, BuilderRules
 
 from .apart import What, made_apart
 from .build import build_report
-from .chapters import CheckedMotion, ExchangeLine, PrintedProgram, TuningLine
 from .contents import Contents
-from .model import PrintedFigure, Report
+from .model import NOTHING_ADDED, Additions, Report
 from .output.data import render_json
 from .output.everything import render_workbook
 from .output.page import render_html
@@ -47,11 +46,7 @@ def print_report(
     source: Path | str | None = None,
     date: datetime | None = None,
     own: BuilderRules = NO_RULES,
-    motion: Iterable[PrintedFigure] = (),
-    exchanges: Sequence[ExchangeLine] = (),
-    tunings: Sequence[TuningLine] = (),
-    checks: Sequence[CheckedMotion] = (),
-    programs: Sequence[PrintedProgram] = (),
+    added: Additions = NOTHING_ADDED,
     notify: Notify = lambda _note: None,
 ) -> bool:
     """Write the documentation of a file, whole or not at all; the file extension of ``path`` sets the format.
@@ -60,8 +55,7 @@ def print_report(
     ``date`` is printed (now when left out), ``own`` are the builder's rules; ``notify`` is called with each
     attribute of a replaced file that could not be kept, and with the mistake of a project's template.
     Returns whether the project's own template was used, where it has one: False is the standard report in
-    its place. ``motion``, ``exchanges``, ``tunings``, ``checks`` and ``programs`` are those of
-    ``build_report``. Raises ValueError for an unknown file extension, ParameterFileError for a project that
+    its place. Raises ValueError for an unknown file extension, ParameterFileError for a project that
     cannot be read, SaveError when it cannot be written.
     """
     path, source, contents = Path(path), Path(source) if source else None, contents or Contents()
@@ -71,19 +65,7 @@ def print_report(
         contents = replace(contents, without=contents.without | {"pictures"})
     folder = real_path(source).parent if source else None
     project = project_beside(source)
-    report = build_report(
-        file,
-        contents,
-        source=source,
-        project=project,
-        date=date,
-        own=own,
-        motion=motion,
-        exchanges=exchanges,
-        tunings=tunings,
-        checks=checks,
-        programs=programs,
-    )
+    report = build_report(file, contents, source=source, project=project, date=date, own=own, added=added)
     content, mistake = _rendered(report, path.suffix.lower(), folder)
     # Nothing is lost with the one before: a report is made again at any time.
     write_atomic(path, content, keep_backup=False, notify=notify)
@@ -101,11 +83,7 @@ def set_report(
     *,
     source: Path,
     own: BuilderRules = NO_RULES,
-    motion: Sequence[PrintedFigure] = (),
-    exchanges: Sequence[ExchangeLine] = (),
-    tunings: Sequence[TuningLine] = (),
-    checks: Sequence[CheckedMotion] = (),
-    programs: Sequence[PrintedProgram] = (),
+    added: Additions = NOTHING_ADDED,
     notify: Notify = lambda _note: None,
 ) -> SetReport:
     """Return the pages of what ``print_report`` writes as PDF, as pictures with ``ppi`` pixels to the inch:
@@ -113,18 +91,7 @@ def set_report(
 
     Raises ReportNotMadeError, and ParameterFileError for a project that cannot be read.
     """
-    report = build_report(
-        file,
-        contents,
-        source=source,
-        project=project_beside(source),
-        own=own,
-        motion=motion,
-        exchanges=exchanges,
-        tunings=tunings,
-        checks=checks,
-        programs=programs,
-    )
+    report = build_report(file, contents, source=source, project=project_beside(source), own=own, added=added)
     template = own_template(real_path(source).parent, "report.typ.j2")
     try:
         source_text, marks, *pages = made_apart("pages", report, template, ppi)

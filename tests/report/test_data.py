@@ -10,7 +10,7 @@ from jsonschema import Draft7Validator
 from amp_studio.dossier import motion_figures, write_report
 from amp_studio.files import open_file
 from amp_studio.files.example_files import examples_folder
-from amp_studio.report import Contents
+from amp_studio.report import Additions, Contents
 from amp_studio.report.build import build_report
 from amp_studio.report.output.data import render_json, report_data
 from amp_studio.schema import Value
@@ -34,7 +34,7 @@ def broken() -> dict[str, Any]:
 def test_the_document_is_indented_as_json_writes_it() -> None:
     file = open_file(examples_folder() / "grblhal-router" / "GRBL_ROUTER.amp").file
     file.header.name = 'a "name", [in] {brackets}\\ Ü'
-    report = build_report(file, motion=tuple(motion_figures(file)))
+    report = build_report(file, added=Additions(tuple(motion_figures(file))))
     expected = json.dumps(report_data(report), ensure_ascii=False, indent=1) + "\n"
     assert render_json(report).decode("utf-8") == expected
 

@@ -15,7 +15,7 @@ from amp_studio.dossier import checks_of, machine_tests_of, motion_figures, prog
 from amp_studio.drawing.svg import measured
 from amp_studio.files import ParameterFile, compare, new_file, open_file
 from amp_studio.guide import progress
-from amp_studio.report import Contents
+from amp_studio.report import Additions, Contents
 from amp_studio.report.build import build_report
 from amp_studio.report.chapters import CheckedFigure, CheckedMotion
 from amp_studio.report.drawings import drawings
@@ -63,13 +63,9 @@ def words_of_the_control(file: ParameterFile) -> list[str]:
 def printed(file: ParameterFile, name: str, language: str) -> Iterator[str]:
     """Yield the texts of a whole report and of its drawings."""
     contents = Contents(language=language, inactive=True)
-    report = build_report(
-        file,
-        contents,
-        motion=tuple(motion_figures(file)),
-        checks=tuple(checks_of(file)),
-        programs=tuple(programs_of(file, tuple(EXAMPLES[name].parent.glob("*.nc")))),
-    )
+    programs = tuple(programs_of(file, tuple(EXAMPLES[name].parent.glob("*.nc"))))
+    added = Additions(tuple(motion_figures(file)), checks=tuple(checks_of(file)), programs=programs)
+    report = build_report(file, contents, added=added)
     page = re.sub(r"<(script|style|code)\b.*?</\1>", "", render_html(report).decode(), flags=re.DOTALL)
     drawn = language_of(language, file.schema.family.family).drawing
     figures = (*report.motion, *report.pictures, *report.program_figures, *report.check_figures)
