@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtPrintSupport import QPrinter, QPrintPreviewDialog
+from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.report import PrintedFigure
 from amp_studio.ui.dialogs.file_dialogs import ReportDialog
@@ -75,13 +76,26 @@ def test_the_report_is_opened_when_wanted(window: MainWindow, tmp_path: Path, ac
 
 
 def test_browsing_gives_the_ending_that_was_chosen(window: MainWindow, tmp_path: Path, monkeypatch) -> None:
-    from PySide6.QtWidgets import QFileDialog
-
     dialog = ReportDialog(tmp_path / "mill.amp", window)
     assert dialog.form.answer("path") == str(tmp_path / "mill.pdf")
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "named"), "HTML (*.html)"))
     dialog.form.browse("path")
     assert dialog.form.answer("path") == str(tmp_path / "named.html")
+
+
+def test_a_file_that_a_name_without_an_ending_means_is_replaced_only_when_asked(
+    window: MainWindow, tmp_path: Path, monkeypatch, user: User
+) -> None:
+    dialog, taken = ReportDialog(tmp_path / "mill.amp", window), tmp_path / "named.html"
+    taken.touch()
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "named"), "HTML (*.html)"))
+    user.answers("Cancel")
+    dialog.form.browse("path")
+    assert dialog.form.answer("path") == str(tmp_path / "mill.pdf")
+    user.answers("Replace")
+    dialog.form.browse("path")
+    assert user.asked == ["named.html already exists. Replace it?"] * 2
+    assert dialog.form.answer("path") == str(taken)
 
 
 @pytest.mark.parametrize("verb", ["Report", "Export"])

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QFileDialog, QStackedWidget
+from PySide6.QtWidgets import QStackedWidget
 
 from amp_studio.files import Document, ParameterFile, settle
 from amp_studio.schema import Address
+from amp_studio.ui.base.ask_path import ask_to_open
 from amp_studio.ui.base.emulated_control import EmulatedControl
 from amp_studio.ui.base.known_controls import ControlVerb
 from amp_studio.ui.base.modal import is_alive
@@ -397,9 +398,8 @@ class ControlDesk(Translated):
         """
         workspace = self.window.workspace
         folder = workspace.path.parent if workspace is not None else Path()
-        text, _ = QFileDialog.getOpenFileName(self.window, self.tr("Restore"), str(folder), COPIES)
-        if text:
-            self._offer_backup(Path(text))
+        if path := ask_to_open(self.window, self.tr("Restore"), folder, COPIES):
+            self._offer_backup(path)
 
     def _offer_backup(self, path: Path) -> None:
         """Show on the page what putting back a backup changes; raises as ``restore``."""

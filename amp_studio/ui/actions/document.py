@@ -8,9 +8,10 @@ from functools import partial
 
 from PySide6.QtCore import QUrl
 from PySide6.QtGui import QDesktopServices
-from PySide6.QtWidgets import QFileDialog, QMessageBox
+from PySide6.QtWidgets import QMessageBox
 
 from amp_studio.files import ParameterFile, check_output, real_path
+from amp_studio.ui.base.ask_path import ask_to_save
 from amp_studio.ui.base.questions import show_message
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import tr
@@ -27,14 +28,13 @@ def report(window: StudioWindow) -> None:
 def form(window: StudioWindow) -> None:
     """Write the tables of this machine with room for values that are filled in by hand."""
     from amp_studio.report import form_paper, write_paper
-    from amp_studio.ui.dialogs.file_dialogs import PAPER_KINDS, path_of_kind
+    from amp_studio.ui.dialogs.file_dialogs import PAPER_KINDS
 
     workspace = window.workspace_in_front
     near = workspace.path.with_name(f"{workspace.path.stem}-form.pdf")
-    text, kind = QFileDialog.getSaveFileName(window, tr("Form to Fill In"), str(near), PAPER_KINDS)
-    if not text:
+    path, file = ask_to_save(window, tr("Form to Fill In"), near, PAPER_KINDS), workspace.file.copy()
+    if path is None:
         return
-    path, file = path_of_kind(text, kind), workspace.file.copy()
     language = window.report_options.contents.language
     check_output(path, workspace.path)
     notes: list[str] = []

@@ -24,6 +24,7 @@ from amp_studio.files import (
     same_file,
     write_atomic,
 )
+from amp_studio.ui.base.ask_path import ask_to_open
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.task import in_background
@@ -159,9 +160,8 @@ class Files(Translated):
         """Ask for a file and open it."""
         project, workspace = self.window.project, self.window.workspace
         folder = workspace.path.parent if workspace else project.folder if project else ""
-        text, _ = QFileDialog.getOpenFileName(self.window, self.tr("Open"), str(folder), parameter_files())
-        if text:
-            self.open_path(Path(text))
+        if path := ask_to_open(self.window, self.tr("Open"), folder, parameter_files()):
+            self.open_path(path)
 
     def open_path(self, path: Path) -> None:
         """Open a file, or come back to it where it is open; offers unsaved work,

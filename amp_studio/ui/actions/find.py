@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 
-from PySide6.QtCore import QTimer
 from PySide6.QtGui import QAction, QGuiApplication
 from PySide6.QtWidgets import QMessageBox
 
@@ -15,6 +14,7 @@ from amp_studio.schema import Schema, family_ids, load_schema
 from amp_studio.ui.base.menu_commands import commands
 from amp_studio.ui.base.modal import is_alive
 from amp_studio.ui.base.questions import show_message
+from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.translated import Translated, tr, worded
 from amp_studio.ui.page.file_page import FilePage
@@ -47,11 +47,8 @@ class FindSearch(Translated):
         self._finders: dict[FilePage, Finder] = {}
         self._indexed: set[tuple[int, str]] = set()
         self._indexing: set[tuple[int, str]] = set()
-        self._soon = QTimer(window)
+        self._soon = single_shot(window, self._index, _SOON_MS)
         """Indexes a family while nothing else is to do; who comes to the box before has it at once."""
-        self._soon.setSingleShot(True)
-        self._soon.setInterval(_SOON_MS)
-        self._soon.timeout.connect(self._index)
         self.box.entered.connect(self._index)
         self._commands: dict[str, QAction] = {}
         self._menu = SearchIndex(())

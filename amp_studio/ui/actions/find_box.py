@@ -20,8 +20,9 @@ from PySide6.QtGui import (
     QPaintEvent,
     QResizeEvent,
 )
-from PySide6.QtWidgets import QFrame, QLabel, QLineEdit, QListView, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QLabel, QLineEdit, QListView, QWidget
 
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.theme import GAP, GAP2, colour, font, icon
 
 from .find_rows import FindDelegate, FindRow, FindRows
@@ -76,11 +77,7 @@ class FindBox(QLineEdit):
         self._footer = QLabel(self.tr("↑ ↓ choose    Enter go there    Esc close    > commands"))
         self._footer.setFont(font("caption"))
         self._footer.setContentsMargins(GAP2 + GAP, GAP, GAP2, GAP)
-        layout = QVBoxLayout(self._popup)
-        layout.setContentsMargins(1, GAP, 1, 1)
-        layout.setSpacing(0)
-        layout.addWidget(self.list)
-        layout.addWidget(self._footer)
+        in_column(self.list, self._footer, on=self._popup, margins=(1, GAP, 1, 1), gap=0)
         self._popup.hide()
         self._window = window
         self._selects = False

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog
 
 from amp_studio.files import Document, ParameterFile, check_output, keep, out_of_range, write_atomic
 from amp_studio.schema import family_ids, load_schema
+from amp_studio.ui.base.ask_path import ask_to_open
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import Translated
@@ -42,14 +43,9 @@ class TextFormats(Translated):
         from amp_studio.formats import all_formats  # not needed at program start
 
         endings = " ".join(f"*{ending}" for f in all_formats() for ending in f.endings)
-        text, _ = QFileDialog.getOpenFileName(
-            self.window,
-            self.tr("Import"),
-            "",
-            self.tr("Text formats ({endings});;All files (*)").format(endings=endings),
-        )
-        if text:
-            self.read_from(Path(text))
+        kinds = self.tr("Text formats ({endings});;All files (*)").format(endings=endings)
+        if path := ask_to_open(self.window, self.tr("Import"), "", kinds):
+            self.read_from(path)
 
     def read_from(self, source: Path) -> None:
         """Ask for a name, and show the parameter file that a text file means."""

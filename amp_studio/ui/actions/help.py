@@ -7,10 +7,10 @@ from pathlib import Path
 
 from PySide6.QtCore import QUrl, qVersion
 from PySide6.QtGui import QDesktopServices
-from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import write_atomic
 from amp_studio.trouble import last_details, log_folder
+from amp_studio.ui.base.ask_path import ask_to_save
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.window.studio_window import StudioWindow
@@ -57,11 +57,10 @@ def report_problem(window: StudioWindow) -> None:
         if answer not in (yes, no):
             return
         with_machine = answer == yes
-    near = str(Path.home() / "amp-studio-problem.txt")
-    text, _ = QFileDialog.getSaveFileName(window, tr("Report a Problem"), near, "Text (*.txt)")
-    if text:
-        write_atomic(Path(text), problem_text(window, with_machine).encode(), keep_backup=False)
-        window.show_status(tr("{path} written").format(path=text))
+    near = Path.home() / "amp-studio-problem.txt"
+    if path := ask_to_save(window, tr("Report a Problem"), near, "Text (*.txt)"):
+        write_atomic(path, problem_text(window, with_machine).encode(), keep_backup=False)
+        window.show_status(tr("{path} written").format(path=path))
 
 
 def problem_text(window: StudioWindow, with_machine: bool) -> str:

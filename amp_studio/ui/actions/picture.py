@@ -9,11 +9,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from PySide6.QtCore import QObject, QTimer
-from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import check_output, write_atomic
 from amp_studio.schema import Address
+from amp_studio.ui.base.ask_path import ask_to_save
 from amp_studio.ui.base.loading import is_loaded, load, load_beside
+from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.page.file_page import FilePage
 from amp_studio.ui.pictures.split import Arrangement, PictureLayout
@@ -45,10 +46,7 @@ class Pictures(QObject):
         self.window = window
         self._loaded: set[str] = set()
         """The families whose pictures have been shown."""
-        self._early = QTimer(self)
-        self._early.setSingleShot(True)
-        self._early.setInterval(LOAD_MS)
-        self._early.timeout.connect(self._prepare)
+        self._early = single_shot(self, self._prepare, LOAD_MS)
         window.tabs.current_changed.connect(lambda _: self._early.start())
 
     def _prepare(self) -> None:
@@ -162,9 +160,8 @@ class Pictures(QObject):
             return
         own = page.workspace.path
         name = own.with_name(f"{own.stem}-{card.picture.name}.svg")
-        text, _ = QFileDialog.getSaveFileName(self.window, self.tr("Save Picture"), str(name), "SVG (*.svg)")
-        if text:
-            path = Path(text if text.lower().endswith(".svg") else f"{text}.svg")
+        if path := ask_to_save(self.window, self.tr("Save Picture"), name, "SVG (*.svg)"):
+            path = path if path.suffix.lower() == ".svg" else Path(f"{path}.svg")
             check_output(path, own)
             write_atomic(path, scene_svg(card.canvas.scene).encode(), keep_backup=False)
             self.window.show_status(self.tr("{path} written").format(path=path))

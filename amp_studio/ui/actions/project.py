@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog
 
 from amp_studio.files import ParameterFileError, Project, is_there, parameter_files_in
 from amp_studio.schema import Address
+from amp_studio.ui.base.ask_path import ask_to_open
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.task import in_background, run_with_progress
@@ -179,9 +180,8 @@ def copy(window: StudioWindow) -> None:
 
 def copy_from(window: StudioWindow) -> None:
     """Copy a file of another project into this one."""
-    folder = str(_the_project(window).folder.parent)
-    text, _ = QFileDialog.getOpenFileName(window, tr("Copy from another project"), folder, parameter_files())
-    _copy(window, Path(text) if text else None)
+    folder = _the_project(window).folder.parent
+    _copy(window, ask_to_open(window, tr("Copy from another project"), folder, parameter_files()))
 
 
 def _copy(window: StudioWindow, source: Path | None) -> None:

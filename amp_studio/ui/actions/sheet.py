@@ -6,9 +6,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtWidgets import QFileDialog
-
 from amp_studio.files import ParameterFile, open_file
+from amp_studio.ui.base.ask_path import ask_to_open
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import facts_in_words, tr
 from amp_studio.validate import rules_beside
@@ -42,15 +41,8 @@ def sheet_of_file(page: ControlPage) -> None:
     and SheetError.
     """
     assert page.workspace is not None
-    folder = str(page.workspace.path.parent)
-    text, _ = QFileDialog.getOpenFileName(
-        page,
-        tr("What the control contains"),
-        folder,
-        tr("Parameter files and backups of a control (*.amp *.img);;All files (*)"),
-    )
-    if text:
-        path = Path(text)
+    kinds = tr("Parameter files and backups of a control (*.amp *.img);;All files (*)")
+    if path := ask_to_open(page, tr("What the control contains"), page.workspace.path.parent, kinds):
         _make(page, in_background(page, tr("Opening"), partial(_read, path)), path.name)
 
 

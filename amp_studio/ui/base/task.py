@@ -7,11 +7,13 @@ import threading
 from collections.abc import Callable
 from typing import Any, ClassVar, TypeVar
 
-from PySide6.QtCore import QEventLoop, QObject, QThread, QTimer, Signal
-from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QProgressBar, QVBoxLayout, QWidget
+from PySide6.QtCore import QEventLoop, QObject, QThread, Signal
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QProgressBar, QWidget
 
 from .garbage import collect_by_timer
+from .layout import in_column
 from .modal import run_dialog, waiting_for
+from .single_shot import single_shot
 
 TaskProgress = Callable[[str, int, int], None]
 """Takes a stage, how much is done and of how much; that of an exchange (``transfer.progress``)
@@ -118,10 +120,7 @@ class ProgressDialog(QDialog):
         self.buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
         self.buttons.rejected.connect(self.reject)
         self.buttons.setVisible(cancellable)
-        layout = QVBoxLayout(self)
-        layout.setSpacing(10)
-        for widget in (self.text, self.bar, self.buttons):
-            layout.addWidget(widget)
+        in_column(self.text, self.bar, self.buttons, on=self, gap=10)
         self.task = work if isinstance(work, Task) else Task(work)
         self.task.progressed.connect(self._progress)
         self.task.finished.connect(self.accept)
@@ -186,9 +185,7 @@ def run_with_progress(
 def _wait_quietly(task: Task, parent: QWidget | None) -> None:
     """Begin a task, and keep painting for a moment; keys and clicks are handled afterwards."""
     loop = QEventLoop()
-    timer = QTimer()
-    timer.setSingleShot(True)
-    timer.timeout.connect(loop.quit)
+    timer = single_shot(None, loop.quit)
     task.finished.connect(loop.quit)
     task.begin()
     timer.start(PATIENCE_MS)

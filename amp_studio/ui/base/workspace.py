@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
 
 from amp_studio.files import (
@@ -37,6 +37,7 @@ from amp_studio.validate import (
     rules_beside,
 )
 
+from .single_shot import single_shot
 from .task import Task
 from .translated import worded
 
@@ -125,9 +126,7 @@ class Workspace(QObject):
         self._is_at_risk = False
         self._keeping: Task | None = None
         """Writes the journal."""
-        self._journal = QTimer(self)
-        self._journal.setSingleShot(True)
-        self._journal.timeout.connect(self._keep_unsaved)
+        self._journal = single_shot(self, self._keep_unsaved)
 
     @property
     def file(self) -> ParameterFile:

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 
 from PySide6.QtGui import QFontMetrics, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
 from amp_studio.files import ParameterFile
+from amp_studio.ui.base.layout import in_row
 from amp_studio.ui.base.theme import GAP, GAP2, GAP3, GAP4, SMALL_ICON, FontRole, Token, colour, font, icon
 from amp_studio.ui.base.translated import tr, worded
 
@@ -100,10 +101,7 @@ class ConditionLine(QWidget):
         super().__init__()
         self.setFixedHeight(34)
         self.setAccessibleName(self.tr("Conditions"))
-        self._row = QHBoxLayout(self)
-        self._row.setContentsMargins(GAP3, 0, GAP3, 0)
-        self._row.setSpacing(GAP2)
-        self._row.addStretch(1)
+        self._row = in_row(1, on=self, margins=(GAP3, 0, GAP3, 0), gap=GAP2)
         self._made: list[tuple[QLabel, QLabel]] = []
         self._conditions: list[ControlCondition] = []
 

@@ -5,12 +5,10 @@ type in what the control shows.
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, Qt, Signal
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QBrush, QFont
 from PySide6.QtWidgets import (
-    QFileDialog,
     QLabel,
     QPushButton,
     QStyledItemDelegate,
@@ -19,11 +17,12 @@ from PySide6.QtWidgets import (
     QTextBrowser,
     QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
 from amp_studio.sheet import Instruction, ReadBackState, Sheet, SheetEntry, SheetError, Ticks, judged
+from amp_studio.ui.base.ask_path import ask_to_save
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3, Token, colour, scheme, severity_icon
 from amp_studio.ui.base.translated import tr
@@ -106,17 +105,10 @@ class HandSheet(QWidget):
             (self.update_button, self.refresh),
             (self.save_button, self.save),
         ):
-            button.setAutoDefault(False)
             button.clicked.connect(act)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        for widget in (self.bar, self.text):
-            layout.addWidget(widget)
-        layout.addWidget(self.tabs, 1)
-        layout.addWidget(self.details)
-        buttons = (self.control_button, self.file_button, None, self.update_button, self.save_button)
-        layout.addWidget(side_by_side(FOOT, *buttons))
+        footer = (self.control_button, self.file_button, None, self.update_button, self.save_button)
+        parts = (self.bar, self.text, (self.tabs, 1), self.details, side_by_side(FOOT, *footer))
+        in_column(*parts, on=self, margins=0, gap=0)
         self.list.itemChanged.connect(self._edited)
         self.list.currentItemChanged.connect(self._explain)
         self.list.itemActivated.connect(self._type)
@@ -180,31 +172,30 @@ class HandSheet(QWidget):
         self.details.setVisible(self.sheet is not None)
         # Qt emits itemChanged for what the program writes too: it would be taken for a tick or a value read
         # back.
-        self.list.blockSignals(True)
-        self.list.clear()
-        if self.sheet is None:
-            self.list.blockSignals(False)
-            self.text.setText(
-                self.tr(
-                    "The sheet lists the values that differ from what the control contains. Where is that"
-                    " known from?"
+        with QSignalBlocker(self.list):
+            self.list.clear()
+            if self.sheet is None:
+                self.list.blockSignals(False)
+                self.text.setText(
+                    self.tr(
+                        "The sheet lists the values that differ from what the control contains. Where is that"
+                        " known from?"
+                    )
                 )
-            )
-            return
-        for stage, steps in PrintedSheet(self.sheet).parts():
-            head = QTreeWidgetItem([stage.title or self.tr("Values")])
-            head.setToolTip(0, stage.why)
-            head.setFirstColumnSpanned(True)
-            self.list.addTopLevelItem(head)
-            head.setFirstColumnSpanned(True)
-            bold = QFont(self.list.font())
-            bold.setBold(True)
-            head.setFont(0, bold)
-            head.setFlags(Qt.ItemFlag.ItemIsEnabled)
-            for step in steps:
-                head.addChild(self._row(step.at, step.entry, bold))
-        self.list.expandAll()
-        self.list.blockSignals(False)
+                return
+            for stage, steps in PrintedSheet(self.sheet).parts():
+                head = QTreeWidgetItem([stage.title or self.tr("Values")])
+                head.setToolTip(0, stage.why)
+                head.setFirstColumnSpanned(True)
+                self.list.addTopLevelItem(head)
+                head.setFirstColumnSpanned(True)
+                bold = QFont(self.list.font())
+                bold.setBold(True)
+                head.setFont(0, bold)
+                head.setFlags(Qt.ItemFlag.ItemIsEnabled)
+                for step in steps:
+                    head.addChild(self._row(step.at, step.entry, bold))
+            self.list.expandAll()
         self.around.setPlainText(
             _instructions(self.tr("Before"), self.sheet.before)
             + _instructions(self.tr("After"), self.sheet.after)
@@ -242,10 +233,9 @@ class HandSheet(QWidget):
 
     def _judge_all(self) -> None:
         """Show every result in the colours of the theme."""
-        self.list.blockSignals(True)
-        for item in self.items():
-            self._judge(item)
-        self.list.blockSignals(False)
+        with QSignalBlocker(self.list):
+            for item in self.items():
+                self._judge(item)
 
     def _judge(self, item: QTreeWidgetItem) -> None:
         found = judged(item.data(_STEP, _ENTRY), item.text(_READ))
@@ -313,9 +303,8 @@ class HandSheet(QWidget):
         except OSError as error:
             # The tick stays on the screen: the value was keyed in, whether that can be stored or not.
             self.bar.say(self.tr("The tick is not kept: {error}.").format(error=error), "error")
-        self.list.blockSignals(True)
-        self._judge(item)
-        self.list.blockSignals(False)
+        with QSignalBlocker(self.list):
+            self._judge(item)
         self._count()
 
     def _stale(self, *_: object) -> None:
@@ -332,8 +321,8 @@ class HandSheet(QWidget):
         assert self.sheet is not None
         assert self.ticks is not None
         near = self._workspace.path.with_name(f"{self._workspace.path.stem}-sheet.pdf")
-        text, _ = QFileDialog.getSaveFileName(self, self.sheet.title, str(near), _FILTERS)
-        if not text:
+        path = ask_to_save(self, self.sheet.title, near, _FILTERS)
+        if path is None:
             return
         printed = PrintedSheet(
             self.sheet,
@@ -341,7 +330,7 @@ class HandSheet(QWidget):
             tuple(self.ticks.screen_text.items()),
         )
         try:
-            in_background(self, self.tr("Printing"), lambda: write_sheet(printed, Path(text)))
+            in_background(self, self.tr("Printing"), lambda: write_sheet(printed, path))
         except (OSError, ValueError) as error:
             self.bar.say(str(error), "error")
 

@@ -8,17 +8,10 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtWidgets import (
-    QHeaderView,
-    QPushButton,
-    QSizePolicy,
-    QTreeWidget,
-    QTreeWidgetItem,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QHeaderView, QPushButton, QSizePolicy, QTreeWidget, QTreeWidgetItem, QWidget
 
 from amp_studio.files import real_path, text_of_name
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.theme import ROW
 from amp_studio.ui.base.time_words import in_words
 from amp_studio.ui.base.translated import counted, message_in_words, worded
@@ -58,13 +51,8 @@ class ExchangeHistory(QWidget):
         self.text = ElidedLabel()
         self.text.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         self.restore = QPushButton(self.tr("Restore What It Replaced…"))
-        self.restore.setAutoDefault(False)
         self.restore.clicked.connect(self._restore)
-        column_of_parts = QVBoxLayout(self)
-        column_of_parts.setContentsMargins(0, 0, 0, 0)
-        column_of_parts.setSpacing(0)
-        column_of_parts.addWidget(self.tree, 1)
-        column_of_parts.addWidget(side_by_side(FOOT, self.text, self.restore))
+        in_column((self.tree, 1), side_by_side(FOOT, self.text, self.restore), on=self, margins=0, gap=0)
         self.setFocusProxy(self.tree)
 
     def show_file(self, workspace: Workspace) -> None:

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QFontMetrics, QKeySequence, QPainter, QShortcut
 from PySide6.QtWidgets import (
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QListWidget,
@@ -20,11 +19,12 @@ from PySide6.QtWidgets import (
     QStyledItemDelegate,
     QStyleOptionViewItem,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, ICON, TWO_LINE_ROW, colour, font, icon, paint_icon
+from amp_studio.ui.forms.icon_button import icon_button
 
 from .rows import side_by_side
 
@@ -99,18 +99,10 @@ class KnownList(QWidget):
         super().__init__()
         title = QLabel(self.tr("Controls"))
         title.setFont(font("text", own=True))
-        add = QToolButton()
-        add.setIcon(icon("plus"))
-        add.setAutoRaise(True)
-        add.setToolTip(self.tr("Add a control by its address"))
-        add.setAccessibleName(add.toolTip())
+        add = icon_button("plus", self.tr("Add a control by its address"), is_flat=True)
         add.clicked.connect(self.ask)
-        head = QHBoxLayout()
-        head.setContentsMargins(GAP3, 0, GAP2, 0)
-        head.addWidget(title, 1)
-        head.addWidget(add)
         top = QWidget()
-        top.setLayout(head)
+        in_row((title, 1), add, on=top, margins=(GAP3, 0, GAP2, 0))
         top.setFixedHeight(HEAD)
         self.field = QLineEdit()
         self.field.setPlaceholderText("tcp://192.168.0.10:9600")
@@ -129,12 +121,6 @@ class KnownList(QWidget):
         plus.setContext(Qt.ShortcutContext.WidgetShortcut)
         plus.activated.connect(self.ask)
         self.setFocusProxy(self.list)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
-        column.addWidget(top)
-        column.addWidget(self.field)
-        column.addWidget(self.list, 1)
         self.several = QToolButton()
         self.several.setText(self.tr("Several Controls"))
         self.several.setIcon(icon("list-numbers"))
@@ -143,7 +129,9 @@ class KnownList(QWidget):
         self.several.setAutoRaise(True)
         self.several.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.several.clicked.connect(self.several_chosen)
-        column.addWidget(side_by_side(HEAD, self.several))
+        in_column(
+            top, self.field, (self.list, 1), side_by_side(HEAD, self.several), on=self, margins=0, gap=0
+        )
         self.setFixedWidth(236)
 
     def ask(self) -> None:

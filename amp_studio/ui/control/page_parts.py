@@ -10,8 +10,6 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QApplication,
-    QFileDialog,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QProgressBar,
@@ -19,15 +17,16 @@ from PySide6.QtWidgets import (
     QSizePolicy,
     QSplitter,
     QStackedWidget,
-    QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
 from amp_studio.files import write_atomic
-from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, font, icon
+from amp_studio.ui.base.ask_path import ask_to_save
+from amp_studio.ui.base.layout import in_column, in_row
+from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, font
 from amp_studio.ui.base.translated import message_in_words, tr
 from amp_studio.ui.forms.elided_label import ElidedLabel
+from amp_studio.ui.forms.icon_button import icon_button
 from amp_studio.ui.forms.message_bar import MessageBar
 from amp_studio.ui.forms.segment import Segment
 
@@ -108,13 +107,11 @@ class ControlPageParts(QWidget):
         self.as_new = QPushButton(tr("Save as a New File…"))
         self.primary = QPushButton()
         self.primary.setProperty("primary", True)
-        for button in (self.cancel, self.proof, self.again, self.as_new, self.primary):
-            button.setAutoDefault(False)
         self._lay_out()
 
     def _lay_out(self) -> None:
-        self.back = _tool("x", tr("Back to the values (Escape)"))
-        self.past = _tool("clock-counter-clockwise", tr("Exchanges of This File"))
+        self.back = icon_button("x", tr("Back to the values (Escape)"), is_flat=True)
+        self.past = icon_button("clock-counter-clockwise", tr("Exchanges of This File"), is_flat=True)
         self.past.setCheckable(True)
         parts = QSplitter(Qt.Orientation.Horizontal)
         parts.addWidget(self.middle)
@@ -146,11 +143,7 @@ class ControlPageParts(QWidget):
             self.states.addWidget(state)
         head = side_by_side(HEAD, self.heading, None, self.directions, self.past, self.back)
         right = _column(head, self.states)
-        whole = QHBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.setSpacing(0)
-        whole.addWidget(self.known)
-        whole.addWidget(right, 1)
+        in_row(self.known, (right, 1), on=self, margins=0, gap=0)
         self.setFocusProxy(self.states)
         # Else its width would be taken from the panels beside the table even while it is not in front.
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored)
@@ -220,15 +213,15 @@ class ControlPageParts(QWidget):
 
     def write_proof(self, near: Path, lines: Sequence[str]) -> None:
         """Ask for a file and write a proof into it; an error is shown above the table."""
-        text, _ = QFileDialog.getSaveFileName(self, self.tr("Save Proof"), str(near), "Text (*.txt)")
-        if not text:
+        path = ask_to_save(self, self.tr("Save Proof"), near, "Text (*.txt)")
+        if path is None:
             return
         try:
-            write_atomic(Path(text), ("\n".join(lines) + "\n").encode())
+            write_atomic(path, ("\n".join(lines) + "\n").encode())
         except OSError as error:
             self.bar.say(message_in_words(str(error)), "error")
         else:
-            self.hint.setText(self.tr("{name} is saved.").format(name=Path(text).name))
+            self.hint.setText(self.tr("{name} is saved.").format(name=path.name))
 
     def show_progress(self, stage: str, done: int, total: int) -> None:
         """Show how far an exchange is."""
@@ -245,21 +238,9 @@ class ControlPageParts(QWidget):
             )
 
 
-def _tool(icon_name: str, text: str) -> QToolButton:
-    made = QToolButton()
-    made.setIcon(icon(icon_name))
-    made.setAutoRaise(True)
-    made.setToolTip(text)
-    made.setAccessibleName(text)
-    return made
-
-
 def _column(*parts: QWidget) -> QWidget:
     """Return parts below one another; what can use room gets it."""
     whole = QWidget()
-    column = QVBoxLayout(whole)
-    column.setContentsMargins(0, 0, 0, 0)
-    column.setSpacing(0)
-    for part in parts:
-        column.addWidget(part, 1 if isinstance(part, (QSplitter, QStackedWidget)) else 0)
+    shares = ((part, int(isinstance(part, (QSplitter, QStackedWidget)))) for part in parts)
+    in_column(*shares, on=whole, margins=0, gap=0)
     return whole

@@ -7,19 +7,12 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QIcon
-from PySide6.QtWidgets import (
-    QCheckBox,
-    QFileDialog,
-    QHeaderView,
-    QPushButton,
-    QTreeWidget,
-    QTreeWidgetItem,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QCheckBox, QHeaderView, QPushButton, QTreeWidget, QTreeWidgetItem, QWidget
 
+from amp_studio.ui.base.ask_path import ask_to_save
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import ROW, severity_icon
 from amp_studio.ui.base.translated import worded
@@ -76,16 +69,16 @@ class SeveralControls(QWidget):
         self.primary = QPushButton()
         self.primary.setProperty("primary", True)
         self.primary.clicked.connect(self._act)
-        for button in (self.save_button, self.cancel, self.primary):
-            button.setAutoDefault(False)
-        parts = QVBoxLayout(self)
-        parts.setContentsMargins(0, 0, 0, 0)
-        parts.setSpacing(0)
-        parts.addWidget(self.bar)
-        parts.addWidget(self.table, 1)
-        parts.addWidget(side_by_side(30, self.stop, None))
-        parts.addWidget(side_by_side(30, self.checked, None))
-        parts.addWidget(side_by_side(FOOT, self.hint, None, self.save_button, self.cancel, self.primary))
+        in_column(
+            self.bar,
+            (self.table, 1),
+            side_by_side(30, self.stop, None),
+            side_by_side(30, self.checked, None),
+            side_by_side(FOOT, self.hint, None, self.save_button, self.cancel, self.primary),
+            on=self,
+            margins=0,
+            gap=0,
+        )
         self.setFocusProxy(self.table)
 
     # -- what is shown -----------------------------------------------------------
@@ -114,11 +107,10 @@ class SeveralControls(QWidget):
         """List the known controls; ticks and results stay."""
         there = {item.text(_ADDRESS): item for item in self._items()}
         # Qt emits itemChanged for what the program writes too; only ticks of the user are to be followed.
-        self.table.blockSignals(True)
-        for each in listed:
-            item = there.get(each.address) or self._add(each.address)
-            item.setText(_CONTROL, each.name)
-        self.table.blockSignals(False)
+        with QSignalBlocker(self.table):
+            for each in listed:
+                item = there.get(each.address) or self._add(each.address)
+                item.setText(_CONTROL, each.name)
 
     def tick(self, address: str) -> None:
         """Tick a control, which is listed then."""
@@ -279,13 +271,11 @@ class SeveralControls(QWidget):
         from amp_studio.transfer.client import HEADS
 
         assert self._workspace is not None
-        near = str(self._workspace.path.with_name("controls.csv"))
-        text, _ = QFileDialog.getSaveFileName(
-            self, self.tr("Save table"), near, "Tables (*.csv *.html *.pdf *.xlsx)"
-        )
-        if not text:
+        near = self._workspace.path.with_name("controls.csv")
+        path = ask_to_save(self, self.tr("Save table"), near, "Tables (*.csv *.html *.pdf *.xlsx)")
+        if path is None:
             return
         try:
-            write_paper(results_paper(self.tr("Controls"), HEADS, [r.cells for r in self.rows]), Path(text))
+            write_paper(results_paper(self.tr("Controls"), HEADS, [r.cells for r in self.rows]), path)
         except (OSError, ValueError) as error:
             self.bar.say(str(error), "error")

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtWidgets import QLabel, QListWidget, QListWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QListWidget, QListWidgetItem, QWidget
 
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.theme import GAP, GAP2, GAP3, SMALL_ICON, font, severity_icon
 from amp_studio.ui.base.translated import tr
 
@@ -36,10 +37,7 @@ class ExchangeSteps(QWidget):
             label.setFont(font("small"))
             label.setForegroundRole(label.palette().ColorRole.PlaceholderText)
         self._lines = [(QLabel(), QLabel()) for _ in range(5)]
-        column = QVBoxLayout(self)
-        column.setContentsMargins(GAP3, GAP2, GAP2, 0)
-        column.setSpacing(GAP)
-        column.addWidget(self._title)
+        column = in_column(self._title, on=self, margins=(GAP3, GAP2, GAP2, 0), gap=GAP)
         for first, second in self._lines:
             first.setFont(font("text"))
             second.setFont(font("small"))

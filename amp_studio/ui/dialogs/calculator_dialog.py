@@ -6,9 +6,10 @@ import re
 from collections.abc import Callable
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QDialog, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QPushButton, QWidget
 
 from amp_studio.schema import Address
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.translated import facts_in_words, help_language, sentenced, unit_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.form import Field, FieldForm
@@ -50,9 +51,7 @@ class CalculatorDialog(QDialog):
         self.form = FieldForm((*self._above, *self._below))
         self.use = QPushButton()
         self.use.clicked.connect(self._use)
-        layout = QVBoxLayout(self)
-        layout.addWidget(self.form)
-        layout.addWidget(self.use)
+        in_column(self.form, self.use, on=self)
         self.form.changed.connect(self._change)
         workspace.closed.connect(self.close)
         self._choose()

@@ -7,10 +7,10 @@ from pathlib import Path
 
 from PySide6.QtCore import QUrl
 from PySide6.QtGui import QDesktopServices
-from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import Notify, ParameterFile, check_output
 from amp_studio.guide import GuideProgress
+from amp_studio.ui.base.ask_path import ask_to_save
 from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import tr
@@ -24,12 +24,9 @@ def write_check_list_of(window: StudioWindow, workspace: Workspace) -> None:
     """
     endings = tr("PDF (*.pdf);;Web page (*.html);;Text (*.txt)")
     start = workspace.path.with_name(f"{workspace.path.stem}-check-list.pdf")
-    text, chosen = QFileDialog.getSaveFileName(window, tr("Check List"), str(start), endings)
-    if not text:
+    path = ask_to_save(window, tr("Check List"), start, endings)
+    if path is None:
         return
-    path = Path(text)
-    if not path.suffix:
-        path = path.with_suffix(chosen[chosen.index("*") + 1 : -1])
     check_output(path, workspace.path)
     notes: list[str] = []
     write = partial(

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtWidgets import QDialogButtonBox, QFileDialog, QWidget
+from PySide6.QtWidgets import QDialogButtonBox, QWidget
 
 from amp_studio.files import Header, ProjectInfo
 from amp_studio.report import Contents
 from amp_studio.schema import family_ids, load_schema
+from amp_studio.ui.base.ask_path import ask_to_save
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.forms.form import Field, FormDialog
 from amp_studio.ui.window.report_options import contents_of, report_fields
@@ -78,21 +79,11 @@ def ask_report_path(parent: QWidget, near: str) -> Path | None:
     None where nothing was chosen.
     """
     endings = "PDF (*.pdf);;HTML (*.html);;Excel (*.xlsx);;CSV (*.csv);;JSON (*.json);;Text (*.txt)"
-    text, chosen = QFileDialog.getSaveFileName(parent, tr("Report"), near, endings)
-    if not text:
-        return None
-    return path_of_kind(text, chosen)
+    return ask_to_save(parent, tr("Report"), near, endings)
 
 
 PAPER_KINDS = "PDF (*.pdf);;HTML (*.html);;Excel (*.xlsx);;CSV (*.csv)"
 """What a paper is saved as (``report.paper``)."""
-
-
-def path_of_kind(text: str, kind: str) -> Path:
-    """Return a path from a file dialog, with the ending of the chosen kind where it has none."""
-    path = Path(text)
-    # An ending that was typed has precedence over the kind that was chosen.
-    return path if path.suffix else path.with_suffix(kind[kind.index("*") + 1 : -1])
 
 
 class ProjectDialog(FormDialog):

@@ -9,16 +9,9 @@ from typing import Any
 
 from PySide6.QtCore import QSize, Qt, QUrl
 from PySide6.QtGui import QDesktopServices, QImage, QShortcut
-from PySide6.QtWidgets import (
-    QLineEdit,
-    QSplitter,
-    QTextBrowser,
-    QTreeWidget,
-    QTreeWidgetItem,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QLineEdit, QSplitter, QTextBrowser, QTreeWidget, QTreeWidgetItem, QWidget
 
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.theme import GAP2, GAP3, ROW, scheme
 from amp_studio.ui.forms.message_bar import MessageBar
@@ -106,19 +99,13 @@ class ManualWindow(QWidget):
         self.list.expandAll()
 
     def _arrange(self) -> None:
-        side, middle, whole = QWidget(), QSplitter(), QVBoxLayout(self)
-        column = QVBoxLayout(side)
-        column.setContentsMargins(GAP2, GAP2, 0, GAP2)
-        column.addWidget(self.search)
-        column.addWidget(self.list)
+        side, middle = QWidget(), QSplitter()
+        in_column(self.search, self.list, on=side, margins=(GAP2, GAP2, 0, GAP2))
         middle.addWidget(side)
         middle.addWidget(self.text)
         middle.setSizes([280, 760])
         middle.setStretchFactor(1, 1)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.setSpacing(0)
-        whole.addWidget(self.bar)
-        whole.addWidget(middle, 1)
+        in_column(self.bar, (middle, 1), on=self, margins=0, gap=0)
 
     def items(self) -> Iterator[QTreeWidgetItem]:
         """Yield the row of each page."""

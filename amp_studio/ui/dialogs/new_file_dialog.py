@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtWidgets import QFileDialog, QLineEdit, QWidget
+from PySide6.QtWidgets import QLineEdit, QWidget
 
 from amp_studio.files import (
     ENDING,
@@ -22,6 +22,7 @@ from amp_studio.files import (
     why_axes_are_fixed,
 )
 from amp_studio.schema import Schema, family_ids, load_schema
+from amp_studio.ui.base.ask_path import ask_to_open
 from amp_studio.ui.base.translated import message_in_words, tr, worded
 from amp_studio.ui.forms.form import Field, FormDialog
 
@@ -108,11 +109,11 @@ class NewFileDialog(FormDialog):
     def _choose_like(self) -> None:
         """Ask for the file when another one is wanted."""
         if self.form.answer("like") == _OTHER:
-            text, _ = QFileDialog.getOpenFileName(self, self.tr("Like which file"), "", f"(*{ENDING})")
-            if text:
-                self._recent.append(Path(text))
+            path = ask_to_open(self, self.tr("Like which file"), "", f"(*{ENDING})")
+            if path:
+                self._recent.append(path)
             # Nothing chosen goes back to the defaults: "Another file" itself is no source.
-            self.form.offer_choices("like", self._likes(), Path(text) if text else None)
+            self.form.offer_choices("like", self._likes(), path)
         self._show_like()
 
     def source(self) -> Path | None:

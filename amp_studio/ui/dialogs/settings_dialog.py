@@ -16,7 +16,6 @@ from PySide6.QtWidgets import (
     QTabWidget,
     QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -24,6 +23,7 @@ from amp_studio.files import real_path
 from amp_studio.report import OWN
 from amp_studio.schema import database_folder
 from amp_studio.trouble import log_folder
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.menu_commands import commands
 from amp_studio.ui.base.theme import apply_style, as_choice, scheme
 from amp_studio.ui.base.translated import LANGUAGES, tr
@@ -73,9 +73,7 @@ class SettingsDialog(QDialog):
             self.tabs.addTab(_page(hint, widgets), title)
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         buttons.rejected.connect(self.reject)
-        layout = QVBoxLayout(self)
-        layout.addWidget(self.tabs)
-        layout.addWidget(buttons)
+        in_column(self.tabs, buttons, on=self)
         self._list_keys()
         self._list_folders()
         self.tabs.currentChanged.connect(self._turn)
@@ -222,9 +220,7 @@ def _choose_first(rows: QTreeWidget) -> None:
 def _page(hint: str, widgets: Sequence[QWidget]) -> QWidget:
     page, label = QWidget(), QLabel(hint)
     label.setWordWrap(True)
-    column = QVBoxLayout(page)
-    for widget in (*widgets, label):
-        column.addWidget(widget)
+    column = in_column(*widgets, label, on=page)
     if not any(isinstance(widget, QTreeWidget) for widget in widgets):
         column.addStretch(1)
     return page

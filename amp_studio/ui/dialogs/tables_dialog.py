@@ -12,12 +12,12 @@ from PySide6.QtWidgets import (
     QListWidgetItem,
     QSplitter,
     QTextBrowser,
-    QVBoxLayout,
     QWidget,
 )
 
 from amp_studio.report import cells_of
 from amp_studio.schema import Address, Table
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.theme import scheme
 from amp_studio.ui.base.translated import facts_in_words, help_language, worded
@@ -54,9 +54,7 @@ class TablesDialog(QDialog):
         split = QSplitter()
         split.addWidget(self.list)
         split.addWidget(self.page)
-        layout = QVBoxLayout(self)
-        layout.addWidget(self.search)
-        layout.addWidget(split)
+        in_column(self.search, split, on=self)
         self.search.textChanged.connect(self._list)
         self.list.currentItemChanged.connect(self._show)
         self.page.anchorClicked.connect(self._follow)

@@ -13,13 +13,13 @@ from PySide6.QtWidgets import (
     QTextBrowser,
     QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
 from amp_studio.report import FindingGroup, finding_groups, fix_lines, severity_name, why_parts
 from amp_studio.schema import Address, written
 from amp_studio.ui.base.figures import finding_in_words
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.theme import severity_html, severity_icon
 from amp_studio.ui.base.translated import tr, worded
 from amp_studio.ui.base.workspace import Workspace
@@ -44,9 +44,7 @@ class WhyDialog(QDialog):
         self.page.setHtml(self._written(workspace, finding))
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         buttons.rejected.connect(self.reject)
-        layout = QVBoxLayout(self)
-        layout.addWidget(self.page)
-        layout.addWidget(buttons)
+        in_column(self.page, buttons, on=self)
         workspace.closed.connect(self.close)
 
     def _written(self, workspace: Workspace, finding: Finding) -> str:
@@ -128,9 +126,7 @@ class FixSeveralDialog(QDialog):
         self.ok.setDefault(True)
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
-        layout = QVBoxLayout(self)
-        for widget in (note, self.list, buttons):
-            layout.addWidget(widget)
+        in_column(note, self.list, buttons, on=self)
         self._count()
 
     def _add(self, workspace: Workspace, group: FindingGroup) -> None:

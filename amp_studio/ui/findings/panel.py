@@ -11,7 +11,6 @@ from PySide6.QtCore import QModelIndex, QPoint, QRect, Qt, Signal
 from PySide6.QtGui import QContextMenuEvent, QKeyEvent, QPainter, QPalette, QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QHBoxLayout,
     QLabel,
     QMenu,
     QPushButton,
@@ -19,12 +18,12 @@ from PySide6.QtWidgets import (
     QStyleOptionViewItem,
     QToolButton,
     QTreeView,
-    QVBoxLayout,
     QWidget,
 )
 
 from amp_studio.report import delivered_text, finding_axes
 from amp_studio.ui.base.figures import finding_in_words
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.modal import pop_up
 from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.base.theme import FINDING_ROW, GAP2, colour, font, icon, paint_icon, scheme, severity_icon
@@ -112,9 +111,7 @@ class FindingsPanel(QWidget):
         self.shown_name = self.tr("Group")
         """What the table shows one of."""
         self._pages = QStackedWidget(self)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self._pages)
+        in_column(self._pages, on=self, margins=0)
         self.model = FindingsModel(workspace)
         self.view = _View(self._pages)
         self.view.setModel(self.model)
@@ -173,10 +170,7 @@ class FindingsPanel(QWidget):
         self.several = QPushButton(self.tr("Fi&x Several…"))
         self.several.setIcon(icon("magic-wand"))
         self.several.clicked.connect(self.several_requested)
-        row = QHBoxLayout(head)
-        row.setContentsMargins(GAP2, 0, GAP2, 0)
-        row.setSpacing(GAP2)
-        for widget in (
+        in_row(
             self.fold,
             title,
             self.summary,
@@ -184,10 +178,12 @@ class FindingsPanel(QWidget):
             self.scope,
             self.suppressed,
             self.hint,
-        ):
-            row.addWidget(widget)
-        row.addStretch(1)
-        row.addWidget(self.several)
+            1,
+            self.several,
+            on=head,
+            margins=(GAP2, 0, GAP2, 0),
+            gap=GAP2,
+        )
         return head
 
     @property

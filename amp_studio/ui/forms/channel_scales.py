@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from dataclasses import replace
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QHeaderView, QTableWidget
 
 from amp_studio.drawing import Picture, Scene, figure_text, linked, on_divisions, round_divisions
@@ -73,26 +73,25 @@ class ChannelScales(QTableWidget):
         ticks = {self._channel(row): item_at(self, row, _NAME).checkState() for row in here}
         scales = {self._channel(row): [item_at(self, row, n).text() for n in (_PER, _MIDDLE)] for row in here}
         # Qt emits itemChanged for what the program writes too: each cell would draw the picture again.
-        self.blockSignals(True)
-        self.setRowCount(len(channels))
-        unticked = self._unticked([title for title, _ in channels])
-        for row, (title, unit) in enumerate(channels):
-            usual = Qt.CheckState.Unchecked if title in unticked else Qt.CheckState.Checked
-            name = item_at(self, row, _NAME)
-            name.setText(worded(title))
-            name.setData(Qt.ItemDataRole.UserRole, title)
-            name.setFlags(
-                Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable | Qt.ItemFlag.ItemIsUserCheckable
-            )
-            name.setCheckState(ticks.get((title, unit), usual))
-            texts = scales.get((title, unit), ["", ""])
-            for column, text in zip((_PER, _MIDDLE), texts, strict=True):
-                item_at(self, row, column).setText(text)
-            of_unit = item_at(self, row, _UNIT)
-            of_unit.setText(unit_in_words(unit))
-            of_unit.setData(Qt.ItemDataRole.UserRole, unit)
-            of_unit.setFlags(Qt.ItemFlag.ItemIsEnabled)
-        self.blockSignals(False)
+        with QSignalBlocker(self):
+            self.setRowCount(len(channels))
+            unticked = self._unticked([title for title, _ in channels])
+            for row, (title, unit) in enumerate(channels):
+                usual = Qt.CheckState.Unchecked if title in unticked else Qt.CheckState.Checked
+                name = item_at(self, row, _NAME)
+                name.setText(worded(title))
+                name.setData(Qt.ItemDataRole.UserRole, title)
+                name.setFlags(
+                    Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable | Qt.ItemFlag.ItemIsUserCheckable
+                )
+                name.setCheckState(ticks.get((title, unit), usual))
+                texts = scales.get((title, unit), ["", ""])
+                for column, text in zip((_PER, _MIDDLE), texts, strict=True):
+                    item_at(self, row, column).setText(text)
+                of_unit = item_at(self, row, _UNIT)
+                of_unit.setText(unit_in_words(unit))
+                of_unit.setData(Qt.ItemDataRole.UserRole, unit)
+                of_unit.setFlags(Qt.ItemFlag.ItemIsEnabled)
 
     def _channel(self, row: int) -> tuple[str, str]:
         role = Qt.ItemDataRole.UserRole

@@ -9,22 +9,21 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, TypeVar
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QDialog,
     QDialogButtonBox,
     QFormLayout,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QPlainTextEdit,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.theme import colour
 from amp_studio.ui.base.translated import tr
 
@@ -65,12 +64,11 @@ class Field:
 def fill_choices(box: QComboBox, choices: Sequence[tuple[Any, str]], chosen: object) -> None:
     """Fill a box without a signal, and choose an entry by its key, else the first."""
     # Filling is no choice: a signal for each entry would run what follows a choice.
-    box.blockSignals(True)
-    box.clear()
-    for key, title in choices:
-        box.addItem(title, key)
-    box.setCurrentIndex(max(_row_of(box, chosen), 0))
-    box.blockSignals(False)
+    with QSignalBlocker(box):
+        box.clear()
+        for key, title in choices:
+            box.addItem(title, key)
+        box.setCurrentIndex(max(_row_of(box, chosen), 0))
 
 
 def _row_of(box: QComboBox, key: object) -> int:
@@ -169,10 +167,7 @@ class FieldForm(QWidget):
         # Enter in the line is for the dialog, and must not open a file dialog.
         button.setAutoDefault(False)
         button.clicked.connect(lambda *_: self.browse(field.key))
-        row = QHBoxLayout(whole)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(line)
-        row.addWidget(button)
+        in_row(line, button, on=whole, margins=0)
         return whole
 
     def browse(self, key: str) -> None:
@@ -239,10 +234,9 @@ class FieldForm(QWidget):
 
     def show_answers(self, answers: FormAnswers) -> None:
         """Show answers without a signal."""
-        self.blockSignals(True)
-        for key, answer in answers.items():
-            self.set_answer(key, answer)
-        self.blockSignals(False)
+        with QSignalBlocker(self):
+            for key, answer in answers.items():
+                self.set_answer(key, answer)
 
     def _show_answer(self, field: Field, answer: object) -> None:
         editor = self.editors[field.key]
@@ -298,11 +292,9 @@ class FormDialog(QDialog):
         self.ok.setText(does)
         self.buttons.accepted.connect(self.accept)
         self.buttons.rejected.connect(self.reject)
-        layout = QVBoxLayout(self)
         for label in (self.hint, self.fault):
             label.setWordWrap(True)
-        for widget in (self.hint, self.form, self.fault, self.buttons):
-            layout.addWidget(widget)
+        in_column(self.hint, self.form, self.fault, self.buttons, on=self)
         self.hint.setVisible(bool(hint))
         self._is_touched = False
         self.form.changed.connect(self._follow_answer)

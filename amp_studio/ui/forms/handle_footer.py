@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QPalette, QResizeEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLineEdit
+from PySide6.QtWidgets import QFrame, QLineEdit
 
 from amp_studio.drawing import Handle, figure_text
 from amp_studio.schema import Address, Value, convert, dimension, write_figure, write_value
 from amp_studio.ui.base.figures import sentence, show_value, written
+from amp_studio.ui.base.layout import in_row
 from amp_studio.ui.base.theme import CONTROL, GAP3, font
 from amp_studio.ui.base.translated import unit_in_words
 from amp_studio.ui.base.workspace import Workspace
@@ -39,13 +40,9 @@ class HandleFooter(QFrame):
         for label in (self.more, self.keys):
             label.setFont(font("small"))
             label.setForegroundRole(QPalette.ColorRole.PlaceholderText)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(GAP3, 4, GAP3, 4)
-        row.setSpacing(GAP3)
-        row.addWidget(self.name)
-        row.addWidget(self.field)
-        row.addWidget(self.more, 1)
-        row.addWidget(self.keys)
+        in_row(
+            self.name, self.field, (self.more, 1), self.keys, on=self, margins=(GAP3, 4, GAP3, 4), gap=GAP3
+        )
         self.setFixedHeight(CONTROL + 14)  # the same with a handle and without, or the picture would move
         self.show_handle(None)
 

@@ -6,9 +6,10 @@ from __future__ import annotations
 
 from PySide6.QtCore import QPoint, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFontMetrics
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QListWidget, QListWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QLabel, QListWidget, QListWidgetItem, QWidget
 
 from amp_studio.schema import Bit, Parameter, field_value
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.theme import GAP, GAP2, ROW, colour, font, scheme
 
 _MAX_ROWS = 12
@@ -37,16 +38,13 @@ class MaskList(QFrame):
         self._fields: tuple[Bit, ...] = tuple(parameter.bits or ())
         for field in self._fields:
             self._add(field)
-        footer = QHBoxLayout()
-        footer.setContentsMargins(GAP2, 0, GAP2, 0)
-        footer.addWidget(self._count)
-        footer.addStretch()
-        footer.addWidget(self._number)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(1, GAP, 1, GAP)
-        layout.setSpacing(GAP)
-        layout.addWidget(self.list)
-        layout.addLayout(footer)
+        in_column(
+            self.list,
+            in_row(self._count, 0, self._number, margins=(GAP2, 0, GAP2, 0)),
+            on=self,
+            margins=(1, GAP, 1, GAP),
+            gap=GAP,
+        )
         metrics = QFontMetrics(self.list.font())
         wanted = (
             max((metrics.horizontalAdvance(self._text(field, 0)) for field in self._fields), default=0)

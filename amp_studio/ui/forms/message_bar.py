@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Literal
 
-from PySide6.QtCore import Qt, QTimer
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QAccessible, QAccessibleEvent, QKeyEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QToolButton, QWidget
+from PySide6.QtWidgets import QFrame, QLabel, QPushButton, QToolButton, QWidget
 
+from amp_studio.ui.base.layout import in_row
+from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.theme import GAP2, GAP3, ICON, MESSAGE, icon, scheme, severity_colour, severity_icon
 from amp_studio.ui.base.translated import without_number
 
@@ -37,15 +39,10 @@ class MessageBar(QFrame):
         self._close.setToolTip(self.tr("Close this message (Escape)"))
         self._close.setAccessibleName(self.tr("Close message"))
         self._close.clicked.connect(self.hide)
-        self._layout = QHBoxLayout(self)
-        self._layout.setContentsMargins(GAP3, 3, GAP2, 3)
-        self._layout.setSpacing(GAP2)
-        self._layout.addWidget(self._icon)
-        self._layout.addWidget(self.text, 1)
-        self._layout.addWidget(self._close)
-        self._hide_timer = QTimer(self)
-        self._hide_timer.setSingleShot(True)
-        self._hide_timer.timeout.connect(self.hide)
+        self._layout = in_row(
+            self._icon, (self.text, 1), self._close, on=self, margins=(GAP3, 3, GAP2, 3), gap=GAP2
+        )
+        self._hide_timer = single_shot(self, self.hide)
         scheme().changed.connect(self._colour)
         self.hide()
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QToolButton, QWidget
+from PySide6.QtWidgets import QToolButton, QWidget
 
+from amp_studio.ui.base.layout import in_row
 from amp_studio.ui.base.theme import ICON, SMALL_CONTROL, icon
 
 
@@ -25,9 +26,7 @@ class Segment(QWidget):
         super().__init__()
         self.setAccessibleName(name)
         self._is_tight = is_tight
-        self._row = QHBoxLayout(self)
-        self._row.setContentsMargins(0, 0, 0, 0)
-        self._row.setSpacing(0)
+        self._row = in_row(on=self, margins=0, gap=0)
         self.buttons: dict[str, QToolButton] = {}
         self.offer(options)
 

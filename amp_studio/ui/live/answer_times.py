@@ -8,6 +8,7 @@ from datetime import UTC, datetime
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.single_shot import single_shot
 
 SILENT_MS = 2000
 """Milliseconds without an answer after which the figures are grey."""
@@ -27,10 +28,7 @@ class AnswerTimes(QObject):
         super().__init__(parent)
         self.last: datetime | None = None
         self._times: deque[float] = deque(maxlen=RATED)
-        self._silence = QTimer(self)
-        self._silence.setInterval(SILENT_MS)
-        self._silence.setSingleShot(True)
-        self._silence.timeout.connect(self.silent)
+        self._silence = single_shot(self, self.silent.emit, SILENT_MS)
         self._clock = QTimer(self)
         self._clock.setInterval(1000)
         self._clock.timeout.connect(self.show_age)

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QLabel, QPushButton, QSizePolicy, QWidget
 
 from amp_studio.files import ParameterFile
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.theme import COLUMN_HEAD, GAP2, HEAD, ROW, font
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.control.rows import side_by_side
@@ -49,32 +50,23 @@ class LivePageParts(PageOfFile):
         self.reason = ElidedLabel()
         self.reason.setFont(font("small"))
         self.read = QPushButton(self.tr("&Read Values"))
-        self.read.setAutoDefault(False)
         self.reason_row = side_by_side(HEAD, self.reason, None, self.read)
         self.frame = WriteFrame(workspace)
         self.panel = LiveStatusPanel(workspace.file.schema.family.family)
         self.recorder = LiveRecording(workspace, present)
         self.framed = QWidget()
-        around = QVBoxLayout(self.framed)
-        around.setContentsMargins(GAP2, GAP2, GAP2, GAP2)
-        around.addWidget(self.frame)
-        self.column = QVBoxLayout()
-        self.column.setContentsMargins(0, 0, 0, 0)
-        self.column.setSpacing(0)
-        for part in (
+        in_column(self.frame, on=self.framed, margins=GAP2)
+        self.column = in_column(
             side_by_side(HEAD, self.groups, lock, only, None, self.axes),
             self.bar,
-            self.rows,
+            (self.rows, 2),
             self.reason_row,
             self.framed,
-            self.recorder,
-        ):
-            self.column.addWidget(part, {self.rows: 2, self.recorder: 5}.get(part, 0))
-        whole = QHBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.setSpacing(0)
-        whole.addLayout(self.column, 1)
-        whole.addWidget(self.panel)
+            (self.recorder, 5),
+            margins=0,
+            gap=0,
+        )
+        in_row((self.column, 1), self.panel, on=self, margins=0, gap=0)
         self.setFocusProxy(self.rows)
         # Else a long name would keep the window wide.
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored)

@@ -7,22 +7,18 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QComboBox,
-    QFileDialog,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QMenu,
     QPushButton,
     QSizePolicy,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -30,7 +26,9 @@ from amp_studio.drawing import Picture, picture_svg
 from amp_studio.files import ParameterFile, write_atomic
 from amp_studio.schema import read_number
 from amp_studio.sim import LiveRecorder, SignalRecord, SimulationError, Trace, read_recording, write_recording
+from amp_studio.ui.base.ask_path import ask_to_open, ask_to_save
 from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, colour, font, icon, scheme
@@ -39,6 +37,7 @@ from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.control.readings import AxisReadings
 from amp_studio.ui.control.rows import side_by_side
 from amp_studio.ui.forms.channel_scales import ChannelScales
+from amp_studio.ui.forms.icon_button import icon_button
 from amp_studio.ui.motion.run import AskedMotion, SimulatedMotion, run_motion
 
 from .record_picture import SIGNALS, move_of, record_picture, signals_of
@@ -106,8 +105,8 @@ class LiveRecording(QWidget):
         self.before_label = QLabel(self.tr("before (s)"))
         for field in (self.level, self.before):
             field.setFixedWidth(_FIELD)
-        self.open = _tool("folder-open", self.tr("Lay a record from a file over (CSV)"))
-        self.export = _tool("export", self.tr("Export the record: CSV or SVG"))
+        self.open = icon_button("folder-open", self.tr("Lay a record from a file over (CSV)"), is_flat=True)
+        self.export = icon_button("export", self.tr("Export the record: CSV or SVG"), is_flat=True)
         self.export.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         menu = QMenu(self.export)
         self.to_csv = menu.addAction(self.tr("Record as &CSV…"), partial(self._save, "csv"))
@@ -116,10 +115,11 @@ class LiveRecording(QWidget):
         self.channels = ChannelScales(is_divided=True, unticked=_beside_two)
         self.channels.setFixedWidth(_TABLE)
         self.channels.hide()
-        self.scales = _tool("sliders-horizontal", self.tr("Signals, scale and middle of each"))
+        self.scales = icon_button(
+            "sliders-horizontal", self.tr("Signals, scale and middle of each"), is_flat=True
+        )
         self.scales.setCheckable(True)
         self.toggle = QPushButton()
-        self.toggle.setAutoDefault(False)
         self.toggle.setToolTip(self.tr("Space starts and stops the record"))
         self.plot = Plot()
         self.plot.setAccessibleName(self.tr("Readings over time, a dot for each"))
@@ -146,15 +146,7 @@ class LiveRecording(QWidget):
         row = head.layout()
         assert row is not None
         row.setStretch(1, 1)  # type: ignore[attr-defined]  # a row of boxes
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
-        column.addWidget(head)
-        across = QHBoxLayout()
-        across.addWidget(self.plot, 1)
-        across.addWidget(self.channels)
-        column.addLayout(across, 1)
-        column.addWidget(self.footer)
+        in_column(head, (in_row((self.plot, 1), self.channels), 1), self.footer, on=self, margins=0, gap=0)
         self.toggle.clicked.connect(self.start_or_stop)
         self.scales.toggled.connect(self.channels.setVisible)
         self.channels.rescaled.connect(self._redraw)
@@ -276,18 +268,14 @@ class LiveRecording(QWidget):
 
     def _ask(self) -> None:
         """Lay a record of the machine from a table over in the same way."""
-        text, _ = QFileDialog.getOpenFileName(
-            self,
-            self.tr("Record of the Machine"),
-            str(self._workspace.path.parent),
-            self.tr("Records (*.csv *.txt);;All files (*)"),
-        )
-        if not text:
+        kinds = self.tr("Records (*.csv *.txt);;All files (*)")
+        path = ask_to_open(self, self.tr("Record of the Machine"), self._workspace.path.parent, kinds)
+        if path is None:
             return
         self.stop()
         self._forget()
         try:
-            self.record = read_recording(Path(text))
+            self.record = read_recording(path)
         except (OSError, SimulationError) as error:
             self._problem = sentenced(str(error))
         else:
@@ -442,15 +430,15 @@ class LiveRecording(QWidget):
             return
         near = path.with_name(f"{path.stem}-{self._axis}.{ending}")
         kind = {"csv": "CSV (*.csv)", "svg": "SVG (*.svg)"}[ending]
-        text, _ = QFileDialog.getSaveFileName(self, self.tr("Export"), str(near), kind)
-        if not text:
+        target = ask_to_save(self, self.tr("Export"), near, kind)
+        if target is None:
             return
         try:
             if ending == "csv":
-                write_recording(record, Path(text))
+                write_recording(record, target)
             else:
                 named = replace(self.plot.picture, title=f"{self._workspace.path.stem} {self._axis}")
-                write_atomic(Path(text), picture_svg(named).encode())
+                write_atomic(target, picture_svg(named).encode())
         except OSError as error:
             self._problem = sentenced(str(error))
         self._show_footer()
@@ -460,12 +448,3 @@ def _beside_two(titles: Collection[str]) -> Collection[str]:
     """Return the signal that is not drawn at first: beside error and speed there is little room."""
     error, position, speed = (each.replace("_", " ") for each in SIGNALS)
     return (position,) if {error, speed} <= set(titles) else ()
-
-
-def _tool(icon_name: str, text: str) -> QToolButton:
-    made = QToolButton()
-    made.setIcon(icon(icon_name))
-    made.setAutoRaise(True)
-    made.setToolTip(text)
-    made.setAccessibleName(text)
-    return made

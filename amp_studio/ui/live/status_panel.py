@@ -17,13 +17,13 @@ from PySide6.QtWidgets import (
     QPushButton,
     QScrollArea,
     QSizePolicy,
-    QVBoxLayout,
     QWidget,
 )
 
 from amp_studio.pictures import LiveLimits
 from amp_studio.schema import load_schema
 from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.theme import GAP, GAP2, GAP3, HEAD, colour, font, scheme, severity_html
 from amp_studio.ui.base.translated import sentenced, unit_in_words
 from amp_studio.ui.control.limit_bar import LimitBar
@@ -102,14 +102,10 @@ class LiveStatusPanel(QWidget):
         self.keys.returnPressed.connect(self._press)
         self.key_label = QLabel(self.tr("&Keys of the emulated control:"))
         self.key_label.setBuddy(self.keys)
-        self.end.setAutoDefault(False)
         self.readings = self._figures_part()
         inside = QWidget()
-        column = QVBoxLayout(inside)
-        column.setContentsMargins(GAP3, GAP2, GAP3, GAP2)
-        column.setSpacing(GAP2)
-        column.addWidget(self.readings)
-        for part in (
+        in_column(
+            self.readings,
             _line(),
             _head(self.tr("Status"), self.age),
             self.lamps,
@@ -124,21 +120,25 @@ class LiveStatusPanel(QWidget):
             self.notes,
             self.key_label,
             self.keys,
-        ):
-            column.addWidget(part)
-        column.addStretch(1)
+            1,
+            on=inside,
+            margins=(GAP3, GAP2, GAP3, GAP2),
+            gap=GAP2,
+        )
         area = QScrollArea()
         area.setWidgetResizable(True)
         area.setFrameShape(QFrame.Shape.NoFrame)
         area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         area.setWidget(inside)
         sign, lock = LiveSign("broadcast"), LiveSign("lock-simple-fill")
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.setSpacing(0)
-        whole.addWidget(side_by_side(HEAD, sign, self.heading, None, lock, self.lock))
-        whole.addWidget(area, 1)
-        whole.addWidget(side_by_side(FOOT, self.place, None, self.end))
+        in_column(
+            side_by_side(HEAD, sign, self.heading, None, lock, self.lock),
+            (area, 1),
+            side_by_side(FOOT, self.place, None, self.end),
+            on=self,
+            margins=0,
+            gap=0,
+        )
         self.show_keys(False)
         self.show_nothing("")
 

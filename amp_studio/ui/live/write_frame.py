@@ -7,21 +7,13 @@ from typing import NamedTuple
 
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import (
-    QCompleter,
-    QFrame,
-    QHBoxLayout,
-    QLabel,
-    QLineEdit,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QCompleter, QFrame, QLabel, QLineEdit, QPushButton, QWidget
 
 from amp_studio.files import RangeError, in_one_unit
 from amp_studio.report import takes_effect
 from amp_studio.schema import Address, InvalidValueError, Value, same_value, write_value
 from amp_studio.ui.base.figures import sentence, show_value, written
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.theme import CONTROL, GAP, GAP2, GAP3, colour, font, scheme
 from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
@@ -109,7 +101,6 @@ class WriteFrame(QFrame):
         for button, way in ((self.less, -1), (self.more, 1)):
             button.setFixedSize(CONTROL, CONTROL)
             button.setStyleSheet("padding: 0;")
-            button.setAutoDefault(False)
             button.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # the arrows of the field do the same
             button.clicked.connect(lambda *_, way=way: self.step(way))
         self.less.setAccessibleName(self.tr("One step less"))
@@ -119,8 +110,6 @@ class WriteFrame(QFrame):
         self.write.setProperty("primary", True)
         self.hint = ElidedLabel()
         self.take = QPushButton(self.tr("&Take into the File"))
-        for button in (self.back, self.write, self.take):
-            button.setAutoDefault(False)
         for label in (self.now, self.hint, self.unit):
             label.setFont(font("small"))
         self.hint.setTextFormat(Qt.TextFormat.PlainText)
@@ -138,32 +127,19 @@ class WriteFrame(QFrame):
         self.hide()
 
     def _lay_out(self, sign: QLabel) -> None:
-        title = QVBoxLayout()
-        title.setSpacing(0)
-        first = QHBoxLayout()
-        first.setSpacing(GAP)
-        first.addWidget(sign)
-        first.addWidget(self.head)
-        first.addStretch(1)
-        title.addLayout(first)
-        title.addWidget(self.name)
-        upper = QHBoxLayout()
-        upper.setSpacing(GAP)
-        upper.addLayout(title, 1)
-        for part in (self.less, self.field, self.more, self.unit):
-            upper.addWidget(part)
-        upper.addWidget(self.now, 1)
+        upper = in_row(
+            (in_column(in_row(sign, self.head, 1, gap=GAP), self.name, gap=0), 1),
+            self.less,
+            self.field,
+            self.more,
+            self.unit,
+            (self.now, 1),
+            gap=GAP,
+        )
         upper.addSpacing(GAP2)
         upper.addWidget(self.back)
         upper.addWidget(self.write)
-        lower = QHBoxLayout()
-        lower.addWidget(self.hint, 1)
-        lower.addWidget(self.take)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(GAP3, GAP, GAP3, GAP)
-        column.setSpacing(GAP)
-        column.addLayout(upper)
-        column.addLayout(lower)
+        in_column(upper, in_row((self.hint, 1), self.take), on=self, margins=(GAP3, GAP, GAP3, GAP), gap=GAP)
         QWidget.setTabOrder(self.field, self.write)
         QWidget.setTabOrder(self.write, self.back)
         QWidget.setTabOrder(self.back, self.take)

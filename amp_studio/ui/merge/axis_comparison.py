@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QSize, Qt
+from PySide6.QtCore import QSignalBlocker, QSize, Qt
 from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
@@ -13,13 +13,13 @@ from PySide6.QtWidgets import (
     QPushButton,
     QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
 from amp_studio.files import AxisDifference, axis_letter, axis_title, bits_of_axes, compare_axes, fitted_axes
 from amp_studio.schema import Address, Value
 from amp_studio.ui.base.figures import show_value
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.theme import ROW
 from amp_studio.ui.page.file_page import FilePage
 
@@ -63,15 +63,14 @@ class AxisComparison(QDialog):
 
     def _fill(self, box: QComboBox, axis: object) -> None:
         """Offer the fitted axes, with ``axis`` chosen where it is one of them."""
-        box.blockSignals(True)
-        box.clear()
-        for each in fitted_axes(self._workspace.file):
-            box.addItem(axis_title(self._workspace.file, each), each)
-        box.setCurrentIndex(max(box.findData(axis), 0))
-        box.blockSignals(False)
+        with QSignalBlocker(box):
+            box.clear()
+            for each in fitted_axes(self._workspace.file):
+                box.addItem(axis_title(self._workspace.file, each), each)
+            box.setCurrentIndex(max(box.findData(axis), 0))
 
     def _lay_out(self) -> None:
-        head, foot, column = QHBoxLayout(), QHBoxLayout(), QVBoxLayout(self)
+        head = QHBoxLayout()
         for text, box in ((self.tr("&First axis"), self.first), (self.tr("&Second axis"), self.second)):
             label = QLabel(text)
             label.setBuddy(box)
@@ -82,13 +81,8 @@ class AxisComparison(QDialog):
         close.clicked.connect(self.close)
         for button in (self.take_first, self.take_second, close):
             button.setAutoDefault(False)
-        foot.addWidget(self.count)
-        foot.addStretch()
-        for button in (self.take_first, self.take_second, close):
-            foot.addWidget(button)
-        column.addLayout(head)
-        column.addWidget(self.list)
-        column.addLayout(foot)
+        footer = in_row(self.count, 0, self.take_first, self.take_second, close)
+        in_column(head, self.list, footer, on=self)
 
     # -- what differs ----------------------------------------------------------------
 

@@ -9,7 +9,6 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QButtonGroup,
     QFrame,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QListWidget,
@@ -22,8 +21,10 @@ from PySide6.QtWidgets import (
 
 from amp_studio.report import severity_name
 from amp_studio.ui.base.figures import finding_in_words
+from amp_studio.ui.base.layout import in_row
 from amp_studio.ui.base.theme import ICON, MESSAGE, STATUS, TOOLS, font, icon, scheme, severity_icon
 from amp_studio.ui.base.translated import worded
+from amp_studio.ui.forms.icon_button import icon_button
 from amp_studio.validate import Finding
 
 _NARROW, _NARROWER = 1240, 1120
@@ -38,9 +39,7 @@ class ViewBar(QFrame):
         self.setFixedHeight(TOOLS + 4)
         # As wide as the window lets it be: what there is no room for leaves, so it never keeps a window wide.
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-        row = self._row = QHBoxLayout(self)
-        row.setContentsMargins(12, 4, 8, 4)
-        row.setSpacing(8)
+        row = self._row = in_row(on=self, margins=(12, 4, 8, 4), gap=8)
         self.heading = QLabel(self.tr("Compare and merge"))
         self.heading.setFont(font("title"))
         row.addWidget(self.heading)
@@ -90,18 +89,15 @@ class ViewBar(QFrame):
             buttons[(here + 1) % len(buttons)].click()
 
     def _segment(self, texts: Sequence[str]) -> list[QToolButton]:
-        group, inner = QButtonGroup(self), QHBoxLayout()
-        inner.setSpacing(0)
-        buttons = []
+        group, buttons = QButtonGroup(self), list[QToolButton]()
         for n, text in enumerate(texts):
             button = QToolButton()
             button.setText(text)
             button.setCheckable(True)
             button.setProperty("segment", "first" if n == 0 else "last" if n == len(texts) - 1 else "middle")
             group.addButton(button)
-            inner.addWidget(button)
             buttons.append(button)
-        self._row.addLayout(inner)
+        self._row.addLayout(in_row(*buttons, gap=0))
         return buttons
 
     def _chip(self, text: str, *, checked: bool = False) -> QToolButton:
@@ -114,10 +110,7 @@ class ViewBar(QFrame):
         return chip
 
     def _arrow(self, name: str, tip: str) -> QToolButton:
-        button = QToolButton()
-        button.setIcon(icon(name))
-        button.setToolTip(tip)
-        button.setAccessibleName(tip)
+        button = icon_button(name, tip)
         self._row.addWidget(button)
         return button
 
@@ -128,15 +121,11 @@ class ReadingBar(QFrame):
     def __init__(self) -> None:
         super().__init__()
         self.setFixedHeight(MESSAGE)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(12, 2, 8, 2)
         self.stage, self.amount = QLabel(), QProgressBar()
         self.amount.setAccessibleName(self.tr("Progress"))
         self.cancel = QPushButton(self.tr("Cance&l"))
         self.cancel.setAutoDefault(False)
-        row.addWidget(self.stage)
-        row.addWidget(self.amount, 1)
-        row.addWidget(self.cancel)
+        in_row(self.stage, (self.amount, 1), self.cancel, on=self, margins=(12, 2, 8, 2))
         self.hide()
 
     def show_stage(self, stage: str = "", done: int = 0, total: int = 0) -> None:
@@ -158,22 +147,17 @@ class ResultBar(QFrame):
         super().__init__()
         self.setFixedHeight(STATUS + 20)
         self._findings = findings
-        row = QHBoxLayout(self)
-        row.setContentsMargins(12, 4, 12, 4)
-        row.setSpacing(8)
         self.mark, self.summary, self.findings_button = QLabel(), QLabel(), QToolButton()
         self.findings_button.setCheckable(True)
         self.findings_button.toggled.connect(findings.setVisible)
         self.report = QPushButton(icon("printer"), self.tr("&Report…"))
         self.save, self.merge = QPushButton(self.tr("Save Result A&s…")), QPushButton()
         self.merge.setProperty("primary", True)
-        for button in (self.report, self.save, self.merge):
+        buttons = (self.report, self.save, self.merge)
+        for button in buttons:
             button.setAutoDefault(False)
-        for widget in (self.mark, self.summary, self.findings_button):
-            row.addWidget(widget)
-        row.addStretch()
-        for button in (self.report, self.save, self.merge):
-            row.addWidget(button)
+        left = (self.mark, self.summary, self.findings_button)
+        in_row(*left, 0, *buttons, on=self, margins=(12, 4, 12, 4), gap=8)
         self._left = 0
         scheme().changed.connect(self._show_mark)  # a pixmap keeps the colours in which it was drawn
 

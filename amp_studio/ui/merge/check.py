@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import threading
 
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QObject, Signal
 
 from amp_studio.files import Merge, MergeChoice, Row
+from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.validate import Finding, ResultCheck, Validator
@@ -33,10 +34,7 @@ class MergeCheck(QObject):
         self._asked: tuple[Merge, bool] | None = None
         self._checked: ResultCheck | None = None
         self._task: Task | None = None
-        self._painted = QTimer(self)
-        self._painted.setSingleShot(True)
-        self._painted.setInterval(_PAINTED_MS)
-        self._painted.timeout.connect(self._begin)
+        self._painted = single_shot(self, self._begin, _PAINTED_MS)
 
     @property
     def is_ready(self) -> bool:

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
-from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import (
     ENDING,
@@ -24,6 +23,7 @@ from amp_studio.files import (
     text_of_name,
     write_atomic,
 )
+from amp_studio.ui.base.ask_path import ask_to_open
 from amp_studio.ui.base.side_windows import bring
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import tr
@@ -150,16 +150,12 @@ class Comparisons(QObject):
     # -- what is asked for -------------------------------------------------------------
 
     def _ask_file(self, sources: MergeSources) -> ReadSource | None:
-        path = self._asked_path(sources, self.tr("Compare with"), parameter_files())
+        path = ask_to_open(self.window, self.tr("Compare with"), sources.folder, parameter_files())
         return None if path is None else sources.from_copy(sources.other_file, path)
 
     def _ask_copy(self, sources: MergeSources) -> ReadSource | None:
-        path = self._asked_path(sources, self.tr("Compare with a copy"), COPIES)
+        path = ask_to_open(self.window, self.tr("Compare with a copy"), sources.folder, COPIES)
         return None if path is None else sources.from_copy(sources.kept_copy, path)
-
-    def _asked_path(self, sources: MergeSources, title: str, kinds: str) -> Path | None:
-        text, _ = QFileDialog.getOpenFileName(self.window, title, str(sources.folder), kinds)
-        return Path(text) if text else None
 
     def _ask_control(self, sources: MergeSources) -> ReadSource | None:
         address = self.address_of()

@@ -13,17 +13,16 @@ from PySide6.QtWidgets import (
     QButtonGroup,
     QFrame,
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QSizePolicy,
     QToolButton,
-    QVBoxLayout,
     QWidget,
 )
 
 from amp_studio.files import MergeChoice, Row, Side, Typed
 from amp_studio.ui.base.figures import finding_in_words
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.theme import Token, colour, font, icon, scheme
 from amp_studio.ui.motion.tuning_target import effect_words
 from amp_studio.validate import SEVERITIES, Finding
@@ -95,11 +94,7 @@ class MergeDetail(QFrame):
         self.title.setFont(font("text", own=True))
         self.words.setWordWrap(True)
         self.words.setFont(font("small"))
-        left = QVBoxLayout()
-        left.setSpacing(6)
-        left.addWidget(self.title)
-        left.addWidget(self.words)
-        left.addStretch()
+        left = in_column(self.title, self.words, 0, gap=6)
         self._group = QButtonGroup(self)
         self.buttons: dict[str, ChoiceButton] = {}
         self.notes: dict[str, Line] = {}
@@ -129,12 +124,9 @@ class MergeDetail(QFrame):
         self.facts = QLabel()
         self.facts.setFont(font("small"))
         self.facts.setAlignment(Qt.AlignmentFlag.AlignTop)
-        layout = self._row_of_parts = QHBoxLayout(self)
-        layout.setContentsMargins(12, 10, 12, 8)
-        layout.setSpacing(24)
-        layout.addLayout(left, 2)
-        layout.addLayout(grid, 5)
-        layout.addWidget(self.facts, 1)
+        self._row_of_parts = in_row(
+            (left, 2), (grid, 5), (self.facts, 1), on=self, margins=(12, 10, 12, 8), gap=24
+        )
         scheme().changed.connect(self._write_again)
         self.show_row(None)
 

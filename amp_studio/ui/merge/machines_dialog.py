@@ -9,12 +9,11 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, QModelIndex, Qt
+from PySide6.QtCore import QEvent, QModelIndex, QSignalBlocker, Qt
 from PySide6.QtWidgets import (
     QCheckBox,
     QDialog,
     QFileDialog,
-    QHBoxLayout,
     QHeaderView,
     QLabel,
     QLineEdit,
@@ -24,18 +23,19 @@ from PySide6.QtWidgets import (
     QSplitter,
     QStackedWidget,
     QTableView,
-    QVBoxLayout,
     QWidget,
 )
 
 from amp_studio.files import ParameterFile, check_output, matched_by_letter, open_file, same_file
 from amp_studio.report import MachineLine, machine_lines, machine_names, machines_paper, write_paper
 from amp_studio.schema import Address
+from amp_studio.ui.base.ask_path import ask_to_save
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3, ROW
 from amp_studio.ui.base.workspace import Workspace
-from amp_studio.ui.dialogs.file_dialogs import PAPER_KINDS, path_of_kind
+from amp_studio.ui.dialogs.file_dialogs import PAPER_KINDS
 from amp_studio.ui.forms.message_bar import MessageBar
 
 from .comparisons import parameter_files
@@ -143,32 +143,16 @@ class MachinesDialog(QDialog):
 
     def _arrange(self, close: QPushButton) -> None:
         left, right = QWidget(), QWidget()
-        column = QVBoxLayout(left)
-        column.setContentsMargins(0, 0, GAP2, 0)
-        column.addWidget(self.list)
-        column.addWidget(self.add_button)
-        above = QHBoxLayout()
-        above.setSpacing(GAP3)
-        for widget in (self.filter, self.everything, self.by_letter):
-            above.addWidget(widget)
-        column = QVBoxLayout(right)
-        column.setContentsMargins(GAP2, 0, 0, 0)
-        column.addLayout(above)
-        column.addWidget(self.stack)
+        in_column(self.list, self.add_button, on=left, margins=(0, 0, GAP2, 0))
+        above = in_row(self.filter, self.everything, self.by_letter, gap=GAP3)
+        in_column(above, self.stack, on=right, margins=(GAP2, 0, 0, 0))
         parts = QSplitter()
         parts.addWidget(left)
         parts.addWidget(right)
         parts.setStretchFactor(1, 1)
         parts.setSizes([200, 820])
         parts.setChildrenCollapsible(False)
-        below = QHBoxLayout()
-        below.addWidget(self.count, 1)
-        below.addWidget(self.export_button)
-        below.addWidget(close)
-        layout = QVBoxLayout(self)
-        layout.addWidget(self.bar)
-        layout.addWidget(parts, 1)
-        layout.addLayout(below)
+        in_column(self.bar, (parts, 1), in_row((self.count, 1), self.export_button, close), on=self)
 
     # -- which machines ----------------------------------------------------------------------
 
@@ -197,9 +181,8 @@ class MachinesDialog(QDialog):
             family = machine.file.schema.family
             item.setText(f"{machine.path.stem} ({family.short or family.name})")
         # Adding an entry is no choice: each would compare all machines again.
-        self.list.blockSignals(True)
-        self.list.addItem(item)
-        self.list.blockSignals(False)
+        with QSignalBlocker(self.list):
+            self.list.addItem(item)
 
     def add(self) -> None:
         """Ask for other files and compare them too."""
@@ -306,11 +289,10 @@ class MachinesDialog(QDialog):
 
     def export(self) -> None:
         """Ask for a file and write the table of these machines, not only the rows that the filter leaves."""
-        near = str(self._compared[0].path.with_name("machines.pdf"))
-        text, kind = QFileDialog.getSaveFileName(self, self.tr("Export"), near, PAPER_KINDS)
-        if not text:
+        near, everything = self._compared[0].path.with_name("machines.pdf"), self.everything.isChecked()
+        path = ask_to_save(self, self.tr("Export"), near, PAPER_KINDS)
+        if path is None:
             return
-        path, everything = path_of_kind(text, kind), self.everything.isChecked()
         try:
             for machine in self._machines:
                 check_output(path, machine.path)

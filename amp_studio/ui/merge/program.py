@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtWidgets import QApplication, QFileDialog
+from PySide6.QtWidgets import QApplication
 
 from amp_studio.files import Document, Merge, ParameterFile
+from amp_studio.ui.base.ask_path import ask_to_open
 from amp_studio.ui.base.garbage import collect_by_timer
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import apply_style
@@ -57,10 +58,8 @@ def tool_window(
         window.close()
 
     def ask_file() -> ReadSource | None:
-        text, _ = QFileDialog.getOpenFileName(
-            window, tr("Compare with"), str(sources.folder), parameter_files()
-        )
-        return sources.from_copy(sources.other_file, Path(text)) if text else None
+        path = ask_to_open(window, tr("Compare with"), sources.folder, parameter_files())
+        return sources.from_copy(sources.other_file, path) if path else None
 
     sources = MergeSources(workspace)
     offers = [(tr("Other Files"), [Offer(tr("Another &File…"), ask_file)])]

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from PySide6.QtWidgets import QFileDialog, QWidget
+from PySide6.QtWidgets import QWidget
 
 from amp_studio.files import Merge, Side, check_output
+from amp_studio.ui.base.ask_path import ask_to_save
 from amp_studio.ui.base.modal import is_alive
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import tr
-from amp_studio.ui.dialogs.file_dialogs import PAPER_KINDS, path_of_kind
+from amp_studio.ui.dialogs.file_dialogs import PAPER_KINDS
 from amp_studio.ui.forms.message_bar import MessageBar
 
 from .columns import SIDES
@@ -26,10 +27,9 @@ def save_merge_report(
     """
     title = tr("Report of the comparison")
     near = beside.with_name(f"{beside.stem}-comparison.pdf")
-    text, kind = QFileDialog.getSaveFileName(window, title, str(near), PAPER_KINDS)
-    if not text:
+    path = ask_to_save(window, title, near, PAPER_KINDS)
+    if path is None:
         return
-    path = path_of_kind(text, kind)
     names: dict[Side, str] = {
         SIDES[column]: f"{source.title}, {source.detail}" if source.detail else source.title
         for column, source in sorted(chosen.items())

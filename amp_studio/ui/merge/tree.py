@@ -8,7 +8,7 @@ from collections.abc import Callable
 from functools import partial
 from itertools import chain
 
-from PySide6.QtCore import QItemSelectionModel, QModelIndex, QPersistentModelIndex, Qt, Signal
+from PySide6.QtCore import QItemSelectionModel, QModelIndex, QPersistentModelIndex, QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QAction, QGuiApplication, QKeySequence, QResizeEvent
 from PySide6.QtWidgets import QAbstractItemView, QTreeView
 
@@ -81,12 +81,11 @@ class MergeTree(QTreeView):
         What a person folded or opened stays so.
         """
         total = sum(len(group.rows) for group in self.rows.groups)
-        self.blockSignals(True)
-        for n, group in enumerate(self.rows.groups):
-            is_short = len(group.rows) <= _MANY or total <= 2 * _MANY
-            is_open = self._unfolded.get(group.title, is_short or bool(group.conflicts))
-            self.setExpanded(self.rows.index(n, NAME), is_open)
-        self.blockSignals(False)
+        with QSignalBlocker(self):
+            for n, group in enumerate(self.rows.groups):
+                is_short = len(group.rows) <= _MANY or total <= 2 * _MANY
+                is_open = self._unfolded.get(group.title, is_short or bool(group.conflicts))
+                self.setExpanded(self.rows.index(n, NAME), is_open)
 
     def _fold(self, is_open: bool, index: QModelIndex) -> None:
         if (group := self.rows.group_at(index)) is not None:

@@ -7,13 +7,15 @@ from collections.abc import Callable
 from functools import partial
 from itertools import pairwise
 
-from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QDialog, QListWidgetItem, QTreeView, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QListWidgetItem, QTreeView, QWidget
 
 from amp_studio.files import Merge, MergeChoice, ParameterFile, Row, Side
 from amp_studio.schema import Address, same_value
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.screen_room import fit_to_screen
+from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.task import PATIENCE_MS, Task
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.message_bar import MessageBar
@@ -70,9 +72,9 @@ class MergeWindow(QDialog):
         self.head = self.tree.head
         self.detail = MergeDetail(self.model, self.check.of_choice)
         self._build()
-        self._follow = self._timer(_LIVE_MS, self._read_again)
-        self._update = self._timer(0, self._after_choice)
-        self._patience = self._timer(PATIENCE_MS, self.reading.show)
+        self._follow = single_shot(self, self._read_again, _LIVE_MS)
+        self._update = single_shot(self, self._after_choice, 0)
+        self._patience = single_shot(self, self.reading.show, PATIENCE_MS)
         self._connect(save_result)
         fit_to_screen(self, 1180, 740)
         self._show_sources()
@@ -87,20 +89,18 @@ class MergeWindow(QDialog):
         self.view = ViewBar(list(self.workspace.file.schema.family.units), self.model.units)
         self.outcome = ResultBar(self.findings)
         self.detail.setFixedHeight(122)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        for widget in (
+        in_column(
             self.view,
             self.reading,
             self.message,
-            self.tree,
+            (self.tree, 1),
             self.detail,
             self.findings,
             self.outcome,
-        ):
-            layout.addWidget(widget)
-        layout.setStretchFactor(self.tree, 1)
+            on=self,
+            margins=0,
+            gap=0,
+        )
         self.tree.setStyleSheet("QTreeView { border: 0 }")
         self.tree.setFocus()
         order = (self.view.next, *self.head.buttons.values(), self.tree, self.detail.buttons["base"])
@@ -146,13 +146,6 @@ class MergeWindow(QDialog):
         if self.model.secrets != self.workspace.secrets:  # masked at once
             self.model.show_in(self.model.units, secrets=self.workspace.secrets)
         self._follow.start()
-
-    def _timer(self, wait: int, act: Callable[[], object]) -> QTimer:
-        timer = QTimer(self)
-        timer.setSingleShot(True)
-        timer.setInterval(wait)
-        timer.timeout.connect(act)
-        return timer
 
     # -- sources ---------------------------------------------------------------------------
 

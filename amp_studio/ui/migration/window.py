@@ -7,18 +7,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import Qt, QTimer
-from PySide6.QtWidgets import (
-    QDialog,
-    QFileDialog,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QScrollArea,
-    QSplitter,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QDialog, QFileDialog, QLabel, QPushButton, QScrollArea, QSplitter, QWidget
 
 from amp_studio.files import ParameterFile
 from amp_studio.meaning import (
@@ -32,7 +22,9 @@ from amp_studio.meaning import (
 )
 from amp_studio.report import write_migration_folder
 from amp_studio.schema import load_schema
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.screen_room import fit_to_screen
+from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3, colour, font
 from amp_studio.ui.base.translated import language_of_window, sentenced, tr
@@ -82,9 +74,7 @@ class MigrationWindow(QDialog):
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.write_button, self.draft_button = QPushButton(tr("&Write…")), QPushButton(tr("Write a &Draft…"))
         self._lay_out()
-        self._timer = QTimer(self)
-        self._timer.setSingleShot(True)
-        self._timer.timeout.connect(self.migrate)
+        self._timer = single_shot(self, self.migrate)
         self.target.entered.connect(lambda _: self.migrate())
         self.questions.changed.connect(lambda _: self._timer.start(_TYPING_MS))
         self.tree.currentItemChanged.connect(lambda *_: self._show_why())
@@ -95,9 +85,8 @@ class MigrationWindow(QDialog):
         self.migrate()
 
     def _lay_out(self) -> None:
-        left, column = QWidget(), QVBoxLayout()
-        column.setContentsMargins(0, 0, GAP2, 0)
-        column.addWidget(self.target)
+        left = QWidget()
+        column = in_column(self.target, on=left, margins=(0, 0, GAP2, 0))
         heads = {self.losses: tr("Less safe than before"), self.questions: tr("Questions")}
         for widget, title in heads.items():
             head = QLabel(title)
@@ -105,35 +94,24 @@ class MigrationWindow(QDialog):
             column.addWidget(head)
             column.addWidget(widget)
         column.addStretch(1)
-        left.setLayout(column)
         scroll = QScrollArea()
         scroll.setWidget(left)
         scroll.setWidgetResizable(True)
         scroll.setFrameShape(QScrollArea.Shape.NoFrame)
         scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        right, rows = QWidget(), QVBoxLayout()
-        rows.setContentsMargins(0, 0, 0, 0)
+        right = QWidget()
         self.why.setMinimumHeight(48)
-        rows.addWidget(self.tree, 1)
-        rows.addWidget(self.why)
-        right.setLayout(rows)
+        in_column((self.tree, 1), self.why, on=right, margins=0)
         parts = QSplitter()
         parts.addWidget(scroll)
         parts.addWidget(right)
         parts.setSizes([360, 800])
-        foot = QHBoxLayout()
-        foot.addWidget(self.summary, 1)
         close = QPushButton(tr("&Close"))
         for button in (self.write_button, self.draft_button, close):
             button.setAutoDefault(False)
-            foot.addWidget(button)
         close.clicked.connect(self.close)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(GAP3, GAP3, GAP3, GAP3)
-        whole.setSpacing(GAP2)
-        for part in (self.bar, parts):
-            whole.addWidget(part, int(part is parts))
-        whole.addLayout(foot)
+        footer = in_row((self.summary, 1), self.write_button, self.draft_button, close)
+        in_column(self.bar, (parts, 1), footer, on=self, margins=GAP3, gap=GAP2)
 
     # -- what becomes of it ----------------------------------------------------------
 

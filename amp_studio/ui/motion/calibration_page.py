@@ -13,13 +13,11 @@ from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
-    QHBoxLayout,
     QHeaderView,
     QInputDialog,
     QLabel,
     QSplitter,
     QTableWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -40,6 +38,7 @@ from amp_studio.calibration import (
 )
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value, read_exact
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.theme import GAP2, colour, font, scheme
 from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.forms.form import Field, FieldForm
@@ -119,28 +118,16 @@ class CalibrationPage(TuningPart):
             )
         )
         self._form = form
-        buttons = QHBoxLayout()
-        for button in (self.insert, self.replace, self.delete, self.clear):
-            buttons.addWidget(button)
-        buttons.addStretch()
+        buttons = in_row(self.insert, self.replace, self.delete, self.clear, 0)
         left, right = QWidget(), QWidget()
-        column = QVBoxLayout(left)
-        column.setContentsMargins(0, 0, GAP2, 0)
-        column.addWidget(form)
-        column.addWidget(self.was_on)
-        column.addWidget(self.table, 1)
-        column.addLayout(buttons)
-        column = QVBoxLayout(right)
-        column.setContentsMargins(GAP2, 0, 0, 0)
-        column.addWidget(self.plot, 1)
-        column.addWidget(self.fault)
-        column.addWidget(self.limits)
+        in_column(form, self.was_on, (self.table, 1), buttons, on=left, margins=(0, 0, GAP2, 0))
+        column = in_column((self.plot, 1), self.fault, self.limits, on=right, margins=(GAP2, 0, 0, 0))
         column.addWidget(self.read, 0, Qt.AlignmentFlag.AlignLeft)
         splitter = QSplitter()
         splitter.addWidget(left)
         splitter.addWidget(right)
         splitter.setChildrenCollapsible(False)
-        QVBoxLayout(self).addWidget(splitter)
+        in_column(splitter, on=self)
         scheme().changed.connect(self._refresh)
 
     # -- what is shown -----------------------------------------------------------

@@ -10,21 +10,10 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
-from pathlib import Path
 
 from PySide6.QtCore import QEvent, QModelIndex, QObject, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QKeySequence, QShortcut, QShowEvent
-from PySide6.QtWidgets import (
-    QFileDialog,
-    QHBoxLayout,
-    QLabel,
-    QMessageBox,
-    QPushButton,
-    QSplitter,
-    QToolButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QLabel, QMessageBox, QPushButton, QSplitter, QToolButton, QWidget
 
 from amp_studio.files import ParameterFile, RangeError, check_output
 from amp_studio.schema import Address, Value
@@ -37,7 +26,9 @@ from amp_studio.sim import (
     check_motion,
     value_text,
 )
+from amp_studio.ui.base.ask_path import ask_to_save
 from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.questions import show_message
@@ -45,7 +36,7 @@ from amp_studio.ui.base.task import Task, TaskProgress, in_background
 from amp_studio.ui.base.theme import GAP, GAP2, GAP3, SMALL_ICON, colour, font, icon, scheme
 from amp_studio.ui.base.translated import language_of_window, scenario_in_words, sentenced, unit_in_words
 from amp_studio.ui.base.workspace import Workspace
-from amp_studio.ui.dialogs.file_dialogs import PAPER_KINDS, path_of_kind
+from amp_studio.ui.dialogs.file_dialogs import PAPER_KINDS
 from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.forms.segment import chip
 from amp_studio.ui.page.page_of_file import PageOfFile
@@ -179,56 +170,35 @@ class CheckPage(PageOfFile):
         self.detail.setWordWrap(True)
         self.detail.setTextFormat(Qt.TextFormat.RichText)
         self.detail.setTextInteractionFlags(Qt.TextInteractionFlag.TextBrowserInteraction)
-        for each in (self.report, self.assumptions, self.motion, self.again):
-            each.setAutoDefault(False)
         self.motion.setEnabled(False)
         self._paint_chips()
 
     def _lay_out(self) -> None:
         left, right = QWidget(), QWidget()
-        above = QHBoxLayout()
-        above.setContentsMargins(GAP3, GAP, GAP2, GAP)
-        above.setSpacing(GAP)
-        above.addWidget(self.heading, 1)
-        for button in self.chips.values():
-            above.addWidget(button)
-        below = QHBoxLayout()
-        below.setContentsMargins(GAP3, GAP, GAP2, GAP)
-        below.addWidget(self.summary, 1)
-        below.addWidget(self.report)
-        column = QVBoxLayout(left)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
-        column.addLayout(above)
-        column.addWidget(self.list, 1)
-        column.addLayout(below)
-        head = QHBoxLayout()
-        head.setSpacing(GAP2)
-        head.addWidget(self.title)
-        head.addWidget(self.mark)
-        head.addWidget(self.why, 1)
-        for each in (self.assumptions, self.motion, self.again):
-            head.addWidget(each)
-        lower = QHBoxLayout()
-        lower.setSpacing(GAP2)
-        lower.addWidget(self.travel, 1)
-        lower.addWidget(self.spindle, 1)
-        main = QVBoxLayout(right)
-        main.setContentsMargins(GAP2, GAP, GAP2, GAP2)
-        main.setSpacing(GAP2)
-        main.addLayout(head)
-        main.addWidget(self.card, 5)
-        main.addWidget(self.detail)
-        main.addLayout(lower, 4)
+        in_column(
+            in_row((self.heading, 1), *self.chips.values(), margins=(GAP3, GAP, GAP2, GAP), gap=GAP),
+            (self.list, 1),
+            in_row((self.summary, 1), self.report, margins=(GAP3, GAP, GAP2, GAP)),
+            on=left,
+            margins=0,
+            gap=0,
+        )
+        in_column(
+            in_row(self.title, self.mark, (self.why, 1), self.assumptions, self.motion, self.again, gap=GAP2),
+            (self.card, 5),
+            self.detail,
+            (in_row((self.travel, 1), (self.spindle, 1), gap=GAP2), 4),
+            on=right,
+            margins=(GAP2, GAP, GAP2, GAP2),
+            gap=GAP2,
+        )
         left.setMinimumWidth(LEFT)
         splitter = QSplitter(Qt.Orientation.Horizontal)
         for side, share in ((left, 27), (right, 73)):
             splitter.addWidget(side)
             splitter.setStretchFactor(splitter.count() - 1, share)
         splitter.setSizes([2700, 7300])
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.addWidget(splitter)
+        in_column(splitter, on=self, margins=0)
 
     def _connect(self) -> None:
         self._workspace.changed.connect(self._after_edit)
@@ -522,10 +492,9 @@ class CheckPage(PageOfFile):
 
         path = self._workspace.path
         near = path.with_name(f"{path.stem}-check.pdf")
-        text, kind = QFileDialog.getSaveFileName(self, self.tr("Report of the Check"), str(near), PAPER_KINDS)
-        if not text:
+        target = ask_to_save(self, self.tr("Report of the Check"), near, PAPER_KINDS)
+        if target is None:
             return
-        target: Path = path_of_kind(text, kind)
         check_output(target, path)
         file, checks, notes = self._workspace.file.copy(), list(self.checks), list[str]()
         in_background(

@@ -7,18 +7,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import (
-    QCheckBox,
-    QDialog,
-    QFileDialog,
-    QFormLayout,
-    QHBoxLayout,
-    QLabel,
-    QLineEdit,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QCheckBox, QDialog, QFormLayout, QLabel, QLineEdit, QPushButton, QWidget
 
 from amp_studio.files import ParameterFile, SaveError
 from amp_studio.sim import (
@@ -32,7 +21,9 @@ from amp_studio.sim import (
     value_text,
     write_machine,
 )
+from amp_studio.ui.base.ask_path import ask_to_save
 from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import in_background
@@ -94,24 +85,14 @@ class IdentifyDialog(QDialog):
         self.refresh()
 
     def _arrange(self, cancel: QPushButton) -> None:
-        left = QVBoxLayout()
-        left.addWidget(self.form)
+        left = in_column(self.form)
         left.addSpacing(GAP2)
         left.addLayout(self.figures)
         left.addWidget(self.message)
         left.addStretch(1)
-        columns = QHBoxLayout()
-        columns.setSpacing(GAP3)
-        columns.addLayout(left, 2)
-        columns.addWidget(self.plot, 3)
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.save)
-        buttons.addStretch(1)
-        buttons.addWidget(self.use)
-        buttons.addWidget(cancel)
-        layout = QVBoxLayout(self)
-        layout.addLayout(columns, 1)
-        layout.addLayout(buttons)
+        in_column(
+            (in_row((left, 2), (self.plot, 3), gap=GAP3), 1), in_row(self.save, 1, self.use, cancel), on=self
+        )
 
     def refresh(self) -> None:
         """Fit the record again with the scale that is given."""
@@ -165,15 +146,8 @@ class IdentifyDialog(QDialog):
         """Write the machine for ``simulate --machine``."""
         if self.trace is None:
             return
-        text, _ = QFileDialog.getSaveFileName(
-            self,
-            self.tr("Save Machine"),
-            str(self._path.with_name(f"machine-{self.trace.letter or self.trace.axis}.yaml")),
-            self.tr("Machine (*.yaml)"),
-        )
-        if text:
-            path = Path(text)
-            path = path if path.suffix else path.with_suffix(".yaml")
+        near = self._path.with_name(f"machine-{self.trace.letter or self.trace.axis}.yaml")
+        if path := ask_to_save(self, self.tr("Save Machine"), near, self.tr("Machine (*.yaml)")):
             try:
                 write_machine(self.trace, self._file.schema.family.family, path)
             except (SaveError, OSError) as error:

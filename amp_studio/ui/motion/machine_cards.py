@@ -11,17 +11,7 @@ from functools import partial
 
 from PySide6.QtCore import QObject, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent, QResizeEvent
-from PySide6.QtWidgets import (
-    QFrame,
-    QHBoxLayout,
-    QLabel,
-    QLineEdit,
-    QPushButton,
-    QSizePolicy,
-    QStackedWidget,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QFrame, QLabel, QLineEdit, QPushButton, QSizePolicy, QStackedWidget, QWidget
 
 from amp_studio.drawing import Point, Scene
 from amp_studio.files import ParameterFile
@@ -38,6 +28,7 @@ from amp_studio.pictures import (
 from amp_studio.schema import InvalidValueError, read_number
 from amp_studio.sim import NEAR_GRID, MotionCheck, SimulationError, Trace, picture_of, simulate
 from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task, TaskProgress
@@ -115,11 +106,7 @@ class Card(QFrame):
         self.title.setFont(strong)
         self.about = ElidedLabel()
         self.about.setFont(font("small", own=True))
-        self.head = QHBoxLayout()
-        self.head.setContentsMargins(GAP3, 0, GAP2, 0)
-        self.head.setSpacing(GAP2)
-        self.head.addWidget(self.title)
-        self.head.addWidget(self.about, 1)
+        self.head = in_row(self.title, (self.about, 1), margins=(GAP3, 0, GAP2, 0), gap=GAP2)
         self.optional: QLineEdit | None = None
         """A field in the head that goes first where there is little room."""
         above = self._above = QWidget()
@@ -135,11 +122,7 @@ class Card(QFrame):
         self.stack = QStackedWidget()
         for each in (self.scene, self.plot, self.reason):
             self.stack.addWidget(each)
-        self.column = QVBoxLayout(self)
-        self.column.setContentsMargins(0, 0, 0, 0)
-        self.column.setSpacing(0)
-        self.column.addWidget(above)
-        self.column.addWidget(self.stack, 1)
+        self.column = in_column(above, (self.stack, 1), on=self, margins=0, gap=0)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
@@ -254,17 +237,10 @@ class CheckCard(Card):
         self.message = ElidedLabel()
         self.fix = QPushButton()
         self.fix.setProperty("primary", "true")
-        self.fix.setAutoDefault(False)
         self.fix.clicked.connect(self.fix_requested)
-        footer = QHBoxLayout()
-        footer.setContentsMargins(GAP3, GAP, GAP2, GAP)
-        footer.setSpacing(GAP2)
-        for each in (self.grid, self.grid_text):
-            footer.addWidget(each)
-        footer.addWidget(self.message, 1)
-        footer.addWidget(self.fix)
         self.footer = QWidget()
-        self.footer.setLayout(footer)
+        parts = (self.grid, self.grid_text, (self.message, 1), self.fix)
+        in_row(*parts, on=self.footer, margins=(GAP3, GAP, GAP2, GAP), gap=GAP2)
         self.column.addWidget(self.footer)
         self.fix.hide()
 

@@ -5,21 +5,13 @@ from a file or from a record.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from pathlib import Path
 
-from PySide6.QtWidgets import (
-    QDialog,
-    QFileDialog,
-    QHBoxLayout,
-    QLabel,
-    QLineEdit,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QDialog, QLabel, QLineEdit, QPushButton, QWidget
 
 from amp_studio.files import ParameterFile
 from amp_studio.sim import SimulationError, machine_for, machine_settings, read_machine
+from amp_studio.ui.base.ask_path import ask_to_open
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.modal import run_dialog
 
 from .identify_dialog import IdentifyDialog
@@ -55,35 +47,27 @@ class MachinePage(QWidget):
         self.open.setToolTip(self.tr("Take the figures of a machine file (YAML)"))
         self.record.clicked.connect(self.take_record)
         self.open.clicked.connect(self.take_file)
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.record)
-        buttons.addWidget(self.open)
-        buttons.addStretch()
-        column = QVBoxLayout(self)
-        column.addWidget(hint)
-        column.addLayout(buttons)
-        column.addWidget(scrolled(self.form))
+        in_column(hint, in_row(self.record, self.open, 0), scrolled(self.form), on=self)
 
     def take_record(self) -> None:
         """Ask for a record, show its fit, and take its figures when they are accepted."""
         file, axis = self._present()
-        text, _ = QFileDialog.getOpenFileName(
-            self, self.tr("Record of a Drive"), "", self.tr("Records (*.csv *.txt);;All files (*)")
-        )
-        if not text:
+        kinds = self.tr("Records (*.csv *.txt);;All files (*)")
+        path = ask_to_open(self, self.tr("Record of a Drive"), "", kinds)
+        if path is None:
             return
-        dialog = IdentifyDialog(file, axis, Path(text), self)
+        dialog = IdentifyDialog(file, axis, path, self)
         if run_dialog(dialog) == QDialog.DialogCode.Accepted and dialog.trace is not None:
             self._fill(machine_settings(dialog.trace))
 
     def take_file(self) -> None:
         """Ask for the file of a machine and take its figures."""
         file, axis = self._present()
-        text, _ = QFileDialog.getOpenFileName(self, self.tr("Machine"), "", self.tr("Machine (*.yaml)"))
-        if not text:
+        path = ask_to_open(self, self.tr("Machine"), "", self.tr("Machine (*.yaml)"))
+        if path is None:
             return
         try:
-            _, settings = machine_for(file, read_machine(Path(text)), axis)
+            _, settings = machine_for(file, read_machine(path), axis)
         except (SimulationError, OSError) as error:
             self._fail(error)
         else:

@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QLabel, QPlainTextEdit, QPushButton, QWidget
 
 from amp_studio.calibration import (
     DECIMALS,
@@ -28,6 +28,7 @@ from amp_studio.calibration import (
 )
 from amp_studio.files import ParameterFile
 from amp_studio.ui.base.figures import show_value
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3, colour
@@ -67,24 +68,19 @@ class MeasuredDialog(QDialog):
         self.set_button.setDefault(True)
         self.set_button.clicked.connect(self.accept)
         cancel.clicked.connect(self.reject)
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.missing, 1)
-        buttons.addWidget(self.set_button)
-        buttons.addWidget(cancel)
-        left, right = QVBoxLayout(), QVBoxLayout()
-        left.addWidget(self.form)
-        left.addWidget(self.summary)
-        left.addStretch(1)
-        right.addWidget(self.plot, 3)
-        right.addWidget(self.notes, 1)
-        columns = QHBoxLayout()
-        columns.setSpacing(GAP3)
-        columns.addLayout(left, 2)
-        columns.addLayout(right, 3)
-        layout = QVBoxLayout(self)
-        layout.setSpacing(GAP2)
-        layout.addLayout(columns, 1)
-        layout.addLayout(buttons)
+        in_column(
+            (
+                in_row(
+                    (in_column(self.form, self.summary, 1), 2),
+                    (in_column((self.plot, 3), (self.notes, 1)), 3),
+                    gap=GAP3,
+                ),
+                1,
+            ),
+            in_row((self.missing, 1), self.set_button, cancel),
+            on=self,
+            gap=GAP2,
+        )
         self.refresh()
 
     def _fields(self) -> tuple[Field, ...]:

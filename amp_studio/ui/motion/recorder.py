@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
 from amp_studio.drawing import Picture
 from amp_studio.schema import read_number
@@ -27,7 +27,9 @@ from amp_studio.sim import (
     unit_factor,
     write_recording,
 )
+from amp_studio.ui.base.ask_path import ask_to_open
 from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.theme import GAP2, colour
 from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.forms.channel_scales import ChannelScales
@@ -95,17 +97,8 @@ class RecorderPage(QWidget):
         )
 
     def _arrange(self) -> None:
-        buttons = QHBoxLayout()
-        for button in (self.open, self.record):
-            button.setAutoDefault(False)
-            buttons.addWidget(button)
-        buttons.addStretch()
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, GAP2, 0, 0)
-        column.addLayout(buttons)
-        column.addWidget(self.state)
-        column.addWidget(self.trigger)
-        column.addWidget(self.channels, 1)
+        buttons = in_row(self.open, self.record, 0)
+        in_column(buttons, self.state, self.trigger, (self.channels, 1), on=self, margins=(0, GAP2, 0, 0))
 
     # -- the trigger ---------------------------------------------------------------
 
@@ -127,14 +120,10 @@ class RecorderPage(QWidget):
 
     def _ask(self) -> None:
         """Ask for a record of the machine and lay it over the simulation; without one as it was."""
-        text, _ = QFileDialog.getOpenFileName(
-            self,
-            self.tr("Record of the Machine"),
-            str(self._path().parent),
-            self.tr("Records (*.csv *.txt);;All files (*)"),
-        )
+        kinds = self.tr("Records (*.csv *.txt);;All files (*)")
+        path = ask_to_open(self, self.tr("Record of the Machine"), self._path().parent, kinds)
         try:
-            self.recording = read_recording(Path(text)) if text else None
+            self.recording = read_recording(path) if path else None
         except (OSError, SimulationError) as error:
             self._say(error)
             return

@@ -14,13 +14,13 @@ from PySide6.QtWidgets import (
     QScrollArea,
     QSizePolicy,
     QTextBrowser,
-    QVBoxLayout,
     QWidget,
 )
 
 from amp_studio.schema import Schema
 from amp_studio.sim import Recommendation, Trace, value_text
 from amp_studio.ui.base.figures import grouped, written
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.theme import severity_colour, state_colour
 from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.forms.pages import LINK
@@ -115,9 +115,7 @@ class RecommendationsPage(QScrollArea):
     ) -> None:
         """Show the recommendations; ``may_apply`` returns whether a parameter can be changed."""
         inside = QWidget()
-        column = QVBoxLayout(inside)
-        column.setContentsMargins(4, 8, 4, 8)
-        column.setSpacing(12)
+        column = in_column(on=inside, margins=(4, 8, 4, 8), gap=12)
         self.buttons = []
         for each in found:
             column.addWidget(self._frame(schema, each, may_apply(each.parameter)))
@@ -134,9 +132,7 @@ class RecommendationsPage(QScrollArea):
         frame = QWidget()
         # Not higher than its text: with few recommendations they would be spread over the page.
         frame.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
-        column = QVBoxLayout(frame)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(2)
+        column = in_column(on=frame, margins=0, gap=2)
         head, shade = QHBoxLayout(), severity_colour("advice").name()
         name = html.escape(name_of(schema, each.parameter))
         value = html.escape(written(value_text(each.value, unit_in_words(each.unit), 9)))

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from PySide6.QtWidgets import QFileDialog, QWidget
+from PySide6.QtWidgets import QWidget
 
 from amp_studio.files import ParameterFile
 from amp_studio.motion_paper import PAPERS, write_motion_paper
 from amp_studio.sim import Trace, write_trace
+from amp_studio.ui.base.ask_path import ask_to_save
 from amp_studio.ui.base.translated import language_of_window
 
 _ENDINGS = "SVG (*.svg);;PNG (*.png);;CSV (*.csv);;PDF (*.pdf)"
@@ -18,11 +19,7 @@ _ENDINGS = "SVG (*.svg);;PNG (*.png);;CSV (*.csv);;PDF (*.pdf)"
 def ask_where(parent: QWidget, file: Path, trace: Trace) -> Path | None:
     """Ask where a trace is written; beside ``file`` first, with the extension of the chosen format."""
     proposed = file.with_name(f"{file.stem}-{trace.scenario}-{trace.axis}.svg")
-    text, chosen = QFileDialog.getSaveFileName(parent, parent.tr("Save"), str(proposed), _ENDINGS)
-    if not text:
-        return None
-    path = Path(text)
-    return path if path.suffix else path.with_suffix(chosen[chosen.index("*") + 1 : -1])
+    return ask_to_save(parent, parent.tr("Save"), proposed, _ENDINGS)
 
 
 def write_motion(

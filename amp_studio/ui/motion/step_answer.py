@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from PySide6.QtCore import Qt, QTimer
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtCore import QSignalBlocker, Qt
+from PySide6.QtWidgets import QComboBox, QLabel, QPushButton, QWidget
 
 from amp_studio.drawing import linked
 from amp_studio.files import ParameterFile
 from amp_studio.schema import axis_name
 from amp_studio.sim import SimulationError, Trace, picture_of, simulate, simulated_axes
 from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.plot import Plot
+from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import GAP
 from amp_studio.ui.base.translated import sentenced, unit_in_words
@@ -44,23 +46,11 @@ class StepAnswer(QWidget):
         self.text.setContentsMargins(0, GAP, 0, GAP)  # else the plot lies over the dots of an Ü
         self.text.setTextFormat(Qt.TextFormat.PlainText)
         self.keep = QPushButton(self.tr("&Keep as Before"))
-        self.keep.setAutoDefault(False)
         self.keep.clicked.connect(self._keep)
         label = QLabel(self.tr("Simulated ste&p of axis"))
         label.setBuddy(self.axis)
-        row = QHBoxLayout()
-        for widget in (label, self.axis, self.keep):
-            row.addWidget(widget)
-        row.addStretch()
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addLayout(row)
-        layout.addWidget(self.plot, 1)
-        layout.addWidget(self.text)
-        self._timer = QTimer(self)
-        self._timer.setSingleShot(True)
-        self._timer.setInterval(SETTLE_MS)
-        self._timer.timeout.connect(self.run)
+        in_column(in_row(label, self.axis, self.keep, 0), (self.plot, 1), self.text, on=self, margins=0)
+        self._timer = single_shot(self, self.run, SETTLE_MS)
         self.axis.currentIndexChanged.connect(lambda *_: self._start_over())
 
     def show_target(self, target: TuningTarget) -> None:
@@ -70,12 +60,11 @@ class StepAnswer(QWidget):
         self._target = target
         target.changed.connect(self._changed)
         file = target.file
-        self.axis.blockSignals(True)
-        self.axis.clear()
-        for axis in simulated_axes(file):
-            letter = axis_name(file.evaluation, axis)
-            self.axis.addItem(f"{axis} {letter}" if letter and letter != axis else axis, axis)
-        self.axis.blockSignals(False)
+        with QSignalBlocker(self.axis):
+            self.axis.clear()
+            for axis in simulated_axes(file):
+                letter = axis_name(file.evaluation, axis)
+                self.axis.addItem(f"{axis} {letter}" if letter and letter != axis else axis, axis)
         self._start_over()
 
     def choose(self, axis: str) -> None:

@@ -8,21 +8,13 @@ from collections.abc import Callable
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QWheelEvent
-from PySide6.QtWidgets import (
-    QComboBox,
-    QHBoxLayout,
-    QLabel,
-    QLineEdit,
-    QSizePolicy,
-    QToolButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit, QSizePolicy, QToolButton, QWidget
 
 from amp_studio.calibration import stepped, steps_of, usual_step
 from amp_studio.schema import Address, GuideStep, Value
 from amp_studio.sim import Trace, address_of, value_text
 from amp_studio.ui.base.figures import show_value, written
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.theme import GAP, GAP2, SMALL_CONTROL, colour, font
 from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 
@@ -61,14 +53,11 @@ class StepDetail(QWidget):
         self.change, self.look, self.shows = QLabel(), QLabel(), QLabel()
         shows = self.tr("The simulated axis shows")
         self.heads = [QLabel(text) for text in (self.tr("Change"), self.tr("Look for"), shows)]
-        self.values = QVBoxLayout()
-        self.values.setSpacing(GAP)
+        self.values = in_column(gap=GAP)
         for head in self.heads:
             head.setFont(font("caption", own=True))
             head.setContentsMargins(0, GAP, 0, 0)  # else the dots of an Ä are cut
-        column = QVBoxLayout(self)
-        column.setContentsMargins(GAP2, GAP2, GAP2, GAP2)
-        column.setSpacing(GAP)
+        column = in_column(on=self, margins=GAP2, gap=GAP)
         for head, text in zip(self.heads, (self.change, self.look, self.shows), strict=True):
             text.setWordWrap(True)
             text.setTextFormat(Qt.TextFormat.PlainText)
@@ -138,8 +127,7 @@ class StepDetail(QWidget):
 
     def _with_buttons(self, field: QLineEdit, address: Address, label: str) -> QWidget:
         line = QWidget()
-        row = QHBoxLayout(line)
-        row.setContentsMargins(0, 0, 0, 0)
+        row = in_row(on=line, margins=0)
         for text, sign in (("−", -1), ("+", 1)):
             button = QToolButton()
             button.setText(text)

@@ -6,13 +6,10 @@ from __future__ import annotations
 
 import html
 from collections.abc import Callable
-from pathlib import Path
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
-    QFileDialog,
-    QHBoxLayout,
     QHeaderView,
     QLabel,
     QPushButton,
@@ -20,7 +17,6 @@ from PySide6.QtWidgets import (
     QTextBrowser,
     QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -28,6 +24,8 @@ from amp_studio.dossier import machine_tests_of
 from amp_studio.files import now, user, write_atomic
 from amp_studio.guide import tick
 from amp_studio.report import PrintedTest
+from amp_studio.ui.base.ask_path import ask_to_save
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.theme import GAP2, GAP3, font
 from amp_studio.ui.base.translated import sentenced, worded
 from amp_studio.ui.base.workspace import Workspace
@@ -62,27 +60,17 @@ class MachineTestsPage(PageOfFile):
         self.summary.setFont(font("text", own=True))
         self.save = QPushButton(self.tr("Save Pro&gram…"))
         self.save.setToolTip(self.tr("The program of the test, as the control reads it"))
-        self.save.setAutoDefault(False)
         self.save.clicked.connect(self._save_program)
         parts = QSplitter(Qt.Orientation.Horizontal)
         parts.addWidget(self.list)
         parts.addWidget(self._right())
         parts.setSizes([2, 3])
-        column = QVBoxLayout(self)
-        column.setContentsMargins(GAP3, GAP3, GAP3, GAP3)
-        column.addWidget(parts)
+        in_column(parts, on=self, margins=GAP3)
         self.setFocusProxy(self.list)
 
     def _right(self) -> QWidget:
         right = QWidget()
-        foot = QHBoxLayout()
-        foot.addWidget(self.summary, 1)
-        foot.addWidget(self.save)
-        column = QVBoxLayout(right)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(GAP2)
-        column.addWidget(self.steps, 1)
-        column.addLayout(foot)
+        in_column((self.steps, 1), in_row((self.summary, 1), self.save), on=right, margins=0, gap=GAP2)
         return right
 
     def showEvent(self, event: QShowEvent) -> None:
@@ -185,13 +173,12 @@ class MachineTestsPage(PageOfFile):
         test = self._test
         if test is None:
             return
-        name, _ = QFileDialog.getSaveFileName(
-            self, self.tr("Program of a Test"), f"{test.id.partition('@')[0]}.nc", self.tr("All files (*)")
-        )
-        if not name:
+        near = f"{test.id.partition('@')[0]}.nc"
+        path = ask_to_save(self, self.tr("Program of a Test"), near, self.tr("All files (*)"))
+        if path is None:
             return
         try:
             text = "".join(f"{line}\n" for line in test.lines)
-            write_atomic(Path(name), text.encode("ascii"), keep_backup=False)
+            write_atomic(path, text.encode("ascii"), keep_backup=False)
         except OSError as error:
             self._fail(error)

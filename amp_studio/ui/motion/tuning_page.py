@@ -6,14 +6,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtWidgets import (
-    QFileDialog,
-    QHBoxLayout,
     QLabel,
     QListWidget,
     QPushButton,
@@ -27,6 +24,8 @@ from PySide6.QtWidgets import (
 from amp_studio.calibration import compensation_of
 from amp_studio.files import RangeError
 from amp_studio.schema import Guide, registration_of
+from amp_studio.ui.base.ask_path import ask_to_open
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask
@@ -98,7 +97,6 @@ class TuningView(PageOfFile):
 
     def _button(self, text: str, act: Callable[[], object], icon_name: str) -> QPushButton:
         button = QPushButton(icon(icon_name), text)
-        button.setAutoDefault(False)
         button.clicked.connect(lambda *_: self.guarded(act))
         return button
 
@@ -182,26 +180,16 @@ class TuningView(PageOfFile):
             self._later.pop(page)()
 
     def _arrange(self) -> None:
-        bar = QHBoxLayout()
-        bar.setContentsMargins(GAP2, GAP2, GAP2, 0)
         self.state.setWordWrap(True)
-        bar.addWidget(self.switch)
-        bar.addWidget(self.state, 1)
-        for button in (self.send, self.look, self.put_back, self.take):
-            bar.addWidget(button)
+        buttons = (self.send, self.look, self.put_back, self.take)
+        bar = in_row(self.switch, (self.state, 1), *buttons, margins=(GAP2, GAP2, GAP2, 0))
         self.pages.setMinimumWidth(_LIST_WIDTH)
         titles = (self.pages.item(n).text() for n in range(self.pages.count()))
         widest = max(map(self.pages.fontMetrics().horizontalAdvance, titles), default=0)
         self.pages.setMaximumWidth(max(_LIST_WIDTH, widest + 4 * GAP2))
         self.pages.setStyleSheet("QListWidget::item { padding-left: 8px; }")
-        below = QHBoxLayout()
-        below.addWidget(self.pages, 1)
-        below.addWidget(self.stack, 6)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addLayout(bar)
-        layout.addWidget(self.message)
-        layout.addLayout(below, 1)
+        below = in_row((self.pages, 1), (self.stack, 6))
+        in_column(bar, self.message, (below, 1), on=self, margins=0)
 
     # -- what is tuned -------------------------------------------------------------
 
@@ -309,16 +297,11 @@ class TuningView(PageOfFile):
         """Ask for a file of measured points and set what they make of an axis, as one step."""
         from .measured_dialog import MeasuredDialog
 
-        folder = str(self._workspace.path.parent)
-        text, _ = QFileDialog.getOpenFileName(
-            self,
-            self.tr("Measured Points"),
-            folder,
-            self.tr("Measured points (*.csv *.txt *.rtl *.pos *.dat);;All files (*)"),
-        )
-        if not text:
+        kinds = self.tr("Measured points (*.csv *.txt *.rtl *.pos *.dat);;All files (*)")
+        path = ask_to_open(self, self.tr("Measured Points"), self._workspace.path.parent, kinds)
+        if path is None:
             return
-        dialog = MeasuredDialog(self.target.file, axis, Path(text), self)
+        dialog = MeasuredDialog(self.target.file, axis, path, self)
         if run_dialog(dialog) and dialog.proposal is not None:
             self.target.set(self.tr("Calibrate axis {axis}").format(axis=axis), dialog.proposal.settings)
 

@@ -34,7 +34,6 @@ class TuningPart(QWidget):
 
     def _button(self, text: str, act: Callable[[], object]) -> QPushButton:
         button = QPushButton(text)
-        button.setAutoDefault(False)
         button.clicked.connect(lambda *_: self._guarded(act))
         return button
 

@@ -8,18 +8,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from PySide6.QtCore import QSize, Qt, QTimer, QUrl, Signal
-from PySide6.QtWidgets import (
-    QComboBox,
-    QHBoxLayout,
-    QLabel,
-    QListWidget,
-    QListWidgetItem,
-    QPushButton,
-    QSplitter,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtCore import QSignalBlocker, QSize, Qt, QUrl, Signal
+from PySide6.QtWidgets import QComboBox, QLabel, QListWidget, QListWidgetItem, QPushButton, QSplitter, QWidget
 
 from amp_studio.drawing import linked
 from amp_studio.files import ParameterFile, now, user
@@ -38,8 +28,10 @@ from amp_studio.sim import (
     value_text,
 )
 from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.plot import Plot
+from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import CONTROL, GAP, GAP2, SMALL_ICON, icon
 from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
@@ -90,10 +82,7 @@ class TuningSteps(QWidget):
         self.tuned: Trace | None = None
         self._make_widgets()
         self._arrange()
-        self._timer = QTimer(self)
-        self._timer.setSingleShot(True)
-        self._timer.setInterval(SETTLE_MS)
-        self._timer.timeout.connect(self.run)
+        self._timer = single_shot(self, self.run, SETTLE_MS)
         self.steps.currentRowChanged.connect(lambda *_: self._open())
         self.axis.currentIndexChanged.connect(lambda *_: self._open())
         self.below.pointed.connect(self._pointed)
@@ -137,7 +126,6 @@ class TuningSteps(QWidget):
         self.send.setToolTip(
             self.tr("Take the proposed values into the file, and send these alone: at the control")
         )
-        self.send.setAutoDefault(False)
         self.send.clicked.connect(self._send)
         self.send.hide()
         self._found: Sequence[Recommendation] = ()
@@ -148,50 +136,26 @@ class TuningSteps(QWidget):
 
     def _arrange(self) -> None:
         left, middle, right = QWidget(), QWidget(), QWidget()
-        column = QVBoxLayout(left)
-        column.setContentsMargins(GAP2, 0, GAP, GAP2)
-        row = QHBoxLayout()
-        for button in (self.next, self.back):
-            button.setAutoDefault(False)
-            row.addWidget(button)
-        row.addStretch()
-        row.addWidget(self.page)
-        column.addWidget(self.title)
-        column.addWidget(self.steps)
-        column.addWidget(scrolled(self.detail), 1)
-        column.addLayout(row)
-        head = QHBoxLayout()
+        footer = in_row(self.next, self.back, 0, self.page)
+        detail = scrolled(self.detail)
+        in_column(self.title, self.steps, (detail, 1), footer, on=left, margins=(GAP2, 0, GAP, GAP2))
         label = QLabel(self.tr("Axi&s"))
         label.setBuddy(self.axis)
-        head.addWidget(label)
-        head.addWidget(self.axis)
-        head.addStretch()
-        head.addWidget(self.chart)
-        column = QVBoxLayout(middle)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.addLayout(head)
-        column.addWidget(self.plot, 1)
-        column.addWidget(self.below, 1)
-        column = QVBoxLayout(right)
-        column.setContentsMargins(GAP, 0, GAP2, GAP2)
-        column.setSpacing(GAP)
-        row = QHBoxLayout()
-        row.addWidget(self.aim)
-        row.addStretch()
-        column.addLayout(row)
-        column.addWidget(self.figures)
-        column.addWidget(self.proposed, 1)
+        head = in_row(label, self.axis, 0, self.chart)
+        in_column(head, (self.plot, 1), (self.below, 1), on=middle, margins=0)
+        aim = in_row(self.aim, 0)
+        column = in_column(
+            aim, self.figures, (self.proposed, 1), on=right, margins=(GAP, 0, GAP2, GAP2), gap=GAP
+        )
         column.addWidget(self.send, 0, Qt.AlignmentFlag.AlignRight)
         column.addWidget(self.assumed)
         left.setFixedWidth(_LEFT)
         right.setFixedWidth(_RIGHT)
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
         splitter = QSplitter(Qt.Orientation.Horizontal)
         for widget in (left, middle, right):
             splitter.addWidget(widget)
         splitter.setChildrenCollapsible(False)
-        layout.addWidget(splitter)
+        in_row(splitter, on=self, margins=0)
 
     # -- what is shown -------------------------------------------------------------
 
@@ -204,23 +168,21 @@ class TuningSteps(QWidget):
         family, file = target.file.schema.family.family, target.file
         self.title.setText(worded(self.guide.title, family))
         axis = self.axis.currentData()
-        self.axis.blockSignals(True)
-        self.axis.clear()
-        for each in simulated_axes(file):
-            letter = axis_name(file.evaluation, each)
-            self.axis.addItem(f"{each} {letter}" if letter and letter != each else each, each)
-        self.axis.setCurrentIndex(max(0, self.axis.findData(axis)))
-        self.axis.blockSignals(False)
-        self.steps.blockSignals(True)
-        row = max(0, self.steps.currentRow())
-        self.steps.clear()
-        for n, step in enumerate(self.guide.steps, 1):
-            item = QListWidgetItem(icon(_OPEN), f"{n}  {worded(step.title, family)}")
-            item.setSizeHint(QSize(0, CONTROL))
-            self.steps.addItem(item)
-        self.steps.setCurrentRow(row)
-        self.steps.setFixedHeight(min(self.steps.count(), _ROWS) * (CONTROL + 1) + GAP)
-        self.steps.blockSignals(False)
+        with QSignalBlocker(self.axis):
+            self.axis.clear()
+            for each in simulated_axes(file):
+                letter = axis_name(file.evaluation, each)
+                self.axis.addItem(f"{each} {letter}" if letter and letter != each else each, each)
+            self.axis.setCurrentIndex(max(0, self.axis.findData(axis)))
+        with QSignalBlocker(self.steps):
+            row = max(0, self.steps.currentRow())
+            self.steps.clear()
+            for n, step in enumerate(self.guide.steps, 1):
+                item = QListWidgetItem(icon(_OPEN), f"{n}  {worded(step.title, family)}")
+                item.setSizeHint(QSize(0, CONTROL))
+                self.steps.addItem(item)
+            self.steps.setCurrentRow(row)
+            self.steps.setFixedHeight(min(self.steps.count(), _ROWS) * (CONTROL + 1) + GAP)
         self._open()
 
     def _open(self) -> None:

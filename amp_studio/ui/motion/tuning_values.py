@@ -7,21 +7,13 @@ from fractions import Fraction
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import (
-    QComboBox,
-    QHBoxLayout,
-    QHeaderView,
-    QInputDialog,
-    QLabel,
-    QPushButton,
-    QTableWidgetItem,
-    QVBoxLayout,
-)
+from PySide6.QtWidgets import QComboBox, QHeaderView, QInputDialog, QLabel, QPushButton, QTableWidgetItem
 
 from amp_studio.calibration import CalibrationError, TuningPage, stepped, steps_of, usual_step
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value, limits, read_exact, write_number
 from amp_studio.ui.base.figures import range_in_words, show_value, written
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.places import place_in_words
 from amp_studio.ui.base.theme import GAP2, colour, scheme
 from amp_studio.ui.base.translated import unit_in_words, worded
@@ -95,21 +87,14 @@ class ValuesPage(TuningPart):
         self.add.setToolTip(self.tr("Add a number to the value (A)"))
         step_label = QLabel(self.tr("&Step"))
         step_label.setBuddy(self.step)
-        row = QHBoxLayout()
-        for widget in (self.decrease, self.increase, step_label, self.step, self.replace, self.add):
-            row.addWidget(widget)
-        row.addStretch()
+        row = in_row(self.decrease, self.increase, step_label, self.step, self.replace, self.add, 0)
         self.read: QPushButton | None = None
         if measured is not None:
             self.read = self._button(
                 self.tr("Read &Measured Points…"), lambda: measured(self.address[1]) if self.address else None
             )
             row.addWidget(self.read)
-        layout = QVBoxLayout(self)
-        layout.setSpacing(GAP2)
-        layout.addWidget(self.hint)
-        layout.addWidget(self.table, 1)
-        layout.addLayout(row)
+        in_column(self.hint, (self.table, 1), row, on=self, gap=GAP2)
         scheme().changed.connect(self._refresh)
 
     # -- what is shown -----------------------------------------------------------

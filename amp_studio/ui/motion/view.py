@@ -7,23 +7,15 @@ import re
 from collections.abc import Callable, Sequence
 from functools import partial
 
-from PySide6.QtCore import Qt, QUrl
+from PySide6.QtCore import QSignalBlocker, Qt, QUrl
 from PySide6.QtGui import QShowEvent, QStandardItemModel
-from PySide6.QtWidgets import (
-    QComboBox,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QSplitter,
-    QTabWidget,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QComboBox, QLabel, QPushButton, QSplitter, QTabWidget, QWidget
 
 from amp_studio.files import ParameterFile, RangeError, axis_title
 from amp_studio.scenarios import CHARTS
 from amp_studio.schema import Address, Value, angular, axis_name
 from amp_studio.sim import Recommendation, SimulationError, Trace, address_of, picture_of, settling_span
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task
@@ -135,14 +127,8 @@ class MotionView(PageOfFile):
                 Field("against", self.tr("&Under it"), "choice", editor=lambda: self.against),
             )
         )
-        tools = QHBoxLayout()
-        for widget in (self.chart, self.settling, self.all_of_it):
-            tools.addWidget(widget)
-        tools.addStretch()
-        below = QHBoxLayout()
-        below.addStretch()
-        for widget in (self.keep, self.run_button, self.save_button):
-            below.addWidget(widget)
+        tools = in_row(self.chart, self.settling, self.all_of_it, 0)
+        below = in_row(0, self.keep, self.run_button, self.save_button)
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
         pages = (
@@ -158,28 +144,17 @@ class MotionView(PageOfFile):
         ):
             self.tabs.addTab(page, title)
         side = QWidget()
-        right = QVBoxLayout(side)
-        right.setContentsMargins(GAP3, 0, GAP2, 0)
-        right.addWidget(form)
-        right.addLayout(below)
-        right.addWidget(self.settings)
         self.tabs.setMinimumHeight(_MIN_FIGURES)
-        right.addWidget(self.tabs, 1)
+        in_column(form, below, self.settings, (self.tabs, 1), on=side, margins=(GAP3, 0, GAP2, 0))
         left = QWidget()
-        picture = QVBoxLayout(left)
-        picture.setContentsMargins(0, 0, 0, 0)
-        picture.addLayout(tools)
-        picture.addWidget(self.plot, 1)
+        in_column(tools, (self.plot, 1), on=left, margins=0)
         middle = QSplitter()
         middle.addWidget(left)
         middle.addWidget(scrolled(side))
         middle.setStretchFactor(0, 1)
         middle.setSizes([790, 430])
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(GAP3, GAP2, GAP2, GAP2)
-        outer.addWidget(self.summary)
+        in_column(self.summary, (middle, 1), on=self, margins=(GAP3, GAP2, GAP2, GAP2))
         self.setFocusProxy(self.scenario)
-        outer.addWidget(middle, 1)
 
     def _connect(self) -> None:
         self.scenario.currentIndexChanged.connect(self._choose)
@@ -263,10 +238,9 @@ class MotionView(PageOfFile):
         assert isinstance(rows, QStandardItemModel)
         rows.item(self.against.findData("kept")).setEnabled(is_kept)
         # The scenario is run after this anyway: the choice that is taken back must not run it as well.
-        self.against.blockSignals(True)
-        if not is_kept and self.against.currentData() == "kept":
-            self.against.setCurrentIndex(self.against.findData("saved"))
-        self.against.blockSignals(False)
+        with QSignalBlocker(self.against):
+            if not is_kept and self.against.currentData() == "kept":
+                self.against.setCurrentIndex(self.against.findData("saved"))
 
     @property
     def _what(self) -> tuple[str, str]:

@@ -9,11 +9,12 @@ from functools import partial
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from amp_studio.files import axis_letter, describe
 from amp_studio.schema import Address, Parameter
 from amp_studio.ui.base.figures import write_figure
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.modal import is_alive
 from amp_studio.ui.base.places import place_in_words
 from amp_studio.ui.base.translated import counted, unit_in_words
@@ -83,22 +84,14 @@ class FilePage(QWidget):
         self.pages: dict[str, PageOfFile] = {}
         """Name -> page in the place of the values (motion, tuning, check, program), once it was asked for."""
         self.list_title = ListTitle()
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
         self.filters = FilterBar(self.list_title, self.table)
         sheet = QWidget()
-        inner = QVBoxLayout(sheet)
-        inner.setContentsMargins(0, 0, 0, 0)
-        inner.setSpacing(0)
-        inner.addWidget(self.filters)
-        inner.addWidget(self.table_view)
+        in_column(self.filters, self.table_view, on=sheet, margins=0, gap=0)
         self.middle = PictureSplit(sheet)
         self.middle.rearranged.connect(self._focus_front)
-        layout.addWidget(self.bar)
         self._stack = FrontStack()
         self._stack.addWidget(self.middle)
-        layout.addWidget(self._stack, 1)
+        in_column(self.bar, (self._stack, 1), on=self, margins=0, gap=0)
         self.setFocusProxy(self.table_view)
         self.left.chosen.connect(self._show_parameters)
         self.left.value_requested.connect(self.go_to)

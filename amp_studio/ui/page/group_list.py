@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections import Counter
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHeaderView, QTreeWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHeaderView, QTreeWidgetItem, QWidget
 
 from amp_studio.schema import Group, Parameter
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.translated import counted
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.place_tree import COUNTS, RIGHT, TOKEN, PlaceTree
@@ -29,10 +30,7 @@ class GroupList(QWidget):
         self.tree = PlaceTree(self)
         self.tree.setColumnCount(3)
         self.tree.setAccessibleName(self.tr("Parameter groups"))
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        layout.addWidget(self.tree)
+        in_column(self.tree, on=self, margins=0, gap=0)
         self.setFocusProxy(self.tree)
         self._items: list[QTreeWidgetItem] = []
         self._counted: dict[int, tuple[tuple[tuple[str, int], ...], int]] = {}

@@ -10,9 +10,10 @@ from typing import Literal, get_args
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QPalette
-from PySide6.QtWidgets import QHBoxLayout, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QStackedWidget, QWidget
 
 from amp_studio.guide import step_of
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.theme import GAP2, HEAD
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.segment import Segment
@@ -48,10 +49,7 @@ class LeftPanel(QWidget):
         self.setAutoFillBackground(True)
         self.setBackgroundRole(QPalette.ColorRole.AlternateBase)
         self._stack = QStackedWidget(self)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        layout.addWidget(self._stack, 1)
+        in_column((self._stack, 1), on=self, margins=0, gap=0)
         self.groups = GroupList(workspace, self._stack)
         self._stack.addWidget(self.groups)
         self.groups.chosen.connect(self.chosen)
@@ -94,10 +92,7 @@ class LeftPanel(QWidget):
         self.segment.chosen.connect(self._turn)
         head = QWidget()
         head.setFixedHeight(HEAD)
-        row = QHBoxLayout(head)
-        row.setContentsMargins(GAP2, 0, GAP2, 0)
-        row.addWidget(self.segment)
-        row.addStretch()
+        in_row(self.segment, 0, on=head, margins=(GAP2, 0, GAP2, 0))
         return head
 
     def show_side(self, side: LeftSide) -> None:

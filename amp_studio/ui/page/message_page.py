@@ -8,11 +8,12 @@ from html import escape
 from urllib.parse import quote, unquote
 
 from PySide6.QtCore import Qt, QUrl
-from PySide6.QtWidgets import QDialog, QTextBrowser, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QTextBrowser, QWidget
 
 from amp_studio.find import LinkedParameter, LinkedRule, MessagePage, message_page
 from amp_studio.schema import Address, Schema
 from amp_studio.ui.base.figures import finding_in_words
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.theme import GAP3, colour, scheme
 from amp_studio.ui.base.translated import control_message, scenario_in_words, worded
 
@@ -37,9 +38,7 @@ class MessageWindow(QDialog):
         self.text.setOpenLinks(False)
         self.text.anchorClicked.connect(self._follow)
         self.text.document().setDocumentMargin(GAP3)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.text)
+        in_column(self.text, on=self, margins=0)
         if page is not None:
             page.workspace.changed.connect(self._show)
             page.workspace.closed.connect(self.close)

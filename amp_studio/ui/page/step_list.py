@@ -5,8 +5,9 @@ again.
 from __future__ import annotations
 
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtWidgets import QDialog, QLabel, QUndoView, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QLabel, QUndoView, QWidget
 
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.theme import GAP, GAP2, GAP3, SMALL_ICON, icon
 from amp_studio.ui.base.workspace import Workspace
 
@@ -27,9 +28,11 @@ class StepList(QDialog):
         self.view.setSpacing(GAP // 2)
         self.view.setAccessibleName(self.tr("Steps"))
         self.view.setEnabled(workspace.may_edit)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(GAP3, GAP3, GAP3, GAP3)
-        layout.setSpacing(GAP2)
-        layout.addWidget(QLabel(self.tr("Select a step to go back to it, or forward again.")))
-        layout.addWidget(self.view)
+        in_column(
+            QLabel(self.tr("Select a step to go back to it, or forward again.")),
+            self.view,
+            on=self,
+            margins=GAP3,
+            gap=GAP2,
+        )
         workspace.closed.connect(self.close)

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from PySide6.QtCore import QRect, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QRect, QSize, Qt, Signal
 from PySide6.QtGui import QCursor, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QGridLayout,
-    QHBoxLayout,
     QLabel,
     QMenu,
     QPushButton,
@@ -22,11 +21,14 @@ from amp_studio.files import axis_letter, with_local_times
 from amp_studio.guide import GuideProgress, SetupStep, StepProgress, StepState
 from amp_studio.schema import Address, Guide, Parameter
 from amp_studio.ui.base.figures import as_tip
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.places import short_place
-from amp_studio.ui.base.theme import FIGURE_SPACE, GAP, GAP2, GAP3, SMALL_CONTROL, Token, colour, font, icon
+from amp_studio.ui.base.single_shot import single_shot
+from amp_studio.ui.base.theme import FIGURE_SPACE, GAP, GAP2, GAP3, SMALL_CONTROL, Token, colour, font
 from amp_studio.ui.base.translated import counted, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.elided_label import ElidedLabel
+from amp_studio.ui.forms.icon_button import icon_button
 from amp_studio.ui.forms.place_tree import COUNTS, KEY, PICTURE, RIGHT, TOKEN, PlaceTree
 from amp_studio.validate import SEVERITIES
 
@@ -79,12 +81,7 @@ class StepsPanel(QWidget):
         self.tree = PlaceTree(self)
         self.tree.setAccessibleName(self.tr("Steps of commissioning"))
         self.setFocusProxy(self.tree)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        layout.addLayout(self._head())
-        layout.addWidget(self.tree, 1)
-        layout.addLayout(self._footer())
+        in_column(self._head(), (self.tree, 1), self._footer(), on=self, margins=0, gap=0)
         self._items: dict[str, QTreeWidgetItem] = {}
         self._fill()
         self.tree.currentItemChanged.connect(self._choose)
@@ -93,9 +90,7 @@ class StepsPanel(QWidget):
         self.tree.toggled.connect(self._toggle)
         self.tree.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
         self.tree.customContextMenuRequested.connect(lambda place: self._menu(self.tree.itemAt(place)))
-        self._later = QTimer(self)
-        self._later.setSingleShot(True)
-        self._later.timeout.connect(self.show_progress)
+        self._later = single_shot(self, self.show_progress)
         workspace.changed.connect(self._follow)
 
     # -- building --------------------------------------------------------------
@@ -135,24 +130,16 @@ class StepsPanel(QWidget):
         self.next = QPushButton(self.tr("Next Not Set  (Ctrl+.)"))
         self.next.setToolTip(self.tr("Go to the next value that is not set"))
         self.next.clicked.connect(self.next_requested)
-        self.print = QToolButton()
-        self.print.setIcon(icon("printer"))
-        self.print.setToolTip(self.tr("Print the check list"))
-        self.print.setAccessibleName(self.tr("Print the check list"))
+        self.print = icon_button("printer", self.tr("Print the check list"))
         self.print.setFixedSize(QSize(28, 26))
         self.print.clicked.connect(self.print_requested)
         self.next.setMinimumHeight(SMALL_CONTROL)
-        above, below, foot = QHBoxLayout(), QHBoxLayout(), QVBoxLayout()
-        above.addWidget(self.later, 1)
-        above.addWidget(self.show_later)
-        below.addWidget(self.next)
-        below.addWidget(self.print)
-        below.addStretch()
-        foot.setContentsMargins(GAP3, GAP, GAP2, GAP2)
-        foot.setSpacing(GAP)
-        foot.addLayout(above)
-        foot.addLayout(below)
-        return foot
+        return in_column(
+            in_row((self.later, 1), self.show_later),
+            in_row(self.next, self.print, 0),
+            margins=(GAP3, GAP, GAP2, GAP2),
+            gap=GAP,
+        )
 
     def _fill(self) -> None:
         for each in self._workspace.progress.steps:

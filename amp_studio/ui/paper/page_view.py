@@ -6,7 +6,7 @@ import struct
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import QEvent, QPointF, QRect, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QPointF, QRect, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
     QColor,
     QImage,
@@ -22,6 +22,7 @@ from PySide6.QtWidgets import QAbstractScrollArea
 
 from amp_studio.report import PrintedPlace
 from amp_studio.schema import Address
+from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.theme import GAP, GAP3, colour, font
 
 POINTS = 72
@@ -78,9 +79,7 @@ class PageView(QAbstractScrollArea):
         self._drawn: dict[int, tuple[bytes, int, QPixmap]] = {}
         self._marked: Address | None = None
         self._page = 0
-        self._preparing = QTimer(self)
-        self._preparing.setSingleShot(True)
-        self._preparing.timeout.connect(self._prepare)
+        self._preparing = single_shot(self, self._prepare)
         self.verticalScrollBar().valueChanged.connect(self._emit_page)
 
     # -- what is shown ---------------------------------------------------------------------

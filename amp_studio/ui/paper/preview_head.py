@@ -6,20 +6,13 @@ from collections.abc import Callable
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QIntValidator
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QLabel,
-    QLineEdit,
-    QMenu,
-    QToolButton,
-    QVBoxLayout,
-    QWidget,
-    QWidgetAction,
-)
+from PySide6.QtWidgets import QLabel, QLineEdit, QMenu, QToolButton, QWidget, QWidgetAction
 
 from amp_studio.report import Contents
-from amp_studio.ui.base.theme import GAP, GAP2, GAP3, HEAD, ICON, font, icon
+from amp_studio.ui.base.layout import in_column, in_row
+from amp_studio.ui.base.theme import GAP, GAP2, GAP3, HEAD, ICON, font
 from amp_studio.ui.forms.form import FieldForm
+from amp_studio.ui.forms.icon_button import icon_button
 from amp_studio.ui.window.report_options import contents_of, report_fields
 
 
@@ -33,9 +26,7 @@ class PreviewHead(QWidget):
     def __init__(self, contents: Contents) -> None:
         super().__init__()
         self.setFixedHeight(HEAD)
-        self._row = QHBoxLayout(self)
-        self._row.setContentsMargins(GAP3, 0, GAP, 0)
-        self._row.setSpacing(2)
+        self._row = in_row(on=self, margins=(GAP3, 0, GAP, 0), gap=2)
         title = QLabel(self.tr("Report"))
         title.setFont(font("text", own=True))
         self.page = QLineEdit()
@@ -62,11 +53,8 @@ class PreviewHead(QWidget):
         self, icon_name: str, name: str, act: Callable[[], object], *, is_switch: bool = False
     ) -> QToolButton:
         """Add a button; its name is its tip."""
-        button = QToolButton()
-        button.setIcon(icon(icon_name))
+        button = icon_button(icon_name, name, spoken=name.split(" (", maxsplit=1)[0].rstrip("…"))
         button.setIconSize(QSize(ICON, ICON))
-        button.setToolTip(name)
-        button.setAccessibleName(name.split(" (", maxsplit=1)[0].rstrip("…"))
         button.setCheckable(is_switch)
         button.clicked.connect(lambda *_: act())
         self._row.addWidget(button)
@@ -78,9 +66,7 @@ class PreviewHead(QWidget):
         """
         self.menu = QMenu(self)
         holder = QWidget()
-        column = QVBoxLayout(holder)
-        column.setContentsMargins(GAP3, GAP2, GAP3, GAP2)
-        column.addWidget(self.options)
+        in_column(self.options, on=holder, margins=(GAP3, GAP2, GAP3, GAP2))
         action = QWidgetAction(self.menu)
         action.setDefaultWidget(holder)
         self.menu.addAction(action)

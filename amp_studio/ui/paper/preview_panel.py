@@ -10,14 +10,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
-from PySide6.QtCore import QMetaObject, QObject, Qt, QTimer, QUrl, Signal
+from PySide6.QtCore import QMetaObject, QObject, Qt, QUrl, Signal
 from PySide6.QtGui import QDesktopServices, QKeyEvent
-from PySide6.QtWidgets import QProgressBar, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QProgressBar, QWidget
 
 from amp_studio.files import describe, real_path
 from amp_studio.report import OWN, Contents
 from amp_studio.schema import Address
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.loading import load
+from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.translated import message_in_words
 from amp_studio.ui.forms.message_bar import MessageBar
@@ -86,15 +88,9 @@ class PreviewPanel(QWidget):
         self.busy.hide()
         self.view = PageView()
         self.head = PreviewHead(choice.contents)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        for widget in (self.bar, self.busy, self.view):
-            layout.addWidget(widget)
+        in_column(self.bar, self.busy, self.view, on=self, margins=0, gap=0)
         self.setFocusProxy(self.view)
-        self._wait = QTimer(self)
-        self._wait.setSingleShot(True)
-        self._wait.timeout.connect(self._begin)
+        self._wait = single_shot(self, self._begin)
         self._watch = TemplateWatch(self)
         self._watch.changed.connect(self.set_again)
         self._set.connect(self._show_pages)

@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from itertools import islice
 from pathlib import Path
 
-from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer, Signal
+from PySide6.QtCore import QFileSystemWatcher, QObject, Signal
 
 from amp_studio.report import OWN
+from amp_studio.ui.base.single_shot import single_shot
 
 SETTLE_MS = 150
 """Milliseconds to wait, as an editor may write a file in several steps."""
@@ -29,10 +30,7 @@ class TemplateWatch(QObject):
         self._folder: Path | None = None
         self._state: object = None
         self._watcher = QFileSystemWatcher(self)
-        self._timer = QTimer(self)
-        self._timer.setSingleShot(True)
-        self._timer.setInterval(SETTLE_MS)
-        self._timer.timeout.connect(self._compare)
+        self._timer = single_shot(self, self._compare, SETTLE_MS)
         self._watcher.fileChanged.connect(lambda _: self._timer.start())
         self._watcher.directoryChanged.connect(lambda _: self._timer.start())
 

@@ -6,23 +6,16 @@ from html import escape
 
 from PySide6.QtCore import QLocale, Qt, Signal
 from PySide6.QtGui import QPalette, QResizeEvent
-from PySide6.QtWidgets import (
-    QComboBox,
-    QDoubleSpinBox,
-    QFrame,
-    QHBoxLayout,
-    QLabel,
-    QToolButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QFrame, QLabel, QWidget
 
 from amp_studio.drawing import Scene, scene_in_words
 from amp_studio.pictures import FASTEST, FilePicture
-from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, colour, font, icon, scheme
+from amp_studio.ui.base.layout import in_column, in_row
+from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, colour, font, scheme
 from amp_studio.ui.base.translated import language_of_window, sentenced, unit_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.elided_label import ElidedLabel
+from amp_studio.ui.forms.icon_button import icon_button
 from amp_studio.ui.forms.segment import Segment
 
 from .canvas import PictureCanvas
@@ -78,32 +71,23 @@ class PictureCard(QFrame):
         self.notes.setTextInteractionFlags(Qt.TextInteractionFlag.LinksAccessibleByMouse)
         self.notes.setContentsMargins(GAP3, 2, GAP3, GAP2)
         self.notes.linkActivated.connect(self._follow)
-        self.enlarge = QToolButton()
-        self.enlarge.setIcon(icon("arrows-out-simple"))
-        self.enlarge.setToolTip(self.tr("Show this picture alone"))
-        self.enlarge.setAccessibleName(self.tr("Show {name} alone").format(name=worded(picture.title)))
+        spoken = self.tr("Show {name} alone").format(name=worded(picture.title))
+        self.enlarge = icon_button("arrows-out-simple", self.tr("Show this picture alone"), spoken=spoken)
         self.enlarge.clicked.connect(lambda: self.enlarged.emit(self.picture.name))
-        head = QHBoxLayout()
-        head.setContentsMargins(GAP3, 0, GAP2, 0)
-        head.setSpacing(GAP2)
-        for widget, stretch in (
-            (self.title, 0),
-            (self.subtitle, 1),
-            (self.parts, 0),
-            (self.more_parts, 0),
-            (self.speed, 0),
-            (self.enlarge, 0),
-        ):
-            head.addWidget(widget, stretch)
         bar = QWidget()
         bar.setFixedHeight(HEAD)
-        bar.setLayout(head)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(1, 0, 1, 1)
-        layout.setSpacing(0)
-        layout.addWidget(bar)
-        layout.addWidget(self.canvas, 1)
-        layout.addWidget(self.notes)
+        in_row(
+            self.title,
+            (self.subtitle, 1),
+            self.parts,
+            self.more_parts,
+            self.speed,
+            self.enlarge,
+            on=bar,
+            margins=(GAP3, 0, GAP2, 0),
+            gap=GAP2,
+        )
+        in_column(bar, (self.canvas, 1), self.notes, on=self, margins=(1, 0, 1, 1), gap=0)
         self.canvas.parameter_requested.connect(self.parameter_requested)
         scheme().changed.connect(self.show_notes)
         self.setFrameShape(QFrame.Shape.StyledPanel)

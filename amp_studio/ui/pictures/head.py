@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from PySide6.QtCore import QSize, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QToolButton, QWidget
+from PySide6.QtWidgets import QComboBox, QLabel, QWidget
 
-from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, font, icon
+from amp_studio.ui.base.layout import in_row
+from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, font
+from amp_studio.ui.forms.icon_button import icon_button
 from amp_studio.ui.forms.segment import Segment
 
 from .split import Arrangement
@@ -39,20 +41,22 @@ class PicturesHead(QWidget):
             self.places.buttons[key].setToolTip(tip)
             self.places.buttons[key].setAccessibleName(tip)
         self.places.chosen.connect(self.place_requested)
-        self.close_button = QToolButton()
-        self.close_button.setIcon(icon("x"))
-        self.close_button.setToolTip(self.tr("Close the pictures (F12)"))
-        self.close_button.setAccessibleName(self.tr("Close the pictures"))
+        tip, spoken = self.tr("Close the pictures (F12)"), self.tr("Close the pictures")
+        self.close_button = icon_button("x", tip, spoken=spoken)
         self.close_button.clicked.connect(self.closed)
         self._title = QLabel(self.tr("Pictures"))
         self._title.setFont(font("title"))
-        row = QHBoxLayout(self)
-        row.setContentsMargins(GAP3, 0, GAP2, 0)
-        row.setSpacing(GAP2)
-        row.addWidget(self._title)
-        row.addStretch(1)
-        for widget in (self.names, self.list, self.places, self.close_button):
-            row.addWidget(widget)
+        in_row(
+            self._title,
+            1,
+            self.names,
+            self.list,
+            self.places,
+            self.close_button,
+            on=self,
+            margins=(GAP3, 0, GAP2, 0),
+            gap=GAP2,
+        )
         self.setFixedHeight(HEAD + 6)
         self._fit()
 

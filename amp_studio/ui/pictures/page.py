@@ -6,12 +6,14 @@ from functools import partial
 
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QFocusEvent, QResizeEvent
-from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout
+from PySide6.QtWidgets import QGridLayout, QLabel
 
 from amp_studio.drawing import Handle, Scene
 from amp_studio.files import RangeError
 from amp_studio.pictures import drawn_in, pictures_of
 from amp_studio.schema import Address, InvalidValueError
+from amp_studio.ui.base.layout import in_column
+from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.theme import GAP2, HEAD
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
@@ -63,19 +65,13 @@ class PicturesPage(SidePage):
         self._active: PictureCard | None = None
         self._placed = (0, False)
         self._stale = False
-        self._selection_timer = QTimer(self)
-        self._selection_timer.setSingleShot(True)
-        self._selection_timer.setInterval(SELECTION_MS)
-        self._selection_timer.timeout.connect(self._emit_parameter)
+        self._selection_timer = single_shot(self, self._emit_parameter, SELECTION_MS)
         self._seen: list[PictureCard] = []
         self._selected: Address | None = None
         """The value that is selected elsewhere."""
         self._front = ""
         """The picture that must be seen among all: the one of the selected value."""
-        self._mark = QTimer(self)
-        self._mark.setSingleShot(True)
-        self._mark.setInterval(MARK_MS)
-        self._mark.timeout.connect(self._mark_selected)
+        self._mark = single_shot(self, self._mark_selected, MARK_MS)
         self.head = PicturesHead()
         self.head.chosen.connect(self.show_picture)
         self.head.closed.connect(self.closed)
@@ -86,13 +82,8 @@ class PicturesPage(SidePage):
         self._nothing = QLabel(self.tr("This family has no pictures."))
         self._nothing.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.grid.addWidget(self._nothing, 0, 0)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        layout.addWidget(self.head)
-        layout.addLayout(self.grid, 1)
         self.footer = HandleFooter(workspace)
-        layout.addWidget(self.footer)
+        in_column(self.head, (self.grid, 1), self.footer, on=self, margins=0, gap=0)
         self.footer.entered.connect(self._enter)
         self.footer.left.connect(self._to_handle)
         self._build()

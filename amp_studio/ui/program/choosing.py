@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QComboBox, QLineEdit
 
 from amp_studio.sim import NOT_GOOD
@@ -28,13 +28,12 @@ class LimitFilter(QComboBox):
 
     def offer(self, limits: Sequence[tuple[str, str]]) -> None:
         """Offer these limits, each a letter and a name; all blocks are seen."""
-        self.blockSignals(True)
-        self.clear()
-        self.addItem(tr("All blocks"), "")
-        for letter, name in limits:
-            self.addItem(f"{letter} {name}", letter)
-        self.addItem(tr("Not good"), NOT_GOOD)
-        self.blockSignals(False)
+        with QSignalBlocker(self):
+            self.clear()
+            self.addItem(tr("All blocks"), "")
+            for letter, name in limits:
+                self.addItem(f"{letter} {name}", letter)
+            self.addItem(tr("Not good"), NOT_GOOD)
 
     @property
     def letter(self) -> str:

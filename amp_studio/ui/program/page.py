@@ -14,17 +14,7 @@ from typing import cast
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QHideEvent, QKeySequence, QShortcut
-from PySide6.QtWidgets import (
-    QFileDialog,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QSizePolicy,
-    QSplitter,
-    QTableWidget,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QSplitter, QTableWidget, QWidget
 
 from amp_studio.errors import AmpStudioError
 from amp_studio.files import ParameterFile
@@ -50,7 +40,9 @@ from amp_studio.sim import (
     typed_places,
     value_text,
 )
+from amp_studio.ui.base.ask_path import ask_to_open
 from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import GAP2, GAP3, font
 from amp_studio.ui.base.translated import sentenced, worded
@@ -236,32 +228,25 @@ class ProgramPage(PageOfFile):
 
     def _lay_out(self) -> None:
         self.open_button = QPushButton(self.tr("&Open Program…"))
-        self.open_button.setAutoDefault(False)
         self.open_button.clicked.connect(self.ask)
         left, right = QWidget(), QWidget()
         for side, parts in (
             (left, (self.open_button, self.go_to_field, self.lines, self.play, self.words, self.form)),
             (right, (self.path.filter, self.limits, self.change_form, self.tries)),
         ):
-            column = QVBoxLayout(side)
-            column.setContentsMargins(0 if side is left else GAP2, 0, 0 if side is right else GAP2, 0)
-            column.setSpacing(GAP2)
-            for part in parts:
-                column.addWidget(part)
+            in_column(
+                *parts,
+                on=side,
+                margins=(0 if side is left else GAP2, 0, 0 if side is right else GAP2, 0),
+                gap=GAP2,
+            )
         left.setMinimumWidth(_LEFT)
         splitter = QSplitter(Qt.Orientation.Horizontal)
         for n, side in enumerate((left, self.path, right)):
             splitter.addWidget(side)
             splitter.setStretchFactor(n, _SHARES[n])
         splitter.setSizes([1000 * share for share in _SHARES])
-        foot = QHBoxLayout()
-        foot.addWidget(self.summary, 1)
-        foot.addWidget(self.missing)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(GAP3, GAP3, GAP3, GAP3)
-        column.setSpacing(GAP2)
-        column.addWidget(splitter, 1)
-        column.addLayout(foot)
+        in_column((splitter, 1), in_row((self.summary, 1), self.missing), on=self, margins=GAP3, gap=GAP2)
 
     # -- a block -------------------------------------------------------------------
 
@@ -308,11 +293,9 @@ class ProgramPage(PageOfFile):
 
     def ask(self) -> None:
         """Ask for a program and run it."""
-        text, _ = QFileDialog.getOpenFileName(
-            self, self.tr("Part Program"), "", self.tr("Part programs (*.nc *.ngc *.txt);;All files (*)")
-        )
-        if text:
-            self.open_program(Path(text))
+        kinds = self.tr("Part programs (*.nc *.ngc *.txt);;All files (*)")
+        if path := ask_to_open(self, self.tr("Part Program"), "", kinds):
+            self.open_program(path)
 
     def open_program(self, path: Path) -> None:
         """Run a program from a file."""

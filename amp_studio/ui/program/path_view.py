@@ -9,7 +9,7 @@ from typing import cast
 import numpy as np
 import numpy.typing as npt
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
 from amp_studio.files import ParameterFile
 from amp_studio.sim import (
@@ -22,6 +22,7 @@ from amp_studio.sim import (
     path_picture,
     path_place,
 )
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.theme import GAP2, font
 from amp_studio.ui.forms.segment import Segment
@@ -71,18 +72,15 @@ class PathView(QWidget):
         self.plot.timed.connect(self.time_picked)
         self.plot.stepped.connect(lambda right, up: self.stepped.emit(right or -up))
         self.bar = TimeBar()
-        head = QHBoxLayout()
-        head.setSpacing(GAP2)
-        head.addWidget(self.view)
-        head.addWidget(self.colours)
-        head.addStretch()
-        column = QVBoxLayout(self)
-        column.setContentsMargins(GAP2, 0, GAP2, 0)
-        column.setSpacing(GAP2)
-        column.addWidget(self.title)
-        column.addLayout(head)
-        column.addWidget(self.plot)
-        column.addWidget(self.bar)
+        in_column(
+            self.title,
+            in_row(self.view, self.colours, 0, gap=GAP2),
+            self.plot,
+            self.bar,
+            on=self,
+            margins=(GAP2, 0, GAP2, 0),
+            gap=GAP2,
+        )
 
     def _choose(self, letter: str) -> None:
         self.draw_again()

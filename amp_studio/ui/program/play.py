@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import QElapsedTimer, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QElapsedTimer, QRectF, QSignalBlocker, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QPainter, QPaintEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QSlider, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QSlider, QWidget
 
 from amp_studio.drawing import ShapeSort
 from amp_studio.sim import value_text
 from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.layout import in_row
 from amp_studio.ui.base.scene_painter import TOKENS
 from amp_studio.ui.base.theme import GAP2, colour, font, scheme
 
@@ -89,7 +90,6 @@ class PlayBar(QWidget):
         self._timer.setInterval(EVERY_MS)
         self._timer.timeout.connect(self._pass)
         self.button = QPushButton(self.tr("&Play"))
-        self.button.setAutoDefault(False)
         self.button.setEnabled(False)
         self.button.clicked.connect(self.toggle)
         self.slider = QSlider(Qt.Orientation.Horizontal)
@@ -98,11 +98,7 @@ class PlayBar(QWidget):
         self.slider.setAccessibleName(self.tr("Moment of the program"))
         self.slider.valueChanged.connect(self._follow_slider)
         self.time = QLabel()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(GAP2)
-        for part in (self.button, self.slider, self.time):
-            row.addWidget(part, int(part is self.slider))
+        in_row(self.button, (self.slider, 1), self.time, on=self, margins=0, gap=GAP2)
 
     def show_program(self, seconds: float) -> None:
         """Begin at the start of a program that takes so many seconds."""
@@ -123,9 +119,8 @@ class PlayBar(QWidget):
         if self._whole > 0.0:
             self.pause()
             self._exact = min(max(seconds, 0.0), self._whole)
-            self.slider.blockSignals(True)
-            self.slider.setValue(round(STEPS * self._exact / self._whole))
-            self.slider.blockSignals(False)
+            with QSignalBlocker(self.slider):
+                self.slider.setValue(round(STEPS * self._exact / self._whole))
             self._show_time()
 
     def toggle(self) -> None:

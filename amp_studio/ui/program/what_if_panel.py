@@ -6,12 +6,13 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QTableWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtWidgets import QLabel, QPushButton, QTableWidgetItem, QWidget
 
 from amp_studio.schema import Address, Value
 from amp_studio.sim import path_error_text, path_error_unit, value_text
 from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.theme import GAP, GAP2, font
 from amp_studio.ui.base.translated import unit_in_words
 
@@ -70,19 +71,9 @@ class WhatIfPanel(QWidget):
         self.apply_button.clicked.connect(self.applied)
         self.clear_button = QPushButton(self.tr("C&lear"))
         self.clear_button.clicked.connect(self.clear)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(GAP2)
-        column.addWidget(self.table, 1)
-        column.addWidget(self.together)
-        for pair in ((self.limits_button, self.earlier_button), (self.apply_button, self.clear_button)):
-            row = QHBoxLayout()
-            row.setSpacing(GAP)
-            for button in pair:
-                button.setAutoDefault(False)
-                row.addWidget(button)
-            row.addStretch(1)
-            column.addLayout(row)
+        pairs = (self.limits_button, self.earlier_button), (self.apply_button, self.clear_button)
+        rows = (in_row(*pair, 1, gap=GAP) for pair in pairs)
+        in_column((self.table, 1), self.together, *rows, on=self, margins=0, gap=GAP2)
         self._show_buttons()
 
     # -- rows ------------------------------------------------------------------------
@@ -91,15 +82,14 @@ class WhatIfPanel(QWidget):
         """Add a change with its effect; one without values, an earlier version, is not ticked."""
         # Qt emits itemChanged for each cell that is filled: the first ones come before the row has its
         # values.
-        self.table.blockSignals(True)
-        fill(self.table, [(change, *effect(found, self._length, self._limit))], add=True)
-        self._values.append(values)
-        self._found.append(found)
-        if values is not None:
-            item = self.table.item(self.table.rowCount() - 1, 0)
-            item.setFlags(item.flags() | Qt.ItemFlag.ItemIsUserCheckable)
-            item.setCheckState(Qt.CheckState.Checked if is_ticked else Qt.CheckState.Unchecked)
-        self.table.blockSignals(False)
+        with QSignalBlocker(self.table):
+            fill(self.table, [(change, *effect(found, self._length, self._limit))], add=True)
+            self._values.append(values)
+            self._found.append(found)
+            if values is not None:
+                item = self.table.item(self.table.rowCount() - 1, 0)
+                item.setFlags(item.flags() | Qt.ItemFlag.ItemIsUserCheckable)
+                item.setCheckState(Qt.CheckState.Checked if is_ticked else Qt.CheckState.Unchecked)
         self._show_buttons()
 
     def show_lengths_in(self, length: str) -> None:
@@ -111,10 +101,9 @@ class WhatIfPanel(QWidget):
     def judge_by(self, limit: float) -> None:
         """Mark the tries whose largest contour error is above one's own limit in mm."""
         self._limit = limit
-        self.table.blockSignals(True)
-        for row, found in enumerate(self._found):
-            self.table.item(row, 3).setText(effect(found, self._length, limit)[2])
-        self.table.blockSignals(False)
+        with QSignalBlocker(self.table):
+            for row, found in enumerate(self._found):
+                self.table.item(row, 3).setText(effect(found, self._length, limit)[2])
 
     def clear(self) -> None:
         """Forget all changes."""

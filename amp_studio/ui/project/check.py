@@ -9,12 +9,13 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QBrush
-from PySide6.QtWidgets import QDialog, QHeaderView, QLabel, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QHeaderView, QLabel, QTreeWidget, QTreeWidgetItem, QWidget
 
 from amp_studio.files import ParameterFileError, open_file
 from amp_studio.guide import found_in
 from amp_studio.schema import Address
 from amp_studio.ui.base.figures import finding_in_words
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.screen_room import fit_to_screen
 from amp_studio.ui.base.task import TaskProgress
 from amp_studio.ui.base.theme import severity_colour, severity_icon
@@ -100,9 +101,7 @@ class ProjectCheckDialog(QDialog):
         for column in range(4):
             self.tree.header().setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
         self.tree.itemActivated.connect(lambda item: show(*item.data(0, _GOES_TO)))
-        layout = QVBoxLayout(self)
-        layout.addWidget(self.text)
-        layout.addWidget(self.tree)
+        in_column(self.text, self.tree, on=self)
 
 
 def _branch(checked: CheckedFile) -> QTreeWidgetItem:

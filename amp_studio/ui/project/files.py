@@ -10,7 +10,6 @@ from pathlib import Path
 
 from PySide6.QtCore import QFile, QObject, QUrl
 from PySide6.QtGui import QDesktopServices
-from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import (
     ENDING,
@@ -25,6 +24,7 @@ from amp_studio.files import (
     write_atomic,
 )
 from amp_studio.schema import UnknownFamilyError, load_schema
+from amp_studio.ui.base.ask_path import ask_to_open
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.task import in_background, run_with_progress
 from amp_studio.ui.merge.comparisons import Comparisons, parameter_files
@@ -112,11 +112,8 @@ class ProjectFiles(QObject):
 
     def add(self, folder: Path) -> None:
         """Ask for a file and copy it into a folder."""
-        text, _ = QFileDialog.getOpenFileName(
-            self.window, self.tr("Add a file"), str(folder.parent), parameter_files()
-        )
-        if text:
-            self.take(Path(text), folder)
+        if path := ask_to_open(self.window, self.tr("Add a file"), folder.parent, parameter_files()):
+            self.take(path, folder)
 
     def take(self, path: Path, folder: Path) -> None:
         """Copy a parameter file into a folder and open the copy; one that is there already is opened.

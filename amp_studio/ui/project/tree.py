@@ -10,12 +10,14 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QFileSystemWatcher, QObject, QPoint, Qt, QTimer
+from PySide6.QtCore import QEvent, QFileSystemWatcher, QObject, QPoint, Qt
 from PySide6.QtGui import QDragEnterEvent, QDropEvent, QHideEvent, QKeyEvent, QShowEvent
-from PySide6.QtWidgets import QHBoxLayout, QMenu, QPushButton, QTreeWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QMenu, QPushButton, QTreeWidgetItem, QWidget
 
 from amp_studio.guide import FileSummary
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.modal import pop_up
+from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import GAP, GAP2
 from amp_studio.ui.base.time_words import in_words
@@ -53,12 +55,9 @@ class ProjectTree(QWidget):
         self.tree.installEventFilter(self)
         self.setAcceptDrops(True)
         self._watcher = QFileSystemWatcher([str(self.folder)], self)
-        self._settle = QTimer(self)
-        self._settle.setSingleShot(True)
-        self._settle.setInterval(_SETTLE_MS)
+        self._settle = single_shot(self, self.refresh, _SETTLE_MS)
         self._lay_out()
         self._watcher.directoryChanged.connect(lambda _: self._settle.start())
-        self._settle.timeout.connect(self.refresh)
         self.tree.itemActivated.connect(lambda item, _: self._activate(item))
         self.tree.customContextMenuRequested.connect(self._menu_at)
         self._window.summaries.summary_read.connect(self._mark_path)
@@ -67,18 +66,13 @@ class ProjectTree(QWidget):
         page.workspace.saved.connect(self._mark_own)
 
     def _lay_out(self) -> None:
-        column, row = QVBoxLayout(self), QHBoxLayout()
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
-        row.setContentsMargins(GAP2, GAP2, GAP2, GAP2)
-        row.setSpacing(GAP)
+        buttons = []
         for text, act in ((self.tr("Add File…"), self._add), (self.tr("Check All"), self._check)):
             button = QPushButton(text)
             button.clicked.connect(act)
-            row.addWidget(button)
-        row.addStretch()
-        column.addWidget(self.tree, 1)
-        column.addLayout(row)
+            buttons.append(button)
+        row = in_row(*buttons, 0, margins=GAP2, gap=GAP)
+        in_column((self.tree, 1), row, on=self, margins=0, gap=0)
 
     # -- reading ------------------------------------------------------------------------
 

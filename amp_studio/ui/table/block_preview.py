@@ -11,12 +11,12 @@ from PySide6.QtWidgets import (
     QLabel,
     QTreeWidget,
     QTreeWidgetItem,
-    QVBoxLayout,
     QWidget,
 )
 
 from amp_studio.files import BlockEntry, EnteredCell
 from amp_studio.ui.base.figures import show_value
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.theme import GAP2, GAP3, colour, font, icon, severity_icon
 from amp_studio.ui.base.workspace import Workspace
 
@@ -63,10 +63,7 @@ class BlockPreview(QDialog):
         cancel.setAutoDefault(False)
         self.buttons.accepted.connect(self.accept)
         self.buttons.rejected.connect(self.reject)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(GAP3, GAP3, GAP3, GAP3)
-        layout.setSpacing(GAP2)
-        layout.addWidget(self.summary)
+        layout = in_column(self.summary, on=self, margins=GAP3, gap=GAP2)
         if left_out:
             note = QLabel(" ".join(left_out[:3]) + (" …" if len(left_out) > 3 else ""))
             note.setWordWrap(True)

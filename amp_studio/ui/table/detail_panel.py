@@ -7,12 +7,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from functools import cached_property
 
-from PySide6.QtCore import Qt, QTimer, QUrl, Signal
+from PySide6.QtCore import Qt, QUrl, Signal
 from PySide6.QtGui import QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QLabel, QTextBrowser, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QLabel, QTextBrowser, QWidget
 
 from amp_studio.files import RECORD, axis_letter, real_path, shown_axes
 from amp_studio.schema import Address, Value, convert, limits
+from amp_studio.ui.base.layout import in_column, in_row
+from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import GAP2, GAP3, font, scheme
 from amp_studio.ui.base.workspace import Workspace
@@ -74,21 +76,14 @@ class DetailPanel(QWidget):
         self._top.addStretch(1)
         self._top.addWidget(self.value)
         self._side = QWidget(self)
-        self._beside = QVBoxLayout(self._side)
-        self._beside.setContentsMargins(0, 0, 0, 0)
-        self._beside.addLayout(self._top)
-        self._beside.addWidget(self.bar)
-        self._beside.addStretch()
+        self._beside = in_column(self._top, self.bar, 0, on=self._side, margins=0)
         self._rows = QBoxLayout(QBoxLayout.Direction.TopToBottom, self)
         self._rows.setContentsMargins(0, 0, 0, 0)
         self._rows.setSpacing(GAP2)
         self._rows.addWidget(self._side)
         self._rows.addWidget(self.page, 1)
         self.setFocusProxy(self.page)
-        self._pause = QTimer(self)
-        self._pause.setSingleShot(True)
-        self._pause.setInterval(_REST_MS)
-        self._pause.timeout.connect(self._ask_rules)
+        self._pause = single_shot(self, self._ask_rules, _REST_MS)
         workspace.changed.connect(self._show)
         workspace.saved.connect(self._show)
         scheme().changed.connect(self._show)
@@ -108,12 +103,7 @@ class DetailPanel(QWidget):
         self.number.setForegroundRole(self.number.palette().ColorRole.PlaceholderText)
         self.name.setFont(font("text", own=True))
         self.tools = QHBoxLayout()
-        row = QHBoxLayout(head)
-        row.setContentsMargins(GAP3, 0, GAP2, 0)
-        row.setSpacing(GAP2)
-        row.addWidget(self.number)
-        row.addWidget(self.name, 1)
-        row.addLayout(self.tools)
+        in_row(self.number, (self.name, 1), self.tools, on=head, margins=(GAP3, 0, GAP2, 0), gap=GAP2)
         return head
 
     def take_others(self, others: Callable[[], Iterable[Workspace]]) -> None:

@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
-from PySide6.QtCore import QSize, QTimer, Signal
+from PySide6.QtCore import QSize, Signal
 from PySide6.QtGui import QAction, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QLayout, QMenu, QToolButton, QWidget
 
 from amp_studio.find import FILTER_NAMES, FilterName, ValueFilters, noted
 from amp_studio.schema import Address, Value
+from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.theme import GAP, GAP2, SMALL_ICON, icon
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.base.workspace import Workspace
@@ -74,9 +75,7 @@ class FilterBar(QWidget):
         self._is_stale = True
         self._is_narrow = False
         self._build(title)
-        self._later = QTimer(self)
-        self._later.setSingleShot(True)
-        self._later.timeout.connect(self._count)
+        self._later = single_shot(self, self._count)
         workspace.changed.connect(self._follow)
         workspace.saved.connect(self._follow_saved)
         table.modelReset.connect(self._count_later)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from PySide6.QtCore import QObject, QTimer
+from PySide6.QtCore import QObject
 
 from amp_studio.files import HeaderSnapshot, RangeError
 from amp_studio.schema import Address, Value
+from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.workspace import Workspace
 
 FOLLOW_MS = 60
@@ -26,10 +27,7 @@ class ValueDrag(QObject):
         self._marks = HeaderSnapshot.of(workspace.file)
         self.refused = ""
         """Why the last place was not taken; the values are still those before it."""
-        self._follow = QTimer(self)
-        self._follow.setSingleShot(True)
-        self._follow.setInterval(FOLLOW_MS)
-        self._follow.timeout.connect(self._show_value)
+        self._follow = single_shot(self, self._show_value, FOLLOW_MS)
         workspace.validator.update(list(addresses))  # rules are compiled now, and not in the first frame
 
     @property

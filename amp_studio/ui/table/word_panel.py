@@ -17,11 +17,11 @@ from PySide6.QtWidgets import (
     QListWidgetItem,
     QScrollArea,
     QSpinBox,
-    QVBoxLayout,
     QWidget,
 )
 
 from amp_studio.schema import Address, Bit, field_value
+from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.theme import GAP3, ROW
 from amp_studio.ui.base.workspace import Workspace
 
@@ -56,11 +56,7 @@ class WordPanel(QScrollArea):
         self._form.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapLongRows)
         self._form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
         inside = QWidget()
-        layout = QVBoxLayout(inside)
-        layout.setContentsMargins(4, 4, 4, 0)
-        layout.addLayout(self._form)
-        layout.addWidget(self.ticks)
-        layout.addStretch()
+        in_column(self._form, self.ticks, 0, on=inside, margins=(4, 4, 4, 0))
         self.setWidget(inside)
         self.setWidgetResizable(True)
         self.setFrameShape(QFrame.Shape.NoFrame)

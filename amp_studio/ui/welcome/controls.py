@@ -11,18 +11,10 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QLabel,
-    QListWidgetItem,
-    QMenu,
-    QSizePolicy,
-    QToolButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QLabel, QListWidgetItem, QMenu, QSizePolicy, QToolButton, QWidget
 
 from amp_studio.ui.base.known_controls import KnownControl
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.modal import pop_up
 from amp_studio.ui.base.theme import CONTROL, GAP, GAP2, font, icon
 from amp_studio.ui.base.time_words import in_words
@@ -59,23 +51,13 @@ class WelcomeControls(QWidget):
         self.none.setFont(font("small"))
         self.none.setWordWrap(True)
         self.none.setForegroundRole(self.palette().ColorRole.PlaceholderText)
-        title, row = QLabel(self.tr("Controls")), QHBoxLayout()
+        title = QLabel(self.tr("Controls"))
         bold = font("text")
         bold.setWeight(bold.Weight.DemiBold)
         title.setFont(bold)
         title.setFixedHeight(CONTROL)
-        row.setContentsMargins(0, 0, 0, GAP)
-        row.setSpacing(GAP2)
-        row.addWidget(title)
-        row.addStretch()
-        row.addWidget(self.connect_button)
-        row.addWidget(self.upload_button)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
-        column.addLayout(row)
-        column.addWidget(self.list)
-        column.addWidget(self.none)
+        row = in_row(title, 0, self.connect_button, self.upload_button, margins=(0, 0, 0, GAP), gap=GAP2)
+        in_column(row, self.list, self.none, on=self, margins=0, gap=0)
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
         self.setFocusProxy(self.list)
 

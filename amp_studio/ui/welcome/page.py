@@ -9,7 +9,7 @@ from functools import partial
 from itertools import pairwise
 from pathlib import Path
 
-from PySide6.QtCore import QPoint, Qt, QTimer
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QHideEvent, QKeySequence, QResizeEvent, QShortcut, QShowEvent
 from PySide6.QtWidgets import (
     QBoxLayout,
@@ -28,7 +28,9 @@ from amp_studio.files import Example, examples
 from amp_studio.schema import family_ids, load_schema
 from amp_studio.ui.actions.control import ControlDesk
 from amp_studio.ui.actions.file import Files
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.modal import pop_up
+from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import CONTROL, GAP, GAP2, GAP3, GAP4, GAP6, font
 from amp_studio.ui.base.time_words import in_words
@@ -72,10 +74,7 @@ class WelcomePage(QWidget):
         self._window, self._files, self._open_project = window, files, open_project
         self._summaries = window.summaries
         self._reading: Task | None = None
-        self._pause = QTimer(self)
-        self._pause.setSingleShot(True)
-        self._pause.setInterval(_REST_MS)
-        self._pause.timeout.connect(self._read)
+        self._pause = single_shot(self, self._read, _REST_MS)
         self._summaries.summary_read.connect(self._describe_path)
         self.message = MessageBar()
         self.families = WelcomeList(self.tr("New file"))
@@ -133,11 +132,7 @@ class WelcomePage(QWidget):
         inner.setLayout(self._columns)
         page = QWidget()
         page.setAutoFillBackground(False)
-        middle = QHBoxLayout(page)
-        middle.setContentsMargins(GAP6, GAP6 + GAP3, GAP6, GAP6)
-        middle.addStretch(1)
-        middle.addWidget(inner, 1000)
-        middle.addStretch(1)
+        in_row(1, (inner, 1000), 1, on=page, margins=(GAP6, GAP6 + GAP3, GAP6, GAP6))
         scroll = QScrollArea()
         scroll.setWidget(page)
         scroll.setWidgetResizable(True)
@@ -147,11 +142,7 @@ class WelcomePage(QWidget):
         self.setBackgroundRole(self.palette().ColorRole.Base)
         self.setAutoFillBackground(True)
         scroll.viewport().setAutoFillBackground(False)
-        outer = QVBoxLayout(self)
-        outer.setContentsMargins(0, 0, 0, 0)
-        outer.setSpacing(0)
-        outer.addWidget(self.message)
-        outer.addWidget(scroll, 1)
+        in_column(self.message, (scroll, 1), on=self, margins=0, gap=0)
         control = self.controls
         # By hand: else Tab goes by the order in which they were made, which is not that on the screen.
         order = [self.families, *self._beside_families, self.examples, self.filter, self.list]
@@ -160,16 +151,12 @@ class WelcomePage(QWidget):
             QWidget.setTabOrder(before, after)
 
     def _head(self, text: str, beside: QWidget) -> QHBoxLayout:
-        row, label = QHBoxLayout(), QLabel(text)
+        label = QLabel(text)
         bold = font("text")
         bold.setWeight(bold.Weight.DemiBold)
         label.setFont(bold)
-        row.setContentsMargins(0, 0, 0, GAP)
         label.setFixedHeight(CONTROL)
-        row.addWidget(label)
-        row.addStretch()
-        row.addWidget(beside)
-        return row
+        return in_row(label, 0, beside, margins=(0, 0, 0, GAP))
 
     def _small(self, text: str) -> QLabel:
         label = QLabel(text)
@@ -179,8 +166,7 @@ class WelcomePage(QWidget):
         return label
 
     def _buttons(self) -> QHBoxLayout:
-        row = QHBoxLayout()
-        row.setSpacing(GAP2)
+        row = in_row(gap=GAP2)
         self._beside_families: list[QWidget] = []
         for text, name, act in (
             (self.tr("Open…"), "folder-open", self._files.open),

@@ -6,11 +6,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer
+from PySide6.QtCore import QFileSystemWatcher, QObject
 from PySide6.QtWidgets import QApplication
 
 from amp_studio.files import is_write_protected
 from amp_studio.ui.base.questions import ask
+from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.translated import message_in_words
 from amp_studio.ui.page.file_page import FilePage
 
@@ -36,9 +37,7 @@ class DiskWatch(QObject):
         self._watcher = QFileSystemWatcher(self)
         path = page.workspace.path
         self._watcher.addPaths([str(path), str(path.parent)])
-        self._timer = QTimer(self)
-        self._timer.setSingleShot(True)
-        self._timer.timeout.connect(self._check_disk)
+        self._timer = single_shot(self, self._check_disk)
         self._watcher.fileChanged.connect(self._wait)
         self._watcher.directoryChanged.connect(self._wait)
         page.conflict.connect(self.offer)

@@ -10,16 +10,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from PySide6.QtCore import QByteArray, QSize, Qt
-from PySide6.QtWidgets import (
-    QDockWidget,
-    QHBoxLayout,
-    QLabel,
-    QMainWindow,
-    QStackedWidget,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QStackedWidget, QWidget
 
+from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.theme import GAP2, HEAD, font
 from amp_studio.ui.base.translated import Translated, tr
 from amp_studio.ui.findings.panel import FindingsPanel
@@ -146,15 +139,11 @@ class Docks(Translated):
         self._bottom = QStackedWidget()
         self._bottom.addWidget(self._stacks["Findings"])
         inside = QWidget()  # stays when its content is hidden: a dock with nothing in it has no width
-        whole = QVBoxLayout(inside)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.addWidget(self._bottom)
+        in_column(self._bottom, on=inside, margins=0)
         inside.setFocusProxy(self._bottom)
         below.setWidget(inside)
         head = QWidget()
-        row = QHBoxLayout(head)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(0)
+        row = in_row(on=head, margins=0, gap=0)
         self.chooser = Segment(
             self.tr("Panel"), [(title, _name(title), "") for title in ("Findings", "Parameter")]
         )

@@ -7,9 +7,11 @@ from functools import partial
 
 from PySide6.QtCore import QSize
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QHBoxLayout, QMenu, QToolButton, QWidget
+from PySide6.QtWidgets import QMenu, QToolButton, QWidget
 
-from amp_studio.ui.base.theme import GAP, GAP2, ICON, icon
+from amp_studio.ui.base.layout import in_row
+from amp_studio.ui.base.theme import GAP, GAP2, ICON
+from amp_studio.ui.forms.icon_button import icon_button
 
 
 class TabCorner(QWidget):
@@ -23,9 +25,7 @@ class TabCorner(QWidget):
         """
         super().__init__()
         self._files = files
-        row = QHBoxLayout(self)
-        row.setContentsMargins(GAP, 0, GAP2, 0)
-        row.setSpacing(GAP)
+        row = in_row(on=self, margins=(GAP, 0, GAP2, 0), gap=GAP)
         for name, action in (("plus", new), ("columns", beside)):
             button = self._button(name, action.toolTip())
             button.clicked.connect(action.trigger)
@@ -38,11 +38,8 @@ class TabCorner(QWidget):
         row.addWidget(self.list)
 
     def _button(self, name: str, tip: str) -> QToolButton:
-        button = QToolButton()
-        button.setIcon(icon(name))
+        button = icon_button(name, tip)
         button.setIconSize(QSize(ICON, ICON))
-        button.setToolTip(tip)
-        button.setAccessibleName(tip)
         return button
 
     def _fill(self) -> None:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from PySide6.QtCore import QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolButton, QWidget
+from PySide6.QtWidgets import QLabel, QToolButton, QWidget
 
+from amp_studio.ui.base.layout import in_row
 from amp_studio.ui.base.theme import GAP, SMALL_ICON, colour, font, icon
 
 
@@ -47,11 +48,7 @@ class TabEnd(QWidget):
         close.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         close.setFixedSize(20, 20)
         close.clicked.connect(self.close_clicked)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 2, 0)
-        row.setSpacing(GAP)
-        for widget in (label, self.dot, close):
-            row.addWidget(widget)
+        in_row(label, self.dot, close, on=self, margins=(0, 0, 2, 0), gap=GAP)
 
     def show_unsaved(self, is_unsaved: bool) -> None:
         """Show or hide the dot; its place stays, so that no tab moves."""

@@ -6,8 +6,9 @@ from collections.abc import Mapping, Sequence
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolBar, QToolButton, QWidget
+from PySide6.QtWidgets import QSizePolicy, QToolBar, QToolButton, QWidget
 
+from amp_studio.ui.base.layout import in_row
 from amp_studio.ui.base.theme import GAP4, ICON
 from amp_studio.ui.forms.segment import Segment
 
@@ -49,9 +50,7 @@ class MainToolBar(QToolBar):
         self._units_action = self.addWidget(self.units)
         self._slot = QWidget()
         self._slot.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
-        self._slot_row = QHBoxLayout(self._slot)
-        self._slot_row.setContentsMargins(12, 0, 12, 0)
-        self._slot_row.addStretch(1)
+        self._slot_row = in_row(1, on=self._slot, margins=(12, 0, 12, 0))
         self.addWidget(self._slot)
         self.addActions(views)
         self.addSeparator()
