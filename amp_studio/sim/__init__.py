@@ -106,6 +106,7 @@ if TYPE_CHECKING:
         RowBounds,
         ShapedPath,
         row_sums,
+        steps_of_axes,
     )
     from .picture import picture_of, plot_svg, recording_picture, settling_span
     from .probing import Probing

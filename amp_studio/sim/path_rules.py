@@ -101,12 +101,36 @@ CornerRule = Callable[[Corners], Sequence[tuple[PathLimit, PathRows]]]
 """rule(corners) -> the highest speeds (n,) in u/s by what bounds them; infinite where it does not."""
 
 
+STRAIGHT = 1e-9
+"""Change of direction below which an axis goes on evenly."""
+LINEAR = Ramp("linear")
+NO_STEP = PathLimit(0.0, None, "no velocity step")
+
+
+def steps_of_axes(steps: Mapping[str, PathLimit]) -> CornerRule:
+    """Return the rule of a control that lets each axis change its speed by a step of its own in a corner;
+    an axis without one must stop in every corner.
+    """
+
+    def rule(corners: Corners) -> Sequence[tuple[PathLimit, PathRows]]:
+        change = np.abs(corners.after - corners.before)
+        found = []
+        for n, axis in enumerate(corners.axes):
+            step, bound = steps.get(axis, NO_STEP), np.full(len(change), np.inf)
+            # An axis that goes straight on sets no bound, and would divide by 0.
+            np.divide(step.value, change[:, n], out=bound, where=change[:, n] > STRAIGHT)
+            found.append((step, bound))
+        return found
+
+    return rule
+
+
 @dataclass(frozen=True)
 class PathRules:
     """One control; speeds u/s along the path or of an axis, accelerations u/s2."""
 
-    feed_ramp: Ramp
-    rapid_ramp: Ramp
+    feed_ramp: Ramp = LINEAR
+    rapid_ramp: Ramp = LINEAR
     """Their kind, jerk and time; the accelerations are the limits below."""
     feed: Sequence[PathLimit] = ()
     rapid: Sequence[PathLimit] = ()

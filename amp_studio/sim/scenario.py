@@ -78,6 +78,14 @@ def above_zero(settings: ScenarioSettings, name: str, most: float = math.inf) ->
     return value
 
 
+def direction(settings: ScenarioSettings) -> float | None:
+    """Return 1 or -1 for ``move.direction``, None where it is not given."""
+    word = settings.get("move.direction")
+    if word not in (None, "plus", "minus"):
+        raise SimulationError("move.direction must be plus or minus", "move.direction")
+    return None if word is None else 1.0 if word == "plus" else -1.0
+
+
 def refuse_unknown(settings: ScenarioSettings, known: Mapping[str, str]) -> None:
     """Raise SimulationError for a setting that the scenario does not have."""
     for name in settings:

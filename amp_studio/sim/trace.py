@@ -101,10 +101,10 @@ class Trace:
     units: Mapping[str, str]
     """Name of a column -> its unit."""
     result: Mapping[str, Figure]
-    alarms: tuple[Alarm, ...]
-    recommendations: tuple[Recommendation, ...]
     assumptions: tuple[str, ...]
-    limits: Mapping[str, Figure]
+    alarms: tuple[Alarm, ...] = ()
+    recommendations: tuple[Recommendation, ...] = ()
+    limits: Mapping[str, Figure] = field(default_factory=dict)
     """Named limits of the following error, to draw beside the curves."""
     letter: str = ""
     """The letter that the file gives the axis, where it is another than ``axis``."""

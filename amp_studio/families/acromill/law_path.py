@@ -14,7 +14,6 @@ from amp_studio.sim import (
     PathLimit,
     PathRows,
     PathRules,
-    Ramp,
     SimulationError,
     row_sums,
 )
@@ -54,8 +53,6 @@ def path_rules(machine: BoundMachine) -> PathRules:
     highest, rapid = limit(ids.max_machine, minute), limit(ids.speeds_rapid, minute)
     blocks = limit(ids.forward_threshold)
     return PathRules(
-        feed_ramp=Ramp("linear"),
-        rapid_ramp=Ramp("linear"),
         feed=present_ones(highest),
         rapid=present_ones(rapid, highest),
         feed_acceleration=present_ones(limit(ids.feed_acc_dec)),

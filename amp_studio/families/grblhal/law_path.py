@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from amp_studio.sim import BoundMachine, CornerRule, Corners, PathLimit, PathRows, PathRules, Ramp, row_sums
+from amp_studio.sim import BoundMachine, CornerRule, Corners, PathLimit, PathRows, PathRules, row_sums
 
 from .law_facts import MOTION, ids
 
@@ -33,8 +33,6 @@ def path_rules(machine: BoundMachine) -> PathRules:
     deviation = PathLimit(read.number(ids.junction_deviation, everywhere=True), (ids.junction_deviation, ""))
     blocks = read.optional(ids.planner_blocks, everywhere=True)
     return PathRules(
-        feed_ramp=Ramp("linear"),
-        rapid_ramp=Ramp("linear"),
         axis_speed=speeds,
         axis_acceleration=accelerations,
         corner=_corner(deviation, accelerations),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from amp_studio.sim import BoundMachine, PathLimit, PathRules, Ramp
+from amp_studio.sim import BoundMachine, PathLimit, PathRules
 
 from .law_blends import PathFigures, shaped
 from .law_facts import MOTION, ids
@@ -40,8 +40,6 @@ def path_rules(machine: BoundMachine) -> PathRules:
         with_arcs=read.value(ids.arc_blend, everywhere=True) not in (False, "no"),
     )
     return PathRules(
-        feed_ramp=Ramp("linear"),
-        rapid_ramp=Ramp("linear"),
         feed=greatest,
         rapid=greatest,
         axis_speed=speeds,

@@ -88,7 +88,6 @@ def run_adaptive_feed(machine: BoundMachine, settings: ScenarioSettings) -> Trac
         result=result,
         alarms=alarms_of(axis, motion)
         or (() if result["time_off_torque"][0] is not None else (NOT_REACHED,)),
-        recommendations=(),
         assumptions=(*ASSUMED, *assumptions(axis)),
         limits={name: (level, axis.unit) for name, level in axis.limits.items()},
         move=asked,

@@ -91,7 +91,6 @@ def run_hard_stop(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
         units=column_units(axis),
         result=_figures(axis, motion, row, (detection, holding, stiffness)),
         alarms=alarms,
-        recommendations=(),
         assumptions=(TOUCHING, *(() if given else (ASSUMED_STOP,)), *assumptions(axis)),
         limits={name: (level, axis.unit) for name, level in axis.limits.items()},
         move={"move.feedrate": speed * 60.0, "stop.stiffness": stiffness},

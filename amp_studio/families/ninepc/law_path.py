@@ -4,22 +4,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping, Sequence
-
-import numpy as np
-
-from amp_studio.sim import (
-    AxisParameters,
-    BoundMachine,
-    CornerRule,
-    Corners,
-    PathLimit,
-    PathRows,
-    PathRules,
-    Ramp,
-    SimulationError,
-)
+from amp_studio.sim import AxisParameters, BoundMachine, PathLimit, PathRules, SimulationError, steps_of_axes
 
 from .law_dual import slowest
 from .law_facts import ids
@@ -61,13 +46,11 @@ def path_rules(machine: BoundMachine) -> PathRules:
         member = slowest(read, ids.velocity_step)
         steps[letter] = PathLimit(if_set(member, ids.velocity_step) / 60.0, (ids.velocity_step, member.axis))
     return PathRules(
-        feed_ramp=Ramp("linear"),
-        rapid_ramp=Ramp("linear"),
         axis_speed=cutting,
         axis_rapid=rapid,
         axis_acceleration=faster,
         axis_deceleration=slower,
-        corner=_corner(steps),
+        corner=steps_of_axes(steps),
         waits=True,
         stop=PathLimit(0.0, (ids.inposition_band, machine.fitted[0])),
         assumptions=ASSUMED,
@@ -87,25 +70,3 @@ def _ramp(read: AxisParameters, *, down: bool) -> PathLimit:
         return PathLimit(slower, (ids.linear_deceleration, member.axis))
     member = slowest(read, ids.linear_acceleration)
     return PathLimit(if_set(member, ids.linear_acceleration), (ids.linear_acceleration, member.axis))
-
-
-def _corner(steps: Mapping[str, PathLimit]) -> CornerRule:
-    """Return the rule of the velocity step of each axis."""
-
-    def rule(corners: Corners) -> Sequence[tuple[PathLimit, PathRows]]:
-        change = np.abs(corners.after - corners.before)
-        found = []
-        for n, axis in enumerate(corners.axes):
-            # Without a velocity step the axis must stop in every corner.
-            step = steps.get(axis, PathLimit(0.0, None, "no velocity step"))
-            bound = np.full(len(change), math.inf)
-            # An axis that goes straight on sets no bound, and would divide by 0.
-            np.divide(step.value, change[:, n], out=bound, where=change[:, n] > STRAIGHT)
-            found.append((step, bound))
-        return found
-
-    return rule
-
-
-STRAIGHT = 1e-9
-"""Change of direction below which an axis goes on evenly."""

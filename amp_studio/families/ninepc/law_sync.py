@@ -149,7 +149,6 @@ def run_synchronize(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
         },
         result=_figures(pair, speed, later, course),
         alarms=_alarms(pair, course),
-        recommendations=(),
         assumptions=(
             *(() if asked == speed else (BEYOND.format(value_text(asked, "rpm"), value_text(speed, "rpm")),)),
             LOOPS.format(value_text(pair.lag, "s")),

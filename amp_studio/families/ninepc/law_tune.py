@@ -221,10 +221,7 @@ def procedure_run(axis: AxisLaw, settings: Mapping[str, ParameterValue]) -> Trac
         columns=per_minute(last.motion.columns),
         units=column_units(axis),
         result=result,
-        alarms=(),
-        recommendations=(),
         assumptions=(NOTE, *assumptions(axis)),
-        limits={},
     )
 
 

@@ -4,27 +4,11 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping, Sequence
-
-import numpy as np
-
-from amp_studio.sim import (
-    AxisParameters,
-    BoundMachine,
-    CornerRule,
-    Corners,
-    PathLimit,
-    PathRows,
-    PathRules,
-    SimulationError,
-)
+from amp_studio.sim import AxisParameters, BoundMachine, PathLimit, PathRules, SimulationError, steps_of_axes
 
 from .law_facts import ids
 from .law_words import Words, read_words
 
-STRAIGHT = 1e-9
-"""Change of direction below which an axis goes on evenly."""
 ASSUMED = (
     (
         "No axis passes its Maximum Axis Traverse Rate (P30), nor its acceleration (P32): the first word of"
@@ -60,7 +44,7 @@ def path_rules(machine: BoundMachine) -> PathRules:
         axis_speed=speeds,
         axis_acceleration=work,
         axis_rapid_acceleration=fast,
-        corner=_corner(steps),
+        corner=steps_of_axes(steps),
         waits=True,
         stop=PathLimit(0.0, (ids.in_position_window, machine.fitted[0])),
         assumptions=(*ASSUMED, *dict.fromkeys(notes)),
@@ -84,19 +68,3 @@ def _approach(read: AxisParameters, words: Words, axis: str, notes: list[str]) -
         "An Approach Speed (P33) that is 0 or not set is acceleration times time constant (6-36, 6-40)."
     )
     return PathLimit(words.work_acceleration * words.constant, (ids.approach_speed, axis))
-
-
-def _corner(steps: Mapping[str, PathLimit]) -> CornerRule:
-    """Return the rule of the approach speed of each axis."""
-
-    def rule(corners: Corners) -> Sequence[tuple[PathLimit, PathRows]]:
-        change = np.abs(corners.after - corners.before)
-        found = []
-        for n, axis in enumerate(corners.axes):
-            bound = np.full(len(change), math.inf)
-            # An axis that goes straight on sets no bound, and would divide by 0.
-            np.divide(steps[axis].value, change[:, n], out=bound, where=change[:, n] > STRAIGHT)
-            found.append((steps[axis], bound))
-        return found
-
-    return rule

@@ -366,7 +366,6 @@ def _run(
         units=column_units(axis),
         result=result,
         alarms=alarms,
-        recommendations=(),
         assumptions=(assumption, *assumptions(axis)),
         limits={name: (level, axis.unit) for name, level in axis.limits.items()},
     )

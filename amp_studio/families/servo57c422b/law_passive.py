@@ -86,7 +86,6 @@ def run_passive_home(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
         units=trace.units,
         result=result,
         alarms=alarms,
-        recommendations=(),
         assumptions=notes,
         limits=trace.limits,
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.sim import BoundMachine, PathLimit, PathRules, Ramp
+from amp_studio.sim import BoundMachine, PathLimit, PathRules
 
 from .law_facts import ids
 
@@ -22,11 +22,4 @@ def path_rules(machine: BoundMachine) -> PathRules:
         named = (ids.acceleration_time, "") if own is None else (ids.axis_acceleration, axis)
         speeds[letter] = PathLimit(law.feedrate or 0.0, (ids.feed_rapid, axis))
         ramps[letter] = PathLimit(law.ramps["linear"].acceleration or 0.0, named)
-    return PathRules(
-        feed_ramp=Ramp("linear"),
-        rapid_ramp=Ramp("linear"),
-        axis_speed=speeds,
-        axis_acceleration=ramps,
-        rapid_rests=True,
-        assumptions=ASSUMED,
-    )
+    return PathRules(axis_speed=speeds, axis_acceleration=ramps, rapid_rests=True, assumptions=ASSUMED)

@@ -122,10 +122,8 @@ def _trace(response: FrequencyResponse, fitted: PlantFit, bound: AxisLaw, path: 
         columns=columns,
         units=units,
         result=_result(response, fitted, bound),
-        alarms=(),
         recommendations=_notches(fitted.pairs),
         assumptions=_assumed(fitted, bound),
-        limits={},
         doubts=tuple(_doubts(response, fitted)),
     )
 

@@ -106,9 +106,7 @@ def run_circle(axis: AxisLaw, settings: ScenarioSettings, second: AxisLaw | None
         units=_units(axis),
         result=_figures(axis, other, models, circle, columns, bool(alarms)),
         alarms=alarms,
-        recommendations=(),
         assumptions=_assumptions(axis, other, second),
-        limits={},
         move={"move.radius": circle.radius, "move.feedrate": circle.programmed * 60.0},
     )
 

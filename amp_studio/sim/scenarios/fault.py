@@ -69,7 +69,6 @@ def run_fault(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
         units=column_units(axis),
         result=_figures(axis, motion, moved, moment),
         alarms=_alarms(axis, motion, kind),
-        recommendations=(),
         assumptions=(
             INFORMED.format(axis.faults[kind].message) if kind in axis.faults else UNSEEN,
             *assumptions(axis),

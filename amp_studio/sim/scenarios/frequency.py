@@ -109,9 +109,7 @@ def run_frequency(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
         units=_UNITS,
         result=result,
         alarms=alarms,
-        recommendations=(),
         assumptions=(*assumptions(axis), *notes),
-        limits={},
         move={"move.lowest": low, "move.highest": high},
     )
 

@@ -19,7 +19,7 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.rounding import page_text, rounded_down, value_text
-from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, number, refuse_unknown
+from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, direction, number, refuse_unknown
 from amp_studio.sim.trace import Alarm, Figure, HomingCourse, HomingStage, Recommendation, Trace
 
 from .columns import alarms_of, column_units, per_minute
@@ -191,11 +191,9 @@ def _homed(axis: AxisLaw, homing: Homing, ramp: Ramp, around: Surroundings) -> t
 
 def _turned(homing: Homing, settings: ScenarioSettings) -> Homing:
     """Return the sequence in the direction that is asked for."""
-    direction = settings.get("move.direction")
-    if direction not in (None, "plus", "minus"):
-        raise SimulationError("move.direction must be plus or minus", "move.direction")
-    is_other = ((homing.approach or homing.leave) < 0.0) != (direction == "minus")
-    return homing.turned() if direction is not None and is_other else homing
+    sign = direction(settings)
+    is_other = sign is not None and ((homing.approach or homing.leave) < 0.0) != (sign < 0.0)
+    return homing.turned() if is_other else homing
 
 
 def _around(axis: AxisLaw, homing: Homing, ramp: Ramp, settings: ScenarioSettings) -> Surroundings:

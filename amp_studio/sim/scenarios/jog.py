@@ -10,7 +10,7 @@ from amp_studio.schema import unknown_name
 from amp_studio.sim.axis_parameters import ParameterValue
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, refuse_unknown
+from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, direction, refuse_unknown
 from amp_studio.sim.trace import Trace
 
 from .step import SCENARIO as STEP
@@ -43,9 +43,7 @@ def run_jog(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
             )
         chosen = jogging.increment_speed
     speed = _chosen("speed", chosen, jogging.speeds)
-    sign = {"plus": 1.0, "minus": -1.0}.get(str(settings.get("move.direction", "plus")))
-    if sign is None:
-        raise SimulationError("move.direction must be plus or minus", "move.direction")
+    sign = direction(settings) or 1.0
     ramp = jogging.ramp or (axis.manual_ramp(False) if axis.manual_ramp else next(iter(axis.ramps.values())))
     if increment is not None:
         distance = _chosen("increment", increment, jogging.increments)

@@ -103,9 +103,7 @@ def run_load(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
         units=column_units(axis),
         result=_figures(axis, found, load, loops, above_zero(settings, "move.force_per_torque")),
         alarms=alarms_of(axis, motion, stable, margins),
-        recommendations=(),
         assumptions=(NOTE, *assumptions(axis)),
-        limits={},
         move={"move.load": load, "move.duration": lasts},
     )
 

@@ -246,9 +246,7 @@ def _travelled(
         units={name: "s" if name == "time_s" else unit for name in columns},
         result=result,
         alarms=alarms,
-        recommendations=(),
         assumptions=(*_notes(machine, axes, zones), BY_LINE, AT_ONCE, *assumptions(first_axis)),
-        limits={},
         areas=tuple(_areas(zones, tuple(axes)[:2], start, to)),
     )
 

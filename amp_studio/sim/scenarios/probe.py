@@ -202,9 +202,7 @@ def _probed(axis: AxisLaw, meeting: _ProbeContact, latency_note: str, settings: 
         units=column_units(axis),
         result=result,
         alarms=alarms,
-        recommendations=(),
         assumptions=(*notes, *probing.notes, *assumptions(axis)),
-        limits={},
         move={"move.expected": meeting.expected},
     )
 

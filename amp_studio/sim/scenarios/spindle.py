@@ -88,9 +88,7 @@ def run_spindle(machine: BoundMachine, settings: ScenarioSettings) -> Trace:
         units=units,
         result=result,
         alarms=tuple(alarms),
-        recommendations=(),
         assumptions=(*notes, *spindle.notes, LAG.format(value_text(lag, "s"))),
-        limits={},
     )
 
 
@@ -304,9 +302,7 @@ def _oriented(spindle: Spindle, settings: ScenarioSettings) -> Trace:
         units={"time_s": "s", "position": "deg", "velocity": "rpm"},
         result=result,
         alarms=tuple(alarms),
-        recommendations=(),
         assumptions=(*notes, *spindle.notes),
-        limits={},
     )
 
 

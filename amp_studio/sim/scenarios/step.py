@@ -54,7 +54,6 @@ def run_step(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
         units=column_units(axis),
         result=_figures(axis, motion, moved, stable, rated),
         alarms=alarms_of(axis, motion, stable, margins),
-        recommendations=(),
         assumptions=(*assumptions(axis), *([RUN_OUT] if motion.alarm_row is not None else [])),
         limits={name: (level, axis.unit) for name, level in axis.limits.items() if math.isfinite(level)},
         move={"move.distance": moved.distance, "move.feedrate": moved.feedrate * 60.0},

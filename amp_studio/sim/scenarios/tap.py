@@ -190,7 +190,6 @@ def _tapped(
         units=column_units(axis) | {"tapping_error": axis.unit},
         result=result,
         alarms=alarms,
-        recommendations=(),
         assumptions=(
             *of_gear,
             *tapping.notes,
@@ -198,7 +197,6 @@ def _tapped(
             "ASSUMED: the reversal follows at once, without a dwell in the bottom.",
             *assumptions(axis),
         ),
-        limits={},
         move={"move.depth": depth},
     )
 

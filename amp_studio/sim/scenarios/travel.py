@@ -17,7 +17,7 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.rounding import page_text, value_text
-from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, number, refuse_unknown
+from amp_studio.sim.scenario import Scenario, ScenarioSettings, above_zero, direction, number, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
@@ -88,9 +88,7 @@ def run_travel(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
         units=column_units(axis),
         result=_figures(axis, approach, seen, motion, hard),
         alarms=alarms,
-        recommendations=(),
         assumptions=(*travel.notes, *([RUN_OUT] if travel.coasts else []), *assumptions(axis)),
-        limits={},
         move={"move.start": start, "move.feedrate": approach.feedrate * 60.0},
     )
 
@@ -100,9 +98,7 @@ def _approach(axis: AxisLaw, settings: ScenarioSettings) -> _Approach:
     if axis.travel is None:
         raise SimulationError(f"What stops axis {axis.axis} at a limit of its travel is not printed")
     travel, feedrate = axis.travel(), feedrate_of(axis, settings)
-    sign = {"plus": 1.0, "minus": -1.0}.get(str(settings.get("move.direction", "plus")))
-    if sign is None:
-        raise SimulationError("move.direction must be plus or minus", "move.direction")
+    sign = direction(settings) or 1.0
     ramp = axis.manual_ramp(False) if axis.manual_ramp else next(iter(axis.ramps.values()))
     given = number(settings, "move.start")
     zone = _zone(travel, settings)

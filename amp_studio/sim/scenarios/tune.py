@@ -61,11 +61,8 @@ def run_tune(trial: Trial, settings: ScenarioSettings, others: Sequence[Trial]) 
         columns=columns,
         units=units,
         result=_figures(solved),
-        alarms=(),
         recommendations=(*gain_recommendations(trial, solved), *_following(trial, solved)),
         assumptions=(*_notes(solved, slowest, others), *assumptions(axis)),
-        limits={},
-        move={},
     )
 
 

@@ -61,9 +61,7 @@ def run_velocity(axis: AxisLaw, settings: ScenarioSettings) -> Trace:
         units={name: units[name] for name in columns},
         result=_figures(axis, motion, speed, lasts, loop if stable else None),
         alarms=alarms_of(axis, motion, stable, margins),
-        recommendations=(),
         assumptions=(*assumptions(axis), *([RUN_OUT] if motion.alarm_row is not None else [])),
-        limits={},
         move={"move.feedrate": speed * 60.0, "move.duration": lasts},
     )
 

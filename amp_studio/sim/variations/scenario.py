@@ -231,8 +231,6 @@ def _trace(job: SweepJob, trial: Trial, points: Matrix, matrix: Matrix, figure: 
         columns=columns,
         units=units,
         result=_figures(columns, units, figure),
-        alarms=(),
-        recommendations=(),
         assumptions=(_note(job), *assumptions(axis)),
         doubts=tuple(refused_in_words(job, points, matrix)),
         limits={name: (value, units[name]) for name, value in present.items()},
