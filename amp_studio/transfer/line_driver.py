@@ -4,9 +4,8 @@ and read back after a break.
 
 from __future__ import annotations
 
-import time
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import ClassVar, Self
 
@@ -38,15 +37,9 @@ class LineDriver(ABC):
     is_read_when_stopped: ClassVar[bool] = False
     """Whether the control answers so fast that a user who has stopped a download waits until it is read."""
 
-    def __init__(
-        self,
-        open_link: OpenLink,
-        *,
-        clock: Callable[[], float] = time.monotonic,
-        sleep: Callable[[float], None] = time.sleep,
-    ) -> None:
+    def __init__(self, open_link: OpenLink, waiting: Waiting | None = None) -> None:
         self._open_link = open_link
-        self._waiting = Waiting(clock, sleep)
+        self._waiting = waiting or Waiting()
 
     @classmethod
     def at(cls, endpoint: Endpoint, family: str = "") -> Self:

@@ -12,6 +12,7 @@ from amp_studio.families.grblhal.content import read_content, write_content
 from amp_studio.families.grblhal.driver import GrblDriver
 from amp_studio.families.grblhal.emulated.firmware import MEMORY, Firmware
 from amp_studio.families.grblhal.kind import GrblContentKind
+from amp_studio.transfer import Waiting
 from amp_studio.transfer.emulated.line_device import DeviceSetup
 from amp_studio.transfer.emulated.memory import Memory
 from amp_studio.transfer.errors import TransferError
@@ -52,7 +53,7 @@ def settings_under_faults(seed: int, runs: int, folder: Path) -> list[str]:
 
 def _recorded() -> bytes:
     clock = Clock()
-    return GrblDriver(Player(clock.sleep).open, clock=clock, sleep=clock.sleep).fetch()
+    return GrblDriver(Player(clock.sleep).open, Waiting(clock, clock.sleep)).fetch()
 
 
 def fuzz_contents(seed: int, count: int) -> list[str]:
@@ -103,7 +104,7 @@ def fuzz_answers(seed: int, count: int) -> list[str]:
             return damaged(data, chance) if data and chance.randrange(every) == 0 else data
 
         player.read = changed
-        driver = GrblDriver(player.open, clock=clock, sleep=clock.sleep)
+        driver = GrblDriver(player.open, Waiting(clock, clock.sleep))
         try:
             content = driver.fetch()
         finally:

@@ -11,6 +11,7 @@ from amp_studio.families.servo57c422b.emulated.rack import Rack
 from amp_studio.families.servo57c422b.lines.content import RegisterContent, settings, written_content
 from amp_studio.families.servo57c422b.lines.driver import RegisterDriver
 from amp_studio.families.servo57c422b.lines.register_line import framed
+from amp_studio.transfer import Waiting
 from amp_studio.transfer.emulated.line_device import DeviceSetup
 from amp_studio.transfer.emulated.memory import Memory
 from amp_studio.transfer.errors import TransferError
@@ -78,7 +79,7 @@ def fuzz_racks(folder: Path, seed: int, count: int) -> list[str]:
             assert all(0 <= word <= 0xFFFF for word in rack.module.words)
         else:
             clock = VirtualClock()
-            driver = RegisterDriver(lambda _: _OddRack(rack, chance, clock), clock=clock, sleep=clock.sleep)
+            driver = RegisterDriver(lambda _: _OddRack(rack, chance, clock), Waiting(clock, clock.sleep))
             begun = clock.now
             driver.identify()
             assert clock.now - begun < 60

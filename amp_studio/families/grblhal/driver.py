@@ -5,8 +5,7 @@ and are read back.
 from __future__ import annotations
 
 import contextlib
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import ClassVar
 
 from amp_studio.transfer import (
@@ -23,6 +22,7 @@ from amp_studio.transfer import (
     Replacement,
     SentValues,
     TransferError,
+    Waiting,
     quiet,
 )
 from amp_studio.transfer.links import LinkError
@@ -58,14 +58,8 @@ class GrblDriver(GrblContentKind, LineDriver):
     abilities = Abilities(all_or_nothing=False, maps_numbers=True, lasting_states=LASTING)
     takes_live_values: ClassVar[bool] = True
 
-    def __init__(
-        self,
-        open_link: OpenLink,
-        *,
-        clock: Callable[[], float] = time.monotonic,
-        sleep: Callable[[float], None] = time.sleep,
-    ) -> None:
-        super().__init__(open_link, clock=clock, sleep=sleep)
+    def __init__(self, open_link: OpenLink, waiting: Waiting | None = None) -> None:
+        super().__init__(open_link, waiting)
         self._line: GrblLine | None = None
         self._has_lost_memory = False  # on any line of this driver
         self._last: GrblContent | None = None

@@ -11,6 +11,7 @@ from amp_studio.families.grblhal.content import GrblContent, read_content, write
 from amp_studio.families.grblhal.driver import GrblDriver
 from amp_studio.families.grblhal.emulated.firmware import Firmware
 from amp_studio.files import ParameterFile
+from amp_studio.transfer import Waiting
 from amp_studio.transfer.client.exchange import Outcome, WantedContent, download
 from amp_studio.transfer.content import decode_content
 from amp_studio.transfer.emulated.line_device import DeviceSetup
@@ -46,7 +47,7 @@ class Bench:
         self.spoil_out: Callable[[bytes], bytes] = lambda data: data
         self.is_cut = False
         self.received: list[bytes] = []
-        self.driver = GrblDriver(self.open, clock=self.clock, sleep=self.clock.sleep)
+        self.driver = GrblDriver(self.open, Waiting(self.clock, self.clock.sleep))
 
     def open(self, look: Callable[[], None]) -> Link:
         look()

@@ -391,7 +391,7 @@ def test_the_driver_reads_the_recorded_firmware() -> None:
     from amp_studio.families.grblhal.driver import GrblDriver
 
     clock = Clock()
-    content = read_content(GrblDriver(Player(clock.sleep).open, clock=clock, sleep=clock.sleep).fetch())
+    content = read_content(GrblDriver(Player(clock.sleep).open, Waiting(clock, clock.sleep)).fetch())
     assert (content.version, content.axes, len(content.settings)) == ("1.1f.20260817", ("X", "Y", "Z"), 83)
     assert len(content.enumerations["$ES"]) == 83
 

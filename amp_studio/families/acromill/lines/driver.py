@@ -7,7 +7,6 @@ Pages 91 and 113 to 135 of the AcroMill user's guide; docs/protocols/acr-termina
 from __future__ import annotations
 
 import re
-import time
 from collections.abc import Callable
 from functools import partial
 from typing import ClassVar
@@ -29,6 +28,7 @@ from amp_studio.transfer import (
     Replacement,
     SentValues,
     TransferError,
+    Waiting,
 )
 from amp_studio.transfer.links import SerialSettings
 
@@ -87,14 +87,8 @@ class TerminalDriver(AcrContent, LineDriver):
     system: ClassVar[str] = "inch"
     takes_live_values: ClassVar[bool] = True
 
-    def __init__(
-        self,
-        open_link: OpenLink,
-        *,
-        clock: Callable[[], float] = time.monotonic,
-        sleep: Callable[[float], None] = time.sleep,
-    ) -> None:
-        super().__init__(open_link, clock=clock, sleep=sleep)
+    def __init__(self, open_link: OpenLink, waiting: Waiting | None = None) -> None:
+        super().__init__(open_link, waiting)
         self._terminal = Terminal(open_link, self._waiting)
         self._answered: set[str] = set()
         """The settings that the card has answered for in the readings of this driver so far."""

@@ -7,8 +7,6 @@ Sections 13.2.3 to 13.2.6 of the NUM parameter manual; docs/protocols/num-table.
 from __future__ import annotations
 
 import hashlib
-import time
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
@@ -27,6 +25,7 @@ from amp_studio.transfer import (
     Replacement,
     SentValues,
     TransferError,
+    Waiting,
 )
 from amp_studio.transfer.links import Endpoint, Link, LinkError, Parity, SerialSettings
 
@@ -82,14 +81,8 @@ class PeripheralDriver(NumTableContent, LineDriver):
     has_checked: ClassVar[bool] = False
     """Whether the control checks each unload."""
 
-    def __init__(
-        self,
-        open_link: OpenLink,
-        *,
-        clock: Callable[[], float] = time.monotonic,
-        sleep: Callable[[float], None] = time.sleep,
-    ) -> None:
-        super().__init__(open_link, clock=clock, sleep=sleep)
+    def __init__(self, open_link: OpenLink, waiting: Waiting | None = None) -> None:
+        super().__init__(open_link, waiting)
         self._link: Link | None = None
         self._parity: Parity = "none"
         self._seen: bytes | None = None

@@ -7,7 +7,6 @@ Instruction manual, pages 4-1 to 4-37; docs/protocols/registers.md.
 from __future__ import annotations
 
 import contextlib
-import time
 from collections.abc import Callable, Iterator
 from typing import ClassVar
 
@@ -28,6 +27,7 @@ from amp_studio.transfer import (
     Replacement,
     SentValues,
     TransferError,
+    Waiting,
 )
 
 from .content import AXIS_Y, FAMILY, RegisterContent, settings, words_of_content, written_content
@@ -54,14 +54,8 @@ class RegisterDriver(RegisterContent, LineDriver):
     is_read_when_stopped = True
     takes_live_values: ClassVar[bool] = True
 
-    def __init__(
-        self,
-        open_link: OpenLink,
-        *,
-        clock: Callable[[], float] = time.monotonic,
-        sleep: Callable[[float], None] = time.sleep,
-    ) -> None:
-        super().__init__(open_link, clock=clock, sleep=sleep)
+    def __init__(self, open_link: OpenLink, waiting: Waiting | None = None) -> None:
+        super().__init__(open_link, waiting)
         self._line = RegisterLine(open_link, self._waiting)
 
     def close(self) -> None:

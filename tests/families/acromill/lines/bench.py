@@ -5,6 +5,7 @@ from pathlib import Path
 
 from amp_studio.families.acromill.emulated.card import AcrCard
 from amp_studio.families.acromill.lines.driver import MetricTerminalDriver, TerminalDriver
+from amp_studio.transfer import Waiting
 from amp_studio.transfer.emulated.line_device import DeviceSetup
 from amp_studio.transfer.emulated.memory import Memory
 from amp_studio.transfer.links.link import Link, LinkError
@@ -21,7 +22,7 @@ class CardBench:
         self.lines: list[DeviceLine] = []
         self.card = self.switch_on()
         kind = MetricTerminalDriver if system == "metric" else TerminalDriver
-        self.driver = kind(self._open, clock=self.clock, sleep=self.clock.sleep)
+        self.driver = kind(self._open, Waiting(self.clock, self.clock.sleep))
 
     def switch_on(self) -> AcrCard:
         """Begin with what is saved."""

@@ -16,6 +16,7 @@ from amp_studio.families.acromill.lines.driver import TerminalDriver
 from amp_studio.files import ParameterFile
 from amp_studio.schema import load_schema
 from amp_studio.schema.values import read_value
+from amp_studio.transfer import Waiting
 from amp_studio.transfer.client.exchange import Outcome, WantedContent, download, upload
 from amp_studio.transfer.client.parameters import download_file
 from amp_studio.transfer.emulated.faults import Faults, FaultyLink
@@ -304,7 +305,7 @@ def test_a_setting_is_missing_only_where_a_second_reading_lacks_it_too(bench: Ca
 
 def another_run(bench: CardBench, file: ParameterFile, folder: Path) -> Outcome:
     """Download a file as a program does that has just been started; copies and record are in the folder."""
-    bench.driver = TerminalDriver(bench._open, clock=bench.clock, sleep=bench.clock.sleep)
+    bench.driver = TerminalDriver(bench._open, Waiting(bench.clock, bench.clock.sleep))
     with mock.patch("amp_studio.transfer.client.parameters.open_driver", return_value=bench.driver):
         return download_file(
             file, "tcp://card:23", Exchange(keep=folder / "router", record=folder / "router.amp")
@@ -483,7 +484,7 @@ class Hostile:
 def test_a_hostile_other_end_is_bounded(
     bench: CardBench, answer: Callable[[int, bytes], bytes], kind: type[TransferError]
 ) -> None:
-    driver = TerminalDriver(lambda _: Hostile(bench, answer), clock=bench.clock, sleep=bench.clock.sleep)
+    driver = TerminalDriver(lambda _: Hostile(bench, answer), Waiting(bench.clock, bench.clock.sleep))
     with pytest.raises(kind):
         upload(driver)
     assert bench.clock.now < 120

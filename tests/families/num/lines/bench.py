@@ -7,6 +7,7 @@ from pathlib import Path
 
 from amp_studio.families.num.emulated.control import NumControl
 from amp_studio.families.num.lines.driver import CheckingPeripheralDriver, PeripheralDriver
+from amp_studio.transfer import Waiting
 from amp_studio.transfer.emulated.line_device import DeviceSetup
 from amp_studio.transfer.emulated.memory import Memory
 from amp_studio.transfer.links.link import Link
@@ -33,7 +34,7 @@ class NumBench:
         self.control = self.switch_on()
         self.press(f"parity {parity}")
         kind = CheckingPeripheralDriver if has_checked else PeripheralDriver
-        self.driver = kind(self._open, clock=self.clock, sleep=self.clock.sleep)
+        self.driver = kind(self._open, Waiting(self.clock, self.clock.sleep))
         self.driver.is_checked = is_checked
 
     def switch_on(self) -> NumControl:

@@ -19,6 +19,7 @@ from amp_studio.families.num.lines.driver import (
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import load_schema
 from amp_studio.schema.storage import value_of_stored
+from amp_studio.transfer import Waiting
 from amp_studio.transfer.client.exchange import Outcome, WantedContent, download, upload
 from amp_studio.transfer.emulated.faults import Faults, FaultyLink
 from amp_studio.transfer.errors import (
@@ -127,7 +128,7 @@ def test_a_check_that_stops_at_a_word_has_the_table_unloaded_again(tmp_path: Pat
     assert [line for line in bench.screen if "FILE ERROR" in line] == [
         "dialogue line: FILE ERROR (INCORRECT TAPE?)  [line 445: P89N12 differs]"
     ]
-    bench.driver = PeripheralDriver(bench._open, clock=bench.clock, sleep=bench.clock.sleep)
+    bench.driver = PeripheralDriver(bench._open, Waiting(bench.clock, bench.clock.sleep))
     bench.driver.is_checked = True
     bench.wrap = lambda link: link
     assert upload(bench.driver, Exchange(bench.progress)) == content
@@ -323,7 +324,7 @@ def test_a_hostile_other_end_is_bounded(
     def open_link(_look: Callable[[], None]) -> Link:
         return Hostile(bench, answer)
 
-    driver = PeripheralDriver(open_link, clock=bench.clock, sleep=bench.clock.sleep)
+    driver = PeripheralDriver(open_link, Waiting(bench.clock, bench.clock.sleep))
     with pytest.raises(kind):
         driver.identify()
     assert bench.clock.now < 3_700
@@ -335,7 +336,7 @@ def test_a_control_that_pauses_a_load_for_ever_is_left(bench: NumBench) -> None:
     def open_link(_look: Callable[[], None]) -> Link:
         return Hostile(bench, lambda n: b"\x11" if n == 2 else b"\x13")
 
-    driver = PeripheralDriver(open_link, clock=bench.clock, sleep=bench.clock.sleep)
+    driver = PeripheralDriver(open_link, Waiting(bench.clock, bench.clock.sleep))
     with pytest.raises(TransferError) as caught:
         driver.send(Replacement(content, content))
     assert caught.value.at_control == "old", "no data line was sent"

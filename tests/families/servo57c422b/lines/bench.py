@@ -5,6 +5,7 @@ from pathlib import Path
 
 from amp_studio.families.servo57c422b.emulated.rack import Rack
 from amp_studio.families.servo57c422b.lines.driver import RegisterDriver
+from amp_studio.transfer import Waiting
 from amp_studio.transfer.emulated.line_device import DeviceSetup
 from amp_studio.transfer.emulated.memory import Memory
 from amp_studio.transfer.links.link import Link, LinkError
@@ -20,7 +21,7 @@ class RackBench:
         self.wrap: Callable[[Link], Link] = lambda link: link
         self.is_up = True
         self.rack = Rack(DeviceSetup("57c422b", Memory(folder), print))
-        self.driver = RegisterDriver(self._open, clock=self.clock, sleep=self.clock.sleep)
+        self.driver = RegisterDriver(self._open, Waiting(self.clock, self.clock.sleep))
 
     @property
     def words(self) -> list[int]:
