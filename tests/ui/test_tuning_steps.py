@@ -16,7 +16,7 @@ from pytestqt.qtbot import QtBot
 from amp_studio.calibration import steps_of
 from amp_studio.files import ParameterFile, open_file
 from amp_studio.schema import Address, Value, load_schema, registered_families
-from amp_studio.sim import Recommendation, Trace, law_of, read_tunings, simulate
+from amp_studio.sim import Recommendation, SimulationError, Trace, law_of, read_tunings, simulate
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.motion import tuning_steps
 from amp_studio.ui.motion.tuning_page import TuningView
@@ -55,9 +55,11 @@ class WithFile(TuningTarget):
 def guided(workspace: Workspace, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> TuningSteps:
     """Return appendix A; its gains are not sought here, which takes seconds."""
 
-    def quick(file: ParameterFile, scenario: str, axis: str, settings: Mapping[str, float]) -> Trace:
+    def quick(
+        file: ParameterFile, scenario: str, axis: str, settings: Mapping[str, float]
+    ) -> Trace | SimulationError:
         if scenario == "tune":
-            raise ValueError("not sought")
+            return SimulationError("not sought")
         return simulate(file, scenario, axis, {**settings, "move.duration": 0.05}, advise=False)
 
     monkeypatch.setattr(tuning_steps, "_simulated", quick)
@@ -67,7 +69,10 @@ def guided(workspace: Workspace, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) 
     page.pages.setCurrentRow(page.pages.count() - 1)
     (steps,) = page.guided
     steps.steps.setCurrentRow(RAISED)
-    qtbot.waitUntil(lambda: steps.now is not None and not steps._tasks, timeout=WAIT_MS)
+    qtbot.waitUntil(
+        lambda: steps.now is not None and not any(work.is_busy for work in steps._work.values()),
+        timeout=WAIT_MS,
+    )
     return steps
 
 

@@ -50,7 +50,8 @@ from .check_list import (
     part_in_words,
     verdict_in_words,
 )
-from .machine_cards import CheckCard, LatestWork, SpindleCard, TravelCard
+from .latest_work import LatestWork
+from .machine_cards import CheckCard, SpindleCard, TravelCard
 from .results import name_of
 
 LEFT = 280

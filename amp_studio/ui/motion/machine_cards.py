@@ -4,12 +4,11 @@ spindle.
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
-from PySide6.QtCore import QObject, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QFrame, QLabel, QLineEdit, QPushButton, QSizePolicy, QStackedWidget, QWidget
 
@@ -31,66 +30,17 @@ from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.plot import Plot
-from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import GAP, GAP2, GAP3, HEAD, colour, font, scheme
 from amp_studio.ui.base.translated import sentenced
 from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.forms.segment import Segment
 
+from .latest_work import LatestWork
 from .scene_view import SceneView
 
 HIGHEST = "highest"
 MIN_FIELD = 56
 """Least width of a field in logical pixels."""
-
-
-class LatestWork(QObject):
-    """Does work in a thread, one after the other; of what is asked meanwhile only the last is done."""
-
-    done = Signal(object)
-    """What was asked for last has this result, or this error."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self._task: Task | None = None
-        self._next: Callable[[], object] | None = None
-
-    def ask(self, work: Callable[[], object]) -> None:
-        """Do it, once what is under way has ended."""
-        self._next = work
-        if self._task is None:
-            self._begin()
-
-    def stop(self) -> None:
-        """Want nothing any more; what is under way ends unheard."""
-        self._next = None
-        if self._task is not None:
-            # Disconnected, not cancelled: a simulation cannot be interrupted; its result is dropped.
-            self._task.done.disconnect(self._receive)
-            self._task.failed.disconnect(self._receive)
-            self._task = None
-
-    def _begin(self) -> None:
-        work, self._next = self._next, None
-        assert work is not None
-
-        def run(_progress: TaskProgress, _cancelled: threading.Event) -> object:
-            return work()
-
-        self._task = Task(run)
-        self._task.done.connect(self._receive)
-        self._task.failed.connect(self._receive)
-        self._task.begin()
-
-    def _receive(self, found: object) -> None:
-        self._task = None
-        if self._next is not None:
-            self._begin()
-        # A move that cannot be simulated is an answer for the card; other errors are faults of the program.
-        elif isinstance(found, Exception) and not isinstance(found, SimulationError):
-            raise found
-        else:
-            self.done.emit(found)
 
 
 class Card(QFrame):

@@ -8,7 +8,6 @@ from PySide6.QtCore import QSignalBlocker, Qt
 from PySide6.QtWidgets import QComboBox, QLabel, QPushButton, QWidget
 
 from amp_studio.drawing import linked
-from amp_studio.files import ParameterFile
 from amp_studio.schema import axis_name
 from amp_studio.sim import SimulationError, Trace, picture_of, simulate, simulated_axes
 from amp_studio.ui.base.figures import written
@@ -16,10 +15,10 @@ from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.single_shot import single_shot
-from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import GAP
 from amp_studio.ui.base.translated import sentenced, unit_in_words
 
+from .latest_work import LatestWork
 from .tuning_target import TuningTarget
 
 _SHOWN = slice(1, 3)
@@ -35,8 +34,7 @@ class StepAnswer(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self._target: TuningTarget | None = None
-        self._task: Task | None = None
-        self._again = False
+        self._latest = LatestWork()
         self.trace: Trace | None = None
         self.before: Trace | None = None
         self.axis, self.plot, self.text = QComboBox(), Plot(), QLabel()
@@ -51,6 +49,7 @@ class StepAnswer(QWidget):
         label.setBuddy(self.axis)
         in_column(in_row(label, self.axis, self.keep, 0), (self.plot, 1), self.text, on=self, margins=0)
         self._timer = single_shot(self, self.run, SETTLE_MS)
+        self._latest.done.connect(self._receive)
         self.axis.currentIndexChanged.connect(lambda *_: self._start_over())
 
     def show_target(self, target: TuningTarget) -> None:
@@ -85,29 +84,24 @@ class StepAnswer(QWidget):
         self._draw()
 
     def run(self) -> None:
-        """Simulate in the background; once more where something changed meanwhile."""
+        """Simulate in the background; of what changes meanwhile the newest values are shown."""
         if self._target is None or not self.isVisible():
-            return
-        # One run at a time: while one is on its way, the newest values are what the next one takes.
-        if self._task is not None:
-            self._again = True
             return
         file, axis = self._target.simulated(), self.axis.currentData()
         if axis is None:
             self.text.setText(self.tr("No axis of this file can be simulated."))
             return
-        self._task = Task(lambda *_: _simulated(file, axis), None)
-        self._task.done.connect(self._done)
-        self._task.failed.connect(self._failed)
-        self._task.finished.connect(self._finished)
-        self._task.begin()
+        self._latest.ask(lambda: simulate(file, "step", axis, {}, file.header.units))
 
     def showEvent(self, event: object) -> None:
         """Simulate once it is seen."""
         super().showEvent(event)  # type: ignore[arg-type]  # Qt gives the event of this kind
         self._timer.start()
 
-    def _done(self, trace: Trace) -> None:
+    def _receive(self, trace: Trace | SimulationError) -> None:
+        if isinstance(trace, SimulationError):
+            self._failed(trace)
+            return
         # In other units the old curve would lie wrong in the picture.
         if self.before is None or self.before.units != trace.units:
             self.before = trace
@@ -146,16 +140,3 @@ class StepAnswer(QWidget):
         self.trace = None
         file = self._target.file if self._target else None
         self.text.setText(sentenced_with_letters(file, str(error)) if file else sentenced(str(error)))
-
-    def _finished(self) -> None:
-        self._task = None
-        if self._again:
-            self._again = False
-            self.run()
-
-
-def _simulated(file: ParameterFile, axis: str) -> Trace:
-    try:
-        return simulate(file, "step", axis, {}, file.header.units)
-    except SimulationError as error:
-        raise ValueError(str(error)) from None

@@ -32,13 +32,13 @@ from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.places import sentenced_with_letters
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.single_shot import single_shot
-from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import CONTROL, GAP, GAP2, SMALL_ICON, icon
 from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.pages import LINK
 from amp_studio.ui.forms.segment import Segment
 
+from .latest_work import LatestWork
 from .map_rows import nearest_row, row_beside
 from .results import RecommendationsPage
 from .settings import scrolled
@@ -52,7 +52,7 @@ _LEFT, _RIGHT = 258, 266
 _ROWS = 9
 """Steps that are seen at once."""
 _FIGURES = ("Ms", "phase_margin", "gain_margin", "bandwidth", "stiffness", "velocity_loop_Ms")
-_TUNE, _MAP = "tune", "sweep"
+_STEP, _TUNE, _MAP = "step", "tune", "sweep"
 _OTHERS_TUNED = "With the other gains as they are none is safe"
 """Begins the sentence of a map in which other gains than its two are not the present ones."""
 _DONE, _OPEN = "check-circle-fill", "circle"
@@ -71,8 +71,8 @@ class TuningSteps(QWidget):
         super().__init__()
         self.guide, self._workspace, self._guarded = guide, workspace, guarded
         self._target: TuningTarget | None = None
-        self._tasks: dict[str, Task] = {}
-        self._again: set[str] = set()
+        # One run of a kind at a time: else an older result could be shown over a newer one.
+        self._work = {key: LatestWork() for key in (_STEP, _MAP, _TUNE)}
         self.mapped: Trace | None = None
         self._row: int | None = None
         """The row of the map that is proposed; None where the gains of the solver are."""
@@ -83,6 +83,8 @@ class TuningSteps(QWidget):
         self._make_widgets()
         self._arrange()
         self._timer = single_shot(self, self.run, SETTLE_MS)
+        for work in self._work.values():
+            work.done.connect(self._receive)
         self.steps.currentRowChanged.connect(lambda *_: self._open())
         self.axis.currentIndexChanged.connect(lambda *_: self._open())
         self.below.pointed.connect(self._pointed)
@@ -248,30 +250,19 @@ class TuningSteps(QWidget):
             scenario, settings = shows.scenario, dict(shows.settings)
             # Tapping is of the machine: it finds the spindle and the axis that taps itself.
             on = None if scenario == "tap" else axis
-            self._begin("step", lambda: _simulated(file, scenario, on, settings), self._stepped)
+            self._work[_STEP].ask(lambda: (_STEP, _simulated(file, scenario, on, settings)))
         aim = self._aim
         if self._chart == _MAP:
-            self._begin(_MAP, lambda: _simulated(file, "sweep", axis, {}), self._mapped)
+            self._work[_MAP].ask(lambda: (_MAP, _simulated(file, "sweep", axis, {})))
         # Also beside the map: the gains and their figures are always shown.
-        self._begin(_TUNE, lambda: _simulated(file, "tune", axis, {"tune.for": aim}), self._tuned)
+        self._work[_TUNE].ask(lambda: (_TUNE, _simulated(file, "tune", axis, {"tune.for": aim})))
 
-    def _begin(self, key: str, work: Callable[[], Trace], done: Callable[[Trace], None]) -> None:
-        # One task of a kind at a time: else an older result could be shown over a newer one.
-        if key in self._tasks:
-            self._again.add(key)
-            return
-        task = Task(lambda *_: work(), None)
-        self._tasks[key] = task
-        task.done.connect(done)
-        task.failed.connect(lambda error: self._failed(key, error))
-        task.finished.connect(lambda: self._finished(key))
-        task.begin()
-
-    def _finished(self, key: str) -> None:
-        self._tasks.pop(key, None)
-        if key in self._again:
-            self._again.discard(key)
-            self._timer.start()
+    def _receive(self, made: tuple[str, Trace | SimulationError]) -> None:
+        key, found = made
+        if isinstance(found, SimulationError):
+            self._failed(key, found)
+        else:
+            {_STEP: self._stepped, _MAP: self._mapped, _TUNE: self._tuned}[key](found)
 
     def _stepped(self, trace: Trace) -> None:
         # The first run of a step is how the axis was before anything was changed.
@@ -388,7 +379,7 @@ class TuningSteps(QWidget):
         text = (
             sentenced_with_letters(self._target.file, str(error)) if self._target else sentenced(str(error))
         )
-        if key == "step":
+        if key == _STEP:
             self.plot.clear_picture()
             self.detail.show_figures(self.guide.steps[self.steps.currentRow()], None, None, text)
         elif key == _TUNE:
@@ -459,8 +450,8 @@ class TuningSteps(QWidget):
 
 def _simulated(
     file: ParameterFile, scenario: str, axis: str | None, settings: dict[str, float | str]
-) -> Trace:
+) -> Trace | SimulationError:
     try:
         return simulate(file, scenario, axis, settings, file.header.units)
     except SimulationError as error:
-        raise ValueError(str(error)) from None
+        return error
