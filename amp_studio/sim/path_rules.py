@@ -108,7 +108,7 @@ NO_STEP = PathLimit(0.0, None, "no velocity step")
 
 
 def steps_of_axes(steps: Mapping[str, PathLimit]) -> CornerRule:
-    """Return the rule of a control that lets each axis change its speed by a step of its own in a corner;
+    """Return the rule of a control that lets each axis change its speed by its step in a corner;
     an axis without one must stop in every corner.
     """
 
