@@ -240,17 +240,20 @@ def _table(rows: Iterable[ReportRow], by_place: bool, words: Language) -> Iterat
     before = ""
     for row in listed:
         name = row.name if row.id != before else ""
-        value = words.text(row.bare_text) if row.is_own_word else row.text
-        if small_print := row.small_print_in(words.text):
-            value += f" ({small_print})"
-        if row.forced:
-            value += f" [{row.forced}]"
-        place_text = words.text(row.place)
         number = row.number or "–"
         if joined:
             name = f"{number} {name}"
-        yield from _beside((number, name, place_text, value, row.default, row.marks), widths)
+        cells = (number, name, words.text(row.place), _value_text(row, words), row.default, row.marks)
+        yield from _beside(cells, widths)
         before = row.id
+
+
+def _value_text(row: ReportRow, words: Language) -> str:
+    """Return a value with what is printed small elsewhere, and why it was forced."""
+    value = words.text(row.bare_text) if row.is_own_word else row.text
+    if small_print := row.small_print_in(words.text):
+        value += f" ({small_print})"
+    return f"{value} [{row.forced}]" if row.forced else value
 
 
 def _columns(heads: Sequence[str], lines: Sequence[Sequence[str]]) -> Iterator[str]:

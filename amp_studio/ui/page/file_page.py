@@ -280,19 +280,23 @@ class FilePage(QWidget):
         place = place_in_words(file, address)
         return "   ".join(text for text in (describe(file, address), place) if text)
 
+    def _count_text(self, chosen: list[Address]) -> str:
+        """Return how many cells are selected, and of which parameter where it is one."""
+        if len({a[0] for a in chosen}) > 1:
+            return self.tr("%n cells", "", len(chosen))
+        ends = [axis_letter(self.workspace.file, a[1]) for a in (chosen[0], chosen[-1])]
+        name = describe(self.workspace.file, chosen[0])
+        span = self.tr("{first} to {last}").format(first=ends[0], last=ends[1]) if all(ends) else ""
+        of = ", ".join(filter(None, (name, span)))
+        return self.tr("%n cells of {name}", "", len(chosen)).format(name=of)
+
     def _range_text(self, chosen: list[Address]) -> str:
         """Return how many cells are selected, and the least and largest number where all have one unit."""
         values = [
             v for a in chosen if (v := self.table.values.in_units(a, self.workspace.file.get(a))) is not None
         ]
         numbers = [v.value for v in values if not isinstance(v.value, (str, bool))]
-        parts = [self.tr("%n cells", "", len(chosen))]
-        if len({a[0] for a in chosen}) == 1:
-            ends = [axis_letter(self.workspace.file, a[1]) for a in (chosen[0], chosen[-1])]
-            name = describe(self.workspace.file, chosen[0])
-            span = self.tr("{first} to {last}").format(first=ends[0], last=ends[1]) if all(ends) else ""
-            of = ", ".join(filter(None, (name, span)))
-            parts = [self.tr("%n cells of {name}", "", len(chosen)).format(name=of)]
+        parts = [self._count_text(chosen)]
         if numbers and len(numbers) == len(values) and len({v.unit for v in values}) == 1:
             unit = f" {unit_in_words(values[0].unit)}" if values[0].unit else ""
             parts.append(self.tr("min {number}").format(number=f"{write_figure(min(numbers))}{unit}"))

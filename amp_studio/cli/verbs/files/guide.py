@@ -170,17 +170,27 @@ def _family(options: Options, schema: Schema, asked_for: str | None) -> int:
     if options.way:
         print("\n".join(way_lines(schema, options.way, str(options.path), None)))
         return 0
-    order = _order(schema)
-    if not asked_for and order["order"]:
-        print(f"{order['why']}{_cited({'manual': order['page']}.get(order['order']))}")
-    for step in steps:
-        print(f"{step.number:>3}  {step.title}{_cited(step.page)}")
-        if asked_for:
-            print("\n".join(f"     {label}" for label in _parameter_labels(schema, step)))
-    if not asked_for:
-        for line in way_names(schema):
-            print(line)
+    print("\n".join(_step_with_parameters(schema, steps[0]) if asked_for else _all_steps(schema, steps)))
     return 0
+
+
+def _all_steps(schema: Schema, steps: Sequence[SetupStep]) -> Iterator[str]:
+    """Yield whose order the steps have, a line for each, and the printed ways."""
+    order = _order(schema)
+    if order["order"]:
+        yield f"{order['why']}{_cited({'manual': order['page']}.get(order['order']))}"
+    yield from map(_head_of_step, steps)
+    yield from way_names(schema)
+
+
+def _step_with_parameters(schema: Schema, step: SetupStep) -> Iterator[str]:
+    """Yield the line of a step, and one for each of its parameters."""
+    yield _head_of_step(step)
+    yield from (f"     {label}" for label in _parameter_labels(schema, step))
+
+
+def _head_of_step(step: SetupStep) -> str:
+    return f"{step.number:>3}  {step.title}{_cited(step.page)}"
 
 
 def _cited(page: str | None) -> str:
