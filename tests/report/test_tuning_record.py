@@ -11,7 +11,7 @@ import pytest
 from jsonschema import Draft7Validator
 
 from amp_studio import cli, dossier
-from amp_studio.files import SaveError, check_output, open_file
+from amp_studio.files import SaveError, atomic, check_output, open_file
 from amp_studio.report import Contents
 from amp_studio.sim import add_tuning, read_tunings, recorded_tuning, simulate
 
@@ -107,6 +107,22 @@ def test_keep_belongs_to_tune_and_no_output_replaces_the_record(
 
 
 @pytest.mark.skipif(which("pdftotext") is None, reason="poppler is not installed")
+def test_a_full_disk_leaves_the_figures_and_names_the_record(
+    tuned: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Nothing was printed but "the results cannot be written"."""
+
+    def full(_handle: int, _content: bytes) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(atomic, "write_all", full)
+    assert cli.run(["simulate", str(tuned), "tune", "--keep", "x"]) == 2
+    printed = capsys.readouterr()
+    assert "tune, axis X" in printed.out
+    why = "the tuning could not be recorded in tunings.jsonl: No space left on device"
+    assert printed.err == f"amp-studio: {why}\n"
+
+
 def test_a_german_chapter_is_german_and_a_note_ends_before_the_next_tuning(tuned: Path) -> None:
     """The note ran into ``== Achse Y``; reasons, units and decimal signs of the record were English."""
     add_tuning(tuned, replace(read_tunings(tuned)[0], axis="Y", note="kalt"))

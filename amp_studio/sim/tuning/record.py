@@ -11,7 +11,16 @@ from dataclasses import asdict, dataclass
 from math import isfinite
 from pathlib import Path
 
-from amp_studio.files import TUNINGS, ParameterFile, append_line, now, real_path, text_of_name, user
+from amp_studio.files import (
+    TUNINGS,
+    ParameterFile,
+    SaveError,
+    append_line,
+    now,
+    real_path,
+    text_of_name,
+    user,
+)
 from amp_studio.schema import UnknownParameterError, read_file
 from amp_studio.sim.rounding import value_text
 from amp_studio.sim.trace import Trace
@@ -108,9 +117,14 @@ def _parted(text: str) -> tuple[str, str, str]:
 
 
 def add_tuning(beside: Path, tuning: RecordedTuning) -> None:
-    """Append a tuning to the record in the folder of a file; raises OSError."""
-    place = real_path(beside).parent / TUNINGS
-    append_line(place, (json.dumps(asdict(tuning), ensure_ascii=True) + "\n").encode(), like=place.parent)
+    """Append a tuning to the record in the folder of a file; raises SaveError."""
+    line = json.dumps(asdict(tuning), ensure_ascii=True) + "\n"
+    try:
+        place = real_path(beside).parent / TUNINGS
+        append_line(place, line.encode(), like=place.parent)
+    except OSError as error:
+        why = error.strerror or error
+        raise SaveError(f"the tuning could not be recorded in {TUNINGS}: {why}") from error
 
 
 def read_tunings(beside: Path) -> list[RecordedTuning]:

@@ -204,17 +204,19 @@ def run(options: Options) -> int:
         return _list(machine.file, options.units, as_json=options.json)
     if options.scenario is None:
         raise UsageError("Name a scenario; amp-studio simulate PATH --list lists them")
+    if options.keep is not None and options.scenario != "tune":
+        raise UsageError(f"--keep belongs to tune, not to {options.scenario}")
     if options.scenario == IDENTIFY:
         return _identify(options, machine)
     file, trace, earlier = _simulated(options, machine)
-    if options.keep is not None:
-        _keep(options, file, trace)
     if options.output:
         _write(options, file, trace, earlier)
     if options.json:
         print_json(trace_summary(trace, lambda parameter: named_parameter(file, parameter, trace.axis)))
     else:
         print(trace_text(trace, lambda parameter: called_parameter(file, parameter, trace.axis)))
+    if options.keep is not None:  # behind the figures, which a full disk must not take along
+        _keep(options, file, trace)
     # An alarm is a result: a script reads it from the exit code, and 2 stays for what cannot be used.
     return 1 if trace.alarms else 0
 
@@ -247,8 +249,6 @@ def _keep(options: Options, file: ParameterFile, trace: Trace) -> None:
     """Add what `tune` found to the tuning record of the file."""
     from amp_studio.sim import add_tuning, recorded_tuning
 
-    if options.scenario != "tune":
-        raise UsageError(f"--keep belongs to tune, not to {options.scenario}")
     machine, aim = _given_machine(options), options.aim or "normal"
     add_tuning(options.path, recorded_tuning(file, options.path, trace, aim, machine, options.keep))
 
