@@ -52,7 +52,7 @@ def test_enter_goes_to_the_best_parameter_and_the_cursor_to_the_table(
     window: MainWindow, box: FindBox
 ) -> None:
     typed(box, "exess error y")
-    assert (box.is_open, heads(box)[0]) == (True, "Parameters")
+    assert (box.is_open, box.model.rows[1].hit.kind) == (True, "parameter")
     QTest.keyClick(box, Qt.Key.Key_Return)
     assert window.selected() == ("servo.excess_error", "2")
     assert window.focusWidget() is window.table_view
@@ -132,7 +132,7 @@ def test_nothing_found_offers_the_nearest_and_enter_takes_it(window: MainWindow,
     assert (nothing.text, nearest.instead) == ("Nothing found", "excess")
     QTest.keyClick(box, Qt.Key.Key_Return)
     assert (box.text(), box.is_open) == ("excess", True)
-    assert heads(box)[0] == "Parameters"
+    assert box.model.rows[1].hit.kind == "parameter"
 
 
 def test_another_family_that_has_it_is_named_and_shown(
@@ -144,6 +144,15 @@ def test_another_family_that_has_it_is_named_and_shown(
     assert row.text.startswith("In grblHAL and Grbl: ")
     box.chosen.emit(row)
     assert "Id: homing.debounce" in user.reads()
+
+
+def test_the_best_of_each_kind_are_at_the_top(box: FindBox) -> None:
+    """The parameter that resets was below six messages of an E-stop, which fit less."""
+    box.begin("will not reset")
+    best = [row.hit.key for row in box.model.rows[1:4]]
+    assert box.model.rows[0].text == "Best"
+    assert best[0] == "symptom-stays-in-estop"
+    assert box.model.rows[2].text.startswith("68 Control Reset on E-Stop Reset")
 
 
 def test_a_german_word_leads_to_the_parameter_whatever_the_language(box: FindBox) -> None:
@@ -179,7 +188,8 @@ def test_the_other_machine_type_is_searched_once_the_file_is_of_it(
     workspace.edit("edit", {("servo.excess_error", "1"): Value(12.0, "mm")})
     assert window.finder._finders[window.page] is after
     box.begin("lathe type")
-    qtbot.waitUntil(lambda: heads(box)[:1] == ["Parameters"], timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: box.model.rows[0].is_head and len(box.model.rows) > 1, timeout=WAIT_MS)
+    assert box.model.rows[1].hit.kind == "parameter"
 
 
 def test_a_message_opens_its_page_which_follows_every_edit(

@@ -34,6 +34,8 @@ _MAX_HITS: dict[HitKind, int] = {
     "note": 4,
 }
 """Rows of each kind, so that none buries the others."""
+_BEST = 3
+"""Hits that come first, of whatever kind."""
 _PLAIN = frozenset({"number", "name", "code", "text", "choice", "value", "note", "id", "group"})
 """Reasons that the row itself shows."""
 _TYPED, _PAGE = re.compile("'(.+)' as '(.+)'"), re.compile(r"\bpage \S+$")
@@ -76,18 +78,27 @@ def _head(kind: HitKind) -> str:
 
 
 def rows_of(hits: Sequence[Hit], actions: dict[str, QAction], family: str = "") -> list[FindRow]:
-    """Return the hits under heads: the kind of the best hit first, and in each the best first;
-    titles of messages of a family are in the language of the window.
+    """Return the hits under heads: the best ones first where they are of several kinds, then the kind of the
+    best hit, and in each the best first; titles of messages of a family are in the language of the window.
     """
+
+    def one(hit: Hit) -> FindRow:
+        return _row(hit, actions.get(hit.key) if hit.kind == "command" else None, family)
+
+    rows: list[FindRow] = []
+    if (
+        len({hit.kind for hit in hits[:_BEST]}) > 1
+    ):  # else the second best were below everything of the kind of the best
+        rows = [FindRow(tr("Best")), *(one(hit) for hit in hits[:_BEST])]
+        hits = hits[_BEST:]
     kinds: dict[HitKind, list[Hit]] = {}
     for hit in hits:
         kinds.setdefault(hit.kind, []).append(hit)
-    rows = []
     for kind, found in kinds.items():
         rows.append(FindRow(_head(kind)))
         # Of a single kind all: there is no other that could be buried.
         listed = found[: _MAX_HITS[kind]] if len(kinds) > 1 else found
-        rows += [_row(hit, actions.get(hit.key) if kind == "command" else None, family) for hit in listed]
+        rows += map(one, listed)
     return rows
 
 
