@@ -47,7 +47,7 @@ def two(path: Path, tmp_path: Path, open_window: Callable[..., MainWindow]) -> C
 
 def read_all(page: WelcomePage, qtbot: QtBot) -> None:
     """Wait until everything is known."""
-    qtbot.waitUntil(lambda: page.families.count() > 0 and page._reading is None, timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: page.has_facts and page._reading is None, timeout=WAIT_MS)
     displayed = [page.list.item(n).data(KEY) for n in range(page.list.count())]
     qtbot.waitUntil(lambda: all(page._summaries.of(path) is not None for path in displayed), timeout=WAIT_MS)
 
@@ -205,6 +205,18 @@ def test_with_nothing_there_yet_it_shows_where_to_begin(open_window) -> None:
     assert "No file has been opened yet" in page.none.text()
     assert page.none.isVisible()
     assert not page.message.isVisible()
+
+
+def test_it_is_never_empty_and_no_row_moves_once_more_is_known(open_window, qtbot: QtBot) -> None:
+    """New file and Examples were heads without a row until every family was read: seconds on a busy machine."""
+    page = open_window().welcome
+    assert not page.has_facts
+    assert [page.families.item(n).data(KEY) for n in range(page.families.count())] == list(family_ids())
+    assert page.examples.count() == len(examples())
+    before = [page.families.geometry(), page.examples.geometry()]
+    read_all(page, qtbot)
+    assert [page.families.geometry(), page.examples.geometry()] == before
+    assert page.families.item(0).data(ROW).second != "…"
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from PySide6.QtCore import QRect, QSize, Qt, Signal
@@ -94,6 +94,15 @@ class WelcomeList(QListWidget):
         item.setData(ROW, row)
         item.setData(Qt.ItemDataRole.AccessibleTextRole, row.accessible_text())
         item.setData(Qt.ItemDataRole.ToolTipRole, "\n".join(row.words))
+
+    def show_rows(self, rows: Iterable[tuple[object, WelcomeRow]]) -> None:
+        """Show other entries in the place of those that are there, the current one as before."""
+        current = self.currentRow()
+        self.clear()
+        for key, row in rows:
+            self.add(key, row)
+        self.setCurrentRow(current)
+        self.fit()
 
     def fit(self) -> None:
         """Be as high as the rows that are shown."""

@@ -24,7 +24,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.files import Example, examples
+from amp_studio.files import ENDING, Example, examples, examples_folder
 from amp_studio.schema import family_ids, load_schema
 from amp_studio.ui.actions.control import ControlDesk
 from amp_studio.ui.actions.file import Files
@@ -74,6 +74,8 @@ class WelcomePage(QWidget):
         self._window, self._files, self._open_project = window, files, open_project
         self._summaries = window.summaries
         self._reading: Task | None = None
+        self.has_facts = False
+        """Whether it is known what the families and the examples are."""
         self._pause = single_shot(self, self._read, _REST_MS)
         self._summaries.summary_read.connect(self._describe_path)
         self.message = MessageBar()
@@ -83,6 +85,7 @@ class WelcomePage(QWidget):
         self.controls = WelcomeControls(window, control)
         self.filter = QLineEdit()
         self._lay_out()
+        self._list_names()
         self._connect()
         self.setFocusProxy(self.list)
 
@@ -197,6 +200,15 @@ class WelcomePage(QWidget):
 
     # -- what is shown -----------------------------------------------------------------
 
+    def _list_names(self) -> None:
+        """List families and examples by what their files are called, until what they are has been read."""
+        for family in family_ids():
+            self.families.add(family, WelcomeRow(family, second="…", opens=True))
+        for path in sorted(examples_folder().glob(f"*/*{ENDING}")):
+            self.examples.add(Example(path, "", path.stem, ""), WelcomeRow(path.stem))
+        for view in (self.families, self.examples):
+            view.fit()
+
     def show_recent(self, recent: list[Path]) -> None:
         """List the recent files, the pinned ones first; their findings are counted once the page is at
         rest.
@@ -290,7 +302,7 @@ class WelcomePage(QWidget):
         if not self.isVisible():
             return
         # Families first: who has no files yet begins there, and the controls are listed by their names.
-        if not self.families.count() and self._reading is None:
+        if not self.has_facts and self._reading is None:
             self._reading = task = Task(lambda *_: (_all_families(), _worded_examples()))
             task.done.connect(self._show_facts)
             task.finished.connect(self._done_reading)
@@ -308,21 +320,23 @@ class WelcomePage(QWidget):
                 self._describe(self.list.item(n))
 
     def _show_facts(self, found: tuple[list[_Family], tuple[Example, ...]]) -> None:
-        """Fill the families and the examples."""
+        """Show what the families and the examples are, each in its row."""
+        self.has_facts = True
         families, machines = found
         names = {family.key: family.short for family in families}
         self.controls.names = names
         self.controls.show_controls()
-        for family in families:
-            row = WelcomeRow(family.name, second=family.what, right=str(family.parameters), opens=True)
-            self.families.add(family.key, row)
-        for each in machines:
-            self.examples.add(
+        rows = [
+            (f.key, WelcomeRow(f.name, second=f.what, right=str(f.parameters), opens=True)) for f in families
+        ]
+        self.families.show_rows(rows)
+        self.examples.show_rows(
+            (
                 each,
                 WelcomeRow(each.title, right=names.get(each.family, each.family), words=(each.description,)),
             )
-        for view in (self.families, self.examples):
-            view.fit()
+            for each in machines
+        )
         self._examples_head.setText(self.tr("a copy is opened"))
 
     # -- what is done ------------------------------------------------------------------
