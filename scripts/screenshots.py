@@ -179,7 +179,7 @@ class Stage:
 
     def welcome(self) -> None:
         """The page that is there before a file is open."""
-        settle(self.window.welcome.families.count)
+        settle(lambda: self.window.welcome.has_facts)
         self.take("01-welcome", self.window, SIZES)
 
     def steps(self) -> None:

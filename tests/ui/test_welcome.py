@@ -208,7 +208,7 @@ def test_with_nothing_there_yet_it_shows_where_to_begin(open_window) -> None:
 
 
 def test_it_is_never_empty_and_no_row_moves_once_more_is_known(open_window, qtbot: QtBot) -> None:
-    """New file and Examples were heads without a row until every family was read: seconds on a busy machine."""
+    """New file and Examples were heads without a row until every family was read: seconds under load."""
     page = open_window().welcome
     assert not page.has_facts
     assert [page.families.item(n).data(KEY) for n in range(page.families.count())] == list(family_ids())
