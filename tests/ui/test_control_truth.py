@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 from amp_studio.files import content_of, new_file
 from amp_studio.schema import Value
 from amp_studio.transfer.client import parameters
-from amp_studio.transfer.errors import Confirmed, TransferError
+from amp_studio.transfer.errors import AtControl, Confirmed, TransferError
 from amp_studio.transfer.links import enter_password, parse_endpoint
 from amp_studio.ui.base.translated import message_in_words
 from amp_studio.ui.control.differences import REMARK
@@ -325,6 +325,18 @@ def test_what_was_read_before_the_line_was_lost_has_its_time(
     [
         ("the control has not answered for 8 s", "die Steuerung hat nicht geantwortet (seit 8 s)"),
         (
+            (
+                "Download complete and read back equal. Axis X has taken its setups over (change default"
+                " setups, acknowledged). The card has saved it (ESAVE). What it contained before is kept"
+                " in a.img."
+            ),
+            (
+                "Übertragung fertig, und das Zurückgelesene ist gleich. Die Achse X hat ihre Einstellungen"
+                " übernommen (change default setups, bestätigt). Die Karte hat es gespeichert (ESAVE). Was"
+                " sie vorher enthielt, liegt in a.img."
+            ),
+        ),
+        (
             "no connection to the control (serial:/dev/ttyS0: another program has this port open)",
             (
                 "keine Verbindung zur Steuerung (serial:/dev/ttyS0: ein anderes Programm hat diesen Anschluss"
@@ -360,3 +372,25 @@ def test_what_was_read_before_the_line_was_lost_has_its_time(
 )
 def test_how_an_exchange_ends_is_german_in_a_german_window(text: str, words: str) -> None:
     assert message_in_words(text) == words
+
+
+@pytest.mark.parametrize(("state", "rest"), [("mixed", "old"), ("unknown", "not known")])
+def test_after_a_break_each_value_shows_whether_the_control_has_it(
+    window: MainWindow, start_control: Start, monkeypatch, qtbot: QtBot, state: AtControl, rest: str
+) -> None:
+    control = start_control(file=nearly(window))
+    page = at_control(window, control.address, "send", qtbot)
+    page.checked.setChecked(True)
+
+    def breaks(*_: object, **__: object) -> None:
+        raise TransferError("the line broke", state, "a.img", ("1750",))
+
+    monkeypatch.setattr(parameters, "download_file", breaks)
+    page.press()
+    settled(window, qtbot)
+    remarks = [page.table._items[EXCESS[0], axis].text(REMARK) for axis in "123"]
+    assert remarks == ["new", rest, rest]
+    assert page.counts.text() in (f"1 new, 2 {rest}", f"2 {rest}, 1 new")
+    page.press()
+    settled(window, qtbot)
+    assert page.table._items[EXCESS].text(REMARK) == "later stop when it fails"

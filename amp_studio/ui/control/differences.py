@@ -5,11 +5,12 @@ it.
 from __future__ import annotations
 
 import html
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtGui import QFontMetrics, QKeyEvent, QResizeEvent
+from PySide6.QtGui import QFontMetrics, QIcon, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QTreeWidget, QTreeWidgetItem
 
 from amp_studio.files import Difference, ParameterFile, shown_axes
@@ -20,7 +21,8 @@ from amp_studio.ui.base.places import short_place
 from amp_studio.ui.base.theme import GAP2, GAP3, ROW, SMALL_ICON, colour, font, icon, scheme, severity_icon
 from amp_studio.ui.base.translated import facts_in_words, worded
 
-from .session import BackupReturn
+from .session import BackupReturn, ControlSession
+from .session_words import ends_of
 
 NUMBER, NAME, AXIS, CONTROL, FILE, REMARK = range(6)
 _NAME, _MIN_NAME, _SIDE, _MIN_SIDE = 260, 130, 150, 96
@@ -373,6 +375,17 @@ class DifferenceTable(QTreeWidget):
         without those that the control does not contain, which stay as they are in the file.
         """
         return [row for row in self.rows_taking(file=False) if not row.is_fixed]
+
+    def show_ends(self, session: ControlSession) -> str:
+        """Show beside each value that was sent whether the control has it, if that is known of each.
+        Returns how many there are of each kind.
+        """
+        items = [self._items[row.difference.address] for row in self.rows_taking(file=True)]
+        ends = ends_of(session, [item.text(NUMBER) for item in items])
+        for item in items if ends else ():
+            item.setText(REMARK, ends[item.text(NUMBER)])
+            item.setIcon(REMARK, QIcon())
+        return ", ".join(f"{count} {end}" for end, count in sorted(Counter(ends.values()).items()))
 
     def dangerous_changes(self) -> frozenset[object]:
         """Return the changes that would be sent and can be dangerous, with both values."""

@@ -327,7 +327,7 @@ class ControlPage(ControlPageParts):
         session, text = self.session, ", ".join(parts)
         if session is not None and session.seen is not None and session.phase == "away":
             text = f"{text_of_reading(session.seen.when)}: {text}"  # it may contain something else by now
-        self.counts.setText(text if is_read else "")
+        self.counts.setText(text if is_read else self.table.show_ends(session) if session is not None else "")
         self.filter.setVisible(differ > 0 and is_read)
 
     def _show_middle(self, summary: str) -> None:

@@ -24,6 +24,7 @@ from amp_studio.ui.base.translated import facts_in_words, message_in_words
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.control.readings import EventReadings, StatusReadings
 from amp_studio.ui.control.session import ControlSession
+from amp_studio.ui.control.session_words import text_of_failure
 from amp_studio.ui.forms.form import fill_choices
 
 from .answer_times import AnswerTimes
@@ -523,7 +524,9 @@ class LiveView(LivePageParts):
         """Show why a value was not written; what the control contains is read where it is not known then."""
         self._writing = None
         self._queue.clear()
-        text = _sentence_of(session.error)
+        failure = session.failure
+        is_open = failure is not None and failure.at_control != "old"
+        text = text_of_failure(session) if is_open else _sentence_of(session.error)
         self.frame.refuse(text)
         if self._is_away:
             self.noted.emit(text)
