@@ -39,7 +39,7 @@ from amp_studio.calibration import (
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value, read_exact
 from amp_studio.ui.base.layout import in_column, in_row
-from amp_studio.ui.base.theme import GAP2, colour, font, scheme
+from amp_studio.ui.base.theme import GAP2, colour, font
 from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.forms.form import Field, FieldForm
 
@@ -128,7 +128,6 @@ class CalibrationPage(TuningPart):
         splitter.addWidget(right)
         splitter.setChildrenCollapsible(False)
         in_column(splitter, on=self)
-        scheme().changed.connect(self._refresh)
 
     # -- what is shown -----------------------------------------------------------
 

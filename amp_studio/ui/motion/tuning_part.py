@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QAbstractItemView, QPushButton, QTableWidget, QWidget
 
-from amp_studio.ui.base.theme import ROW
+from amp_studio.ui.base.theme import ROW, scheme
 
 from .tuning_target import TuningTarget
 
@@ -19,14 +20,27 @@ class TuningPart(QWidget):
         super().__init__()
         self._guarded = guarded
         self.target: TuningTarget | None = None
+        self._is_stale = False
+        scheme().changed.connect(self._follow)
 
     def show_target(self, target: TuningTarget) -> None:
         """Show the values of a file or a control."""
         if self.target is not None:
-            self.target.changed.disconnect(self._refresh)
+            self.target.changed.disconnect(self._follow)
         self.target = target
-        target.changed.connect(self._refresh)
+        target.changed.connect(self._follow)
         self._refresh()
+
+    def _follow(self, *_: object) -> None:
+        """Show what has changed, where it is seen: an edit in the table waits for no table behind it."""
+        self._is_stale = not self.isVisible()
+        if not self._is_stale:
+            self._refresh()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        super().showEvent(event)
+        if self._is_stale:
+            self._follow()
 
     def _refresh(self, *_: object) -> None:
         """Show the target; each part has its own. ABCMeta cannot be the metaclass of a QWidget."""

@@ -15,7 +15,7 @@ from amp_studio.schema import Address, Value, limits, read_exact, write_number
 from amp_studio.ui.base.figures import range_in_words, show_value, written
 from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.places import place_in_words
-from amp_studio.ui.base.theme import GAP2, colour, scheme
+from amp_studio.ui.base.theme import GAP2, colour
 from amp_studio.ui.base.translated import unit_in_words, worded
 from amp_studio.ui.forms.table_items import item_at
 
@@ -95,7 +95,6 @@ class ValuesPage(TuningPart):
             )
             row.addWidget(self.read)
         in_column(self.hint, (self.table, 1), row, on=self, gap=GAP2)
-        scheme().changed.connect(self._refresh)
 
     # -- what is shown -----------------------------------------------------------
 
