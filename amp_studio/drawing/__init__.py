@@ -48,7 +48,7 @@ if TYPE_CHECKING:
         picture_svg,
         scene_svg,
     )
-    from .ticks import figure_text, multiple, round_step
+    from .ticks import THIN, figure_text, grouped, multiple, round_step
     from .words import scene_in_words
 else:
     __getattr__ = front_page(__name__)

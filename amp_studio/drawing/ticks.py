@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 import math
+import re
 from decimal import Decimal
+
+THIN = "\u202f"
+"""A narrow space that no line breaks at, between groups of three digits."""
+_GROUPED = re.compile(r"([-−]?)([1-9][0-9]{4,})(.*)")
 
 
 def round_step(least: float) -> float:
@@ -44,8 +49,13 @@ def figure_text(value: float) -> str:
     text = f"{value:.10g}"
     if "e-" in text:
         text = f"{value:.12f}".rstrip("0").rstrip(".")
-    sign, digits = ("−", text[1:]) if text.startswith("-") else ("", text)
-    whole, point, decimals = digits.partition(".")
-    if len(whole) > 4 and whole.isdigit():
-        whole = f"{int(whole):,}".replace(",", "\u202f")
-    return sign + whole + point + decimals
+    return grouped(text.replace("-", "−", 1) if text.startswith("-") else text)
+
+
+def grouped(figure: str) -> str:
+    """Return a number with its digits in groups of three from five digits on: ``2 097 152``."""
+    match = _GROUPED.fullmatch(figure)
+    if match is None:
+        return figure
+    sign, whole, rest = match.groups()
+    return sign + f"{int(whole):_}".replace("_", THIN) + rest

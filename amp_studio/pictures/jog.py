@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from itertools import chain
 from typing import Literal
 
-from amp_studio.drawing import Dot, Polyline, Scale, Scene, ShapeSort, Text
+from amp_studio.drawing import Dot, Point, Polyline, Scale, Scene, ShapeSort, Text
 from amp_studio.files import ParameterFile
 from amp_studio.schema import JogRoles, unit_text
 
@@ -37,6 +37,10 @@ def draw_jog(
     shapes = SceneShapes(figures)
     for n, (row, bound) in enumerate(zip(rows, limits, strict=True)):
         _draw_row(shapes, row, bound, -float(n))
+    texts = dict[tuple[Point, str], Text]()
+    for text in shapes.texts:  # a step at the limit has its figure once
+        texts.setdefault((text.at, text.text), text)
+    shapes.texts[:] = texts.values()
     subtitle = f"bars: {file.schema.parameters[bounds[0]].name}" if any(limits) else ""
     y = Scale("", "", -len(axes) + 0.4, 0.6, rows=heads)
     return shapes.scene(name, "", TITLES[name], subtitle, x, y)

@@ -47,8 +47,8 @@ LONGEST_TEXT = 100_000
 """Characters of a text; the longest there are is a table of ballscrew compensation."""
 _RAW = re.compile(r"[+-]?[0-9]{1,16}")
 _NOT_ZERO = re.compile(r"[^eE]*[1-9]")
-_MINUS = "\u2212"
-"""The minus sign of a printed text: a number that was copied out of a PDF has it."""
+_SHOWN = str.maketrans("\u2212\u202f", "- ")
+"""A minus and the space between groups of digits, as a window and a PDF have them: what is copied is read."""
 # Half characters of UTF-16, and two that Unicode keeps out of texts: YAML and XML have no form for them.
 _UNWRITABLE = re.compile("[\ud800-\udfff\ufffe\uffff]")
 
@@ -75,7 +75,7 @@ def _digits(text: str) -> tuple[str, str]:
     """
     if len(text) > LONGEST_NUMBER:
         raise InvalidValueError(f"{quoted(text)} is too long for a number")
-    text = text.replace(_MINUS, "-")
+    text = text.translate(_SHOWN)
     match = _NUMBER.match(text)
     if not match:
         raise InvalidValueError(f"{quoted(text.strip())} is not a number")
@@ -221,7 +221,7 @@ def _read_figure(parameter: Parameter, text: str, unit: str) -> Value:
     """Read a number, or the labels of the bits of a word."""
     if len(text) > LONGEST_NUMBER:
         raise InvalidValueError(f"{quoted(text)} is too long for a number")
-    text = text.replace(_MINUS, "-")
+    text = text.translate(_SHOWN)
     is_whole = parameter.type in ("integer", "bits")
     if is_whole and (hexadecimal := re.fullmatch(r"(?:0[xX]|\$)([0-9a-fA-F]+)", text)):
         return Value(int(hexadecimal[1], 16), unit)

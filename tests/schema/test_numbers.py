@@ -27,6 +27,7 @@ from amp_studio.schema import InvalidValueError, read_number, write_number
         ("12 345,678", (12345.678, "")),
         ("12 345.6 mm", (12345.6, "mm")),
         ("12'345", (12345.0, "")),
+        ("−12\u202f345.6 mm/min", (-12345.6, "mm/min")),
         ("12_345", (12345.0, "")),
         ("1e3", (1000.0, "")),
         ("1,5e-3 in", (0.0015, "in")),

@@ -118,10 +118,11 @@ class User:
         assert self._paths, "no path is given to a file dialog"
         return self._paths.pop(0), "All files (*)"
 
-    def text(self, parent: QWidget, title: str, label: str, *_: object, **__: object) -> tuple[str, bool]:
-        self.labels.append(label)
-        assert self._texts, f"nothing is typed: {title}"
-        return self._texts.pop(0), True
+    def text(self, box: QInputDialog) -> bool:
+        self.labels.append(box.labelText())
+        assert self._texts, f"nothing is typed: {box.windowTitle()}"
+        box.setTextValue(self._texts.pop(0))
+        return True
 
 
 @pytest.fixture(autouse=True, scope="session")
@@ -150,8 +151,7 @@ def user(monkeypatch: pytest.MonkeyPatch) -> Iterator[User]:
     for name in ("getOpenFileName", "getSaveFileName"):
         monkeypatch.setattr(QFileDialog, name, who.path)
     monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_, **__: who.path()[0])
-    for name in ("getItem", "getText"):
-        monkeypatch.setattr(QInputDialog, name, who.text)
+    monkeypatch.setattr(QInputDialog, "exec", lambda box: who.text(box))  # noqa: PLW0108  # likewise
     yield who
     who.is_done()
 

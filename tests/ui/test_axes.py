@@ -25,9 +25,9 @@ def choose(dialog: AxisDialog, axis: str, **labels: str) -> None:
 
 def test_a_dialog_begins_with_the_selected_axis(window: MainWindow) -> None:
     window.go_to(("home.calibration", "3"))
-    assert axis._dialog(window, "Name axis").axis() == "3"
+    assert axis._dialog(window, "Name Axis").axis() == "3"
     window.go_to(("zone.group_count", "2"))
-    assert axis._dialog(window, "Name axis").axis() == "1", "a process is no axis"
+    assert axis._dialog(window, "Name Axis").axis() == "1", "a process is no axis"
 
 
 def test_name(window: MainWindow, file: ParameterFile, accept) -> None:
@@ -52,7 +52,7 @@ def test_configure_type_takes_the_units_along_as_one_step(
 
 
 def test_tab_goes_through_the_fields_before_the_buttons(window: MainWindow, qtbot) -> None:
-    dialog = axis._dialog(window, "Configure servo")
+    dialog = axis._dialog(window, "Configure Servo")
     dialog.ask_for(["servo.hardware_type", "servo.loop_type"])
     dialog.show()
     dialog.form.editors["axis"].setFocus()

@@ -4,8 +4,9 @@ and choices that cannot be taken for one another.
 
 import pytest
 
+from amp_studio.drawing import grouped
 from amp_studio.schema import Limits, Value, family_ids, load_schema
-from amp_studio.ui.base.figures import grouped, range_in_words, with_groups
+from amp_studio.ui.base.figures import range_in_words, with_groups
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.table.cell_look import short_labels
 

@@ -91,7 +91,7 @@ def test_a_note_that_is_too_long_stays_in_its_form(window: MainWindow, qtbot: Qt
     dialog.form.set_answer("note", "a" * 100_000)
     dialog.accept()
     assert dialog.isVisible()
-    assert dialog.fault.text() == "The note has 100000 characters, and 4000 are the most."
+    assert dialog.fault.text() == "The note has 100\u202f000 characters, and 4000 are the most."
     dialog.form.set_answer("about", "machine")
     assert not dialog.ok.isEnabled(), "a note that is not in front is looked at, too"
     dialog.form.set_answer("about", "value")

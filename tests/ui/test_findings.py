@@ -9,10 +9,12 @@ from PySide6.QtWidgets import QApplication, QDialogButtonBox
 
 from amp_studio.files import content_of, new_file
 from amp_studio.schema import Value
+from amp_studio.ui.base.places import finding_text
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.findings.dialogs import FixSeveralDialog, SuppressDialog, WhyDialog
 from amp_studio.ui.findings.panel import FindingsPanel
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.validate import Finding
 
 from .conftest import action
 
@@ -353,3 +355,14 @@ def test_a_typed_slip_is_asked_about_until_it_is_saved_and_saved_again(window: M
     workspace.edit("another", {("axis.name", "1"): Value("Y")}, force="a test")
     workspace.save()
     assert asked() == []
+
+
+def test_an_axis_of_a_finding_is_called_by_its_letter_where_that_is_clear(workspace: Workspace) -> None:
+    """ "Port 1 of axis 2 belongs to an axis before it" was said of the axis whose column is Y."""
+
+    def said(message: str) -> str:
+        return finding_text(workspace.file, Finding("own", "warning", (), message))
+
+    assert said("The table of axis 2 cannot be used.") == "The table of axis Y cannot be used."
+    assert said("Axis 2 has the name Y of axis 3.") == "Axis 2 has the name Y of axis 3."
+    assert said("20020 Limits of 10000 mm, -5 mm.") == "20020 Limits of 10\u202f000 mm, −5 mm."

@@ -105,7 +105,7 @@ def test_the_recorded_move_is_simulated_under_the_record_and_shifted_to_fit(
         recorder.take(at, AxisStatus("X", 7.0 + place, None, speed / 60.0, "counts"))
     recorder.start_or_stop()
     qtbot.waitUntil(lambda: recorder.trace is not None, timeout=WAIT_MS)
-    assert "simulated: 30000 counts at " in recorder.footer.text()
+    assert "simulated: 30\u202f000 counts at " in recorder.footer.text()
     # The peak of the readings is the feed: the axis ripples around it, and 1 % of the way is left.
     assert recorder.trace.result["record_lag"][0] == pytest.approx(1.3, abs=0.1)
     assert recorder.trace.result["difference_rms_position"][0] < 300.0

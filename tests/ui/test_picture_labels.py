@@ -4,12 +4,14 @@ from itertools import combinations
 from pathlib import Path
 
 from PySide6.QtCore import QPointF, QSizeF
+from PySide6.QtGui import QFontMetricsF
 
 from amp_studio.drawing import scene_in_words
 from amp_studio.drawing.frame import EDGE, Placement
 from amp_studio.files import open_file
 from amp_studio.pictures import pictures_of
-from amp_studio.ui.base.scene_painter import painted_labels
+from amp_studio.ui.base.figures import with_groups
+from amp_studio.ui.base.scene_painter import caption_fonts, painted_labels
 from amp_studio.ui.base.translated import sentenced, unit_in_words
 from amp_studio.ui.pictures.canvas import PictureCanvas
 from amp_studio.ui.pictures.page import TEXT_ROW
@@ -56,3 +58,25 @@ def test_the_texts_of_a_loop_stay_in_their_rows_at_the_least_height_of_the_pictu
                     # A box and a signal may have one name in German: "Output" and "output".
                     away = [abs(p.box.top + 0.5 * p.box.height - at) for p in placed if p.text == text.text]
                     assert min(away) < 8.0, (example.stem, text.text)
+
+
+def test_every_text_of_a_picture_is_painted_whole_in_its_place(qapp):
+    """ "Y −400 mm to 6 mm" was cut at the edge: it was measured with a hyphen and painted with a minus."""
+    for example in EXAMPLES:
+        for picture in pictures_of(open_file(example).file):
+            for size in SIZES:
+                for label in painted_labels(Placement.within(picture.scene(), *size), QSizeF(*size)).placed:
+                    plain, strong = map(QFontMetricsF, caption_fonts())
+                    shown = (strong if label.strong else plain).horizontalAdvance(with_groups(label.text))
+                    shown += plain.horizontalAdvance(f" {with_groups(label.value)}") if label.value else 0.0
+                    assert shown <= label.box.width, (example.stem, picture.name, label.text)
+                    is_inside = label.box.left >= 0.0 and label.box.left + label.box.width <= size[0]
+                    assert is_inside or label.box.width > size[0], (example.stem, picture.name, label.text)
+
+
+def test_no_figure_is_twice_in_a_row_of_a_ladder(qapp):
+    """The greatest jog speed of X was printed twice where it is that of the rapid feedrate."""
+    for example in EXAMPLES:
+        for picture in pictures_of(open_file(example).file):
+            rows = [(text.at, text.text) for text in picture.scene().texts if not text.value]
+            assert len(rows) == len(set(rows)), (example.stem, picture.name)

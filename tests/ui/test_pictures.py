@@ -60,7 +60,7 @@ def test_an_edge_is_dragged_in_mm_as_one_undo_step(window, pictures, file, whole
         QTest.mouseMove(canvas, QPoint(at(canvas, x, 0.0).x(), start.y()))
     assert window.workspace.undo_stack.count() == 0
     assert file.get(RIGHT).value == pytest.approx(-100.0, abs=2.0)
-    assert canvas.tag(canvas.handle).old == "was -150 mm"
+    assert canvas.tag(canvas.handle).old == "was −150 mm"
     QTest.mouseRelease(canvas, Qt.MouseButton.LeftButton, pos=QPoint(at(canvas, -100.0, 0.0).x(), start.y()))
     assert (window.workspace.undo_stack.count(), file.get(RIGHT).unit) == (1, "mm")
     assert window.workspace.undo_stack.undoText() == "Drag 1007 Limit 3 Max Value, X"
@@ -254,7 +254,7 @@ def test_each_handle_is_an_accessible_child_with_its_name_and_value(pictures):
     canvas = pictures.chosen_card.canvas
     interface = QAccessible.queryAccessibleInterface(canvas)
     names = {interface.child(n).text(QAccessible.Text.Name) for n in range(interface.childCount())}
-    assert "1007 Limit 3 Max Value, X: -150 mm" in names
+    assert "1007 Limit 3 Max Value, X: −150 mm" in names
     assert len(canvas._spots) == len(canvas.scene.handles)
 
 

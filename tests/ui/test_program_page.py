@@ -85,7 +85,7 @@ def enter(window: ProgramPage, key: str, text: str) -> None:
 def test_a_typed_block_is_read_word_by_word(window: ProgramPage) -> None:
     enter(window, "block", "G1 X-10.5 F20")
     texts = [window.words.item(n, 1).text() for n in range(window.words.rowCount())]
-    assert texts == ["1", "-10.5 in", "20 in/min"]
+    assert texts == ["1", "−10.5 in", "20 in/min"]
     enter(window, "block", "X@")
     assert "is no word" in window.summary.text()
 
@@ -395,3 +395,22 @@ def test_a_hundred_thousand_blocks_are_folded_by_numbers_alone() -> None:
     assert model.open_at(70_000) == 13 + 70_000 - 50_005
     model.show_only("B")
     assert [model.line_of(row) for row in range(model.rowCount())] == [50_000]
+
+
+def test_the_error_of_a_moment_is_read_in_the_heading_and_not_on_the_curves(
+    window: ProgramPage, plate: Path, qtbot: QtBot
+) -> None:
+    """ "now 0.0000532 in" lay on the curve, its band and the colours at their foot."""
+    window.resize(1000, 700)
+    window.show()
+    window.open_program(plate)
+    qtbot.waitUntil(lambda: window.outcome is not None and not Task.running, timeout=WAIT_MS)
+    window.play.slider.setValue(500)
+    window.path.plot.grab()
+    plot = window.path.plot
+    frame, (at, reading) = plot._frames[-1], plot._now
+    box = plot.reading_box(at, reading)
+    assert reading.startswith("now ")
+    assert box.bottom() <= frame.top
+    assert plot._frames[-2].top + plot._frames[-2].height <= box.top()
+    assert box.right() <= plot.width()

@@ -149,7 +149,7 @@ def settled() -> None:
         QApplication.processEvents()
 
 
-def texts(window: MainWindow) -> Iterator[tuple[QWidget, str]]:
+def texts(window: QWidget) -> Iterator[tuple[QWidget, str]]:
     """Yield what is seen and has a text that is to be read whole."""
     for widget in window.findChildren(QWidget):
         if (
@@ -228,7 +228,7 @@ def width_of_axis(letter: str, what: str) -> int:
     return letters.horizontalAdvance(letter) + small.horizontalAdvance(what) + 20 * bool(letter)
 
 
-def heads(window: MainWindow) -> Iterator[tuple[str, str]]:
+def heads(window: QWidget) -> Iterator[tuple[str, str]]:
     """Yield each painted head of a column that has less room than its text, by the class of its view."""
     for header in window.findChildren(QHeaderView):
         if not header.isVisible() or header.orientation() != Qt.Orientation.Horizontal:
@@ -248,7 +248,7 @@ def heads(window: MainWindow) -> Iterator[tuple[str, str]]:
 NUMBER = re.compile(r"[-−]?\d[\d\u202f.,]*(?: [^\s\d]\S*)?")
 
 
-def cells(window: MainWindow) -> Iterator[tuple[str, str]]:
+def cells(window: QWidget) -> Iterator[tuple[str, str]]:
     """Yield each painted number that has less room than its digits and its unit."""
     for view in window.findChildren(QAbstractItemView):
         model = view.model()
@@ -264,7 +264,35 @@ def cells(window: MainWindow) -> Iterator[tuple[str, str]]:
                     yield type(view).__name__, text
 
 
-def overlaps(window: MainWindow) -> Iterator[tuple[str, str, str]]:
+RAW = re.compile(
+    r"(?<![\w.$@)\]:/-])-(?=\d)"  # a hyphen for a minus
+    r"|(?<![\w.$@:/−\u202f-])[1-9]\d{4,}(?![\w:/-])(?! [A-Z])"  # more than four digits without groups
+)
+"""A number that is not written as the cells of the table have it; neither an address nor a part of a path."""
+
+
+RAW_KEY = re.compile(r"\b[a-z0-9_]+\.[a-z0-9_]+@")
+"""The address of a value as files and commands have it: a person has names and letters."""
+
+
+def unreadable(window: QWidget) -> Iterator[tuple[str, str]]:
+    """Yield what is seen with a raw address, or a number in another form than that of the cells."""
+    seen = [(widget, re.sub("<[^<>]*>|&#[0-9]+;", "", text)) for widget, text in texts(window)]
+    for view in window.findChildren(QAbstractItemView):
+        model = view.model()
+        if not view.isVisible() or model is None or isinstance(view, QHeaderView):
+            continue
+        for row in range(min(model.rowCount(), MAX_ROWS)):
+            for column in range(1 if isinstance(view, QListView) else model.columnCount()):
+                text = str(model.index(row, column).data() or "")
+                if column or not text.isdecimal():  # a number alone at the left is that of a parameter
+                    seen.append((view, text))
+    for widget, text in seen:
+        if RAW.search(text) or RAW_KEY.search(text):
+            yield type(widget).__name__, text
+
+
+def overlaps(window: QWidget) -> Iterator[tuple[str, str, str]]:
     for parent in window.findChildren(QWidget):
         layout = parent.layout()
         if not isinstance(
@@ -303,6 +331,7 @@ def test_no_text_of_a_page_is_cut_and_nothing_overlaps_on_any_screen(
                 if field.isVisible() and is_hint_cut(field)
             ]
             found += [(name, screen, each) for each in (*cut, *painted, *overlaps(window))]
+        found += [(name, "unreadable", each) for each in unreadable(window)]
     assert found == [], "\n".join(map(str, found))
 
 

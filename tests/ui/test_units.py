@@ -71,9 +71,9 @@ def test_a_value_in_its_own_unit_loses_no_digit(table: ParameterTable, workspace
     counts = ("servo.position_counts", "1")
     workspace.edit("exact", {calibration: Value(123456.789012, "mm")})
     workspace.edit("many", {counts: Value(2147483647, "counts")}, force="on a day")
-    assert table.index_of(calibration).data() == "123456.789012 mm"
+    assert table.index_of(calibration).data() == "123\u202f456.789012 mm"
     assert table.typed_value(calibration) == "123456.789012 mm"
-    assert table.index_of(counts).data() == "2147483647 counts"
+    assert table.index_of(counts).data() == "2\u202f147\u202f483\u202f647 counts"
 
 
 def test_an_editor_that_is_left_as_it_was_changes_nothing(window: MainWindow, workspace: Workspace) -> None:

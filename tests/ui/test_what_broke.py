@@ -96,7 +96,7 @@ def test_tab_down_tab_down_chooses_both_types_of_a_servo(window: MainWindow) -> 
     file = window.workspace.file
     for parameter in ("servo.hardware_type", "servo.loop_type"):
         file.set((parameter, "1"), None)
-    dialog = AxisDialog(window.workspace, "Configure servo", "1", window)
+    dialog = AxisDialog(window.workspace, "Configure Servo", "1", window)
     dialog.ask_for(["servo.hardware_type", "servo.loop_type"])
     dialog.show()
     dialog.form.editor("axis", QComboBox).setFocus()

@@ -112,7 +112,7 @@ def _ask(window: StudioWindow, title: str, parameter_ids: list[str]) -> None:
 
 def name(window: StudioWindow) -> None:
     """Give an axis its name."""
-    workspace, title = window.workspace_in_front, tr("Name axis")
+    workspace, title = window.workspace_in_front, tr("Name Axis")
     profile = workspace.file.schema.family.axes
     if profile is not None:
         _ask(window, title, [profile.name])
@@ -126,7 +126,7 @@ def name(window: StudioWindow) -> None:
 
 def configure_type(window: StudioWindow) -> None:
     """Make an axis linear, rotary, a spindle or unfitted; the units of its lengths change with it."""
-    workspace, profile, title = window.workspace_in_front, _profile(window), tr("Configure axis type")
+    workspace, profile, title = window.workspace_in_front, _profile(window), tr("Configure Axis Type")
     hint = tr("The numbers stay the same; only the unit changes, from mm to degrees or from degrees to mm.")
     dialog = _dialog(window, title, hint)
     dialog.ask_for([profile.type])
@@ -139,7 +139,7 @@ def configure_type(window: StudioWindow) -> None:
 def configure_servo(window: StudioWindow) -> None:
     """Choose servo hardware and loop type of an axis."""
     profile = _profile(window)
-    _ask(window, tr("Configure servo"), [p for p in (profile.hardware, profile.loop) if p])
+    _ask(window, tr("Configure Servo"), [p for p in (profile.hardware, profile.loop) if p])
 
 
 # -- which axes there are ------------------------------------------------------
@@ -160,7 +160,7 @@ def delete(window: StudioWindow) -> None:
     """Make an axis unfitted and set its values to their defaults."""
     workspace = window.workspace_in_front
     hint = tr("The axis becomes unfitted and its values are set to their defaults. You can undo this.")
-    dialog = _dialog(window, tr("Delete axis"), hint)
+    dialog = _dialog(window, tr("Delete Axis"), hint)
     if run_dialog(dialog):
         axis = dialog.axis()
         name = axis_title(workspace.file, axis)
@@ -174,7 +174,7 @@ def copy(window: StudioWindow) -> None:
     """Copy the values of one axis to another of the same type."""
     workspace = window.workspace_in_front
     hint = tr("All values of the axis are copied, except its name. Both axes must have the same type.")
-    dialog = _dialog(window, tr("Copy axis"), hint)
+    dialog = _dialog(window, tr("Copy Axis"), hint)
     dialog.ask_for_target(tr("&To axis"))
     if run_dialog(dialog):
         source, axis = dialog.axis(), dialog.form.answer("target")
@@ -186,7 +186,7 @@ def swap(window: StudioWindow) -> None:
     """Let two axes change places."""
     workspace = window.workspace_in_front
     hint = tr("The axes change places with all their values. What names an axis by its number follows.")
-    dialog = _dialog(window, tr("Swap axes"), hint)
+    dialog = _dialog(window, tr("Swap Axes"), hint)
     dialog.ask_for_target(tr("&With axis"))
     if run_dialog(dialog):
         first, second = dialog.axis(), dialog.form.answer("target")

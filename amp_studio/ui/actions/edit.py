@@ -166,7 +166,7 @@ class Edits(Translated):
         from amp_studio.ui.findings.dialogs import SuppressDialog
 
         workspace = self.window.workspace_in_front
-        dialog = SuppressDialog(finding, user(), self.window)
+        dialog = SuppressDialog(workspace.file, finding, user(), self.window)
         if run_dialog(dialog):
             path = real_path(workspace.path).with_name(RULES_FILE)  # where rules are looked for
             notes: list[str] = []

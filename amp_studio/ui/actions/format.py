@@ -6,12 +6,12 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtWidgets import QFileDialog, QInputDialog
+from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import Document, ParameterFile, check_output, keep, out_of_range, write_atomic
 from amp_studio.schema import family_ids, load_schema
 from amp_studio.ui.base.ask_path import ask_to_open
-from amp_studio.ui.base.questions import ask
+from amp_studio.ui.base.questions import ask, choose
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import Translated
 from amp_studio.ui.merge.comparisons import AskPath, WriteNew
@@ -93,11 +93,8 @@ class TextFormats(Translated):
         self._machine = machines[chosen][0]
         return True
 
-    def _item(self, asked: str, names: list[str], present: int) -> int | None:
-        chosen, is_taken = QInputDialog.getItem(
-            self.window, self.tr("Import"), asked, names, present, editable=False
-        )
-        return names.index(chosen) if is_taken else None
+    def _item(self, asked: str, names: list[str], present: int = 0) -> int | None:
+        return choose(self.window, self.tr("Import"), asked, names, self.tr("Import"), present)
 
     def _understood(self, path: Path) -> ParameterFile | None:
         """Return the imported file; asks for the family, and whether to keep lines that are not
@@ -122,12 +119,9 @@ class TextFormats(Translated):
             return self._kept(path, family, error)
 
     def _family(self) -> str | None:
-        names = {load_schema(name).family.name: name for name in family_ids()}
-        asked = self.tr("Control family:")
-        chosen, taken = QInputDialog.getItem(
-            self.window, self.tr("Import"), asked, list(names), editable=False
-        )
-        return names[chosen] if taken else None
+        families = family_ids()
+        chosen = self._item(self.tr("Control family:"), [load_schema(each).family.name for each in families])
+        return None if chosen is None else families[chosen]
 
     def _kept(self, path: Path, family: str | None, error: FormatError) -> ParameterFile | None:
         """Return the imported file with unrecognised lines kept, if the user agrees;

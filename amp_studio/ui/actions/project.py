@@ -6,13 +6,13 @@ import contextlib
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtWidgets import QFileDialog, QInputDialog
+from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import ParameterFileError, Project, is_there, parameter_files_in
 from amp_studio.schema import Address
 from amp_studio.ui.base.ask_path import ask_to_open
 from amp_studio.ui.base.modal import run_dialog
-from amp_studio.ui.base.questions import ask
+from amp_studio.ui.base.questions import ask, choose, type_text
 from amp_studio.ui.base.task import in_background, run_with_progress
 from amp_studio.ui.base.translated import counted, tr
 from amp_studio.ui.merge.comparisons import parameter_files
@@ -103,13 +103,12 @@ def _choose(window: StudioWindow, title: str, paths: list[Path]) -> Path | None:
         raise ValueError(tr("The project has no files of this kind."))
     names, workspace = [p.stem for p in paths], window.workspace
     here = names.index(workspace.path.stem) if workspace and workspace.path in paths else 0
-    name, accepted = QInputDialog.getItem(window, title, tr("File"), names, here, False)
-    return paths[names.index(name)] if accepted else None
+    chosen = choose(window, title, tr("File"), names, title, here)
+    return None if chosen is None else paths[chosen]
 
 
 def _ask_name(window: StudioWindow, title: str, name: str = "") -> str:
-    text, accepted = QInputDialog.getText(window, title, tr("New name"), text=name)
-    return text.strip() if accepted else ""
+    return (type_text(window, title, tr("New name"), title, name) or "").strip()
 
 
 def _close_for_move(window: StudioWindow, path: Path) -> bool:

@@ -10,20 +10,18 @@ import textwrap
 from functools import cache
 
 from amp_studio import schema
+from amp_studio.drawing import THIN, grouped
 from amp_studio.schema import UNITS, Limits, Parameter, Value
 from amp_studio.validate import Finding
 
 from .translated import message_in_words, tr, unit_in_words, worded_finding
 
-THIN = "\u202f"
-"""A narrow space that no line breaks at, between groups of three digits on the screen."""
 _NUMBER = re.compile(r"(?<![\w.$@])(?<!figure )[-−]?\d+\.\d+(?![\w]|\.\d)")
 """A number in a sentence; no address (``P3N0.5``, ``$22.0``), version, network address, printed figure."""
 _POINT = re.compile(r"(?<=\d)\.(?=\d)")
 _MINUS = re.compile(r"^-(?=\d)")
 _POWER = re.compile(r"(?<=\d)e([+-]?)0*(\d+)")
 _EXPONENT = re.compile(r"(?<![\w.,])\d+(?:[.,]\d+)?e[-+]?\d+(?!\w)")
-_WHOLE = re.compile(r"([-−]?)([0-9]{5,})(.*)")
 _FIGURE = re.compile(r"(?<![^\s(])[-−]?\d+(?:\.\d+)?(?:e[+-]?\d+)?(?![\w.]*\w)")
 """A number in a text that has no address: a range, or the value beside the name of a parameter."""
 _TIP_WIDTH, _TIP_LINES = 100, 24
@@ -32,26 +30,20 @@ _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def written(figure: str) -> str:
-    """Return a number with the decimal separator of the language and a minus as wide as a digit;
-    ``1e-07`` is 1 × 10⁻⁷.
+    """Return a number with the decimal separator of the language, a minus as wide as a digit and its digits
+    in groups; ``1e-07`` is 1 × 10⁻⁷.
     """
+    return grouped(typed(figure))
+
+
+def typed(figure: str) -> str:
+    """Return as ``written`` without groups: for a field in which it is typed."""
     figure = _MINUS.sub("−", figure)
     return _POWER.sub(_power, _POINT.sub(tr(".", "decimal sign"), figure))
 
 
 def _power(match: re.Match[str]) -> str:
-    return "\u202f×\u202f10" + (match[1].strip("+") + match[2]).translate(_RAISED)
-
-
-def grouped(figure: str) -> str:
-    """Return a number with its digits in groups of three from five digits on: ``2 097 152``."""
-    match = _WHOLE.fullmatch(figure)
-    if match is None:
-        return figure
-    sign, whole, rest = match.groups()
-    head = len(whole) % 3
-    groups = [whole[:head]] * bool(head) + [whole[n : n + 3] for n in range(head, len(whole), 3)]
-    return sign + THIN.join(groups) + rest
+    return f"{THIN}×{THIN}10" + (match[1].strip("+") + match[2]).translate(_RAISED)
 
 
 def range_in_words(allowed: Limits) -> str:
@@ -61,7 +53,7 @@ def range_in_words(allowed: Limits) -> str:
 
 def with_groups(text: str) -> str:
     """Return a text without addresses with its numbers as the language writes them, and in groups."""
-    return _FIGURE.sub(lambda found: grouped(written(found[0])), text)
+    return _FIGURE.sub(lambda found: written(found[0]), text)
 
 
 def sentence(text: str) -> str:
@@ -105,13 +97,18 @@ def as_tip(text: str) -> str:
     return "\n".join([*lines[:_TIP_LINES], *(["…"] if len(lines) > _TIP_LINES else [])])
 
 
+def unbroken(text: str) -> str:
+    """Return HTML whose numbers stay in one line: Qt makes a blank of the narrow space."""
+    return text.replace(THIN, "\u00a0")
+
+
 def show_value(parameter: Parameter, value: Value | None, *, secrets: bool = False) -> str:
     """Write a value for a person; texts, choices and secrets stay as they are, and so do words of a
     control.
     """
     text = schema.show_value(parameter, value, secrets=secrets)
     is_number = value is not None and isinstance(value.value, (int, float)) and not parameter.choices
-    if value is None or not is_number or (parameter.secret and not secrets):
+    if value is None or not is_number or parameter.secret:
         return text
     unit = schema.unit_text(value.unit)
     return written(text.removesuffix(unit) + unit_in_words(value.unit))

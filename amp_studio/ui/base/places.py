@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import re
 
-from amp_studio.files import ParameterFile, axis_letter
+from amp_studio.files import ParameterFile, axis_letter, axis_letters
 from amp_studio.report import place_of
 from amp_studio.schema import Address
+from amp_studio.validate import Finding
 
+from .figures import finding_in_words
 from .translated import sentenced, tr, worded
 
-_AXIS = re.compile(r"\b([Aa]xis) (\d+)(?![\w.])")
-"""An axis by its number in a sentence of the simulation."""
+_AXIS = re.compile(r"\b([Aa]xis|Achse) (\d+)(?![\w.])")
+"""An axis by its number in a sentence."""
 
 
 def place_in_words(file: ParameterFile, address: Address) -> str:
@@ -32,8 +34,22 @@ def short_place(file: ParameterFile, address: Address) -> str:
 
 def sentenced_with_letters(file: ParameterFile, text: str) -> str:
     """Return a sentence about a file in the words of the window, its axes by their letters."""
+    return sentenced(_with_letters(file, text), file.schema.family.family)
 
-    def called(found: re.Match[str]) -> str:
-        return f"{found[1]} {axis_letter(file, found[2]) or found[2]}"
 
-    return sentenced(_AXIS.sub(called, text), file.schema.family.family)
+def finding_text(file: ParameterFile, finding: Finding) -> str:
+    """Return the message of a finding of a file in the words of the window, its axes by their letters."""
+    return _with_letters(file, finding_in_words(finding))
+
+
+def _with_letters(file: ParameterFile, text: str) -> str:
+    """Return a sentence with its axes by their letters; one that is about letters, as of two axes that
+    have the same, keeps the numbers.
+    """
+    if not (named := {found[2] for found in _AXIS.finditer(text)}):
+        return text
+    letters = axis_letters(file)
+    own, every = [letters.get(axis, axis) for axis in named], list(letters.values())
+    if any(every.count(each) > 1 or re.search(rf"\b{re.escape(each)}\b", text) for each in own):
+        return text
+    return _AXIS.sub(lambda found: f"{found[1]} {letters.get(found[2], found[2])}", text)

@@ -228,16 +228,20 @@ class Plot(QWidget):
         for frame in self._frames:
             x = frame.at((at, 0.0))[0]
             painter.drawLine(QPointF(x, frame.top), QPointF(x, frame.top + frame.height))
-        last = self._frames[-1]
-        x = last.at((at, 0.0))[0]
         painter.setFont(caption_fonts()[1])
-        wide = painter.fontMetrics().horizontalAdvance(reading) + 4.0
-        left = x + 4.0 if x + 8.0 + wide < self.width() else x - 4.0 - wide
-        # Low: at the top is the limit, with its name.
-        high = painter.fontMetrics().height()
-        box = QRectF(left, last.top + last.height - high - 8.0, wide, high)
-        painter.fillRect(box, colour("base"))
-        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, reading)
+        painter.drawText(self.reading_box(at, reading), Qt.AlignmentFlag.AlignCenter, reading)
+
+    def reading_box(self, at: float, reading: str) -> QRectF:
+        """Return where the reading of a moment is: in the heading of the last panel, behind its title; within
+        the panel are its curves and limits.
+        """
+        last, right = self._frames[-1], self.width() - RIGHT
+        measure = QFontMetricsF(caption_fonts()[1])
+        wide, high = measure.horizontalAdvance(reading) + 4.0, measure.height()
+        pieces = panel_heading(last.scene, LEFT, right)
+        end = max(piece.x + measure.horizontalAdvance(piece.text) for piece in pieces)
+        left = max(end + 2.0 * GAP, min(last.at((at, 0.0))[0] - 0.5 * wide, right - wide))
+        return QRectF(left, last.top - 5.0 - measure.ascent(), wide, high)
 
     def _paint_scenes(self, painter: QPainter) -> None:
         """Paint the panels below each other in the height that there is, each with its heading."""

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from PySide6.QtWidgets import QMessageBox, QPushButton, QWidget
+from collections.abc import Sequence
+
+from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QPushButton, QWidget
 
 from .modal import run_dialog
 from .theme import icon, severity_icon
-from .translated import without_number
+from .translated import tr, without_number
 
 Icon = QMessageBox.Icon
 _SIDE = 24
@@ -45,3 +47,32 @@ def ask(
     run_dialog(box)
     clicked = box.clickedButton()
     return next((a for a, b in zip(answers, buttons, strict=True) if b is clicked), answers[-1])
+
+
+def choose(
+    parent: QWidget, title: str, label: str, names: Sequence[str], does: str, present: int = 0
+) -> int | None:
+    """Return which of some names is chosen, None where the person cancels; ``does`` is on the button."""
+    box = _input_box(parent, title, label, does)
+    box.setComboBoxItems(names)
+    box.setTextValue(names[present])
+    return names.index(box.textValue()) if run_dialog(box) else None
+
+
+def type_text(
+    parent: QWidget, title: str, label: str, does: str, text: str = "", *, is_secret: bool = False
+) -> str | None:
+    """Return what is typed, None where the person cancels; ``does`` is on the button."""
+    box = _input_box(parent, title, label, does)
+    box.setTextEchoMode(QLineEdit.EchoMode.Password if is_secret else QLineEdit.EchoMode.Normal)
+    box.setTextValue(text)
+    return box.textValue() if run_dialog(box) else None
+
+
+def _input_box(parent: QWidget, title: str, label: str, does: str) -> QInputDialog:
+    box = QInputDialog(parent)
+    box.setWindowTitle(title)
+    box.setLabelText(label)
+    box.setOkButtonText(does)
+    box.setCancelButtonText(tr("Cancel"))
+    return box

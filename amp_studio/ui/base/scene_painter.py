@@ -274,8 +274,7 @@ class ScenePainter:
         painter.setFont(named)
         painter.setPen(colour(TEXT_TOKENS.get(label.sort, "text")))
         # A name begins with the number of its parameter, which is none to be read in groups.
-        is_name = label.address is not None and not label.text.isdecimal()
-        text = (with_figures if is_name else with_groups)(label.text)
+        text = (with_figures if label.strong else with_groups)(label.text)
         painter.drawText(base, text)
         painter.setFont(self._caption)
         if label.value:
@@ -373,6 +372,7 @@ def painted_labels(place: Placement, size: QSizeF) -> Labels:
     plain, bold = QFontMetricsF(caption), QFontMetricsF(strong)
 
     def measure(text: str, is_strong: bool) -> float:
-        return (bold if is_strong else plain).horizontalAdvance(text) + 1.0
+        # As it is painted: with groups and a minus, which are wider.
+        return (bold if is_strong else plain).horizontalAdvance(with_groups(text)) + 1.0
 
     return labels_of(place, size.width(), size.height(), measure, max(plain.height(), bold.height()))

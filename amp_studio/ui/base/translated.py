@@ -14,6 +14,7 @@ from typing import Final
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
+from amp_studio.drawing import grouped
 from amp_studio.languages import language_codes, name_of_language
 from amp_studio.report import Language, language_of
 from amp_studio.report import counted as english_count
@@ -23,6 +24,15 @@ from amp_studio.validate import Finding, family_of_rule
 LANGUAGES: Final = {code: name_of_language(code) for code in language_codes()}
 """Code -> name in the language itself."""
 _OF_SYSTEM = re.compile(r"\[Errno \d+\] (.+?): '(.+)'")
+
+_SIGN = re.compile(r"(?<![\w.$@)\]-])-(?=\d)")
+_LARGE = re.compile(
+    r"(?<![\w.$@:/\\#'-])(?<!parameter )(?<!port )(?<!alarm )(?<!error )(?<!code )(?<!build )(?<!number )"
+    r"[1-9]\d{4,}(?![\w:/'-]|[.,]\d++[A-Za-z_:]| [A-Z][a-z])"
+)
+"""A number in a sentence, and no address: neither of a parameter (``20020 Number of ...``) nor of a network,
+no part of a path, no number of a thing.
+"""
 
 
 def tr(text: str, disambiguation: str = "", n: int = -1) -> str:
@@ -41,7 +51,7 @@ def worded(text: str, family: str = "") -> str:
 
 def sentenced(text: str, *families: str) -> str:
     """Return as ``worded``, with its numbers and their units as the language writes them too."""
-    return text if _spoken == "en" else _sentenced(_spoken, text, *families)
+    return _with_groups(text if _spoken == "en" else _sentenced(_spoken, text, *families))
 
 
 @lru_cache(maxsize=4096)
@@ -89,14 +99,21 @@ def facts_in_words(schema: Schema) -> Language:
 def worded_finding(finding: Finding) -> str:
     """Return the message of a finding in the language of the window."""
     if _spoken == "en":
-        return finding.message
-    return language_of(_spoken, family_of_rule(finding.rule)).finding(finding)
+        return _with_groups(finding.message)
+    return _with_groups(language_of(_spoken, family_of_rule(finding.rule)).finding(finding))
 
 
 def message_in_words(text: str) -> str:
     """Return what the program states of a value in the language of the window."""
     text = without_number(text)
-    return text if _spoken == "en" else _message(_spoken, text)
+    return _with_groups(text if _spoken == "en" else _message(_spoken, text))
+
+
+def _with_groups(text: str) -> str:
+    """Return a sentence with its numbers as they are in cells: with a minus, large ones in groups."""
+    if text.isdecimal():  # the number of a parameter
+        return text
+    return _LARGE.sub(lambda found: grouped(found[0]), _SIGN.sub("−", text))
 
 
 def without_number(text: str) -> str:

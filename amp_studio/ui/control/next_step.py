@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 from amp_studio.files import ParameterFile
-from amp_studio.ui.base.figures import finding_in_words
+from amp_studio.ui.base.places import finding_text
 from amp_studio.ui.base.translated import message_in_words, tr
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.message_bar import MessageKind
@@ -222,7 +222,7 @@ def _message_of_file(workspace: Workspace, accepted_errors: bool) -> BarMessage 
     errors = [f for f in workspace.findings if f.severity == "error"]
     if errors and not accepted_errors:
         text = tr("The file has {count}, the first: {message}").format(
-            count=tr("%n errors", "", len(errors)), message=finding_in_words(errors[0])
+            count=tr("%n errors", "", len(errors)), message=finding_text(workspace.file, errors[0])
         )
         return BarMessage(text, "error", ((tr("Send It With Its Errors"), "accept errors"),))
     return None

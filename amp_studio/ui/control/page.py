@@ -316,19 +316,18 @@ class ControlPage(ControlPageParts):
         self.steps.show_plan(self.direction, session, count, dangers)
 
     def _show_counts(self, same: int, is_read: bool) -> None:
-        differ = len(self.table.rows)
-        kept = len(self.table.kept())
+        fixed = sum(row.stays for row in self.table.rows.values())
+        differ, kept = len(self.table.rows) - fixed, len(self.table.kept())
         parts = [self.tr("{differ} differ, {same} are the same").format(differ=differ, same=same)]
         if kept and self.direction != "read":
             parts.append(self.tr("{kept} kept").format(kept=kept))
-        fixed = sum(row.stays for row in self.table.rows.values())
-        if fixed:  # else what differs and what the button counts would contradict each other
+        if fixed:
             parts.append(self.tr("%n on one side only: stay", "", fixed))
         session, text = self.session, ", ".join(parts)
         if session is not None and session.seen is not None and session.phase == "away":
             text = f"{text_of_reading(session.seen.when)}: {text}"  # it may contain something else by now
         self.counts.setText(text if is_read else self.table.show_ends(session) if session is not None else "")
-        self.filter.setVisible(differ > 0 and is_read)
+        self.filter.setVisible(bool(self.table.rows) and is_read)
 
     def _show_middle(self, summary: str) -> None:
         session = self.session

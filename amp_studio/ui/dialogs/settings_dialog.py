@@ -10,6 +10,7 @@ from PySide6.QtGui import QDesktopServices, QKeySequence
 from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
+    QHeaderView,
     QLabel,
     QLineEdit,
     QPushButton,
@@ -55,7 +56,7 @@ class SettingsDialog(QDialog):
         self.search.setAccessibleName(tr("Search the keys"))
         self.search.setClearButtonEnabled(True)
         self.search.textChanged.connect(self._list_keys)
-        forget = self._button(tr("F&orget the Password"), self._forget)
+        self.forget = self._button(tr("F&orget the Password"), self._forget)
         show = self._button(tr("&Open the Folder"), self._open_folder)
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
@@ -67,7 +68,7 @@ class SettingsDialog(QDialog):
         for title, hint, widgets in (
             (tr("General"), general, (self.form,)),
             (tr("Keys"), tr("The keys are fixed."), (self.search, self.keys)),
-            (tr("Passwords"), kept, (self.passwords, forget)),
+            (tr("Passwords"), kept, (self.passwords, self.forget)),
             (tr("Folders"), tr("Backups and templates are beside the file in front."), (self.folders, show)),
         ):
             self.tabs.addTab(_page(hint, widgets), title)
@@ -157,6 +158,7 @@ class SettingsDialog(QDialog):
                 row.setData(0, _PLACE, control.address)
                 row.setToolTip(0, control.address)
                 self.passwords.addTopLevelItem(row)
+        self.forget.setEnabled(self.passwords.topLevelItemCount() > 0)
         if not self.passwords.topLevelItemCount():
             self.passwords.addTopLevelItem(QTreeWidgetItem([tr("No password is kept."), ""]))
         _choose_first(self.passwords)
@@ -209,7 +211,7 @@ def _list(name: str, *heads: str) -> QTreeWidget:
     made.setAccessibleName(name)
     made.setHeaderLabels(list(heads))
     made.setRootIsDecorated(False)
-    made.setColumnWidth(0, 320)
+    made.header().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
     return made
 
 

@@ -16,15 +16,20 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from amp_studio.files import ParameterFile
 from amp_studio.report import FindingGroup, finding_groups, fix_lines, severity_name, why_parts
 from amp_studio.schema import Address, written
-from amp_studio.ui.base.figures import finding_in_words
+from amp_studio.ui.base.figures import unbroken
 from amp_studio.ui.base.layout import in_column
+from amp_studio.ui.base.places import finding_text, sentenced_with_letters
 from amp_studio.ui.base.theme import severity_html, severity_icon
 from amp_studio.ui.base.translated import tr, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.form import Field, FormDialog
 from amp_studio.validate import Finding, explain
+
+_EXPRESSIONS = ("Applies if", "Requires", "With the values", "Result")
+"""Lines of an explanation that are in the words of a rule file."""
 
 
 class WhyDialog(QDialog):
@@ -41,7 +46,7 @@ class WhyDialog(QDialog):
         self.page = QTextBrowser()
         self.page.setOpenLinks(False)
         self.page.anchorClicked.connect(self._follow)
-        self.page.setHtml(self._written(workspace, finding))
+        self.page.setHtml(unbroken(self._written(workspace, finding)))
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         buttons.rejected.connect(self.reject)
         in_column(self.page, buttons, on=self)
@@ -54,21 +59,18 @@ class WhyDialog(QDialog):
             f"{severity_html(finding.severity)}"
             f" <b>{worded(severity_name(finding.severity)).capitalize()}:</b>"
         )
-        lines, before = [f"<p>{mark} {html.escape(finding_in_words(finding))}</p><table cellpadding=3>"], ""
+        lines, before = [f"<p>{mark} {html.escape(finding_text(file, finding))}</p><table cellpadding=3>"], ""
         for title, text, address in why_parts(file, finding, why):
-            cell = html.escape(text)
-            if title in (
-                self.tr("Applies where"),
-                self.tr("Demands"),
-                self.tr("With the values"),
-                self.tr("Comes to"),
-            ):
+            cell = html.escape(sentenced_with_letters(file, text) if address is not None else text)
+            if title in _EXPRESSIONS:
                 cell = f"<code>{cell}</code>"
             if address is not None:
                 # The number of the address, not its text: instances may have characters that a URL changes.
                 cell = f'<a href="seen:{len(self._linked)}">{cell}</a>'
                 self._linked.append(address)
-            lines.append(f"<tr><td><b>{'' if title == before else title}</b>&nbsp;</td><td>{cell}</td></tr>")
+            lines.append(
+                f"<tr><td><b>{'' if title == before else worded(title)}</b>&nbsp;</td><td>{cell}</td></tr>"
+            )
             before = title
         return "".join(lines) + "</table>"
 
@@ -79,7 +81,7 @@ class WhyDialog(QDialog):
 class SuppressDialog(FormDialog):
     """Asks who suppresses a finding, and why."""
 
-    def __init__(self, finding: Finding, who: str, parent: QWidget) -> None:
+    def __init__(self, file: ParameterFile, finding: Finding, who: str, parent: QWidget) -> None:
         self._finding = finding
         effect = tr(
             "The finding is no longer listed, but reports print it with the reason and the name. The"
@@ -92,7 +94,7 @@ class SuppressDialog(FormDialog):
             Field("name", tr("&Name"), default=who, check=lambda text: "" if text else name),
             Field("everywhere", everywhere, "check", default=False, enabled=bool(finding.addresses)),
         )
-        hint = f"<b>{html.escape(finding_in_words(finding))}</b><br>{effect}"
+        hint = f"<b>{html.escape(finding_text(file, finding))}</b><br>{effect}"
         super().__init__(tr("Suppress a Finding"), fields, tr("&Suppress"), parent, hint=hint, width=520)
 
     def params(self) -> tuple[str, ...]:
@@ -130,7 +132,7 @@ class FixSeveralDialog(QDialog):
         self._count()
 
     def _add(self, workspace: Workspace, group: FindingGroup) -> None:
-        top = QTreeWidgetItem(self.list, [finding_in_words(group.findings[0])])
+        top = QTreeWidgetItem(self.list, [finding_text(workspace.file, group.findings[0])])
         top.setIcon(0, severity_icon(group.severity))
         top.setFlags(top.flags() | Qt.ItemFlag.ItemIsUserCheckable | Qt.ItemFlag.ItemIsAutoTristate)
         for finding in group.fixable:

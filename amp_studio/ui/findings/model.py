@@ -8,8 +8,8 @@ from typing import Any
 from PySide6.QtCore import QAbstractItemModel, QModelIndex, Qt
 
 from amp_studio.report import FindingGroup, finding_axes, finding_groups, fix_text, severity_name
-from amp_studio.ui.base.figures import finding_in_words
 from amp_studio.ui.base.model_index import ModelIndex
+from amp_studio.ui.base.places import finding_text
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.validate import Finding
@@ -67,15 +67,12 @@ class FindingsModel(QAbstractItemModel):
 
     def text_of(self, index: ModelIndex) -> str:
         """Return what is wrong, and for a finding in the words of its rule the values it is about."""
-        finding, group = self.finding(index), self.group(index)
-        if finding is None:
-            return finding_in_words(group.findings[0])
-        if finding.message != group.message:
-            return finding_in_words(finding)
-        here = self._workspace.file.machine_schema
-        return ", ".join(
-            dict.fromkeys(here.label(address) for address in finding.addresses[:6])
-        ) or finding_in_words(group.findings[0])
+        finding, group, file = self.finding(index), self.group(index), self._workspace.file
+        if finding is not None and finding.message == group.message:
+            labels = map(file.machine_schema.label, finding.addresses[:6])
+            if text := ", ".join(dict.fromkeys(labels)):
+                return text
+        return finding_text(file, finding or group.findings[0])
 
     # -- Qt's side -----------------------------------------------------------------
 

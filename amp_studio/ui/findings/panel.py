@@ -22,10 +22,10 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.report import delivered_text, finding_axes
-from amp_studio.ui.base.figures import finding_in_words
 from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.modal import pop_up
 from amp_studio.ui.base.model_index import ModelIndex
+from amp_studio.ui.base.places import finding_text
 from amp_studio.ui.base.theme import FINDING_ROW, GAP2, colour, font, icon, paint_icon, scheme, severity_icon
 from amp_studio.ui.base.translated import counted, worded
 from amp_studio.ui.base.workspace import Workspace
@@ -257,7 +257,7 @@ class FindingsPanel(QWidget):
     def _suppressed_finding(self, suppressed: Suppressed) -> Finding:
         """Return a suppressed finding as it is listed: without its fix, and with the reason."""
         message = self.tr("{message} Suppressed by {name}: {reason}").format(
-            message=finding_in_words(suppressed.finding),
+            message=finding_text(self._workspace.file, suppressed.finding),
             name=suppressed.suppression.by,
             reason=suppressed.suppression.reason,
         )

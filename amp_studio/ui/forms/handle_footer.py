@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QFrame, QLineEdit
 
 from amp_studio.drawing import Handle, figure_text
 from amp_studio.schema import Address, Value, convert, dimension, write_figure, write_value
-from amp_studio.ui.base.figures import sentence, show_value, written
+from amp_studio.ui.base.figures import sentence, show_value, typed, written
 from amp_studio.ui.base.layout import in_row
 from amp_studio.ui.base.theme import CONTROL, GAP3, font
 from amp_studio.ui.base.translated import unit_in_words
@@ -63,7 +63,7 @@ class HandleFooter(QFrame):
         step = f"{written(figure_text(drag.step))} {unit_in_words(drag.unit)}".strip()
         self.keys.setText(self.tr("← → {step}, Shift 10").format(step=step))
         if has_one and not self.field.hasFocus():
-            self.field.setText(written(self._typed(drag.address)))
+            self.field.setText(typed(self._typed(drag.address)))
             self.field.setAccessibleName(handle.label)
         self.more.setText(self._default(drag.address) if has_one else handle.value)
 

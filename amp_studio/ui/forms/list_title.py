@@ -10,8 +10,6 @@ from PySide6.QtWidgets import QLabel, QSizePolicy
 
 from amp_studio.ui.base.theme import GAP2, colour, font
 
-_MIN_REST = 40
-"""Width from which the rest is shown."""
 _MIN_WIDTH, _MAX_WIDTH = 120, 300
 
 
@@ -52,9 +50,10 @@ class ListTitle(QLabel):
         )
         name = strong.elidedText(self._name, Qt.TextElideMode.ElideRight, room)
         wide = strong.horizontalAdvance(name)
-        left = room - wide
-        rest = plain.elidedText(f" — {self._remark}", Qt.TextElideMode.ElideRight, left)
-        return name, wide, rest if left >= _MIN_REST else ""
+        parts = self._remark.split(", ")
+        while parts and plain.horizontalAdvance(f" — {', '.join(parts)}") > room - wide:
+            parts.pop()  # as much as has room, and no word of it is cut
+        return name, wide, f" — {', '.join(parts)}" if parts else ""
 
     def _show_tip(self) -> None:
         name, _, rest = self._parts()

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QWidget
+from PySide6.QtWidgets import QMessageBox, QWidget
 
 from amp_studio.files import ParameterFile, RangeDecision
 from amp_studio.schema import Address, write_value
-from amp_studio.ui.base.questions import ask, show_message
+from amp_studio.ui.base.questions import ask, show_message, type_text
 from amp_studio.ui.base.translated import Translated
 
 
@@ -30,9 +30,8 @@ class AskInDialogs(Translated):
         """Ask for another value; a secret is not shown."""
         parameter = file.schema.parameters[address[0]]
         old = "" if parameter.secret else write_value(parameter, file.get(address))
-        echo = QLineEdit.EchoMode.Password if parameter.secret else QLineEdit.EchoMode.Normal
-        text, accepted = QInputDialog.getText(self._parent, self.tr("Edit parameter"), problem, echo, old)
-        return text if accepted else None
+        title = self.tr("Edit parameter")
+        return type_text(self._parent, title, problem, title, old, is_secret=parameter.secret)
 
     def refused(self, problem: str) -> None:
         """Show why the other value cannot be taken either."""

@@ -384,7 +384,7 @@ class LiveRecording(QWidget):
         sheet = f"color: {colour('error' if self._problem else 'dim').name()};"
         if self.footer.styleSheet() != sheet:  # Qt styles and paints again for the same one too
             self.footer.setStyleSheet(sheet)
-        self.footer.setText("   ".join(filter(None, parts)))
+        self.footer.setText(" · ".join(filter(None, parts)))
 
     def _why_missing(self, signal: str) -> str:
         """Return that a signal is not drawn, with the reason where the control has one."""

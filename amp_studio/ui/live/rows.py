@@ -139,6 +139,7 @@ class LiveRows(QTableWidget):
             item_at(self, row, CONTROL).setForeground(colour("text" if differs else "dim"))
             item_at(self, row, CONTROL).setFont(font("text", own=differs))
             self._show_remark(item_at(self, row, REMARK), address, differs)
+        self.setColumnHidden(NUMBER, not any(map(file.machine_schema.number, self.addresses)))
 
     def _text_of_control(self, parameter: Parameter, value: Value | None) -> str:
         if self._present is None:

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 EVENTS = 8
 """Events that are shown."""
-PLACES, GROUPED = 4, 5
+PLACES = 4
 """Decimals of a figure, and digits from which they are grouped."""
 WIDE, NARROW = 320, 284
 """Widths of the panel."""
@@ -69,7 +69,7 @@ class LiveStatusPanel(QWidget):
         self.age = QLabel()
         self.lamps, self.raw, self.values = QLabel(), QLabel(), QLabel()
         self.faults, self.fault_count, self.events = QLabel(), QLabel(), QLabel()
-        self.notes = QLabel()
+        self.notes, self._before = QLabel(), _head(self.tr("Before this"))
         self.keys = QLineEdit()
         self.place = ElidedLabel()
         self.end = QPushButton(self.tr("End Li&ve"))
@@ -111,13 +111,13 @@ class LiveStatusPanel(QWidget):
             self.lamps,
             self.raw,
             self.values,
+            self.notes,
             _line(),
             _head(self.tr("Faults"), self.fault_count),
             self.faults,
             _line(),
-            _head(self.tr("Before this")),
+            self._before,
             self.events,
-            self.notes,
             self.key_label,
             self.keys,
             1,
@@ -280,6 +280,7 @@ class LiveStatusPanel(QWidget):
             for time, _, text in (event.partition(" ") for event in happened.events[:EVENTS])
         )
         self._set(self.events, "<br>".join(lines))
+        self._before.setVisible(bool(happened.events))
 
     def _colour(self) -> None:
         """Write again what has a colour in its text."""
@@ -324,12 +325,8 @@ def value_text(value: float | str) -> str:
     if isinstance(value, str):
         return value
     text = f"{round(value, PLACES):.{PLACES}f}".rstrip("0").rstrip(".")
-    whole, point, rest = text.partition(".")
-    if len(whole.lstrip("-")) >= GROUPED:
-        # A narrow space groups: point and comma are both decimal separators somewhere.
-        whole = f"{int(whole):,}".replace(",", "\u202f")
     # A minus in front of 0 would come and go at rest.
-    return written("0" if text in ("-0", "") else f"{whole}{point}{rest}")
+    return written("0" if text in ("-0", "") else text)
 
 
 def _line() -> QFrame:

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QCompleter, QFrame, QLabel, QLineEdit, QPushButton
 from amp_studio.files import RangeError, in_one_unit
 from amp_studio.report import takes_effect
 from amp_studio.schema import Address, InvalidValueError, Value, same_value, write_value
-from amp_studio.ui.base.figures import sentence, show_value, written
+from amp_studio.ui.base.figures import sentence, show_value, typed
 from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.theme import CONTROL, GAP, GAP2, GAP3, colour, font, scheme
 from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
@@ -211,7 +211,7 @@ class WriteFrame(QFrame):
             return self._text(value)
         assert self._about is not None
         parameter = self._workspace.file.schema.parameters[self._about.address[0]]
-        return written(write_value(parameter, found).partition(" ")[0])
+        return typed(write_value(parameter, found).partition(" ")[0])
 
     def _in_unit(self, value: Value | None) -> Value | None:
         assert self._about is not None

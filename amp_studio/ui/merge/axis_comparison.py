@@ -98,8 +98,8 @@ class AxisComparison(QDialog):
             item.setData(0, _DIFFERENCE, difference)
             item.setSizeHint(0, QSize(0, ROW))
             self.list.addTopLevelItem(item)
-        for column, width in enumerate((400, 160)):
-            self.list.setColumnWidth(column, width)
+        for column in range(2):
+            self.list.resizeColumnToContents(column)
 
     def refresh(self, *_: object) -> None:
         """List again what differs; the current row stays where it was."""
@@ -136,10 +136,8 @@ class AxisComparison(QDialog):
 
     def _texts(self, difference: AxisDifference) -> list[str]:
         file = self._workspace.file
-        parameter, name = (
-            file.schema.parameters[difference.first[0]],
-            file.machine_schema.named(difference.first),
-        )
+        parameter, here = file.schema.parameters[difference.first[0]], file.machine_schema
+        name = here.label(difference.first).removesuffix(here.instance_label(difference.first)).rstrip()
         if difference.bits is None:
             secrets = self._workspace.secrets
             values = [file.get(a) for a in (difference.first, difference.second)]

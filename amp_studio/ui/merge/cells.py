@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from amp_studio.files import Merge, Row, in_one_unit
 from amp_studio.schema import MASKED, Parameter, Value, labels_of_word, visible
-from amp_studio.ui.base.figures import grouped, show_value
+from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.translated import tr, unit_in_words
 
 
@@ -49,7 +49,7 @@ def _cell(parameter: Parameter, value: Value | None, *, masked: bool) -> MergeCe
     if isinstance(value.value, (str, bool)) or not value.unit:
         return _bare_cell(parameter, value)
     bare = show_value(parameter, Value(value.value), secrets=True)
-    return MergeCell(grouped(bare), unit_in_words(value.unit))
+    return MergeCell(bare, unit_in_words(value.unit))
 
 
 def _bare_cell(parameter: Parameter, value: Value) -> MergeCell:
@@ -59,4 +59,4 @@ def _bare_cell(parameter: Parameter, value: Value) -> MergeCell:
     text = show_value(parameter, value, secrets=True)
     if parameter.bits and isinstance(value.value, int) and value.value >= 0:
         return MergeCell(labels_of_word(parameter, value.value), f"0x{value.value:X}", text)
-    return MergeCell(text if parameter.secret or parameter.choices else grouped(text))
+    return MergeCell(text)

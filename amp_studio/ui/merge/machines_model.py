@@ -8,7 +8,7 @@ from pathlib import Path
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QSortFilterProxyModel, Qt
 
 from amp_studio.report import MachineLine
-from amp_studio.ui.base.figures import with_figures
+from amp_studio.ui.base.figures import with_groups
 from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.base.theme import colour, font
 
@@ -57,7 +57,7 @@ class MachinesModel(QAbstractTableModel):
         line, column = self.lines[index.row()], index.column()
         if role in (_Role.DisplayRole, _Role.ToolTipRole):
             text = line.texts[column]
-            return self.tr("not set") if text == "not set" else with_figures(text)
+            return self.tr("not set") if text == "not set" else text if line.is_label else with_groups(text)
         if role == _Role.AccessibleTextRole:
             departs = self.tr(", unlike most") if column in line.departing else ""
             return f"{self._names[column]}: {line.texts[column]}{departs}"

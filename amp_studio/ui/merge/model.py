@@ -10,6 +10,7 @@ from typing import Any
 
 from PySide6.QtCore import QAbstractItemModel, QModelIndex, Qt, Signal
 
+from amp_studio.drawing import THIN
 from amp_studio.files import (
     ENTRIES,
     FACTS,
@@ -24,7 +25,7 @@ from amp_studio.files import (
     axis_letters,
 )
 from amp_studio.schema import Value, fault, read_address, read_real, read_value, same_value, visible, whole_of
-from amp_studio.ui.base.figures import THIN, as_tip
+from amp_studio.ui.base.figures import as_tip
 from amp_studio.ui.base.model_index import ModelIndex
 
 from .cells import MergeCell, cells_of
@@ -191,7 +192,7 @@ class MergeModel(QAbstractItemModel):
             return ""
         value = self.result_of(row)
         cell = self.cell(row, RESULT)
-        return "" if value is None else cell.typed or cell.whole.replace(THIN, "")
+        return "" if value is None else (cell.typed or cell.whole).replace(THIN, "")
 
     def read(self, row: Row, text: str) -> Typed:
         """Read what was typed for the result; raises ValueError with what is allowed."""

@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QHeaderView,
-    QInputDialog,
     QLabel,
     QSplitter,
     QTableWidgetItem,
@@ -39,6 +38,7 @@ from amp_studio.calibration import (
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value, read_exact
 from amp_studio.ui.base.layout import in_column, in_row
+from amp_studio.ui.base.questions import type_text
 from amp_studio.ui.base.theme import GAP2, colour, font
 from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.forms.form import Field, FieldForm
@@ -289,8 +289,9 @@ class CalibrationPage(TuningPart):
             unit=unit
         )
         example = "0 0" if not table.points else ""
-        text, accepted = QInputDialog.getText(self, self.tr("Insert Point"), question, text=example)
-        if not accepted or not text.strip():
+        title = self.tr("Insert Point")
+        text = type_text(self, title, question, title, example)
+        if text is None or not text.strip():
             return
         words = text.replace(";", " ").replace("=", " ").split()
         if len(words) != 2:

@@ -83,7 +83,7 @@ def figures_of(check: MotionCheck) -> list[str]:
     number stays.
     """
     return [
-        f"{number_in_words(value, unit)} {worded(name.replace('_', ' '))}"
+        f"{worded(name.replace('_', ' '))} {number_in_words(value, unit)}"
         for name, (value, unit) in check.figures.items()
         if value is not None
     ]

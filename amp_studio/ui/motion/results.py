@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.schema import Schema
 from amp_studio.sim import Recommendation, Trace, value_text
-from amp_studio.ui.base.figures import grouped, written
+from amp_studio.ui.base.figures import unbroken, written
 from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.theme import severity_colour, state_colour
 from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
@@ -59,10 +59,8 @@ class FiguresPage(QTextBrowser):
             f'<p style="color:{warn}">{html.escape(sentenced(text, family))}</p>' for text in trace.doubts
         )
         beside = self.tr("kept") if kind == "kept" else self.tr("saved")
-        self.setHtml(
-            f"{alarms}{doubts}<table cellspacing=0 cellpadding=2"
-            f" width=100%>{''.join(_rows(trace, before, beside))}</table>"
-        )
+        rows = unbroken("".join(_rows(trace, before, beside)))
+        self.setHtml(f"{alarms}{doubts}<table cellspacing=0 cellpadding=2 width=100%>{rows}</table>")
 
 
 def _rows(trace: Trace, before: Trace | None, before_name: str) -> list[str]:
@@ -94,7 +92,7 @@ def _is_beside(name: str, kinds: Sequence[str], result: Container[str]) -> bool:
 
 
 def _number(value: float | None) -> str:
-    return "–" if value is None else grouped(written(value_text(value, digits=5)))
+    return "–" if value is None else written(value_text(value, digits=5))
 
 
 class RecommendationsPage(QScrollArea):
@@ -175,4 +173,4 @@ class AssumptionsPage(QTextBrowser):
     def show_trace(self, family: str, trace: Trace) -> None:
         """Show the assumptions of a trace of a family."""
         ordered = sorted(trace.assumptions, key=lambda text: not text.startswith("ASSUMED"))
-        self.setHtml("".join(f"<p>{html.escape(sentenced(text, family))}</p>" for text in ordered))
+        self.setHtml(unbroken("".join(f"<p>{html.escape(sentenced(text, family))}</p>" for text in ordered)))

@@ -11,6 +11,8 @@ from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QComboBox, QLabel, QLineEdit, QSizePolicy, QToolButton, QWidget
 
 from amp_studio.calibration import stepped, steps_of, usual_step
+from amp_studio.drawing import THIN
+from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, GuideStep, Value
 from amp_studio.sim import Trace, address_of, value_text
 from amp_studio.ui.base.figures import show_value, written
@@ -145,7 +147,7 @@ class StepDetail(QWidget):
         assert self._target is not None
         file = self._target.file
         for address, field in self.fields.items():
-            text = show_value(file.schema.parameters[address[0]], file.get(address))
+            text = _typed(file, address)
             if isinstance(field, _Choices):
                 field.show_choice(text)
             elif field.text() != text:
@@ -156,7 +158,7 @@ class StepDetail(QWidget):
         assert self._target is not None
         file = self._target.file
         # Leaving a field is no edit: a rounded text must not be written back.
-        if text == show_value(file.schema.parameters[address[0]], file.get(address)):
+        if text == _typed(file, address):
             return
         try:
             self._set(address, file.read(address, text))
@@ -193,3 +195,8 @@ class StepDetail(QWidget):
             lines.append(line)
         self.shows.setText("\n".join(lines))
         self.shows.setStyleSheet(f"color: {colour('error' if now.alarms else 'text').name()}")
+
+
+def _typed(file: ParameterFile, address: Address) -> str:
+    """Return a value as it is in a field: without groups, which nobody types."""
+    return show_value(file.schema.parameters[address[0]], file.get(address)).replace(THIN, "")

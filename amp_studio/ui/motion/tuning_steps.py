@@ -144,7 +144,7 @@ class TuningSteps(QWidget):
         label = QLabel(self.tr("Axi&s"))
         label.setBuddy(self.axis)
         head = in_row(label, self.axis, 0, self.chart)
-        in_column(head, (self.plot, 1), (self.below, 1), on=middle, margins=0)
+        in_column(head, (self.plot, 1), (self.below, 1), on=middle, margins=(GAP, 0, 0, 0))
         aim = in_row(self.aim, 0)
         column = in_column(
             aim, self.figures, (self.proposed, 1), on=right, margins=(GAP, 0, GAP2, GAP2), gap=GAP

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QComboBox, QHeaderView, QInputDialog, QLabel, QPushButton, QTableWidgetItem
+from PySide6.QtWidgets import QComboBox, QHeaderView, QLabel, QPushButton, QTableWidgetItem
 
 from amp_studio.calibration import CalibrationError, TuningPage, stepped, steps_of, usual_step
 from amp_studio.files import ParameterFile
@@ -15,6 +15,7 @@ from amp_studio.schema import Address, Value, limits, read_exact, write_number
 from amp_studio.ui.base.figures import range_in_words, show_value, written
 from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.places import place_in_words
+from amp_studio.ui.base.questions import type_text
 from amp_studio.ui.base.theme import GAP2, colour
 from amp_studio.ui.base.translated import unit_in_words, worded
 from amp_studio.ui.forms.table_items import item_at
@@ -234,8 +235,9 @@ class ValuesPage(TuningPart):
             value=show_value(file.schema.parameters[address[0]], file.get(address)),
             unit=unit or self.tr("a number"),
         )
-        text, accepted = QInputDialog.getText(self, self.tr("Add to Value"), question)
-        if not accepted or not text.strip():
+        title = self.tr("Add to Value")
+        text = type_text(self, title, question, title)
+        if text is None or not text.strip():
             return
         # As a fraction: an addition must not leave digits that were not typed.
         number, rest = read_exact(text)

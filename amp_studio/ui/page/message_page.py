@@ -12,8 +12,9 @@ from PySide6.QtWidgets import QDialog, QTextBrowser, QWidget
 
 from amp_studio.find import LinkedParameter, LinkedRule, MessagePage, message_page
 from amp_studio.schema import Address, Schema
-from amp_studio.ui.base.figures import finding_in_words
+from amp_studio.ui.base.figures import unbroken
 from amp_studio.ui.base.layout import in_column
+from amp_studio.ui.base.places import finding_text
 from amp_studio.ui.base.theme import GAP3, colour, scheme
 from amp_studio.ui.base.translated import control_message, scenario_in_words, worded
 
@@ -53,7 +54,7 @@ class MessageWindow(QDialog):
             file = workspace.file
             found = message_page(file.schema, file.machine, self._message, file, workspace.findings)
         at = self.text.verticalScrollBar().value()
-        self.text.setHtml(self._html(found))
+        self.text.setHtml(unbroken(self._html(found)))
         self.text.verticalScrollBar().setValue(at)
 
     def _html(self, page: MessagePage) -> str:
@@ -84,10 +85,12 @@ class MessageWindow(QDialog):
         return "".join(parts)
 
     def _broken(self, rules: tuple[LinkedRule, ...]) -> list[str]:
-        shade = colour("error").name()
+        if self._page is None:
+            return []
+        shade, file = colour("error").name(), self._page.workspace.file
         lines = [
             f"<span style='color:{shade}'>✕</span>"
-            f" {self._link(finding.addresses[0], finding_in_words(finding))}"
+            f" {self._link(finding.addresses[0], finding_text(file, finding))}"
             for linked in rules
             for finding in linked.findings
         ]

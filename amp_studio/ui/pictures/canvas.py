@@ -14,7 +14,8 @@ from amp_studio.drawing import Handle, Placement, Scene
 from amp_studio.files import RangeError
 from amp_studio.pictures import dragged, stepped
 from amp_studio.schema import Address, Value
-from amp_studio.ui.base.figures import finding_in_words
+from amp_studio.ui.base.figures import with_groups
+from amp_studio.ui.base.places import finding_text
 from amp_studio.ui.base.scene_painter import ScenePainter
 from amp_studio.ui.base.theme import colour
 from amp_studio.ui.base.workspace import Workspace
@@ -196,10 +197,10 @@ class PictureCanvas(QWidget):
         finding, old = self._finding(handle, self._about), ""
         if self._dragged is not None:
             before = self._dragged.value
-            old = "" if before == handle.value else self.tr("was {value}").format(value=before)
-        reason = self._refused or (finding_in_words(finding) if finding else "")
+            old = "" if before == handle.value else self.tr("was {value}").format(value=with_groups(before))
+        reason = self._refused or (finding_text(self._workspace.file, finding) if finding else "")
         severity = "error" if self._refused else finding.severity if finding else ""
-        return Tag(handle.label, handle.value, old, reason, severity)
+        return Tag(handle.label, with_groups(handle.value), old, reason, severity)
 
     def _has_focus(self) -> bool:
         return self.hasFocus() or any(spot.hasFocus() for spot in self._spots)

@@ -46,7 +46,7 @@ class Tag(NamedTuple):
     name: str
     value: str
     old: str = ""
-    """``was -150 mm``"""
+    """``was −150 mm``"""
     reason: str = ""
     """Why it goes no further, or what is found there."""
     severity: str = ""

@@ -134,7 +134,7 @@ class ProgramPage(PageOfFile):
             lambda _key: self.trying.attempt(str(self.change_form.answers()["change"]))
         )
         self._lay_out()
-        self.say(self.tr("Type a block, or open a part program."))
+        self.path.title.setText(self.tr("Type a block, or open a part program."))
 
     def _add_keys(self) -> None:
         """Have Space play, and 1 to 6 list the blocks of a limit alone, where nothing is typed."""

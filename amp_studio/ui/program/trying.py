@@ -158,6 +158,8 @@ class ProgramTries:
     def _change_in_words(self, address: Address, change: tuple[Value | None, Value]) -> str:
         parameter = self._page.file.schema.parameters[address[0]]
         before, after = (show_value(parameter, each) for each in change)
+        if change[0] is not None and change[0].unit == change[1].unit:
+            before = show_value(parameter, Value(change[0].value))  # the unit once: there is little room
         return f"{self._page.file.machine_schema.label(address)}\n{before} → {after}"
 
     def _apply_ticked(self) -> None:

@@ -25,7 +25,8 @@ from amp_studio.schema import (
     labels_of_word,
     write_value,
 )
-from amp_studio.ui.base.figures import finding_in_words, grouped, show_value
+from amp_studio.ui.base.figures import show_value
+from amp_studio.ui.base.places import finding_text
 from amp_studio.ui.base.translated import Translated, tr, unit_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.validate import NOT_SET
@@ -258,7 +259,7 @@ class ShownValues(Translated):
             return tr("Does not exist here: {why}").format(why=self._why(file.evaluation.state(address)))
         state = file.evaluation.state(address)
         lines = [self.text(address, file.get(address))]
-        lines += [finding_in_words(f) for f in self.workspace.findings_of(address) if f.rule != NOT_SET]
+        lines += [finding_text(file, f) for f in self.workspace.findings_of(address) if f.rule != NOT_SET]
         if not state.is_active:
             page = self.tr(" (page {page})").format(page=state.page) if state.page else ""
             lines.append(f"{worded(state_name(state.state)).capitalize()}: {self._why(state)}{page}")
@@ -358,7 +359,7 @@ def _show_word(look: CellLook, parameter: Parameter, word: int) -> None:
 def _show_plain(look: CellLook, parameter: Parameter, value: Value) -> None:
     """Give a cell a value that is in the unit it is shown in."""
     plain = show_value(parameter, Value(value.value, ""), secrets=True)
-    look.text = grouped(plain) if look.is_number else plain.replace("\n", " ⏎ ")
+    look.text = plain if look.is_number else plain.replace("\n", " ⏎ ")
     look.unit = unit_in_words(value.unit)
     if parameter.choices:
         look.short = short_labels(tuple(c.label for c in parameter.choices)).get(plain, "")

@@ -10,8 +10,9 @@ from collections.abc import Callable, Iterable, Iterator
 from amp_studio.files import axis_letter, group_note, storage_text, value_note, with_days_and_times
 from amp_studio.report import GRADES, facts, help_parts, severity_name, state_name, tables_of
 from amp_studio.schema import Address, Parameter, Value, labels_of_word, limits, real_value, same_value
-from amp_studio.ui.base.figures import finding_in_words, range_in_words, show_value
+from amp_studio.ui.base.figures import range_in_words, show_value
 from amp_studio.ui.base.hazard import hazard_html
+from amp_studio.ui.base.places import finding_text
 from amp_studio.ui.base.theme import colour, icon_html, severity_html
 from amp_studio.ui.base.time_words import stored_in_words
 from amp_studio.ui.base.translated import (
@@ -185,7 +186,7 @@ class DetailPage(Translated):
         else:
             name = worded(severity_name(finding.severity)).capitalize()
             mark = f"{severity_html(finding.severity)} <b>{name}:</b>"
-        return f"<p>{mark} {html.escape(finding_in_words(finding))}{cited}</p>"
+        return f"<p>{mark} {html.escape(finding_text(self._workspace.file, finding))}{cited}</p>"
 
     def _rules(self, address: Address) -> tuple[str, str]:
         """Return the title and the rules: those that are not met with what is wrong, then those that are."""

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QLabel, QTextBrowser, QWi
 
 from amp_studio.files import RECORD, axis_letter, real_path, shown_axes
 from amp_studio.schema import Address, Value, convert, limits
+from amp_studio.ui.base.figures import unbroken
 from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.single_shot import single_shot
 from amp_studio.ui.base.task import Task
@@ -69,6 +70,8 @@ class DetailPanel(QWidget):
         self.page.setOpenLinks(False)
         self.page.setAccessibleName(self.tr("Parameter"))
         self.page.document().setDocumentMargin(GAP3)
+        # A table that is a pixel too wide takes it from the margin.
+        self.page.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.page.anchorClicked.connect(self._follow)
         self._top = QBoxLayout(QBoxLayout.Direction.LeftToRight)
         self._top.setContentsMargins(GAP3, GAP2, GAP3, 0)
@@ -190,7 +193,7 @@ class DetailPanel(QWidget):
         page.setVerticalScrollBarPolicy(
             policies.ScrollBarAlwaysOn if bar.isVisible() else policies.ScrollBarAsNeeded
         )
-        page.setHtml(text)
+        page.setHtml(unbroken(text))
         page.setVerticalScrollBarPolicy(policies.ScrollBarAsNeeded)
         bar.setValue(place)
 
