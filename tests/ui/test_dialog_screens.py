@@ -1,5 +1,5 @@
-"""Every window that a command of the menus opens: no text is cut, numbers are those of the cells, and a button
-says what it does.
+"""Every window that a command of the menus opens: no text is cut, numbers are those of the cells, and every
+button names what it does.
 """
 
 from collections.abc import Iterator
@@ -65,11 +65,11 @@ def test_every_window_of_a_command_can_be_read_and_its_buttons_say_what_they_do(
             continue
         act.trigger()
         settled()
-        for shown in window.findChildren(QDialog):
-            if shown.isVisible():
+        for opened in window.findChildren(QDialog):
+            if opened.isVisible():
                 seen.append(name)
-                found.extend((name, *each) for each in faults(shown))
-                shown.close()
+                found.extend((name, *each) for each in faults(opened))
+                opened.close()
         QApplication.processEvents()
     assert len(seen) > 20
     assert found == [], "\n".join(map(str, found))

@@ -358,11 +358,11 @@ def test_a_typed_slip_is_asked_about_until_it_is_saved_and_saved_again(window: M
 
 
 def test_an_axis_of_a_finding_is_called_by_its_letter_where_that_is_clear(workspace: Workspace) -> None:
-    """ "Port 1 of axis 2 belongs to an axis before it" was said of the axis whose column is Y."""
+    """ "Port 1 of axis 2 belongs to an axis before it" was the text for the axis whose column is Y."""
 
-    def said(message: str) -> str:
+    def text_of(message: str) -> str:
         return finding_text(workspace.file, Finding("own", "warning", (), message))
 
-    assert said("The table of axis 2 cannot be used.") == "The table of axis Y cannot be used."
-    assert said("Axis 2 has the name Y of axis 3.") == "Axis 2 has the name Y of axis 3."
-    assert said("20020 Limits of 10000 mm, -5 mm.") == "20020 Limits of 10\u202f000 mm, −5 mm."
+    assert text_of("The table of axis 2 cannot be used.") == "The table of axis Y cannot be used."
+    assert text_of("Axis 2 has the name Y of axis 3.") == "Axis 2 has the name Y of axis 3."
+    assert text_of("20020 Limits of 10000 mm, -5 mm.") == "20020 Limits of 10\u202f000 mm, −5 mm."

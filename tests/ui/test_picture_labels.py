@@ -67,9 +67,9 @@ def test_every_text_of_a_picture_is_painted_whole_in_its_place(qapp):
             for size in SIZES:
                 for label in painted_labels(Placement.within(picture.scene(), *size), QSizeF(*size)).placed:
                     plain, strong = map(QFontMetricsF, caption_fonts())
-                    shown = (strong if label.strong else plain).horizontalAdvance(with_groups(label.text))
-                    shown += plain.horizontalAdvance(f" {with_groups(label.value)}") if label.value else 0.0
-                    assert shown <= label.box.width, (example.stem, picture.name, label.text)
+                    wide = (strong if label.strong else plain).horizontalAdvance(with_groups(label.text))
+                    wide += plain.horizontalAdvance(f" {with_groups(label.value)}") if label.value else 0.0
+                    assert wide <= label.box.width, (example.stem, picture.name, label.text)
                     is_inside = label.box.left >= 0.0 and label.box.left + label.box.width <= size[0]
                     assert is_inside or label.box.width > size[0], (example.stem, picture.name, label.text)
 
