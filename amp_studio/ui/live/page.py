@@ -5,7 +5,7 @@ writes a single value, and at the right what the control states of itself, asked
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from functools import partial
 from typing import TYPE_CHECKING
@@ -17,18 +17,16 @@ from amp_studio.files import Difference, ParameterFile, RangeError, axis_instanc
 from amp_studio.pictures import LiveLimits, axis_limits
 from amp_studio.report import dangers_of_change
 from amp_studio.schema import Address, Group, Parameter, Value, same_value
-from amp_studio.transfer.links import PasswordError
 from amp_studio.ui.base.figures import sentence, show_value
 from amp_studio.ui.base.questions import ask
-from amp_studio.ui.base.translated import facts_in_words, message_in_words
+from amp_studio.ui.base.translated import facts_in_words
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.control.readings import EventReadings, StatusReadings
 from amp_studio.ui.control.session import ControlSession
 from amp_studio.ui.control.session_words import text_of_failure
 from amp_studio.ui.forms.form import fill_choices
 
-from .answer_times import AnswerTimes
-from .page_parts import LivePageParts
+from .asking import LiveAsking, sentence_of
 from .rows import TurnedValue
 from .write_frame import ShownValue
 
@@ -37,13 +35,9 @@ if TYPE_CHECKING:
     from amp_studio.ui.base.emulated_control import EmulatedControl
 
 
-class LiveView(LivePageParts):
+class LiveView(LiveAsking):
     """Everything reads only but the frame. An exchange ends it; what was turned is asked about once."""
 
-    changed = Signal()
-    """The control is asked, or not any more."""
-    control_requested = Signal()
-    """The page at the control is wanted: a password, another one."""
     linked = Signal(str)
     """A parameter is wanted by its id."""
     noted = Signal(str)
@@ -51,38 +45,25 @@ class LiveView(LivePageParts):
 
     def __init__(self, workspace: Workspace) -> None:
         super().__init__(workspace, self._present)
-        self._family = workspace.file.schema.family.family
-        self.session: ControlSession | None = None
-        self.readings: StatusReadings | None = None
         self._emulated: EmulatedControl | None = None
         self.name = self._seen = ""
         self._parameters: Sequence[Parameter] = ()
         self._listed: Sequence[Parameter] = ()
         """What the table listed when Live was begun."""
-        self._status: ControlStatus | None = None
         self.turned: dict[Address, TurnedValue] = {}
         self.happened = EventReadings()
         self._limits: dict[tuple[str, str], LiveLimits] = {}
         """Axis and unit -> its limits in the file as it is."""
         self._begun = time.monotonic()
-        self._answers = AnswerTimes(self)
-        self._why = ""
-        self._then: Callable[[], object] | None = None
-        """What takes the line once the readings have left it."""
-        self._is_own = self._is_away = self._is_silent = False
         self._asked: set[Address] = set()
         """Values that a person has agreed to have written from here."""
         self._writing: tuple[Address, Value | None] | None = None
         self._queue: list[tuple[Address, Value]] = []
         """Values that are still to be put back."""
-        self._refused_in: object = None
         self._connect()
         workspace.changed.connect(self._follow_values)
-        workspace.closed.connect(self._close)
 
     def _connect(self) -> None:
-        self._answers.silent.connect(self._silent)
-        self._answers.aged.connect(self.panel.age.setText)
         self.read.clicked.connect(self._read_values)
         self.axes.chosen.connect(lambda _: self._choose_axis())
         self.groups.currentIndexChanged.connect(lambda _: self._choose_group())
@@ -193,106 +174,6 @@ class LiveView(LivePageParts):
         if self._status is not None:
             self._show_axis(self._status)
 
-    # -- asking --------------------------------------------------------------------
-
-    @property
-    def is_live(self) -> bool:
-        """Whether the control is being asked."""
-        return self.readings is not None and self.readings.is_running
-
-    @property
-    def state(self) -> tuple[str, bool]:
-        """How the control answers while it is asked, in words, and whether that needs a look."""
-        return (self.tr("no answer"), True) if self._is_silent else (self.tr("live"), False)
-
-    def start(self) -> None:
-        """Begin to ask: first what the control contains, where that needs no operator at its keys."""
-        session = self.session
-        if session is None or self.readings is None or session.is_busy:
-            return
-        if self.is_live:
-            if self._why:  # it is being stopped: again once the line is free
-                self._then = self.start
-            return
-        self._why, self._is_away = "", False
-        self.bar.hide()
-        if self._status is None:
-            self.panel.show_nothing(self.tr("no readings yet"))
-        if self._takes_one():  # again each time: what was read before may be old
-            self._is_own = True
-            session.read()
-            return
-        self._ask()
-
-    def _takes_one(self) -> bool:
-        """Return whether single values go into the control, which can be read at any time then."""
-        assert self.session is not None
-        if self.session.seen is not None:
-            return self.session.seen.takes_one
-        from amp_studio.transfer import TakesLiveValues
-        from amp_studio.transfer.client import open_driver
-        from amp_studio.transfer.links import EndpointError
-
-        try:
-            return isinstance(open_driver(self.session.address, self._family), TakesLiveValues)
-        except EndpointError:
-            return False
-
-    def _ask(self) -> None:
-        if self.readings is not None and not self._is_away:
-            self.readings.start()
-            self._answers.begin()
-            self.changed.emit()
-
-    def stop(self, why: str) -> None:
-        """Ask no more, and say why."""
-        if self.readings is not None and self.readings.is_running:
-            self._why = why
-            self.readings.stop()
-
-    def turned_away(self) -> None:
-        """Rest while another page is in front."""
-        self._is_away = True
-        self.recorder.stop()
-        self.stop(self.tr("Live was left."))
-
-    def _over(self, error: object) -> None:
-        self._is_silent = False
-        self.panel.grey(True)
-        self._answers.end()
-        if isinstance(error, Exception) and self.session is not None:
-            self.session.note_loss(error)
-        self.changed.emit()
-        if self._then is not None:
-            then, self._then = self._then, None
-            then()
-            return
-        if isinstance(error, Exception):  # of an exchange without what the control contains: this reads only
-            text = _sentence_of(getattr(error, "what", "") or str(error))
-            ways = [(self.tr("Try Again"), self.start), self._to_control()]
-            if isinstance(error.__cause__, PasswordError):
-                text, ways = self.tr("The control asks for its password, which is entered there."), ways[1:]
-            self.bar.say(text, "error", *ways)
-            self.frame.refuse(text)
-            self._refused_in = None  # the next reading allows it
-        elif self._why and not self._is_away:
-            self.bar.say(self._why, "advice", (self.tr("Go On"), self.start))
-
-    def _to_control(self) -> tuple[str, Callable[[], object]]:
-        return self.tr("At the Control"), self.control_requested.emit
-
-    def _silent(self) -> None:
-        """Show that the figures are old."""
-        if self.is_live:
-            since = f"{self._answers.last:%H:%M:%S}" if self._answers.last else "–"
-            self.bar.say(
-                self.tr("No answer since {time}: the figures are the last ones.").format(time=since),
-                "warning",
-            )
-            self.panel.grey(True)
-            self._is_silent = True
-            self.changed.emit()
-
     # -- a reading -------------------------------------------------------------------
 
     def show_status(self, status: ControlStatus, at: float | None = None) -> None:
@@ -374,7 +255,7 @@ class LiveView(LivePageParts):
         if present is None or seen is None:
             why = self.tr("What the control contains now was not read.")
             if self.session is not None and self.session.is_refused:
-                why = _sentence_of(self.session.error)
+                why = sentence_of(self.session.error)
         elif not seen.takes_one:
             why = self.tr("Reads only: this control takes no single values. Send the file (F5).")
         elif address is None or self._workspace.is_masked(address):
@@ -464,20 +345,6 @@ class LiveView(LivePageParts):
         self._show_control()
         return True
 
-    def _with_line(self, act: Callable[[], object]) -> None:
-        """Do something that needs the line; the readings leave it for that and come back afterwards."""
-
-        def begin() -> None:
-            self._is_own = True
-            act()
-
-        if self.is_live:
-            self._then = begin
-            assert self.readings is not None
-            self.readings.stop()
-        else:
-            begin()
-
     def _written(self, address: object) -> None:
         """Remember what a value was before it was turned here; one that is back is not turned."""
         if self._writing is None or self._writing[0] != address:
@@ -516,7 +383,7 @@ class LiveView(LivePageParts):
             return
         if session.phase == "away" and session.error and not session.is_refused:
             again = (self.tr("Try Again"), self.start)
-            self.bar.say(_sentence_of(session.error), "error", again, self._to_control())
+            self.bar.say(sentence_of(session.error), "error", again, self._to_control())
             return
         self._ask()
 
@@ -526,7 +393,7 @@ class LiveView(LivePageParts):
         self._queue.clear()
         failure = session.failure
         is_open = failure is not None and failure.at_control != "old"
-        text = text_of_failure(session) if is_open else _sentence_of(session.error)
+        text = text_of_failure(session) if is_open else sentence_of(session.error)
         self.frame.refuse(text)
         if self._is_away:
             self.noted.emit(text)
@@ -593,17 +460,6 @@ class LiveView(LivePageParts):
     def escape(self) -> None:
         """Go back to the values."""
         self.left.emit()
-
-    def _close(self) -> None:
-        """Ask no more: the file is closed."""
-        self._is_away = True
-        if self.readings is not None:
-            self.readings.stop()
-
-
-def _sentence_of(error: str) -> str:
-    text = message_in_words(error)
-    return f"{text[:1].upper()}{text[1:]}"
 
 
 def _name_of(group: Group) -> str:
