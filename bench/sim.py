@@ -21,7 +21,7 @@ import scipy.signal
 from measure import Measure, timed
 
 from amp_studio.sim import AxisLaw, Machine, Ramp
-from amp_studio.sim.axis.motion import Until, prepared, run_axis, steps
+from amp_studio.sim.axis.motion import RunEnd, prepared, run_axis, steps
 from amp_studio.sim.command.ramps import end_of, move
 from amp_studio.sim.engine import kernel as shared
 from amp_studio.sim.engine.arrays import Vector
@@ -115,7 +115,7 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
     rows, ours = _kernel()
     filled = ours()
     for axis, visible in ((AXIS, VISIBLE + COUNTS), (replace(AXIS, machine=IDEAL), VISIBLE)):
-        whole, halved = (run_axis(axis, PROFILE, Until(SECONDS), refine=refine).columns for refine in (1, 2))
+        whole, halved = (run_axis(axis, PROFILE, RunEnd(SECONDS), refine=refine).columns for refine in (1, 2))
         moved = float(np.max(np.abs(whole["position"] - halved["position"][::2])))
         assert moved < visible, f"halving the step moves the axis by {moved:g} mm"
     yield Measure(
@@ -133,7 +133,7 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
 
 def _kernel() -> tuple[Rows, _Call]:
     """Return the rows that a call fills, and the call."""
-    vectors, rows = prepared(AXIS, PROFILE, Until(SECONDS), STRIDE)
+    vectors, rows = prepared(AXIS, PROFILE, RunEnd(SECONDS), STRIDE)
     run = compiled(AXIS.position_sample, AXIS.velocity_sample)
     fresh = [np.array(each, dtype=np.float64) for each in vectors]
 
@@ -191,7 +191,7 @@ def _linear(times: int) -> Iterator[Measure]:
         timed(lambda: control.forced_response(other, time, wanted), few),
     )
     rigid = replace(AXIS, machine=Machine(machine.acceleration_per_output))
-    vectors, rows = prepared(rigid, PROFILE, Until(SECONDS), 1)
+    vectors, rows = prepared(rigid, PROFILE, RunEnd(SECONDS), 1)
     run = compiled(AXIS.position_sample, AXIS.velocity_sample)
     fresh = [np.array(each, dtype=np.float64) for each in vectors]
     yield Measure("  its linear part here", timed(lambda: run(*(v.copy() for v in fresh), rows), times))

@@ -14,7 +14,7 @@ from measure import Measure, timed
 
 from amp_studio.files import open_file
 from amp_studio.sim import AxisLaw, law_of
-from amp_studio.sim.axis.motion import Until, prepared, run_axis, steps
+from amp_studio.sim.axis.motion import RunEnd, prepared, run_axis, steps
 from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.command.ramps import move
 from amp_studio.sim.engine.compiled import compiled
@@ -81,7 +81,9 @@ def measures(times: int) -> Iterator[Measure]:
         assert axis.feedrate is not None
         feedrate = 0.5 * axis.feedrate
         profile = move(0.8 * SECONDS * feedrate, feedrate, next(iter(axis.ramps.values())))
-        whole, halved = (run_axis(axis, profile, Until(SECONDS), refine=n, engine="compiled") for n in (1, 2))
+        whole, halved = (
+            run_axis(axis, profile, RunEnd(SECONDS), refine=n, engine="compiled") for n in (1, 2)
+        )
         assert whole.stop == 0, f"{case.family}: alarm {whole.stop}"
         rows = min(len(whole.columns["position"]), len(halved.columns["position"][::2]))
         apart = whole.columns["position"][:rows] - halved.columns["position"][::2][:rows]
@@ -90,7 +92,7 @@ def measures(times: int) -> Iterator[Measure]:
         assert most < seen, f"{case.family}: halving the step moves the axis by {most:g} {axis.unit}"
         samples, substeps = steps(axis)
         step = axis.servo_period / samples / substeps
-        vectors, table = prepared(axis, profile, Until(SECONDS), max(1, round(ROW / step)))
+        vectors, table = prepared(axis, profile, RunEnd(SECONDS), max(1, round(ROW / step)))
         run = compiled(axis.position_sample, axis.velocity_sample)
         fresh = [np.array(each, dtype=np.float64) for each in vectors]
 
