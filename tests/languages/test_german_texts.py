@@ -1,5 +1,6 @@
 """One German word for one thing, in every text that a person reads: of the program and of the facts."""
 
+import ast
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -124,3 +125,41 @@ def test_every_setting_of_a_simulation_is_described_in_german(example: str, leng
     }
     english = re.compile(r"\b(default|or|the|of|with)\b")
     assert [pair for pair in own.items() if english.search(pair[1])] == []
+
+
+def refusals() -> Iterator[str]:
+    """Yield each sentence that a control, its line or an exchange refuses with, and 7 for what changes."""
+    packages = (
+        "client",
+        "links",
+        "image.py",
+        "house",
+        "plain",
+        "emulated/control.py",
+        "emulated/responder.py",
+    )
+    roots = [ROOT / "amp_studio/transfer" / name for name in packages]
+    roots += [*(ROOT / "amp_studio/families").glob("*/emulated")]
+    for path in (each for root in roots for each in (root.rglob("*.py") if root.is_dir() else [root])):
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            said = node.exc.args if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call) else []
+            for text in said:
+                if isinstance(text, ast.JoinedStr):
+                    yield "".join(str(p.value) if isinstance(p, ast.Constant) else "7" for p in text.values)
+                elif isinstance(text, ast.Constant) and " " in str(text.value):
+                    yield str(text.value)
+
+
+def test_what_a_control_or_its_line_refuses_with_is_german() -> None:
+    """It was English in the window but for some twenty sentences."""
+    of_a_shell = re.compile(
+        r"option|keyring|PASSWORD|first line|certificate|passphrase|listen|pseudo|folder is no line|memory of"
+        r"|is damaged|number of axes|emulated control writes|Unknown|of 7 bytes|no fingerprint|(a|type) 7"
+        r"|^(has|names|sets|this address|7 is not what) |which this program cannot|twice"
+    )
+    of_its_own = re.compile(
+        r"PARAMETER|Axis expected|Syntax error|belong|packed|given|neither|too short|7:? 7"
+    )
+    words = language_of("de")
+    english = {text for text in refusals() if words.message(text) == text}
+    assert {text for text in english if not (of_a_shell.search(text) or of_its_own.search(text))} == set()

@@ -16,6 +16,7 @@ from amp_studio.ui.base.figures import range_in_words, sentence, with_measures, 
 from amp_studio.ui.base.time_words import in_words, stored_in_words
 from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
 from amp_studio.ui.motion.tuning_page import TuningView
+from amp_studio.ui.program.block import block_fields
 from amp_studio.ui.table.value_delegate import allowed_text
 from amp_studio.validate.plausible.experience import TITLES
 
@@ -50,6 +51,10 @@ def test_numbers_are_shown_with_a_comma_and_typed_with_either_sign(german: None,
     assert window.table.typed_value(address) == "12.8 mm", "editors and the clipboard have a point"
     assert written("10.0.0.21") == "10,0,0,21", "which is why only values go through it"
     assert [button.text() for button in window.tools.units.buttons.values()] == ["mm", "Zoll"]
+
+
+def test_the_example_in_a_field_has_a_comma(german: None) -> None:
+    assert [field.hint for field in block_fields() if re.search(r"\d\.\d", field.hint)] == []
 
 
 def test_a_value_of_an_axis_without_a_letter_has_its_place_in_german(german: None, window_with) -> None:

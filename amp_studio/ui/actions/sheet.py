@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from amp_studio.files import ParameterFile, open_file
 from amp_studio.ui.base.ask_path import ask_to_open
 from amp_studio.ui.base.task import in_background
-from amp_studio.ui.base.translated import facts_in_words, tr
+from amp_studio.ui.base.translated import facts_in_words, message_in_words, tr
 from amp_studio.validate import rules_beside
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ def sheet_of_control(page: ControlPage) -> None:
         try:
             _make(page, session.seen.file, against, session.seen)
         except SheetError as error:
-            page.hand.bar.say(str(error), "warning")
+            page.hand.bar.say(message_in_words(str(error)), "warning")
 
 
 def sheet_of_file(page: ControlPage) -> None:

@@ -25,7 +25,7 @@ from amp_studio.ui.base.ask_path import ask_to_save
 from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3, Token, colour, scheme, severity_icon
-from amp_studio.ui.base.translated import tr
+from amp_studio.ui.base.translated import message_in_words, tr
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.message_bar import MessageBar
 
@@ -157,7 +157,8 @@ class HandSheet(QWidget):
         try:
             self.make(self._make, self.seen)
         except SheetError as error:  # the file has become one of another machine type
-            self.bar.say(f"{str(error)[:1].upper()}{str(error)[1:]}.", "warning")
+            why = message_in_words(str(error))
+            self.bar.say(f"{why[:1].upper()}{why[1:]}.", "warning")
 
     def _fill(self) -> None:
         from amp_studio.report import PrintedSheet
@@ -302,7 +303,9 @@ class HandSheet(QWidget):
                 self.ticks.read_back(entry, item.text(_READ))
         except OSError as error:
             # The tick stays on the screen: the value was keyed in, whether that can be stored or not.
-            self.bar.say(self.tr("The tick is not kept: {error}.").format(error=error), "error")
+            self.bar.say(
+                self.tr("The tick is not kept: {error}.").format(error=message_in_words(str(error))), "error"
+            )
         with QSignalBlocker(self.list):
             self._judge(item)
         self._count()
@@ -332,7 +335,7 @@ class HandSheet(QWidget):
         try:
             in_background(self, self.tr("Printing"), lambda: write_sheet(printed, path))
         except (OSError, ValueError) as error:
-            self.bar.say(str(error), "error")
+            self.bar.say(message_in_words(str(error)), "error")
 
 
 def _list() -> QTreeWidget:

@@ -15,7 +15,7 @@ from amp_studio.ui.base.ask_path import ask_to_save
 from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import ROW, severity_icon
-from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.translated import message_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.forms.message_bar import MessageBar
@@ -190,7 +190,7 @@ class SeveralControls(QWidget):
         try:
             check_addresses(named)
         except ValueError as error:
-            self.bar.say(str(error), "warning")
+            self.bar.say(message_in_words(str(error)), "warning")
             return
         each = download_each if self._sends else verify_each
         file, one_by_one = workspace.file.copy(), self.stop.isChecked()
@@ -214,7 +214,9 @@ class SeveralControls(QWidget):
         task = self._task = Task(work)
         results: list[Callable[[], None]] = []
         task.done.connect(lambda rows: results.append(lambda: self._show_rows(rows)))
-        task.failed.connect(lambda error: results.append(lambda: self.bar.say(str(error), "error")))
+        task.failed.connect(
+            lambda error: results.append(lambda: self.bar.say(message_in_words(str(error)), "error"))
+        )
         task.progressed.connect(self._show_stage)
         task.finished.connect(lambda: self._finish(results))
         task.begin()
@@ -278,4 +280,4 @@ class SeveralControls(QWidget):
         try:
             write_paper(results_paper(self.tr("Controls"), HEADS, [r.cells for r in self.rows]), path)
         except (OSError, ValueError) as error:
-            self.bar.say(str(error), "error")
+            self.bar.say(message_in_words(str(error)), "error")

@@ -40,7 +40,7 @@ def block_fields() -> Sequence[Field]:
         Field(
             "limit",
             tr("Error limi&t"),
-            hint="0.03 mm",
+            hint=written("0.03 mm"),
             tip=tr("The contour error that you allow: what is above it is marked, and is not good"),
         ),
     )
