@@ -12,12 +12,14 @@ from PySide6.QtWidgets import QApplication
 from amp_studio.report import language_of
 from amp_studio.schema import Limits, Value, program_texts, unit_named, unit_text
 from amp_studio.schema.units import UNITS
+from amp_studio.transfer.client import HEADS
 from amp_studio.ui.base.figures import range_in_words, sentence, with_measures, written
 from amp_studio.ui.base.time_words import in_words, stored_in_words
-from amp_studio.ui.base.translated import sentenced, unit_in_words, worded
+from amp_studio.ui.base.translated import sentenced, tr, unit_in_words, worded
 from amp_studio.ui.motion.tuning_page import TuningView
 from amp_studio.ui.program.block import block_fields
 from amp_studio.ui.table.value_delegate import allowed_text
+from amp_studio.ui.table.word_panel import WordPanel
 from amp_studio.validate.plausible.experience import TITLES
 
 
@@ -51,6 +53,23 @@ def test_numbers_are_shown_with_a_comma_and_typed_with_either_sign(german: None,
     assert window.table.typed_value(address) == "12.8 mm", "editors and the clipboard have a point"
     assert written("10.0.0.21") == "10,0,0,21", "which is why only values go through it"
     assert [button.text() for button in window.tools.units.buttons.values()] == ["mm", "Zoll"]
+
+
+def test_what_the_facts_remark_on_a_bit_is_german(german: None, window_with) -> None:
+    """The boxes of the bits had ``Unnamed (figure 4.1)``, and cells ``(inferred)``."""
+    window = window_with("57c422b-label-press")
+    window.go_to(("setup.encoder", "X"))
+    ticks = window.findChild(WordPanel).ticks
+    texts = [ticks.item(n).text() for n in range(ticks.count())]
+    texts += [window.table.cell_text(address) for address in window.workspace.file.machine_schema.places]
+    assert [text for text in texts if re.search("Unnamed|inferred|figure", text)] == []
+    assert any("Ohne Namen (Bild 4.1)" in text for text in texts)
+
+
+def test_two_columns_of_a_table_have_two_names(german: None, window) -> None:
+    """What came of an exchange and how it ended were both Ergebnis."""
+    texts = [[worded(head) for head in HEADS], [tr("Result"), tr("How it ended")]]
+    assert [each for each in texts if len(set(each)) < len(each)] == []
 
 
 def test_the_example_in_a_field_has_a_comma(german: None) -> None:

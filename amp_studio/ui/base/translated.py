@@ -81,6 +81,11 @@ def control_message(message: ControlMessage, family: str) -> str:
     return " ".join(filter(None, (message.code, message.text or worded(message.title, family))))
 
 
+def label_in_words(label: str) -> str:
+    """Return a label of the control, with what the facts remark on it in the language of the window."""
+    return language_of(_spoken).label(label)
+
+
 def unit_in_words(unit: str) -> str:
     """Return a unit as it is shown in the language of the window: ``in`` is ``Zoll`` in a German one."""
     return unit_text(unit) if _spoken == "en" else _unit(_spoken, unit_text(unit))

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QFrame, QLabel, QListWidget, QListWidgetItem, QWid
 from amp_studio.schema import Bit, Parameter, field_value
 from amp_studio.ui.base.layout import in_column, in_row
 from amp_studio.ui.base.theme import GAP, GAP2, ROW, colour, font, scheme
+from amp_studio.ui.base.translated import label_in_words
 
 _MAX_ROWS = 12
 _NARROWEST, _WIDEST = 240, 420
@@ -79,9 +80,11 @@ class MaskList(QFrame):
         """Return ``Handwheel 1 fitted   bit 0``, with the choice or number of a field of several bits."""
         number = field_value(field, word)
         if _is_bit(field):
-            return self.tr("{label}   bit {number}").format(label=field.label, number=field.bit)
+            return self.tr("{label}   bit {number}").format(
+                label=label_in_words(field.label), number=field.bit
+            )
         label = next((c.label for c in field.choices or () if c.raw == number), str(number))
-        return f"{field.label}: {label}"
+        return f"{label_in_words(field.label)}: {label_in_words(label)}"
 
     def show_word(self, word: int) -> None:
         """Show a word."""

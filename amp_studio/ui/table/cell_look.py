@@ -27,7 +27,7 @@ from amp_studio.schema import (
 )
 from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.places import finding_text
-from amp_studio.ui.base.translated import Translated, tr, unit_in_words, worded
+from amp_studio.ui.base.translated import Translated, label_in_words, tr, unit_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.validate import NOT_SET
 
@@ -350,9 +350,9 @@ class ShownValues(Translated):
 
 def _show_word(look: CellLook, parameter: Parameter, word: int) -> None:
     """Give a cell the labels of what is set in a word, in full and short, and its number as their unit."""
-    look.text = labels_of_word(parameter, word)
+    look.text = ", ".join(map(label_in_words, labels_of_word(parameter, word).split(", ")))
     look.unit = f"0x{word:X}" if word >= 0 else str(word)
-    short = short_labels(tuple(bit.label for bit in parameter.bits or ()))
+    short = short_labels(tuple(label_in_words(bit.label) for bit in parameter.bits or ()))
     look.short = ", ".join(short.get(name, name) for name in look.text.split(", "))
 
 

@@ -23,6 +23,7 @@ from PySide6.QtWidgets import (
 from amp_studio.schema import Address, Bit, field_value
 from amp_studio.ui.base.layout import in_column
 from amp_studio.ui.base.theme import GAP3, ROW
+from amp_studio.ui.base.translated import label_in_words
 from amp_studio.ui.base.workspace import Workspace
 
 _SHORT = 12
@@ -118,7 +119,9 @@ class WordPanel(QScrollArea):
 
     def _add_tick(self, bit: Bit) -> None:
         named = re.search(rf"(?<![\d.]){bit.bit}(?![\d.])", bit.label)  # "Axis 7" already names the bit
-        item = QListWidgetItem(bit.label if named else f"{bit.bit}  {bit.label}")
+        item = QListWidgetItem(
+            label_in_words(bit.label) if named else f"{bit.bit}  {label_in_words(bit.label)}"
+        )
         item.setData(Qt.ItemDataRole.UserRole, bit.bit)
         item.setToolTip(self.tr("bit {bit}").format(bit=bit.bit))
         self.ticks.addItem(item)
@@ -131,7 +134,7 @@ class WordPanel(QScrollArea):
             editor.setMinimumContentsLength(_MIN_LETTERS)
             editor.setPlaceholderText(self.tr("another code"))
             for choice in bit.choices:
-                editor.addItem(choice.label, choice.raw)
+                editor.addItem(label_in_words(choice.label), choice.raw)
             editor.activated.connect(lambda _, b=bit, e=editor: self._set(b, e.currentData()))
         else:
             editor = QSpinBox()
@@ -145,7 +148,7 @@ class WordPanel(QScrollArea):
             if bit.width > 1
             else self.tr("bit {bit}").format(bit=bit.bit)
         )
-        label = QLabel(bit.label)
+        label = QLabel(label_in_words(bit.label))
         label.setWordWrap(True)
         label.setBuddy(editor)
         self._form.addRow(label, editor)
