@@ -142,8 +142,10 @@ def refusals() -> Iterator[str]:
     roots += [*(ROOT / "amp_studio/families").glob("*/emulated")]
     for path in (each for root in roots for each in (root.rglob("*.py") if root.is_dir() else [root])):
         for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-            said = node.exc.args if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call) else []
-            for text in said:
+            arguments = (
+                node.exc.args if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call) else []
+            )
+            for text in arguments:
                 if isinstance(text, ast.JoinedStr):
                     yield "".join(str(p.value) if isinstance(p, ast.Constant) else "7" for p in text.values)
                 elif isinstance(text, ast.Constant) and " " in str(text.value):
