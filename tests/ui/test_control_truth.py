@@ -394,3 +394,13 @@ def test_after_a_break_each_value_shows_whether_the_control_has_it(
     page.press()
     settled(window, qtbot)
     assert page.table._items[EXCESS].text(REMARK) == "later stop when it fails"
+
+
+def test_a_control_that_two_files_have_is_listed_in_the_state_that_the_page_shows(
+    window: MainWindow, start_control: Start, qtbot: QtBot
+) -> None:
+    """The file that had asked first was listed: "not reached" beside a page that was ready."""
+    control = start_control(file=nearly(window))
+    window.control._session_of(control.address, None).error = "no connection to the control"
+    at_control(window, control.address, "compare", qtbot)
+    assert window.control._listed(control.address).state == "ready"

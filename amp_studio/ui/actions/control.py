@@ -316,7 +316,9 @@ class ControlDesk(Translated):
         from amp_studio.ui.control.known_list import ListedControl
 
         known = next((c for c in self.window.settings.controls() if c.address == address), None)
-        session = next((s for (a, _, _), s in self._sessions.items() if a == address), None)
+        # That of the page first: another file may have asked the same control before.
+        sessions = filter(None, (self.page.session, *self._sessions.values()))
+        session = next((each for each in sessions if each.address == address), None)
         state, warns = state_in_words(session)
         family = (
             self.tr("emulated")
