@@ -186,3 +186,11 @@ def test_formulas_have_their_titles_and_no_names_of_functions(window: MainWindow
     text = window.detail.page.toPlainText()
     assert "Gain break point: " in text
     assert "gain_break_point" not in text
+
+
+def test_a_page_that_is_a_pixel_too_wide_has_no_bar_below(window: MainWindow) -> None:
+    """Sixteen parameters of an AcroMill had one, where a table took its pixel from the margin."""
+    window.go_to(("servo.load_inertia_ratio", "1"))
+    panel = window.detail.page
+    assert not panel.horizontalScrollBar().isVisible()
+    assert panel.document().idealWidth() - panel.viewport().width() <= panel.document().documentMargin()

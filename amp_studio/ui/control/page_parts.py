@@ -93,7 +93,7 @@ class ControlPageParts(QWidget):
         self.steps_line = ElidedLabel()
         """The steps above the foot, where there is no room for them beside the table."""
         self.steps_line.setFont(font("small"))
-        self.steps_line.setContentsMargins(GAP3, 0, GAP3, 0)
+        self.steps_line.setContentsMargins(GAP3, GAP2, GAP3, 0)
         self.steps_line.hide()
         self.steps.line_changed.connect(self.steps_line.setText)
         self.checked = DangerCheck(self.table)
