@@ -86,7 +86,7 @@ def test_a_german_calculator_asks_answers_and_refuses_in_german(
     dialog.form.set_answer("argument.requested", "schnell")
     dialog.form.set_answer("argument.controlling", "1000, 3000")
     dialog.form.set_answer("argument.follower", "800, 1500")
-    assert dialog.form.answer("outcome").startswith("'schnell' passt nicht zu")
+    assert dialog.form.answer("outcome").startswith("„schnell“ passt nicht zu")
     formula.setCurrentText("Knickpunkt der Verstärkung")
     dialog.form.set_answer("argument.max_contouring", "4100")
     dialog.form.set_answer("argument.gain", "-1,5")

@@ -90,7 +90,7 @@ def test_a_control_of_another_family_is_refused(
 ) -> None:
     window = window_with(content_of(new_file("syntec")))
     page = at_control(window, start_control().address, "compare", qtbot)
-    assert page.bar.text.text() == "The control is of the family 9pc, not syntec"
+    assert page.bar.text.text() == "The control is of the family 9pc, not syntec."
 
 
 def test_a_family_to_whose_controls_no_way_is_known_is_keyed_in(wide: MainWindow) -> None:

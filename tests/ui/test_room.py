@@ -366,7 +366,7 @@ def test_an_axis_in_a_sentence_of_the_simulation_is_called_by_its_letter(
     text = "The position loop of axis 1 is open: there is nothing to tune"
     assert (
         sentenced_with_letters(file, text)
-        == "Der Lageregler der Achse X ist offen: es gibt nichts einzustellen"
+        == "Der Lageregler der Achse X ist offen: es gibt nichts abzustimmen"
     )
     assert sentenced_with_letters(file, "axis 1.5 mm") == "axis 1,5 mm", "no number of an axis"
 
