@@ -52,10 +52,6 @@ class AxisParameters:
         """Return whether a value is overridden."""
         return self._overrides.get(parameter) is not None
 
-    def used(self, parameter: str) -> bool:
-        """Return whether an override was read."""
-        return parameter in self._used
-
     def value(self, parameter: str, *, everywhere: bool = False, at: str | None = None) -> ParameterValue:
         """Return a value or None; ``everywhere`` for a parameter that does not belong to an axis, ``at`` for
         an instance that is not the axis.

@@ -72,7 +72,7 @@ PUT_TOGETHER = {
     "Every count of the feedback moves the output 1.1 times as much. It raises a gain on a machine that is"
     " partly assumed: your choice.": (
         "Jedes Inkrement der Rückmeldung bewegt den Ausgang 1,1-mal so stark. Es erhöht eine Verstärkung an"
-        " einer zum Teil angenommenen Maschine: Ihre Wahl."
+        " einer zum Teil angenommenen Maschine: zu entscheiden."
     ),
     "ASSUMED: the second axis of the circle is like axis X.": (
         "ANGENOMMEN: die zweite Achse des Kreises ist wie die Achse X."

@@ -68,7 +68,7 @@ def test_odd_arguments_are_refused_in_words_or_done(name: str, tmp_path: Path) -
     [
         ("57c422b feeder", "load --set move.duration=1e12", "simulated is 60 at most"),
         ("57c422b feeder", "step --axis=", "the axis is empty"),
-        ("57c422b feeder", "step --axis Q", "no axis"),
+        ("57c422b feeder", "step --axis Q", "Unknown axis"),
         ("9pc lathe with a gearbox", "spindle S500 --set move.drive_time=1e12", "60 at most"),
         ("9pc lathe with a gearbox", "spindle S500 --set move.spindle=2", "No axis is spindle 2 (3-5, 7-82)"),
         ("9pc mill with a rotary and a split axis", "spindle S500", "No axis is spindle 1 (3-5, 7-82)"),

@@ -70,11 +70,6 @@ class Solved:
         return {name: number for name, number in self.numbers.items() if number != present[name]}
 
     @property
-    def raised(self) -> list[Gain]:
-        """The gains that become larger."""
-        return [gain for gain in self.gains if abs(self.numbers[gain.parameter]) > abs(gain.present)]
-
-    @property
     def sound(self) -> bool:
         """Whether a sound axis comes out."""
         return self.after.loops.sound()
